@@ -1,0 +1,73 @@
+# The one table of allowed dependencies between rooms. A target may link only the rooms listed
+# here; tests/architecture/layering_test.py checks the same table against #include lines.
+set(DOORFORGE_ALLOWED_core "")
+set(DOORFORGE_ALLOWED_schemas core)
+set(DOORFORGE_ALLOWED_mesh core)
+set(DOORFORGE_ALLOWED_door core schemas mesh)
+set(DOORFORGE_ALLOWED_physics core schemas)
+set(DOORFORGE_ALLOWED_sensor core schemas)
+set(DOORFORGE_ALLOWED_rollout core schemas physics sensor)
+set(DOORFORGE_ALLOWED_datagen core schemas rollout)
+set(DOORFORGE_ALLOWED_learn core schemas)
+set(DOORFORGE_ALLOWED_evaluate core schemas rollout learn)
+
+# Contraction off: an asset, an episode and a cloud must not depend on whether the compiler fused
+# a multiply with an add.
+set(DOORFORGE_COMPILE_OPTIONS -Wall -Wextra -Wshadow -Wconversion -ffp-contract=off)
+
+# doorforge_add_library(<room> HEADERS <public .h> SOURCES <private .h .cpp> [ROOMS <rooms>]
+#                     [PUBLIC <targets>] [PRIVATE <targets>] [PACKAGES <find_package names>])
+# Creates doorforge::<room>. Public headers live in include/doorforge/<room>/, all else in src/.
+# PACKAGES names what a consumer of this room must find; rooms pass theirs on to those above.
+function(doorforge_add_library room)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;SOURCES;ROOMS;PUBLIC;PRIVATE;PACKAGES")
+  set(packages ${arg_PACKAGES})
+  foreach(dependency IN LISTS arg_ROOMS)
+    if(NOT dependency IN_LIST DOORFORGE_ALLOWED_${room})
+      message(FATAL_ERROR "${room} may not depend on ${dependency}; allowed: ${DOORFORGE_ALLOWED_${room}}")
+    endif()
+    list(APPEND packages ${DOORFORGE_PACKAGES_${dependency}})
+  endforeach()
+  list(REMOVE_DUPLICATES packages)
+  set(DOORFORGE_PACKAGES_${room} ${packages} CACHE INTERNAL "packages a consumer of ${room} needs")
+  set_property(GLOBAL APPEND PROPERTY DOORFORGE_COMPONENTS ${room})
+
+  set(target doorforge_${room})
+  add_library(${target} ${arg_SOURCES})
+  add_library(doorforge::${room} ALIAS ${target})
+  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${arg_HEADERS})
+  list(TRANSFORM arg_ROOMS PREPEND doorforge::)
+  target_link_libraries(${target} PUBLIC ${arg_ROOMS} ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_compile_options(${target} PRIVATE ${DOORFORGE_COMPILE_OPTIONS})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${room} CXX_EXTENSIONS OFF)
+  install(TARGETS ${target} EXPORT doorforgeTargets FILE_SET HEADERS)
+endfunction()
+
+# doorforge_add_program(<name> SOURCES <.cpp> ROOMS <rooms> [PRIVATE <targets>])
+# Creates bin/<name>. A program may link several rooms; rooms may not link programs.
+function(doorforge_add_program name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;ROOMS;PRIVATE")
+  add_executable(${name} ${arg_SOURCES})
+  list(TRANSFORM arg_ROOMS PREPEND doorforge::)
+  target_link_libraries(${name} PRIVATE ${arg_ROOMS} ${arg_PRIVATE})
+  target_compile_options(${name} PRIVATE ${DOORFORGE_COMPILE_OPTIONS})
+  set_target_properties(${name} PROPERTIES CXX_EXTENSIONS OFF)
+  install(TARGETS ${name})
+endfunction()
+
+function(doorforge_install_package)
+  include(CMakePackageConfigHelpers)
+  set(destination ${CMAKE_INSTALL_LIBDIR}/cmake/doorforge)
+  get_property(components GLOBAL PROPERTY DOORFORGE_COMPONENTS)
+  set(DOORFORGE_PACKAGE_TABLE "")
+  foreach(room IN LISTS components)
+    string(APPEND DOORFORGE_PACKAGE_TABLE "set(doorforge_packages_${room} ${DOORFORGE_PACKAGES_${room}})\n")
+  endforeach()
+  install(EXPORT doorforgeTargets NAMESPACE doorforge:: DESTINATION ${destination})
+  configure_package_config_file(cmake/doorforgeConfig.cmake.in doorforgeConfig.cmake
+                                INSTALL_DESTINATION ${destination})
+  write_basic_package_version_file(doorforgeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/doorforgeConfig.cmake
+                ${CMAKE_CURRENT_BINARY_DIR}/doorforgeConfigVersion.cmake DESTINATION ${destination})
+endfunction()

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace doorforge {
+
+/// Reads a whole file. Throws Error(kMissing) if it does not exist or is not a regular file, and
+/// Error(kIo) if it cannot be read or is larger than `max_bytes`.
+std::string ReadFile(const std::filesystem::path& path, std::uint64_t max_bytes = 1ULL << 32);
+
+/// What to do where the output already exists.
+enum class Existing {
+  kRefuse,   ///< Error(kInvalidArgument) that names --overwrite.
+  kReplace,  ///< The old file or folder is replaced as a whole.
+};
+
+/// Writes `content` so that the path holds either nothing new or all of it, even after a crash:
+/// temporary name in the same folder, fsync, rename, fsync of the folder. Creates the folder.
+void CommitFile(const std::filesystem::path& path, std::string_view content,
+                Existing existing = Existing::kReplace);
+
+/// A folder that appears under its final name only when it is complete.
+///
+///     StagedFolder staged(out, Existing::kRefuse);
+///     ... write below staged.path() ...
+///     staged.Commit();
+///
+/// The constructor refuses early when the target exists; the destructor of an uncommitted folder
+/// removes what was written, so a refused import leaves nothing behind.
+class StagedFolder {
+ public:
+  explicit StagedFolder(std::filesystem::path target, Existing existing = Existing::kRefuse);
+  ~StagedFolder();
+  StagedFolder(const StagedFolder&) = delete;
+  StagedFolder& operator=(const StagedFolder&) = delete;
+
+  const std::filesystem::path& path() const { return staging_; }
+  void Commit();
+
+ private:
+  std::filesystem::path target_;
+  std::filesystem::path staging_;
+  Existing existing_;
+  bool committed_ = false;
+};
+
+}  // namespace doorforge

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "doorforge/core/config_io.h"
+
+namespace doorforge {
+
+/// Parses YAML (and so JSON). Scalars become booleans, integers, numbers or strings by the YAML 1.2
+/// core rules; quoted scalars stay strings. Throws Error(kInvalidConfig) with line and column.
+nlohmann::ordered_json ParseYaml(std::string_view text, const std::string& name);
+
+/// One nested object from "a.b=c" settings, in order. The value after `=` is YAML.
+nlohmann::ordered_json ParseSettings(const std::vector<std::string>& settings);
+
+/// The effective config: defaults <- file (if `path` is not empty) <- `--set a.b=c`.
+template <class T>
+T LoadConfig(const std::string& path, const std::vector<std::string>& settings);
+
+namespace internal {
+nlohmann::ordered_json ReadConfigFile(const std::filesystem::path& path);
+}
+
+template <class T>
+T LoadConfig(const std::string& path, const std::vector<std::string>& settings) {
+  T config;
+  if (!path.empty()) Assign(internal::ReadConfigFile(path), config, "config");
+  Assign(ParseSettings(settings), config, "config");
+  return config;
+}
+
+}  // namespace doorforge

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace doorforge {
+
+/// Runs the body of a `main` and turns its end into an exit code: the body's own result, or the
+/// code of an Error (its message goes to standard error as "doorforge: ..."). Any other exception
+/// is reported the same way with exit code 3. Installs handlers for SIGINT and SIGTERM, see
+/// StopRequested(); a second signal ends the process at once.
+int RunProgram(const std::function<int()>& body);
+
+/// The signal (SIGINT or SIGTERM) that asked the program to save its state and end, or 0. Long
+/// loops poll it; a program that stopped because of it returns 128 + the signal.
+int StopRequested();
+
+/// Folder of the running executable, where the other doorforge programs lie.
+std::filesystem::path ProgramFolder();
+
+/// Folder with `catalog/`, `robots/` and `splits/`: $DOORFORGE_DATA, else the installed share
+/// folder beside the executable, else the source tree the build came from. Throws Error(kMissing).
+std::filesystem::path DataFolder();
+
+/// Runs a program (argv[0] is its path) and waits. Returns its exit code, or 128 + signal.
+/// A stop request is passed on to it.
+int RunChild(const std::vector<std::string>& argv);
+
+/// Version and source commit of this build, such as "0.1.0+1a2b3c4".
+std::string CodeVersion();
+
+}  // namespace doorforge

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/core/config_file.h"
+
+#include <charconv>
+
+#include <yaml-cpp/yaml.h>
+
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/error.h"
+
+namespace doorforge {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+bool ParseNumber(const std::string& text, T& number) {
+  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(begin, end, number);
+  return error == std::errc{} && stop == end && begin != end;
+}
+
+Json FromScalar(const YAML::Node& node) {
+  const std::string& text = node.Scalar();
+  if (node.Tag() == "!") return text;  // quoted
+  if (text == "true" || text == "True") return true;
+  if (text == "false" || text == "False") return false;
+  std::int64_t integer = 0;
+  if (ParseNumber(text, integer)) return integer;
+  double number = 0;
+  if (ParseNumber(text, number)) return number;
+  return text;
+}
+
+Json FromYaml(const YAML::Node& node) {
+  if (node.IsScalar()) return FromScalar(node);
+  if (node.IsSequence()) {
+    Json array = Json::array();
+    for (const auto& element : node) array.push_back(FromYaml(element));
+    return array;
+  }
+  if (!node.IsMap()) return nullptr;
+  Json object = Json::object();
+  for (const auto& entry : node) object[entry.first.Scalar()] = FromYaml(entry.second);
+  return object;
+}
+
+}  // namespace
+
+Json ParseYaml(std::string_view text, const std::string& name) {
+  try {
+    return FromYaml(YAML::Load(std::string(text)));
+  } catch (const YAML::Exception& error) {
+    throw Error(ErrorCode::kInvalidConfig, name + ": " + error.what());
+  }
+}
+
+Json ParseSettings(const std::vector<std::string>& settings) {
+  Json root = Json::object();
+  for (const std::string& setting : settings) {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw Error(ErrorCode::kInvalidConfig, "--set " + setting + ": expected key=value");
+    Json* node = &root;
+    std::size_t begin = 0;
+    for (std::size_t dot = setting.find('.'); dot < equals; dot = setting.find('.', begin)) {
+      node = &(*node)[setting.substr(begin, dot - begin)];
+      begin = dot + 1;
+    }
+    (*node)[setting.substr(begin, equals - begin)] =
+        ParseYaml(setting.substr(equals + 1), "--set " + setting);
+  }
+  return root;
+}
+
+Json internal::ReadConfigFile(const std::filesystem::path& path) {
+  const Json json = ParseYaml(ReadFile(path, 1ULL << 20), path.string());
+  return json.is_null() ? Json::object() : json;
+}
+
+}  // namespace doorforge

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/core/program.h"
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "doorforge/core/error.h"
+
+extern char** environ;  // NOLINT: POSIX names it so
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+
+volatile std::sig_atomic_t stop_signal = 0;
+
+void HandleStop(int signal) {
+  if (stop_signal != 0) ::_exit(128 + signal);
+  stop_signal = signal;
+}
+
+void InstallHandlers() {
+  struct sigaction action {};
+  action.sa_handler = HandleStop;
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+}
+
+}  // namespace
+
+int RunProgram(const std::function<int()>& body) {
+  InstallHandlers();
+  try {
+    return body();
+  } catch (const Error& error) {
+    std::fprintf(stderr, "doorforge: %s\n", error.what());
+    return ExitCodeOf(error.code());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "doorforge: %s\n", error.what());
+    return 3;
+  }
+}
+
+int StopRequested() { return stop_signal; }
+
+fs::path ProgramFolder() { return fs::read_symlink("/proc/self/exe").parent_path(); }
+
+fs::path DataFolder() {
+  if (const char* folder = std::getenv("DOORFORGE_DATA")) return folder;
+  for (const fs::path& folder :
+       {ProgramFolder().parent_path() / "share/doorforge", fs::path(DOORFORGE_SOURCE_DATA)}) {
+    if (fs::is_directory(folder / "robots")) return folder;
+  }
+  throw Error(ErrorCode::kMissing,
+              "no data folder beside the program; set DOORFORGE_DATA to the folder that holds "
+              "catalog/ and robots/");
+}
+
+int RunChild(const std::vector<std::string>& argv) {
+  std::vector<char*> arguments;
+  for (const std::string& argument : argv) arguments.push_back(const_cast<char*>(argument.c_str()));
+  arguments.push_back(nullptr);
+  pid_t child = 0;
+  if (const int error = ::posix_spawn(&child, argv[0].c_str(), nullptr, nullptr, arguments.data(),
+                                      environ))
+    throw Error(ErrorCode::kMissing, argv[0] + ": cannot be started: " + std::strerror(error));
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) throw Error(ErrorCode::kIo, argv[0] + ": cannot be waited for");
+    if (stop_signal != 0) ::kill(child, stop_signal);
+  }
+  return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+}
+
+std::string CodeVersion() { return DOORFORGE_CODE_VERSION; }
+
+}  // namespace doorforge

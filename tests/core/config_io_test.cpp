@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/core/config_io.h"
+
+#include <gtest/gtest.h>
+
+#include "doorforge/core/error.h"
+
+namespace doorforge {
+namespace {
+
+struct Inner {
+  double size_m = 0.5;
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    visit("size_m", self.size_m);
+  }
+};
+
+struct Outer {
+  int count = 3;
+  Inner inner;
+  std::vector<int> ids;
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    visit("count", self.count);
+    visit("inner", self.inner);
+    visit("ids", self.ids);
+  }
+};
+
+Outer Load(const char* text) {
+  Outer outer;
+  Assign(nlohmann::ordered_json::parse(text), outer, "outer");
+  return outer;
+}
+
+std::string ErrorOf(const char* text) {
+  try {
+    Load(text);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(ConfigIo, KeepsDefaultsThatTheFileDoesNotName) {
+  const Outer outer = Load(R"({"inner": {"size_m": 2}})");
+  EXPECT_EQ(outer.count, 3);
+  EXPECT_EQ(outer.inner.size_m, 2);
+}
+
+TEST(ConfigIo, WritesDefaultsToo) {
+  EXPECT_EQ(ToJson(Outer{}).dump(), R"({"count":3,"inner":{"size_m":0.5},"ids":[]})");
+}
+
+TEST(ConfigIo, NamesTheUnknownKey) {
+  EXPECT_EQ(ErrorOf(R"({"inner": {"sise_m": 2}})"), "outer.inner.sise_m: unknown key; did you mean \"size_m\"?");
+}
+
+TEST(ConfigIo, RefusesAFractionForAnInteger) {
+  EXPECT_EQ(ErrorOf(R"({"ids": [1, 2.5]})"), "outer.ids[1]: expected an integer");
+}
+
+TEST(ConfigIo, RefusesAnIntegerThatDoesNotFit) {
+  EXPECT_EQ(ErrorOf(R"({"count": 3000000000})"), "outer.count: integer out of range");
+}
+
+}  // namespace
+}  // namespace doorforge

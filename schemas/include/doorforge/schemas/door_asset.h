@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "doorforge/core/mass_properties.h"
+#include "doorforge/core/rigid_transform.h"
+#include "doorforge/core/triangle_mesh.h"
+#include "doorforge/schemas/cloud.h"
+#include "doorforge/schemas/names.h"
+
+namespace doorforge {
+
+inline constexpr int kDoorSchemaVersion = 1;
+
+/// A mesh fixed to a link, in the link's frame.
+struct DoorGeometry {
+  std::string name;                 ///< Unique in the door, such as "leaf" or "grip".
+  TriangleMesh mesh;                ///< Closed; what the camera sees.
+  std::vector<TriangleMesh> hulls;  ///< Convex; what touches.
+  Eigen::Vector4d color_rgba{0.7, 0.7, 0.7, 1.0};
+  PointLabel label = PointLabel::kBody;
+};
+
+struct DoorLink {
+  std::string name;                 ///< "base", "leaf", "handle".
+  std::vector<DoorGeometry> geometry;
+  MassProperties mass;              ///< In the link's frame.
+};
+
+/// Revolute joint at the child link's origin.
+struct DoorJoint {
+  std::string name;  ///< "hinge", "handle_joint".
+  RigidTransform parent_from_child_at_zero = RigidTransform::Identity();
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< Unit, in the child's frame.
+  double lower_rad = 0;
+  double upper_rad = 0;
+  double effort_limit_nm = 0;
+  double velocity_limit_rad_s = 0;
+  double damping_nm_s = 0;   ///< Not in the paper; see docs/design/simulation.md.
+};
+
+/// The latch as data. kEffort is the paper's law (Section 3.3): while locked the hinge feels
+/// -lock_effort against opening, afterwards -hinge_spring * door angle; the handle feels
+/// -handle_spring * handle angle throughout. Locked means handle angle <= unlock_angle.
+struct Latch {
+  LatchType type = LatchType::kNone;
+  double unlock_angle_rad = 0;
+  /// The policies' "handle done" angle, larger than unlock_angle; sticky within an episode.
+  double handle_done_angle_rad = 0;
+  double lock_effort_nm = 150;
+  double hinge_spring_nm_per_rad = 3;
+  double handle_spring_nm_per_rad = 3;
+  /// False: once the door is ajar by more than 0.01 rad it stays unlocked (the released code);
+  /// true: it locks again whenever the handle returns (the paper's formula).
+  bool relatch = false;
+};
+
+enum DoorLinkIndex : int { kBaseLink = 0, kLeafLink = 1, kHandleLink = 2 };
+
+/// A composed door: base (frame), leaf, handle; two joints.
+///
+/// Door frame = base link's frame: x out of the door towards who opens it, y from the hinge to the
+/// free edge, z up, z = 0 the lowest point. All link frames are parallel to it at zero angles; the
+/// leaf's origin lies on the hinge line, the handle's on the handle's axis at the mount.
+/// Positive hinge angles open towards x > 0 ("pull"); positive handle angles unlock.
+struct DoorAsset {
+  std::string id;  ///< "<body id>__<handle id>" unless the author names it.
+  Category category = Category::kInterior;
+  Mechanism mechanism = Mechanism::kNone;
+  std::array<DoorLink, 3> links;  ///< Indexed by DoorLinkIndex.
+  DoorJoint hinge;                ///< Base to leaf.
+  DoorJoint handle_joint;         ///< Leaf to handle.
+  Latch latch;
+  RigidTransform handle_from_grasp = RigidTransform::Identity();  ///< See Part::part_from_grasp.
+  Eigen::Vector3d grasp_half_extent_m = Eigen::Vector3d::Zero();
+  std::string body_id;
+  std::string body_sha256;
+  std::string handle_id;
+  std::string handle_sha256;
+  std::string license;  ///< SPDX expression of both parts.
+};
+
+/// Poses of base, leaf and handle in the door frame at the given joint angles.
+std::array<RigidTransform, 3> DoorFromLinks(const DoorAsset& door, double hinge_rad,
+                                            double handle_rad);
+
+/// Writes `door.json` and `meshes/{visual,collision}/*.obj` into an existing folder. The URDF
+/// beside it is written by ComposeDoor's exporter (asset_tools/door).
+void WriteDoor(const DoorAsset& door, const std::filesystem::path& folder);
+
+/// Reads a door's folder. Throws Error(kMissing) or Error(kFormat); mesh paths that leave the folder
+/// are refused.
+DoorAsset ReadDoor(const std::filesystem::path& folder);
+
+/// File of a mesh relative to the door's folder: "meshes/visual/<name>.obj" and
+/// "meshes/collision/<name>_<index>.obj".
+std::string VisualMeshPath(const DoorGeometry& geometry);
+std::string CollisionMeshPath(const DoorGeometry& geometry, std::size_t hull_index);
+
+/// SHA-256 of door.json's text with all mesh bytes: the door's identity in later records.
+std::string ContentHash(const DoorAsset& door);
+
+}  // namespace doorforge

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "doorforge/schemas/policy.h"
+#include "doorforge/schemas/scene.h"
+
+namespace doorforge {
+
+/// How an episode ended. Everything but kOpened is a failure with its cause.
+enum class EpisodeOutcome {
+  kOpened,         ///< The hinge passed 45 degrees with the gripper still on the handle.
+  kNotReached,     ///< The gripper did not get to the grasp pose (kinematics or collision).
+  kGraspMissed,    ///< The fingers closed on nothing, or only one of them touches.
+  kHandleSlipped,  ///< The grasp was lost while turning the handle.
+  kHandleStuck,    ///< The grasp held, but the handle did not reach the unlock angle.
+  kGripLost,       ///< The grasp was lost while opening, before 45 degrees.
+  kDoorStuck,      ///< The grasp held, but the door stayed below 45 degrees in the budget.
+  kDiverged,       ///< The physics state stopped being finite or gained energy.
+};
+std::string_view NameOf(EpisodeOutcome outcome);  ///< "opened", "not_reached", ...
+inline constexpr int kEpisodeOutcomeCount = 8;
+
+/// One decision point of a stage: what was seen, what was asked for, what came of it.
+struct Decision {
+  LabelledCloud cloud;  ///< Empty where the episode was run without a camera.
+  Proprioception proprioception{};
+  ActionVector action{};
+  double time_s = 0;
+  double hinge_rad = 0;   ///< Before the action.
+  double handle_rad = 0;  ///< Before the action.
+  /// Hinge angle gained by this action [rad]: the critic's target (UniDoorManip 4.2).
+  double hinge_gain_rad = 0;
+};
+
+struct Episode {
+  Scene scene;
+  EpisodeOutcome outcome = EpisodeOutcome::kDiverged;
+  std::string detail;               ///< The numbers that explain the outcome, for people.
+  std::vector<Decision> decisions;  ///< Of the recorded stage, in order.
+  double peak_hinge_rad = 0;
+  double peak_handle_rad = 0;
+  double simulated_s = 0;
+  std::string state_sha256;  ///< Hash of the final joint state: equal runs have equal hashes.
+};
+
+/// The record in a shard's .meta.json: scene, outcome, peaks, per-decision times. No arrays.
+nlohmann::ordered_json EpisodeMetaToJson(const Episode& episode);
+Episode EpisodeFromMeta(const nlohmann::ordered_json& json, const std::string& path);
+
+}  // namespace doorforge

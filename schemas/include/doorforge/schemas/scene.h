@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "doorforge/core/rigid_transform.h"
+#include "doorforge/schemas/camera_model.h"
+#include "doorforge/schemas/door_asset.h"
+
+namespace doorforge {
+
+/// Settings of the physics that change what happens in an episode.
+struct PhysicsConfig {
+  double time_step_s = 1.0 / 240;
+  int solver_iterations = 50;
+  /// Steps for which a policy's action is held: 1/6 s (UniDoorManip: 10 steps of 1/60 s).
+  int steps_per_action = 40;
+  double finger_friction = 1.5;  ///< Multiplied with the handle's for the contact.
+  double handle_friction = 1.0;
+  double finger_force_n = 80;
+  int max_opening_actions = 25;  ///< UniDoorManip's evaluation budget.
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    visit("time_step_s", self.time_step_s);
+    visit("solver_iterations", self.solver_iterations);
+    visit("steps_per_action", self.steps_per_action);
+    visit("finger_friction", self.finger_friction);
+    visit("handle_friction", self.handle_friction);
+    visit("finger_force_n", self.finger_force_n);
+    visit("max_opening_actions", self.max_opening_actions);
+  }
+};
+
+/// Everything that decides an episode, except the policies. Plain data; same scene, same door, same
+/// policies: same episode.
+struct Scene {
+  std::string door_id;
+  std::string door_sha256;
+  std::uint64_t seed = 0;
+  std::uint64_t episode = 0;  ///< Index within its plan; names the random streams.
+  RigidTransform world_from_door = RigidTransform::Identity();
+  RigidTransform world_from_robot_base = RigidTransform::Identity();
+  Latch latch;
+  /// Offset of the expert's grasp from the door's grasp frame, in the grasp frame.
+  RigidTransform grasp_from_noisy_grasp = RigidTransform::Identity();
+  PhysicsConfig physics;
+  CameraModel camera;
+};
+
+nlohmann::ordered_json SceneToJson(const Scene& scene);
+Scene SceneFromJson(const nlohmann::ordered_json& json, const std::string& path);
+
+}  // namespace doorforge

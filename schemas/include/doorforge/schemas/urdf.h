@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "doorforge/core/mass_properties.h"
+#include "doorforge/core/rigid_transform.h"
+
+namespace doorforge {
+
+struct UrdfMeshFile {
+  std::string filename;  ///< As written; "package://" and "file://" prefixes are kept.
+  Eigen::Vector3d scale{1, 1, 1};
+};
+struct UrdfBox {
+  Eigen::Vector3d size_m;
+};
+struct UrdfCylinder {
+  double radius_m;
+  double length_m;  ///< Along z, centred.
+};
+struct UrdfSphere {
+  double radius_m;
+};
+using UrdfGeometry = std::variant<UrdfMeshFile, UrdfBox, UrdfCylinder, UrdfSphere>;
+
+/// A `visual` or `collision` element.
+struct UrdfShape {
+  std::string name;
+  RigidTransform link_from_shape = RigidTransform::Identity();
+  UrdfGeometry geometry;
+  std::optional<Eigen::Vector4d> color_rgba;
+};
+
+struct UrdfLink {
+  std::string name;
+  std::optional<MassProperties> inertial;  ///< In the link's frame.
+  std::vector<UrdfShape> visuals;
+  std::vector<UrdfShape> collisions;
+};
+
+enum class UrdfJointType { kFixed, kRevolute, kContinuous, kPrismatic };
+
+struct UrdfMimic {
+  std::string joint;
+  double multiplier = 1;
+  double offset = 0;
+};
+
+struct UrdfJoint {
+  std::string name;
+  UrdfJointType type = UrdfJointType::kFixed;
+  std::string parent;
+  std::string child;
+  RigidTransform parent_from_joint = RigidTransform::Identity();
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< As written, maybe not of unit length.
+  double lower = 0;                                 ///< [rad] or [m]
+  double upper = 0;
+  std::optional<double> effort;    ///< [N m] or [N]; absent where the file omits it.
+  std::optional<double> velocity;  ///< [rad/s] or [m/s]
+  double damping = 0;
+  double friction = 0;
+  std::optional<UrdfMimic> mimic;
+};
+
+/// A URDF robot description (http://wiki.ros.org/urdf/XML), links and joints in file order.
+struct UrdfModel {
+  std::string name;
+  std::vector<UrdfLink> links;
+  std::vector<UrdfJoint> joints;
+};
+
+/// Parses a URDF. Lenient where the released data sets are (missing inertia, effort, velocity),
+/// strict about what could harm: a DOCTYPE, more than 64 levels or 16 MiB, numbers that are not
+/// finite, joints that name no link. Throws Error(kMissing, kIo or kFormat) with file and line.
+UrdfModel ReadUrdf(const std::filesystem::path& path);
+UrdfModel ParseUrdf(const std::string& text, const std::string& name);
+
+/// Writes numbers with the shortest decimals that read back to the same double. The text carries
+/// the `<mujoco>` element that lets MuJoCo find meshes in subfolders.
+std::string ToUrdf(const UrdfModel& model);
+
+/// The one link that is no joint's child. Throws Error(kFormat) if there is none or more than one,
+/// or if a link is reached twice.
+std::string RootLinkOf(const UrdfModel& model);
+
+}  // namespace doorforge

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/schemas/mesh_file.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/error.h"
+
+namespace doorforge {
+namespace {
+
+void AppendNumber(std::string& text, float number) {
+  char digits[32];
+  // + 0.0F turns -0 into 0
+  const auto end = std::to_chars(digits, digits + sizeof digits, number + 0.0F).ptr;
+  text.append(digits, end);
+}
+
+// Walks over one line; every Next... returns false on a mismatch.
+class LineCursor {
+ public:
+  explicit LineCursor(std::string_view line) : rest_(line) {}
+
+  template <class Number>
+  bool NextNumber(Number& number) {
+    while (rest_.starts_with(' ')) rest_.remove_prefix(1);
+    const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), number);
+    if (error != std::errc{}) return false;
+    rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
+    return true;
+  }
+
+  bool AtEnd() const { return rest_.find_first_not_of(" \r") == std::string_view::npos; }
+
+ private:
+  std::string_view rest_;
+};
+
+bool ReadVertex(std::string_view line, TriangleMesh& mesh) {
+  float x = 0;
+  float y = 0;
+  float z = 0;
+  LineCursor cursor(line);
+  if (!cursor.NextNumber(x) || !cursor.NextNumber(y) || !cursor.NextNumber(z)) return false;
+  if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) return false;
+  mesh.vertices.emplace_back(x, y, z);
+  return cursor.AtEnd();
+}
+
+bool ReadFace(std::string_view line, TriangleMesh& mesh) {
+  const int count = static_cast<int>(mesh.vertices.size());
+  Eigen::Vector3i triangle;
+  LineCursor cursor(line);
+  for (int& index : triangle) {
+    if (!cursor.NextNumber(index) || index < 1 || index > count) return false;
+    --index;
+  }
+  mesh.triangles.push_back(triangle);
+  return cursor.AtEnd();
+}
+
+bool ReadLine(std::string_view line, TriangleMesh& mesh) {
+  if (line.empty() || line.starts_with('#') || line == "\r") return true;
+  if (line.starts_with("v ")) return ReadVertex(line.substr(2), mesh);
+  if (line.starts_with("f ")) return ReadFace(line.substr(2), mesh);
+  return false;
+}
+
+}  // namespace
+
+std::string ToObj(const TriangleMesh& mesh) {
+  std::string text;
+  text.reserve(mesh.vertices.size() * 40 + mesh.triangles.size() * 20);
+  for (const Eigen::Vector3d& vertex : mesh.vertices) {
+    text += 'v';
+    for (const double coordinate : vertex) {
+      text += ' ';
+      AppendNumber(text, static_cast<float>(coordinate));
+    }
+    text += '\n';
+  }
+  for (const Eigen::Vector3i& triangle : mesh.triangles) {
+    text += 'f';
+    for (const int index : triangle) text += ' ' + std::to_string(index + 1);
+    text += '\n';
+  }
+  return text;
+}
+
+TriangleMesh ReadObj(const std::filesystem::path& path) {
+  const std::string text = ReadFile(path, 1ULL << 30);
+  TriangleMesh mesh;
+  std::string_view rest = text;
+  for (int number = 1; !rest.empty(); ++number) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    if (!ReadLine(rest.substr(0, end), mesh))
+      throw Error(ErrorCode::kFormat, path.string() + ":" + std::to_string(number) +
+                                          ": not a line of a canonical mesh; run `doorforge "
+                                          "repair` on meshes from elsewhere");
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return mesh;
+}
+
+}  // namespace doorforge

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/schemas/policy.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "doorforge/core/error.h"
+
+namespace doorforge {
+namespace {
+
+constexpr std::size_t kControlledJoints = 9;  // two sliders and seven arm joints
+constexpr std::size_t kVelocityOffset = 11;
+
+Eigen::Vector3f At(const Proprioception& proprioception, std::size_t offset) {
+  return {proprioception[offset], proprioception[offset + 1], proprioception[offset + 2]};
+}
+
+// Any unit vector at right angles to `row`.
+Eigen::Vector3d AnyNormal(const Eigen::Vector3d& row) { return row.unitOrthogonal(); }
+
+}  // namespace
+
+PolicyState PolicyStateOf(const Proprioception& proprioception) {
+  PolicyState state{};
+  std::copy_n(proprioception.begin(), kControlledJoints, state.begin());
+  std::copy_n(proprioception.begin() + kVelocityOffset, kControlledJoints,
+              state.begin() + kControlledJoints);
+  return state;
+}
+
+Eigen::Vector3f BasePositionOf(const Proprioception& proprioception) {
+  return At(proprioception, 22);
+}
+
+Eigen::Vector3f HandPositionOf(const Proprioception& proprioception) {
+  return At(proprioception, 25);
+}
+
+ActionVector ToVector(const Action& action) {
+  ActionVector vector{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    vector[i] = static_cast<float>(action.position_delta_m[column]);
+    vector[3 + i] = static_cast<float>(action.world_from_hand_rotation(0, column));
+    vector[6 + i] = static_cast<float>(action.world_from_hand_rotation(1, column));
+  }
+  return vector;
+}
+
+Action FromVector(const ActionVector& vector) {
+  for (const float number : vector)
+    Require(std::isfinite(number), ErrorCode::kInvalidArgument, "an action must be finite");
+  const Eigen::Matrix<double, 9, 1> v =
+      Eigen::Map<const Eigen::Matrix<float, 9, 1>>(vector.data()).cast<double>();
+  Eigen::Vector3d x = v.segment<3>(3);
+  x = x.norm() > 1e-9 ? x.normalized() : Eigen::Vector3d::UnitX();
+  Eigen::Vector3d y = v.segment<3>(6) - x * x.dot(v.segment<3>(6));
+  y = y.norm() > 1e-9 ? y.normalized() : AnyNormal(x);
+  Action action;
+  action.position_delta_m = v.head<3>();
+  action.world_from_hand_rotation.row(0) = x;
+  action.world_from_hand_rotation.row(1) = y;
+  action.world_from_hand_rotation.row(2) = x.cross(y);
+  return action;
+}
+
+}  // namespace doorforge

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "record_json.h"
+
+#include "doorforge/core/error.h"
+#include "doorforge/core/hash.h"
+#include "doorforge/core/json_file.h"
+#include "doorforge/core/rigid_transform.h"
+#include "doorforge/schemas/mesh_file.h"
+
+namespace doorforge::internal {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path PathInside(const std::string& relative, const fs::path& folder, const std::string& path) {
+  const fs::path root = fs::weakly_canonical(folder);
+  const fs::path full = fs::weakly_canonical(root / relative);
+  const fs::path inside = full.lexically_relative(root);
+  if (fs::path(relative).is_absolute() || inside.empty() || *inside.begin() == "..")
+    throw Error(ErrorCode::kFormat, path + ": mesh path \"" + relative +
+                                        "\" leaves the folder; only files below " +
+                                        folder.string() + " are read");
+  return full;
+}
+
+}  // namespace
+
+Json MassToJson(const MassProperties& mass) {
+  const Eigen::Matrix3d& i = mass.inertia_kg_m2;
+  return {{"mass_kg", mass.mass_kg},
+          {"center_of_mass_m", Vector3ToJson(mass.center_of_mass_m)},
+          {"inertia_xx_yy_zz_kg_m2", Vector3ToJson(i.diagonal())},
+          {"inertia_xy_xz_yz_kg_m2", {i(0, 1), i(0, 2), i(1, 2)}}};
+}
+
+MassProperties MassFromJson(const Json& json, const std::string& path) {
+  MassProperties mass;
+  mass.mass_kg = ValueOf<double>(json, "mass_kg", path);
+  mass.center_of_mass_m =
+      Vector3FromJson(MemberOf(json, "center_of_mass_m", path), path + ".center_of_mass_m");
+  mass.inertia_kg_m2.diagonal() =
+      Vector3FromJson(MemberOf(json, "inertia_xx_yy_zz_kg_m2", path), path + ".inertia");
+  const Eigen::Vector3d off =
+      Vector3FromJson(MemberOf(json, "inertia_xy_xz_yz_kg_m2", path), path + ".inertia");
+  mass.inertia_kg_m2(0, 1) = mass.inertia_kg_m2(1, 0) = off[0];
+  mass.inertia_kg_m2(0, 2) = mass.inertia_kg_m2(2, 0) = off[1];
+  mass.inertia_kg_m2(1, 2) = mass.inertia_kg_m2(2, 1) = off[2];
+  return mass;
+}
+
+Json ColorToJson(const Eigen::Vector4d& rgba) { return {rgba[0], rgba[1], rgba[2], rgba[3]}; }
+
+Eigen::Vector4d ColorFromJson(const Json& json, const std::string& path) {
+  if (!json.is_array() || json.size() != 4)
+    throw Error(ErrorCode::kFormat, path + ": expected four numbers");
+  Eigen::Vector4d rgba;
+  for (Eigen::Index i = 0; i < 4; ++i) {
+    const Json& channel = json[static_cast<std::size_t>(i)];
+    if (!channel.is_number()) throw Error(ErrorCode::kFormat, path + ": expected four numbers");
+    rgba[i] = channel.get<double>();
+  }
+  return rgba;
+}
+
+Json MeshReference(const std::string& relative_path, const TriangleMesh& mesh) {
+  return {{"path", relative_path}, {"sha256", Sha256Hex(ToObj(mesh))}};
+}
+
+TriangleMesh ReadReferencedMesh(const Json& reference, const fs::path& folder,
+                                const std::string& path) {
+  return ReadObj(PathInside(ValueOf<std::string>(reference, "path", path), folder, path));
+}
+
+}  // namespace doorforge::internal

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "doorforge/core/mass_properties.h"
+#include "doorforge/core/triangle_mesh.h"
+
+// Pieces that the codecs of parts and doors share.
+
+namespace doorforge::internal {
+
+using Json = nlohmann::ordered_json;
+
+Json MassToJson(const MassProperties& mass);
+MassProperties MassFromJson(const Json& json, const std::string& path);
+
+Json ColorToJson(const Eigen::Vector4d& rgba);
+Eigen::Vector4d ColorFromJson(const Json& json, const std::string& path);
+
+/// {"path": relative path, "sha256": of the canonical text}.
+Json MeshReference(const std::string& relative_path, const TriangleMesh& mesh);
+
+/// Reads a mesh named by a record. Refuses absolute paths, "..", and links out of the folder.
+TriangleMesh ReadReferencedMesh(const Json& reference, const std::filesystem::path& folder,
+                                const std::string& path);
+
+}  // namespace doorforge::internal

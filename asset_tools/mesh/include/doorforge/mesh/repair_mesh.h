@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "doorforge/core/closed_mesh.h"
+#include "doorforge/mesh/surface_deviation.h"
+
+namespace doorforge {
+
+/// D is the diagonal of the input's bounding box.
+struct RepairConfig {
+  std::string wrap = "auto";     ///< "never", "auto" (only where exact repair fails) or "always".
+  double alpha_fraction = 0.01;  ///< The wrap enters openings wider than this times D.
+  double offset_fraction = 1.0 / 1200;  ///< The wrap lies this times D outside the input.
+  double max_hole_fraction = 0.05;      ///< Holes up to this times D across are filled.
+  double max_overlap_fraction = 0.02;   ///< Closed pieces may share this part of their volume.
+  int max_triangles = 6000;             ///< Of the output; 0: any number.
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    visit("wrap", self.wrap);
+    visit("alpha_fraction", self.alpha_fraction);
+    visit("offset_fraction", self.offset_fraction);
+    visit("max_hole_fraction", self.max_hole_fraction);
+    visit("max_overlap_fraction", self.max_overlap_fraction);
+    visit("max_triangles", self.max_triangles);
+  }
+};
+
+enum class RepairOutcome {
+  kAlreadyClosed,  ///< The input was closed; vertices may have been welded.
+  kRepaired,       ///< Closed by exact steps: the surface is the input's but for filled holes.
+  kWrapped,        ///< Replaced by an alpha wrap around it.
+  kFailed,         ///< No closed mesh; `reason` says why.
+};
+
+/// "already_closed", "repaired", "wrapped" or "failed".
+std::string_view NameOf(RepairOutcome outcome);
+
+struct RepairReport {
+  RepairOutcome outcome = RepairOutcome::kFailed;
+  std::string reason;  ///< Why the input could not be kept exactly, or why nothing came out.
+  std::vector<std::string> steps;  ///< What was done, in order, with counts.
+  MeshTopology before;             ///< Of the input after vertices at one position were made one.
+  MeshTopology after;              ///< Of the output; zeros if there is none.
+  int holes_filled = 0;
+  int components_kept = 0;
+  int components_dropped = 0;    ///< Closed pieces without thickness.
+  bool self_intersects = false;  ///< The output does; only where closed pieces were kept.
+  SurfaceDeviation output_to_input;
+  /// From the points of the input that a ray from outside can reach: what lies hidden inside, a
+  /// wrap rightly leaves out.
+  SurfaceDeviation visible_input_to_output;
+};
+
+struct RepairResult {
+  std::optional<ClosedMesh> mesh;  ///< Empty exactly if the outcome is kFailed.
+  RepairReport report;
+};
+
+/// Makes a closed mesh of triangles in any state; see docs/design/mesh.md for the steps.
+///
+/// Exact first: duplicate and degenerate triangles dropped, pieces oriented and stitched, small
+/// holes filled; kept where every piece is closed and pieces barely overlap. Otherwise an alpha
+/// wrap (Portaneri et al., "Alpha wrapping with an offset", SIGGRAPH 2022), which thickens thin
+/// sheets by twice its offset. More than `max_triangles` are reduced by edge collapse (Garland and
+/// Heckbert, 1997), which keeps the mesh closed. Deterministic: the same input gives the same
+/// output on every machine of one architecture, whatever the number of threads.
+///
+/// @throws Error(kInvalidArgument) as MeasureTopology() does; Error(kInvalidConfig) on a config
+///     value out of range. A mesh that cannot be closed is an outcome, not an Error.
+RepairResult RepairMesh(const TriangleMesh& mesh, const RepairConfig& config);
+
+/// The report as a record of schema "doorforge.repair_report", version 1.
+nlohmann::ordered_json ToJson(const RepairReport& report);
+
+/// Throws Error(kFormat) on anything that ToJson() would not write; `path` names the record.
+RepairReport RepairReportFromJson(const nlohmann::ordered_json& json, const std::string& path);
+
+}  // namespace doorforge

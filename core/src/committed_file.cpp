@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/core/committed_file.h"
 
-#include <fcntl.h>
-#include <stdio.h>
-#include <unistd.h>
-
 #include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+
+#include <fcntl.h>
+#include <stdio.h>
+#include <unistd.h>
 
 #include "doorforge/core/error.h"
 
@@ -77,8 +77,8 @@ std::string ReadFile(const fs::path& path, std::uint64_t max_bytes) {
     throw Error(ErrorCode::kMissing, path.string() + ": no such file");
   const std::uint64_t size = fs::file_size(path, error);
   if (error || size > max_bytes)
-    throw Error(ErrorCode::kIo, path.string() + ": " + std::to_string(size) +
-                                    " bytes, allowed " + std::to_string(max_bytes));
+    throw Error(ErrorCode::kIo, path.string() + ": " + std::to_string(size) + " bytes, allowed " +
+                                    std::to_string(max_bytes));
   std::ifstream file(path, std::ios::binary);
   std::string content(size, '\0');
   if (!file.read(content.data(), static_cast<std::streamsize>(size)))

@@ -13,7 +13,8 @@ void ThrowConfigError(const std::string& path, const std::string& problem) {
 
 void ThrowUnknownKey(const std::string& path, const std::string& key,
                      const std::vector<std::string>& known) {
-  ThrowConfigError(path + "." + key, "unknown key; did you mean \"" + NearestName(key, known) + "\"?");
+  ThrowConfigError(path + "." + key,
+                   "unknown key; did you mean \"" + NearestName(key, known) + "\"?");
 }
 
 }  // namespace doorforge::internal

@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/core/program.h"
 
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "doorforge/core/error.h"
 
@@ -70,8 +70,8 @@ int RunChild(const std::vector<std::string>& argv) {
   for (const std::string& argument : argv) arguments.push_back(const_cast<char*>(argument.c_str()));
   arguments.push_back(nullptr);
   pid_t child = 0;
-  if (const int error = ::posix_spawn(&child, argv[0].c_str(), nullptr, nullptr, arguments.data(),
-                                      environ))
+  if (const int error =
+          ::posix_spawn(&child, argv[0].c_str(), nullptr, nullptr, arguments.data(), environ))
     throw Error(ErrorCode::kMissing, argv[0] + ": cannot be started: " + std::strerror(error));
   int status = 0;
   while (::waitpid(child, &status, 0) < 0) {

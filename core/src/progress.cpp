@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/core/progress.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
+
+#include <unistd.h>
 
 namespace doorforge {
 namespace {

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/schemas/door_asset.h"
 
-#include "latch_json.h"
-#include "record_json.h"
-
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/schemas/mesh_file.h"
+
+#include "latch_json.h"
+#include "record_json.h"
 
 namespace doorforge {
 namespace {

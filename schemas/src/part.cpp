@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/schemas/part.h"
 
-#include "record_json.h"
-
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/schemas/mesh_file.h"
+
+#include "record_json.h"
 
 namespace doorforge {
 namespace {
@@ -121,8 +121,8 @@ Part ReadPart(const std::filesystem::path& folder) {
   } else {
     part.part_from_grasp =
         TransformFromJson(MemberOf(json, "part_from_grasp", path), path + ".part_from_grasp");
-    part.grasp_half_extent_m = Vector3FromJson(MemberOf(json, "grasp_half_extent_m", path),
-                                               path + ".grasp_half_extent_m");
+    part.grasp_half_extent_m =
+        Vector3FromJson(MemberOf(json, "grasp_half_extent_m", path), path + ".grasp_half_extent_m");
   }
   for (const Json& piece : MemberOf(json, "pieces", path))
     part.pieces.push_back(PieceFromJson(piece, folder, path + ".pieces"));

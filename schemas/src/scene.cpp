@@ -4,10 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "latch_json.h"
-
 #include "doorforge/core/config_io.h"
 #include "doorforge/core/json_file.h"
+
+#include "latch_json.h"
 
 namespace doorforge {
 

@@ -57,7 +57,8 @@ TEST(ConfigIo, WritesDefaultsToo) {
 }
 
 TEST(ConfigIo, NamesTheUnknownKey) {
-  EXPECT_EQ(ErrorOf(R"({"inner": {"sise_m": 2}})"), "outer.inner.sise_m: unknown key; did you mean \"size_m\"?");
+  EXPECT_EQ(ErrorOf(R"({"inner": {"sise_m": 2}})"),
+            "outer.inner.sise_m: unknown key; did you mean \"size_m\"?");
 }
 
 TEST(ConfigIo, RefusesAFractionForAnInteger) {

@@ -30,7 +30,8 @@ nlohmann::ordered_json Vector3ToJson(const Eigen::Vector3d& v);
 
 /// {"position_m": [x, y, z], "quaternion_xyzw": [x, y, z, w]}; w >= 0, unit norm.
 nlohmann::ordered_json TransformToJson(const RigidTransform& transform);
-/// Throws Error(kFormat) on missing keys, non-finite numbers, or a quaternion off unit norm by 1e-6.
+/// Throws Error(kFormat) on missing keys, non-finite numbers, or a quaternion off unit norm by
+/// 1e-6.
 RigidTransform TransformFromJson(const nlohmann::ordered_json& json, const std::string& path);
 
 }  // namespace doorforge

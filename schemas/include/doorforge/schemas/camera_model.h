@@ -13,8 +13,8 @@ namespace doorforge {
 
 /// Pinhole camera with square pixels. The default is UniDoorManip's (reference code).
 struct CameraModel {
-  Eigen::Vector3d position_m{1.8, 0, 1.8};    ///< In the world.
-  Eigen::Vector3d target_m{0.01, 0, 1.5};     ///< Point in the middle of the image.
+  Eigen::Vector3d position_m{1.8, 0, 1.8};  ///< In the world.
+  Eigen::Vector3d target_m{0.01, 0, 1.5};   ///< Point in the middle of the image.
   Eigen::Vector3d up{0, 0, 1};
   int width = 256;
   int height = 256;

@@ -28,9 +28,9 @@ struct DoorGeometry {
 };
 
 struct DoorLink {
-  std::string name;                 ///< "base", "leaf", "handle".
+  std::string name;  ///< "base", "leaf", "handle".
   std::vector<DoorGeometry> geometry;
-  MassProperties mass;              ///< In the link's frame.
+  MassProperties mass;  ///< In the link's frame.
 };
 
 /// Revolute joint at the child link's origin.
@@ -42,7 +42,7 @@ struct DoorJoint {
   double upper_rad = 0;
   double effort_limit_nm = 0;
   double velocity_limit_rad_s = 0;
-  double damping_nm_s = 0;   ///< Not in the paper; see docs/design/simulation.md.
+  double damping_nm_s = 0;  ///< Not in the paper; see docs/design/simulation.md.
 };
 
 /// The latch as data. kEffort is the paper's law (Section 3.3): while locked the hinge feels
@@ -94,8 +94,8 @@ std::array<RigidTransform, 3> DoorFromLinks(const DoorAsset& door, double hinge_
 /// beside it is written by ComposeDoor's exporter (asset_tools/door).
 void WriteDoor(const DoorAsset& door, const std::filesystem::path& folder);
 
-/// Reads a door's folder. Throws Error(kMissing) or Error(kFormat); mesh paths that leave the folder
-/// are refused.
+/// Reads a door's folder. Throws Error(kMissing) or Error(kFormat); mesh paths that leave the
+/// folder are refused.
 DoorAsset ReadDoor(const std::filesystem::path& folder);
 
 /// File of a mesh relative to the door's folder: "meshes/visual/<name>.obj" and

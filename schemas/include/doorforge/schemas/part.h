@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-
 #include "doorforge/core/mass_properties.h"
 #include "doorforge/core/rigid_transform.h"
 #include "doorforge/core/triangle_mesh.h"
@@ -24,7 +23,7 @@ struct PartPiece {
   TriangleMesh mesh;                ///< Closed, oriented, positive volume.
   std::vector<TriangleMesh> hulls;  ///< Convex, closed; together they stand for the piece.
   Eigen::Vector4d color_rgba{0.7, 0.7, 0.7, 1.0};
-  MassProperties mass;              ///< In the part's frame.
+  MassProperties mass;  ///< In the part's frame.
 };
 
 /// A revolute joint of a part, in the part's frame. Positive angles open (body) or unlock (handle).
@@ -66,8 +65,8 @@ struct Part {
 /// StagedFolder.
 void WritePart(const Part& part, const std::filesystem::path& folder);
 
-/// Reads a part's folder. Throws Error(kMissing) or Error(kFormat); mesh paths that leave the folder
-/// are refused. Closedness is not checked here: that is `doorforge validate`.
+/// Reads a part's folder. Throws Error(kMissing) or Error(kFormat); mesh paths that leave the
+/// folder are refused. Closedness is not checked here: that is `doorforge validate`.
 Part ReadPart(const std::filesystem::path& folder);
 
 /// SHA-256 over part.json's fields and the mesh bytes: the part's identity for later values.

@@ -54,8 +54,8 @@ struct Action {
 using ActionVector = std::array<float, 9>;
 ActionVector ToVector(const Action& action);
 /// Orthonormalises the six rotation numbers (Gram-Schmidt on the two rows, third by cross product).
-/// Rows that are parallel or zero give the nearest valid rotation; numbers that are not finite throw
-/// Error(kInvalidArgument).
+/// Rows that are parallel or zero give the nearest valid rotation; numbers that are not finite
+/// throw Error(kInvalidArgument).
 Action FromVector(const ActionVector& vector);
 
 /// Experts and trained networks alike. One instance serves one episode at a time.

@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The doorforge authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# Builds the dev preset and runs all tests, as continuous integration does:
+#   ./test.sh [--tidy] [arguments of ctest, such as -L unit or -R latch]
+# --tidy runs clang-tidy over all sources as well (about ten minutes).
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+tidy=no
+if [ "${1:-}" = --tidy ]; then tidy=yes; shift; fi
+scripts/install_packages.sh build test
+git ls-files '*.h' '*.cpp' | xargs -r clang-format --dry-run --Werror
+cmake --preset dev
+cmake --build --preset dev --parallel "$(nproc)"
+if [ "$tidy" = yes ]; then
+  git ls-files '*.cpp' | grep -v '^tests/\|^benchmarks/' | xargs -r -P "$(nproc)" -n 4 clang-tidy -p build/dev --quiet
+fi
+ctest --preset dev --parallel "$(nproc)" "$@"

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The front program: `doorforge VERB ...` runs the program of the room that owns the verb, so that
+// authoring an asset never waits for the training libraries to load.
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include "doorforge/core/error.h"
+#include "doorforge/core/nearest_name.h"
+#include "doorforge/core/program.h"
+
+#include "quickstart_verb.h"
+
+namespace doorforge {
+namespace {
+
+struct Verb {
+  const char* name;
+  const char* program;  // empty: the front program itself
+  const char* does;
+};
+
+constexpr std::array kVerbs = {
+    Verb{"quickstart", "", "the whole chain at small size, ends in report.html"},
+    Verb{"catalog", "doorforge-assets", "list, show and build the embedded door parts"},
+    Verb{"import", "doorforge-assets", "foreign door objects -> parts"},
+    Verb{"repair", "doorforge-assets", "any mesh -> a closed mesh with a measured report"},
+    Verb{"compose", "doorforge-assets", "a body and a handle -> a door (door.json, URDF, meshes)"},
+    Verb{"validate", "doorforge-assets", "every fault of parts and doors, with its measure"},
+    Verb{"preview", "doorforge-assets", "pictures of parts and doors"},
+    Verb{"simulate", "doorforge-simulate", "the rule-based expert on doors, with film strips"},
+    Verb{"datagen", "doorforge-datagen", "collect a stage's dataset shards"},
+    Verb{"dataset", "doorforge-datagen", "verify and describe datasets"},
+    Verb{"train", "doorforge-train", "train a stage's policy from shards"},
+    Verb{"eval", "doorforge-eval", "success of a policy per category, with a report"},
+    Verb{"doctor", "doorforge-train", "what is installed, and what to do about it"},
+};
+
+void PrintHelp() {
+  std::printf(
+      "doorforge %s: door assets and door-opening data for robot learning\n\n"
+      "usage: doorforge VERB [ARGUMENTS]     doorforge VERB --help\n\n",
+      CodeVersion().c_str());
+  // a build without a room does not offer its verbs
+  for (const Verb& verb : kVerbs) {
+    if (std::filesystem::exists(ProgramFolder() / verb.program))
+      std::printf("  %-11s %s\n", verb.name, verb.does);
+  }
+  std::printf("\nexample:\n  doorforge quickstart --out run/quickstart\n");
+}
+
+const Verb& FindVerb(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Verb& verb : kVerbs) {
+    if (name == verb.name) return verb;
+    names.emplace_back(verb.name);
+  }
+  throw Error(ErrorCode::kInvalidArgument, "unknown verb \"" + name + "\"; did you mean \"" +
+                                               NearestName(name, names) +
+                                               "\"? `doorforge --help` lists all");
+}
+
+int Run(int argc, char** argv) {
+  const std::string name = argc > 1 ? argv[1] : "--help";
+  if (name == "--help" || name == "-h" || name == "help") {
+    PrintHelp();
+    return 0;
+  }
+  if (name == "--version") {
+    std::printf("%s\n", CodeVersion().c_str());
+    return 0;
+  }
+  const Verb& verb = FindVerb(name);
+  if (*verb.program == '\0') return RunQuickstartVerb(argc - 1, argv + 1);
+  const std::string program = (ProgramFolder() / verb.program).string();
+  ::execv(program.c_str(), argv);
+  throw Error(ErrorCode::kMissing, program + ": cannot be started: " + std::strerror(errno) +
+                                       "; this build lacks the room that offers `" + name + "`");
+}
+
+}  // namespace
+}  // namespace doorforge
+
+int main(int argc, char** argv) {
+  return doorforge::RunProgram([&] { return doorforge::Run(argc, argv); });
+}

@@ -10,13 +10,13 @@ namespace doorforge {
 
 /// Distance from sampled points of one surface to the nearest point of another.
 struct SurfaceDeviation {
-  double mean_m = 0;
-  double max_m = 0;
-  int samples = 0;  ///< 0: nothing to measure, mean and max are then 0.
+  double mean_m = 0;  ///< Over points spread evenly over the area.
+  double max_m = 0;   ///< Over the same points and the vertices.
+  int samples = 0;    ///< Points of the mean. 0: nothing to measure, mean and max are then 0.
 };
 
 struct DeviationSampling {
-  int samples = 4000;  ///< About this many, spread over the area; vertices come on top.
+  int samples = 4000;  ///< About this many over the area, and at most as many of the vertices.
   /// Only points from which one of `rays` directions, spread over the sphere, leaves the surface's
   /// own bounding box unhindered.
   bool visible_only = false;

@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "polygon_soup.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include <Eigen/Geometry>
+
+#include "doorforge/core/error.h"
+
+#include "position_table.h"
+
+namespace doorforge {
+namespace {
+
+using Point2 = Eigen::Vector2d;
+
+double Cross(const Point2& a, const Point2& b, const Point2& c) {
+  return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
+}
+
+// The polygon in the plane of its Newell normal, counter-clockwise.
+std::vector<Point2> Flattened(std::span<const Eigen::Vector3d> corners) {
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Eigen::Vector3d a = corners[i] - corners[0];
+    const Eigen::Vector3d b = corners[(i + 1) % corners.size()] - corners[0];
+    normal += a.cross(b);
+  }
+  int dropped = 0;
+  normal.cwiseAbs().maxCoeff(&dropped);
+  const int x = (dropped + 1) % 3;
+  const int y = (dropped + 2) % 3;
+  const double flip = normal[dropped] < 0 ? -1 : 1;
+  std::vector<Point2> flat;
+  for (const Eigen::Vector3d& corner : corners)
+    flat.emplace_back(corner[x] - corners[0][x], flip * (corner[y] - corners[0][y]));
+  return flat;
+}
+
+bool IsEar(const std::vector<Point2>& flat, const std::vector<int>& ring, std::size_t i) {
+  const std::size_t n = ring.size();
+  const auto at = [&](std::size_t k) -> const Point2& {
+    return flat[static_cast<std::size_t>(ring[k % n])];
+  };
+  const Point2& a = at(i + n - 1);
+  const Point2& b = at(i);
+  const Point2& c = at(i + 1);
+  if (Cross(a, b, c) <= 0) return false;
+  for (std::size_t k = i + 2; k < i + n - 1; ++k) {
+    const Point2& p = at(k);
+    if (p == a || p == b || p == c) continue;
+    if (Cross(a, b, p) >= 0 && Cross(b, c, p) >= 0 && Cross(c, a, p) >= 0) return false;
+  }
+  return true;
+}
+
+std::array<int, 3> SortedCorners(const Eigen::Vector3i& t) {
+  std::array<int, 3> corners{t[0], t[1], t[2]};
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3i> Triangulated(std::span<const Eigen::Vector3d> corners) {
+  std::vector<Eigen::Vector3i> triangles;
+  std::vector<int> ring;
+  for (std::size_t i = 0; i < corners.size(); ++i) ring.push_back(static_cast<int>(i));
+  if (ring.size() < 3) return triangles;
+  const std::vector<Point2> flat = Flattened(corners);
+  while (ring.size() > 3) {
+    const std::size_t n = ring.size();
+    std::size_t ear = 1;  // the fan's choice, where no corner is an ear
+    for (std::size_t i = 1; i <= n; ++i) {
+      if (!IsEar(flat, ring, i % n)) continue;
+      ear = i % n;
+      break;
+    }
+    triangles.emplace_back(ring[(ear + n - 1) % n], ring[ear], ring[(ear + 1) % n]);
+    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(ear));
+  }
+  triangles.emplace_back(ring[0], ring[1], ring[2]);
+  return triangles;
+}
+
+void PolygonSoup::BeginPiece(std::string name, const Eigen::Vector4d& color_rgba) {
+  pieces_.push_back({std::move(name), color_rgba.cwiseMax(0.0).cwiseMin(1.0), {}});
+}
+
+void PolygonSoup::AddPolygon(std::span<const Eigen::Vector3d> corners) {
+  if (corners.size() < 3) return;
+  for (const Eigen::Vector3d& corner : corners) {
+    if (!corner.allFinite())
+      throw Error(ErrorCode::kFormat, "a face uses a vertex that is not finite");
+  }
+  triangle_count_ += corners.size() - 2;
+  if (triangle_count_ > max_triangles_)
+    throw Error(ErrorCode::kFormat,
+                "more than the " + std::to_string(max_triangles_) + " triangles allowed");
+  if (pieces_.empty()) BeginPiece("", ImportedPiece{}.color_rgba);
+  for (const Eigen::Vector3i& t : Triangulated(corners)) {
+    Eigen::Matrix3d& triangle = pieces_.back().triangles.emplace_back();
+    for (int k = 0; k < 3; ++k) triangle.col(k) = corners[static_cast<std::size_t>(t[k])];
+  }
+}
+
+ImportedMesh PolygonSoup::Finish() && {
+  ImportedMesh mesh;
+  PositionTable everywhere;
+  std::set<std::array<int, 3>> seen;
+  for (Piece& piece : pieces_) {
+    PositionTable here;
+    ImportedPiece imported{std::move(piece.name), {}, piece.color_rgba};
+    for (const Eigen::Matrix3d& corners : piece.triangles) {
+      Eigen::Vector3i t;
+      for (int k = 0; k < 3; ++k) t[k] = everywhere.IndexOf(corners.col(k));
+      if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+      if (!seen.insert(SortedCorners(t)).second) continue;
+      for (int k = 0; k < 3; ++k) t[k] = here.IndexOf(corners.col(k));
+      imported.mesh.triangles.push_back(t);
+    }
+    imported.mesh.vertices = std::move(here.positions());
+    if (!imported.mesh.triangles.empty()) mesh.pieces.push_back(std::move(imported));
+  }
+  if (mesh.pieces.empty()) throw Error(ErrorCode::kFormat, "no triangle in the file");
+  return mesh;
+}
+
+}  // namespace doorforge

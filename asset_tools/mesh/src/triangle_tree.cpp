@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "triangle_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace doorforge {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kLeafTriangles = 4;
+
+// Nearest point of a triangle: Ericson, Real-Time Collision Detection (2005), section 5.1.5.
+Vector3d NearestPoint(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  const Vector3d ab = b - a;
+  const Vector3d ac = c - a;
+  const double d1 = ab.dot(p - a);
+  const double d2 = ac.dot(p - a);
+  if (d1 <= 0 && d2 <= 0) return a;
+  const double d3 = ab.dot(p - b);
+  const double d4 = ac.dot(p - b);
+  if (d3 >= 0 && d4 <= d3) return b;
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + (d1 > d3 ? d1 / (d1 - d3) : 0.0) * ab;
+  const double d5 = ab.dot(p - c);
+  const double d6 = ac.dot(p - c);
+  if (d6 >= 0 && d5 <= d6) return c;
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + (d2 > d6 ? d2 / (d2 - d6) : 0.0) * ac;
+  const double va = d3 * d6 - d5 * d4;
+  const double e1 = d4 - d3;
+  const double e2 = d5 - d6;
+  if (va <= 0 && e1 >= 0 && e2 >= 0) return b + (e1 + e2 > 0 ? e1 / (e1 + e2) : 0.0) * (c - b);
+  const double sum = va + vb + vc;
+  return a + vb / sum * ab + vc / sum * ac;
+}
+
+// Moller and Trumbore (1997), both sides.
+bool RayHits(const Vector3d& origin, const Vector3d& direction, double from_m,
+             const std::array<const Vector3d*, 3>& corner) {
+  const Vector3d ab = *corner[1] - *corner[0];
+  const Vector3d ac = *corner[2] - *corner[0];
+  const Vector3d p = direction.cross(ac);
+  const double determinant = ab.dot(p);
+  if (determinant == 0) return false;
+  const Vector3d from_a = origin - *corner[0];
+  const double u = from_a.dot(p) / determinant;
+  if (!(u >= 0 && u <= 1)) return false;
+  const Vector3d q = from_a.cross(ab);
+  const double v = direction.dot(q) / determinant;
+  return v >= 0 && u + v <= 1 && ac.dot(q) / determinant > from_m;
+}
+
+bool RayMeetsBox(const Vector3d& origin, const Vector3d& inverse, const Eigen::AlignedBox3d& box) {
+  double near = 0;
+  double far = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    const double t0 = (box.min()[k] - origin[k]) * inverse[k];
+    const double t1 = (box.max()[k] - origin[k]) * inverse[k];
+    // a NaN (0 times infinity: the ray runs in the face) leaves the bound as it is
+    near = std::max(near, std::min(t0, t1));
+    far = std::min(far, std::max(t0, t1));
+  }
+  return near <= far * (1 + 1e-12);
+}
+
+}  // namespace
+
+TriangleTree::TriangleTree(const TriangleMesh& mesh) {
+  triangles_.reserve(mesh.triangles.size());
+  for (const Eigen::Vector3i& t : mesh.triangles)
+    triangles_.push_back({mesh.vertices[static_cast<std::size_t>(t[0])],
+                          mesh.vertices[static_cast<std::size_t>(t[1])],
+                          mesh.vertices[static_cast<std::size_t>(t[2])]});
+  nodes_.reserve(triangles_.size());
+  nodes_.emplace_back();
+  Build(0, 0, static_cast<int>(triangles_.size()));
+}
+
+void TriangleTree::Build(int node, int first, int count) {
+  Eigen::AlignedBox3d box;
+  Eigen::AlignedBox3d centers;
+  for (int i = first; i < first + count; ++i) {
+    const Triangle& t = triangles_[static_cast<std::size_t>(i)];
+    box.extend(t.a).extend(t.b).extend(t.c);
+    centers.extend(t.a + t.b + t.c);
+  }
+  nodes_[static_cast<std::size_t>(node)] = {box, first, count};
+  if (count <= kLeafTriangles) return;
+  int axis = 0;
+  centers.sizes().maxCoeff(&axis);
+  const auto begin = triangles_.begin() + first;
+  const int half = count / 2;
+  std::nth_element(begin, begin + half, begin + count,
+                   [axis](const Triangle& s, const Triangle& t) {
+                     return s.a[axis] + s.b[axis] + s.c[axis] < t.a[axis] + t.b[axis] + t.c[axis];
+                   });
+  const int child = static_cast<int>(nodes_.size());
+  nodes_.resize(nodes_.size() + 2);
+  nodes_[static_cast<std::size_t>(node)].first = child;
+  nodes_[static_cast<std::size_t>(node)].count = 0;
+  Build(child, first, half);
+  Build(child + 1, first + half, count - half);
+}
+
+double TriangleTree::Distance(const Vector3d& point, double at_most) const {
+  double best = at_most * at_most;
+  if (triangles_.empty()) return at_most;
+  std::vector<std::pair<double, int>> pending{{0.0, 0}};
+  while (!pending.empty()) {
+    const auto [bound, index] = pending.back();
+    pending.pop_back();
+    if (bound >= best) continue;
+    const Node& node = nodes_[static_cast<std::size_t>(index)];
+    for (int i = node.first; i < node.first + node.count; ++i) {
+      const Triangle& t = triangles_[static_cast<std::size_t>(i)];
+      best = std::min(best, (point - NearestPoint(point, t.a, t.b, t.c)).squaredNorm());
+    }
+    if (node.count > 0) continue;
+    std::pair<double, int> near{
+        nodes_[static_cast<std::size_t>(node.first)].box.squaredExteriorDistance(point),
+        node.first};
+    std::pair<double, int> far{
+        nodes_[static_cast<std::size_t>(node.first) + 1].box.squaredExteriorDistance(point),
+        node.first + 1};
+    if (far.first < near.first) std::swap(near, far);
+    pending.push_back(far);
+    pending.push_back(near);
+  }
+  return std::sqrt(best);
+}
+
+bool TriangleTree::Hits(const Vector3d& origin, const Vector3d& direction, double from_m) const {
+  if (triangles_.empty()) return false;
+  const Vector3d inverse = direction.cwiseInverse();
+  std::vector<int> pending{0};
+  while (!pending.empty()) {
+    const Node& node = nodes_[static_cast<std::size_t>(pending.back())];
+    pending.pop_back();
+    if (!RayMeetsBox(origin, inverse, node.box)) continue;
+    for (int i = node.first; i < node.first + node.count; ++i) {
+      const Triangle& t = triangles_[static_cast<std::size_t>(i)];
+      if (RayHits(origin, direction, from_m, {&t.a, &t.b, &t.c})) return true;
+    }
+    if (node.count > 0) continue;
+    pending.push_back(node.first);
+    pending.push_back(node.first + 1);
+  }
+  return false;
+}
+
+double TriangleTree::WindingNumber(const Vector3d& point) const {
+  // solid angles: Van Oosterom and Strackee (1983)
+  double angle = 0;
+  for (const Triangle& t : triangles_) {
+    const Vector3d a = t.a - point;
+    const Vector3d b = t.b - point;
+    const Vector3d c = t.c - point;
+    const double la = a.norm();
+    const double lb = b.norm();
+    const double lc = c.norm();
+    angle +=
+        std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return angle / (2 * std::numbers::pi);
+}
+
+}  // namespace doorforge

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "doorforge/core/triangle_mesh.h"
+
+namespace doorforge {
+
+/// Bounding-volume tree over the triangles of a mesh, for distances and rays. Holds a copy of the
+/// corners. Deterministic; safe to query from several threads.
+class TriangleTree {
+ public:
+  /// Indices must be in range, vertices finite.
+  explicit TriangleTree(const TriangleMesh& mesh);
+
+  /// Distance to the nearest point of any triangle, or `at_most` if that is smaller.
+  double Distance(const Eigen::Vector3d& point, double at_most = 1e300) const;
+
+  /// Whether the ray meets a triangle, of either side, farther than `from_m` from its origin.
+  bool Hits(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double from_m) const;
+
+  /// How often the mesh winds around the point (Jacobson et al. 2013), summed exactly over all
+  /// triangles: about 1 inside a closed mesh, 0 outside.
+  double WindingNumber(const Eigen::Vector3d& point) const;
+
+  bool empty() const { return triangles_.empty(); }
+
+ private:
+  struct Triangle {
+    Eigen::Vector3d a, b, c;
+  };
+  struct Node {
+    Eigen::AlignedBox3d box;
+    int first = 0;  // leaf: first triangle; inner: first child, the second follows it
+    int count = 0;  // leaf: triangles; inner: 0
+  };
+
+  void Build(int node, int first, int count);
+
+  std::vector<Triangle> triangles_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace doorforge

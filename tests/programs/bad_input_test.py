@@ -1,0 +1,90 @@
+# SPDX-FileCopyrightText: 2026 The doorforge authors
+# SPDX-License-Identifier: Apache-2.0
+"""Whatever comes from outside ends in a clear message and an exit code, and leaves nothing behind."""
+import json
+import unittest
+
+from programs import ProgramTest, real_assets, run
+
+DAE = """<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"/>"""
+
+
+class BadInput(ProgramTest):
+    def assert_nothing_left(self) -> None:
+        left = [path.name for path in self.folder.iterdir() if path.name.startswith(("out", ".out"))]
+        self.assertEqual(left, [])
+
+    def test_every_dirty_mesh_is_repaired_or_refused(self):
+        meshes = sorted(path for path in (real_assets("dirty_meshes") / "dirty_meshes").rglob("*") if path.is_file())
+        self.assertGreater(len(meshes), 20)
+        for mesh in meshes:
+            with self.subTest(mesh.name):
+                out = self.folder / "out.obj"
+                result = run("repair", mesh, out, timeout=120)
+                self.assert_ends(result, 0, 1, 2, 3)
+                self.assertEqual(out.exists(), result.returncode == 0, result.stderr)
+                if result.returncode != 0:
+                    self.assertGreater(len(result.stderr.strip()), 20)
+                out.unlink(missing_ok=True)
+                self.assert_nothing_left()
+
+    def test_an_empty_file_and_a_folder_are_no_meshes(self):
+        for name in ("empty.obj", "empty.stl", "empty.ply", "empty.dae", "empty.glb"):
+            (self.folder / name).touch()
+            self.assert_refused(run("repair", self.folder / name, self.folder / "out.obj"), 3)
+        (self.folder / "folder.obj").mkdir()
+        self.assert_refused(run("repair", self.folder / "folder.obj", self.folder / "out.obj"), 3)
+        self.assert_refused(run("repair", self.folder / "missing.obj", self.folder / "out.obj"), 3)
+        self.assert_nothing_left()
+
+    def test_an_import_of_nothing_is_refused(self):
+        (self.folder / "empty").mkdir()
+        (self.folder / "file").touch()
+        for source in ("empty", "file", "missing"):
+            self.assert_refused(run("import", self.folder / source, "--out", self.folder / "out"), 1, 3)
+        self.assert_nothing_left()
+
+    def make_object(self, urdf: str) -> None:
+        source = self.folder / "99650089960001"
+        (source / "texture_dae").mkdir(parents=True, exist_ok=True)
+        (source / "texture_dae/board.dae").write_text(DAE)
+        (source / "bounding_box.json").write_text('{"min": [0, 0, 0], "max": [1, 0.1, 2]}')
+        (source / "handle_bounding.json").write_text(
+            json.dumps({"handle_min": [0, 0, 0], "handle_max": [0.1, 0.1, 0.1], "goal_pos": [0, 0, 0]}))
+        (source / "mobility.urdf").write_text(urdf)
+
+    def test_a_hostile_urdf_is_refused(self):
+        outside = self.folder / "secret.dae"
+        outside.write_text(DAE)
+        mesh = '<visual><geometry><mesh filename="{}"/></geometry></visual>'
+        link = '<robot name="r"><link name="base"/><link name="link_0">' + mesh + "</link></robot>"
+        hostile = [
+            '<!DOCTYPE r [<!ENTITY a "aaaa">]><robot name="&a;"><link name="base"/></robot>',
+            link.format("../secret.dae"), link.format(outside), link.format("texture_dae/../../secret.dae"),
+            "", "not xml", "<robot>" * 200, '<robot name="r">' + "<link/>" * 3,
+        ]
+        for urdf in hostile:
+            with self.subTest(urdf[:60]):
+                self.make_object(urdf)
+                result = run("import", self.folder / "99650089960001", "--out", self.folder / "out")
+                self.assert_refused(result, 1, 3)
+                self.assert_nothing_left()
+
+    def test_wrong_use_is_told_apart_from_bad_input(self):
+        for arguments in (["frobnicate"], ["repair"], ["compose", "--body", "x"], ["datagen", "open", "--wrong"],
+                          ["eval", "--seeds"], ["train", "open"], ["validate"]):
+            with self.subTest(arguments):
+                self.assert_refused(run(*arguments), 2)
+
+    def test_every_verb_explains_itself_with_an_example(self):
+        for verb in ("quickstart", "catalog", "import", "repair", "compose", "validate", "simulate",
+                     "datagen", "dataset", "train", "eval", "doctor"):
+            with self.subTest(verb):
+                result = run(verb, "--help")
+                self.assert_ends(result, 0)
+                self.assertIn("example", result.stdout.lower())
+                self.assertIn("doorforge " + verb, result.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -17,17 +17,17 @@ constexpr std::array<std::string_view, kEpisodeOutcomeCount> kOutcomes = {
     "opened",       "not_reached", "grasp_missed", "handle_slipped",
     "handle_stuck", "grip_lost",   "door_stuck",   "diverged"};
 
-EpisodeOutcome OutcomeNamed(const std::string& name, const std::string& path) {
-  for (std::size_t i = 0; i < kOutcomes.size(); ++i) {
-    if (kOutcomes[i] == name) return static_cast<EpisodeOutcome>(i);
-  }
-  throw Error(ErrorCode::kFormat, path + ".outcome: unknown name \"" + name + '"');
-}
-
 }  // namespace
 
 std::string_view NameOf(EpisodeOutcome outcome) {
   return kOutcomes.at(static_cast<std::size_t>(outcome));
+}
+
+std::optional<EpisodeOutcome> EpisodeOutcomeNamed(std::string_view name) {
+  for (std::size_t i = 0; i < kOutcomes.size(); ++i) {
+    if (kOutcomes[i] == name) return static_cast<EpisodeOutcome>(i);
+  }
+  return std::nullopt;
 }
 
 nlohmann::ordered_json EpisodeMetaToJson(const Episode& episode) {
@@ -49,7 +49,10 @@ nlohmann::ordered_json EpisodeMetaToJson(const Episode& episode) {
 Episode EpisodeFromMeta(const nlohmann::ordered_json& json, const std::string& path) {
   RequireSchema(json, "doorforge.episode", kEpisodeSchemaVersion, path);
   Episode episode;
-  episode.outcome = OutcomeNamed(ValueOf<std::string>(json, "outcome", path), path);
+  const auto outcome = ValueOf<std::string>(json, "outcome", path);
+  if (!EpisodeOutcomeNamed(outcome))
+    throw Error(ErrorCode::kFormat, path + ".outcome: unknown name \"" + outcome + '"');
+  episode.outcome = *EpisodeOutcomeNamed(outcome);
   episode.detail = ValueOf<std::string>(json, "detail", path);
   episode.peak_hinge_rad = ValueOf<double>(json, "peak_hinge_rad", path);
   episode.peak_handle_rad = ValueOf<double>(json, "peak_handle_rad", path);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,8 @@ enum class EpisodeOutcome {
   kDiverged,       ///< The physics state stopped being finite or gained energy.
 };
 std::string_view NameOf(EpisodeOutcome outcome);  ///< "opened", "not_reached", ...
+/// Inverse of NameOf; nothing if the name is unknown.
+std::optional<EpisodeOutcome> EpisodeOutcomeNamed(std::string_view name);
 inline constexpr int kEpisodeOutcomeCount = 8;
 
 /// One decision point of a stage: what was seen, what was asked for, what came of it.

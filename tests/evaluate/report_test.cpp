@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/evaluate/report.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "doorforge/core/error.h"
+
+#include "example_report.h"
+
+namespace doorforge {
+namespace {
+
+TEST(Report, ReadsBackWhatItWrote) {
+  const auto json = ReportToJson(ExampleReport());
+  const EvaluationReport again =
+      ReportFromJson(nlohmann::ordered_json::parse(json.dump()), "report");
+  EXPECT_EQ(ReportToJson(again).dump(), json.dump());
+  EXPECT_EQ(again.episodes.size(), ExampleReport().episodes.size());
+  EXPECT_TRUE(std::isnan(again.losses.front().validation.front()));
+}
+
+TEST(Report, SuccessInTheFileIsCountedFromItsRows) {
+  const auto json = ReportToJson(ExampleReport());
+  int opened = 0;
+  int interior = 0;
+  for (const auto& row : json.at("episodes")) {
+    opened += row.at("outcome") == "opened" ? 1 : 0;
+    interior += row.at("category") == "interior" ? 1 : 0;
+  }
+  const auto& overall = json.at("success").at("overall");
+  EXPECT_EQ(overall.at("episodes"), json.at("episodes").size());
+  EXPECT_NEAR(overall.at("rate").get<double>(),
+              static_cast<double>(opened) / static_cast<double>(json.at("episodes").size()), 1e-15);
+  EXPECT_EQ(json.at("success").at("interior").at("episodes"), interior);
+  EXPECT_FALSE(json.at("success").contains("car")) << "categories without episodes are left out";
+  int failures = 0;
+  for (const auto& [cause, count] : json.at("causes").items()) failures += count.get<int>();
+  EXPECT_EQ(failures + opened, static_cast<int>(json.at("episodes").size()));
+}
+
+TEST(Report, ADoorIsSeenWhenItsBodyOrItsHandleWasTrainedOn) {
+  EvaluationReport report = ExampleReport();
+  EXPECT_TRUE(SeenDoors(report.doors, report.training_doors).empty());
+  report.doors[1].handle_id = report.training_doors[3].handle_id;
+  report.doors[4].body_id = report.training_doors[0].body_id;
+  EXPECT_EQ(SeenDoors(report.doors, report.training_doors),
+            (std::vector<std::string>{report.doors[1].id, report.doors[4].id}));
+}
+
+TEST(Report, RefusesWhatIsNotAReport) {
+  const auto good = ReportToJson(ExampleReport());
+  const auto refused = [&](auto&& change) {
+    auto bad = good;
+    change(bad);
+    EXPECT_THROW(ReportFromJson(bad, "report"), Error);
+  };
+  refused([](auto& json) { json["schema_version"] = 99; });
+  refused([](auto& json) { json["episodes"] = 3; });
+  refused([](auto& json) { json["episodes"][0]["outcome"] = "teleported"; });
+  refused([](auto& json) { json["losses"][0]["train"].erase(0); });
+  refused([](auto& json) { json.erase("doors"); });
+}
+
+}  // namespace
+}  // namespace doorforge

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "doorforge/schemas/episode.h"
+#include "doorforge/schemas/names.h"
+
+namespace doorforge {
+
+/// One row of a report: what became of one episode.
+struct EvaluatedEpisode {
+  std::string door_id;
+  Category category = Category::kInterior;
+  std::uint64_t seed = 0;
+  std::uint64_t episode = 0;  ///< Index among the episodes of this door and seed.
+  EpisodeOutcome outcome = EpisodeOutcome::kDiverged;
+  std::string detail;          ///< The numbers that explain the outcome, for people.
+  int opening_actions = 0;     ///< Decisions that the evaluated policy took.
+  double peak_hinge_rad = 0;   ///< Greatest angle of the door.
+  double peak_handle_rad = 0;  ///< Greatest angle of the handle.
+  double simulated_s = 0;      ///< Simulated time of the whole episode.
+  std::string state_sha256;    ///< Hash of the final joint state: equal runs have equal hashes.
+};
+
+/// Drops clouds and actions, keeps what a report says about an episode.
+EvaluatedEpisode RowOf(const Episode& episode, Category category);
+
+nlohmann::ordered_json EvaluatedEpisodeToJson(const EvaluatedEpisode& episode);
+/// Throws Error(kFormat); `path` names the record.
+EvaluatedEpisode EvaluatedEpisodeFromJson(const nlohmann::ordered_json& json,
+                                          const std::string& path);
+
+}  // namespace doorforge

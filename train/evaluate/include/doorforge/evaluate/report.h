@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "doorforge/evaluate/evaluated_episode.h"
+#include "doorforge/evaluate/success_statistics.h"
+
+namespace doorforge {
+
+inline constexpr int kReportSchemaVersion = 1;
+
+/// What a report says of a door.
+struct ReportDoor {
+  std::string id;
+  Category category = Category::kInterior;
+  Mechanism mechanism = Mechanism::kNone;
+  std::string body_id;
+  std::string handle_id;
+  std::string sha256;   ///< ContentHash of the door.
+  std::string license;  ///< SPDX expression of its parts.
+};
+
+/// One loss over a training run: epochs with the mean on the training and on the validation
+/// samples. All three have the same length; a validation value that was not measured is NaN (null
+/// in files).
+struct LossCurve {
+  std::string name;  ///< Such as "actor.position".
+  std::vector<double> epoch;
+  std::vector<double> train;
+  std::vector<double> validation;
+};
+
+/// Where the numbers come from: hashes name the inputs, so that a report can be checked or made
+/// again. No times of day: equal inputs give equal reports.
+struct ReportProvenance {
+  std::string policy;          ///< Name of the policy's folder, or "expert".
+  std::string policy_sha256;   ///< Of its weights; empty for the expert.
+  std::string dataset_sha256;  ///< Of the data set it was trained from; empty if unknown.
+  std::string code_version;    ///< CodeVersion() of the evaluating program.
+  std::string command;         ///< The command line.
+  nlohmann::ordered_json config = nlohmann::ordered_json::object();  ///< The effective config.
+};
+
+/// Everything an evaluation found out. Success rates, intervals and counts are not stored but
+/// computed from `episodes`, so that they cannot disagree.
+struct EvaluationReport {
+  ReportProvenance provenance;
+  std::vector<ReportDoor> doors;            ///< Evaluated, sorted by id.
+  std::vector<ReportDoor> training_doors;   ///< The policy's; empty for the expert.
+  std::vector<EvaluatedEpisode> episodes;   ///< Sorted by door, seed, episode.
+  std::vector<EvaluatedEpisode> reference;  ///< The expert on the same scenes; may be empty.
+  std::vector<LossCurve> losses;            ///< Of the training; empty for the expert.
+};
+
+/// Doors whose body or whose handle is a part of a training door: they are not held out.
+std::vector<std::string> SeenDoors(std::span<const ReportDoor> doors,
+                                   std::span<const ReportDoor> training_doors);
+
+/// The record `report.json`, docs/format-report.md: the fields above and, computed, "success",
+/// "over_seeds", "over_angle" and "causes". Same report, same text.
+nlohmann::ordered_json ReportToJson(const EvaluationReport& report);
+/// Throws Error(kFormat); `path` names the record. What is computed is not read.
+EvaluationReport ReportFromJson(const nlohmann::ordered_json& json, const std::string& path);
+
+}  // namespace doorforge

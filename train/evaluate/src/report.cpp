@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/evaluate/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "doorforge/core/error.h"
+#include "doorforge/core/hash.h"
+#include "doorforge/core/json_file.h"
+
+namespace doorforge {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Episodes = std::span<const EvaluatedEpisode>;
+
+Json RateToJson(const SuccessRate& rate) {
+  return {{"rate", rate.rate},
+          {"low", rate.low},
+          {"high", rate.high},
+          {"episodes", rate.episodes},
+          {"opened", rate.successes}};
+}
+
+Json SpreadToJson(const SeedSpread& spread) {
+  return {{"mean", spread.mean},
+          {"variance", spread.variance},
+          {"seeds", spread.seeds},
+          {"rates", spread.rates}};
+}
+
+Json AnglesToJson(const std::vector<AngleSuccess>& angles) {
+  Json json = Json::array();
+  for (const AngleSuccess& angle : angles) {
+    json.push_back({{"angle_rad", angle.angle_rad},
+                    {"rate", angle.success.rate},
+                    {"low", angle.success.low},
+                    {"high", angle.success.high}});
+  }
+  return json;
+}
+
+// {"overall": value, "<category>": value, ...}
+template <class ValueOfSummary>
+Json ByCategory(Episodes episodes, const ValueOfSummary& value) {
+  Json json{{"overall", value(Summarise(episodes))}};
+  for (const Category category : CategoriesOf(episodes))
+    json[std::string(NameOf(category))] = value(Summarise(OfCategory(episodes, category)));
+  return json;
+}
+
+Json CausesToJson(const SuccessSummary& summary) {
+  Json json = Json::object();
+  for (int i = 0; i < kEpisodeOutcomeCount; ++i) {
+    const auto outcome = static_cast<EpisodeOutcome>(i);
+    const int count = summary.outcomes[static_cast<std::size_t>(i)];
+    if (outcome != EpisodeOutcome::kOpened && count > 0) json[std::string(NameOf(outcome))] = count;
+  }
+  return json;
+}
+
+void AddSuccess(Episodes episodes, Json& json) {
+  json["success"] = ByCategory(episodes, [](const auto& s) { return RateToJson(s.opened); });
+  json["over_seeds"] =
+      ByCategory(episodes, [](const auto& s) { return SpreadToJson(s.over_seeds); });
+  json["over_angle"] =
+      ByCategory(episodes, [](const auto& s) { return AnglesToJson(s.over_angle); });
+  json["causes"] = CausesToJson(Summarise(episodes));
+}
+
+Json DoorToJson(const ReportDoor& door) {
+  return {{"id", door.id},
+          {"category", NameOf(door.category)},
+          {"mechanism", NameOf(door.mechanism)},
+          {"body_id", door.body_id},
+          {"handle_id", door.handle_id},
+          {"sha256", door.sha256},
+          {"license", door.license}};
+}
+
+ReportDoor DoorFromJson(const Json& json, const std::string& path) {
+  ReportDoor door;
+  door.id = ValueOf<std::string>(json, "id", path);
+  const auto category = CategoryNamed(ValueOf<std::string>(json, "category", path));
+  const auto mechanism = MechanismNamed(ValueOf<std::string>(json, "mechanism", path));
+  if (!category || !mechanism)
+    throw Error(ErrorCode::kFormat, path + ": unknown category or mechanism of door " + door.id);
+  door.category = *category;
+  door.mechanism = *mechanism;
+  door.body_id = ValueOf<std::string>(json, "body_id", path);
+  door.handle_id = ValueOf<std::string>(json, "handle_id", path);
+  door.sha256 = ValueOf<std::string>(json, "sha256", path);
+  door.license = ValueOf<std::string>(json, "license", path);
+  return door;
+}
+
+// JSON has no NaN: a number that was not measured is null
+Json NumbersToJson(const std::vector<double>& numbers) {
+  Json json = Json::array();
+  for (const double number : numbers)
+    json.push_back(std::isfinite(number) ? Json(number) : Json(nullptr));
+  return json;
+}
+
+std::vector<double> NumbersFromJson(const Json& json, const std::string& path) {
+  if (!json.is_array()) throw Error(ErrorCode::kFormat, path + ": expected an array of numbers");
+  std::vector<double> numbers;
+  for (const Json& number : json) {
+    if (!number.is_number() && !number.is_null())
+      throw Error(ErrorCode::kFormat, path + ": expected an array of numbers");
+    numbers.push_back(number.is_null() ? std::numeric_limits<double>::quiet_NaN()
+                                       : number.get<double>());
+  }
+  return numbers;
+}
+
+Json LossToJson(const LossCurve& loss) {
+  return {{"name", loss.name},
+          {"epoch", NumbersToJson(loss.epoch)},
+          {"train", NumbersToJson(loss.train)},
+          {"validation", NumbersToJson(loss.validation)}};
+}
+
+LossCurve LossFromJson(const Json& json, const std::string& path) {
+  LossCurve loss;
+  loss.name = ValueOf<std::string>(json, "name", path);
+  loss.epoch = NumbersFromJson(MemberOf(json, "epoch", path), path + ".epoch");
+  loss.train = NumbersFromJson(MemberOf(json, "train", path), path + ".train");
+  loss.validation = NumbersFromJson(MemberOf(json, "validation", path), path + ".validation");
+  if (loss.train.size() != loss.epoch.size() || loss.validation.size() != loss.epoch.size())
+    throw Error(ErrorCode::kFormat, path + ": epoch, train and validation differ in length");
+  return loss;
+}
+
+Json ProvenanceToJson(const ReportProvenance& provenance) {
+  return {{"policy", provenance.policy},
+          {"policy_sha256", provenance.policy_sha256},
+          {"dataset_sha256", provenance.dataset_sha256},
+          {"code_version", provenance.code_version},
+          {"command", provenance.command},
+          {"config_sha256", Sha256Hex(provenance.config.dump())},
+          {"config", provenance.config}};
+}
+
+ReportProvenance ProvenanceFromJson(const Json& json, const std::string& path) {
+  ReportProvenance provenance;
+  provenance.policy = ValueOf<std::string>(json, "policy", path);
+  provenance.policy_sha256 = ValueOf<std::string>(json, "policy_sha256", path);
+  provenance.dataset_sha256 = ValueOf<std::string>(json, "dataset_sha256", path);
+  provenance.code_version = ValueOf<std::string>(json, "code_version", path);
+  provenance.command = ValueOf<std::string>(json, "command", path);
+  provenance.config = MemberOf(json, "config", path);
+  return provenance;
+}
+
+template <class T, class Codec>
+Json ArrayToJson(const std::vector<T>& values, const Codec& to_json) {
+  Json json = Json::array();
+  for (const T& value : values) json.push_back(to_json(value));
+  return json;
+}
+
+template <class Codec>
+auto ArrayFromJson(const Json& json, const std::string& path, const Codec& from_json) {
+  if (!json.is_array()) throw Error(ErrorCode::kFormat, path + ": expected an array");
+  std::vector<decltype(from_json(json, path))> values;
+  for (std::size_t i = 0; i < json.size(); ++i)
+    values.push_back(from_json(json[i], path + "[" + std::to_string(i) + "]"));
+  return values;
+}
+
+}  // namespace
+
+std::vector<std::string> SeenDoors(std::span<const ReportDoor> doors,
+                                   std::span<const ReportDoor> training_doors) {
+  std::set<std::string> bodies;
+  std::set<std::string> handles;
+  for (const ReportDoor& door : training_doors) {
+    bodies.insert(door.body_id);
+    handles.insert(door.handle_id);
+  }
+  std::vector<std::string> seen;
+  for (const ReportDoor& door : doors) {
+    if (bodies.contains(door.body_id) || handles.contains(door.handle_id)) seen.push_back(door.id);
+  }
+  return seen;
+}
+
+Json ReportToJson(const EvaluationReport& report) {
+  Json json{{"schema", "doorforge.report"}, {"schema_version", kReportSchemaVersion}};
+  AddSuccess(report.episodes, json);
+  if (!report.reference.empty()) {
+    json["expert"] = Json::object();
+    AddSuccess(report.reference, json["expert"]);
+  }
+  json["provenance"] = ProvenanceToJson(report.provenance);
+  json["doors"] = ArrayToJson(report.doors, DoorToJson);
+  json["training_doors"] = ArrayToJson(report.training_doors, DoorToJson);
+  json["losses"] = ArrayToJson(report.losses, LossToJson);
+  json["episodes"] = ArrayToJson(report.episodes, EvaluatedEpisodeToJson);
+  json["expert_episodes"] = ArrayToJson(report.reference, EvaluatedEpisodeToJson);
+  return json;
+}
+
+EvaluationReport ReportFromJson(const Json& json, const std::string& path) {
+  RequireSchema(json, "doorforge.report", kReportSchemaVersion, path);
+  const auto read = [&](const char* key, const auto& from_json) {
+    return ArrayFromJson(MemberOf(json, key, path), path + "." + key, from_json);
+  };
+  EvaluationReport report;
+  report.provenance = ProvenanceFromJson(MemberOf(json, "provenance", path), path + ".provenance");
+  report.doors = read("doors", DoorFromJson);
+  report.training_doors = read("training_doors", DoorFromJson);
+  report.losses = read("losses", LossFromJson);
+  report.episodes = read("episodes", EvaluatedEpisodeFromJson);
+  report.reference = read("expert_episodes", EvaluatedEpisodeFromJson);
+  return report;
+}
+
+}  // namespace doorforge

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "family.h"
+
+#include <array>
+#include <optional>
+
+#include "doorforge/core/closed_mesh.h"
+#include "doorforge/core/error.h"
+#include "doorforge/core/nearest_name.h"
+
+#include "finish.h"
+#include "placed_mesh.h"
+
+namespace doorforge::internal {
+
+const Family& FamilyNamed(std::string_view name, const std::string& path) {
+  std::vector<std::string> known;
+  for (const auto& families : {InteriorBodyFamilies(), StorageBodyFamilies(), LeverFamilies(),
+                               KnobFamilies(), PullFamilies()}) {
+    for (const Family& family : families) {
+      if (family.name == name) return family;
+      known.emplace_back(family.name);
+    }
+  }
+  throw Error(ErrorCode::kInvalidConfig, path + ".family: unknown family \"" + std::string(name) +
+                                             "\"; did you mean \"" + NearestName(name, known) +
+                                             "\"?");
+}
+
+void RequireRange(const std::string& path, const char* name, double value, double low,
+                  double high) {
+  if (value >= low && value <= high) return;
+  const auto text = [](double number) { return nlohmann::json(number).dump(); };
+  throw Error(ErrorCode::kInvalidConfig, path + "." + name + ": found " + text(value) +
+                                             ", allowed " + text(low) + " to " + text(high));
+}
+
+PartPiece MakePiece(const std::string& name, const Solid& solid, const std::string& finish_name,
+                    const std::string& path) {
+  const Finish& finish = FinishNamed(finish_name, path);
+  PartPiece piece;
+  piece.name = name;
+  // as the canonical files hold them, so that a part read back equals the part in memory
+  piece.mesh = RoundedToFloat(solid.mesh);
+  for (const TriangleMesh& hull : solid.hulls) piece.hulls.push_back(RoundedToFloat(hull));
+  const std::optional<ClosedMesh> closed = ClosedMesh::From(piece.mesh);
+  Require(closed.has_value(), ErrorCode::kInvalidArgument, path + ": the mesh is not closed");
+  piece.color_rgba << finish.color_rgb, 1.0;
+  piece.mass = MassPropertiesOf(*closed, finish.density_kg_m3);
+  return piece;
+}
+
+}  // namespace doorforge::internal

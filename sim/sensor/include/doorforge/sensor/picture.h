@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "doorforge/sensor/depth_camera.h"
+
+namespace doorforge {
+
+/// An sRGB picture, 8 bits a channel.
+struct Picture {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgb;  ///< Height x width x 3, row by row from the top left.
+};
+
+/// PNG files as bytes. Nothing but pixels is written, so equal pictures give equal bytes.
+/// Throws Error(kInvalidArgument) on an empty picture.
+std::string EncodePng(const Picture& picture);
+
+/// 16-bit grey PNG of the depth in millimetres, rounded; 0 where nothing is seen or beyond 65.535
+/// m.
+std::string EncodeDepthPng(const DepthImage& image);
+
+/// EncodePng() or EncodeDepthPng() committed to a file (see core/committed_file.h).
+void WritePng(const std::filesystem::path& path, const Picture& picture);
+void WriteDepthPng(const std::filesystem::path& path, const DepthImage& image);
+
+/// Depth as colours, near yellow to far violet (viridis) between the nearest and the farthest
+/// pixel seen, at most `max_depth_m`; what is beyond or not seen is light grey.
+Picture DepthPreview(const DepthImage& image, double max_depth_m = 2.5);
+
+/// Pictures side by side, row by row, each scaled to fit a tile of the given size and centred on
+/// white, with its caption (ASCII) below; `captions` is empty or as long as `pictures`.
+struct ContactSheetConfig {
+  int columns = 4;
+  int tile_width = 320;
+  int tile_height = 240;
+};
+Picture ContactSheet(std::span<const Picture> pictures, std::span<const std::string> captions,
+                     const ContactSheetConfig& config = {});
+
+}  // namespace doorforge

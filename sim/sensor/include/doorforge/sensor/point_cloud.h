@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "doorforge/schemas/camera_model.h"
+#include "doorforge/schemas/cloud.h"
+#include "doorforge/sensor/depth_camera.h"
+
+namespace doorforge {
+
+/// What of a depth image becomes the policy's cloud (UniDoorManip, reference code).
+struct CloudConfig {
+  double max_depth_m = 2.5;   ///< Points at this depth or farther are dropped.
+  double min_height_m = 0.1;  ///< Points at this world z or lower are dropped.
+  int point_count = 4096;     ///< In [1, 1000000].
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    visit("max_depth_m", self.max_depth_m);
+    visit("min_height_m", self.min_height_m);
+    visit("point_count", self.point_count);
+  }
+};
+
+/// Every pixel of `image` inside the crop as a point in the world, in pixel order.
+///
+/// @param image Rendered with this very `camera`.
+/// @throws Error(kInvalidArgument) if the sizes of image and camera differ.
+LabelledCloud CropCloud(const DepthImage& image, const CameraModel& camera,
+                        const CloudConfig& config = {});
+
+struct SampledCloud {
+  /// Exactly `point_count` points, or none at all if nothing is visible inside the crop.
+  LabelledCloud cloud;
+  int visible_count = 0;  ///< Points inside the crop before sampling.
+};
+
+/// Farthest point sampling of a cropped cloud.
+///
+/// Point 0 is the visible point nearest to `start_m` (lowest index among equals). The reference
+/// code starts with the first pixel instead; but its networks read the feature of point 0 to
+/// decide about the grasp, so that point should be where the gripper is.
+///
+/// With fewer visible points than `point_count` all of them are taken, and the sequence is repeated
+/// from its start until the cloud is full.
+///
+/// @param start_m World position, in general the gripper's.
+/// @throws Error(kInvalidArgument) if point_count is out of range or start_m is not finite.
+SampledCloud SampleCloud(const LabelledCloud& visible, const Eigen::Vector3d& start_m,
+                         int point_count);
+
+/// CropCloud() and SampleCloud() in one.
+SampledCloud ObserveCloud(const DepthImage& image, const CameraModel& camera,
+                          const Eigen::Vector3d& start_m, const CloudConfig& config = {});
+
+}  // namespace doorforge

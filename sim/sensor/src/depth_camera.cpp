@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/sensor/depth_camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "doorforge/core/error.h"
+
+#include "embree_scene.h"
+#include "pixel_rays.h"
+
+namespace doorforge {
+namespace {
+
+constexpr int kTile = 4;   // pixels a side of a packet
+constexpr int kRays = 16;  // rays of a packet
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+bool SameCamera(const CameraModel& a, const CameraModel& b) {
+  return a.position_m == b.position_m && a.target_m == b.target_m && a.up == b.up &&
+         a.width == b.width && a.height == b.height && a.horizontal_fov_rad == b.horizontal_fov_rad;
+}
+
+// Directions of a packet's rays, and which of them lie in the image.
+struct TileRays {
+  alignas(64) float x[kRays];
+  alignas(64) float y[kRays];
+  alignas(64) float z[kRays];
+  alignas(64) int valid[kRays];
+};
+
+TileRays MakeTile(const PixelRays& rays, const CameraModel& camera, int left, int top) {
+  TileRays tile{};
+  for (int lane = 0; lane < kRays; ++lane) {
+    const int column = left + lane % kTile;
+    const int row = top + lane / kTile;
+    const Eigen::Vector3f direction = rays.Direction(column + 0.5, row + 0.5);
+    tile.x[lane] = direction.x();
+    tile.y[lane] = direction.y();
+    tile.z[lane] = direction.z();
+    tile.valid[lane] = column < camera.width && row < camera.height ? -1 : 0;
+  }
+  return tile;
+}
+
+// A mesh as the camera sees it: what turns a triangle's plane into a depth.
+struct MeshView {
+  Eigen::Matrix3d world_from_mesh;
+  Eigen::Vector3d origin_in_mesh;  // of the camera
+  std::int16_t link;
+  std::uint8_t label;
+};
+
+std::vector<MeshView> ViewsOf(const SceneGeometry::Runtime& scene, const Eigen::Vector3d& origin) {
+  std::vector<MeshView> views;
+  for (std::size_t i = 0; i < scene.meshes().size(); ++i) {
+    const RigidTransform& pose = scene.world_from_mesh()[i];
+    views.push_back({pose.linear(), pose.inverse() * origin,
+                     static_cast<std::int16_t>(scene.meshes()[i].link),
+                     static_cast<std::uint8_t>(scene.meshes()[i].label)});
+  }
+  return views;
+}
+
+// Ray parameter at the triangle's plane. `traced` is Embree's own; it stands where the ray runs
+// almost within the plane, or the triangle has no area.
+float DepthAt(const TrianglePlane& plane, const MeshView& view, const Eigen::Vector3d& direction,
+              float traced) {
+  const double slope = (view.world_from_mesh * plane.normal).dot(direction);
+  const double depth = (plane.offset - plane.normal.dot(view.origin_in_mesh)) / slope;
+  const bool plausible = std::fabs(depth - traced) <= 1e-4 * traced;
+  return plausible ? static_cast<float>(depth) : traced;
+}
+
+class TileRenderer {
+ public:
+  TileRenderer(const SceneGeometry::Runtime& scene, const Eigen::Vector3d& origin,
+               DepthImage& image)
+      : scene_(scene), views_(ViewsOf(scene, origin)), image_(image) {
+    rtcInitIntersectContext(&context_);
+    context_.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    for (int lane = 0; lane < kRays; ++lane) {
+      packet_.ray.org_x[lane] = static_cast<float>(origin.x());
+      packet_.ray.org_y[lane] = static_cast<float>(origin.y());
+      packet_.ray.org_z[lane] = static_cast<float>(origin.z());
+      packet_.ray.tnear[lane] = 0;
+      packet_.ray.time[lane] = 0;
+      packet_.ray.mask[lane] = 0xFFFFFFFFU;  // Debian's Embree tests masks; 0 would see nothing
+      packet_.ray.id[lane] = 0;
+      packet_.ray.flags[lane] = 0;
+    }
+  }
+
+  void Render(const TileRays& tile, int left, int top) {
+    std::copy_n(tile.x, kRays, packet_.ray.dir_x);
+    std::copy_n(tile.y, kRays, packet_.ray.dir_y);
+    std::copy_n(tile.z, kRays, packet_.ray.dir_z);
+    std::fill_n(packet_.ray.tfar, kRays, kInfinity);
+    std::fill_n(packet_.hit.geomID, kRays, RTC_INVALID_GEOMETRY_ID);
+    std::fill_n(packet_.hit.instID[0], kRays, RTC_INVALID_GEOMETRY_ID);
+    rtcIntersect16(tile.valid, scene_.top(), &context_, &packet_);
+    for (int lane = 0; lane < kRays; ++lane) {
+      if (packet_.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) continue;
+      const int pixel = (top + lane / kTile) * image_.width + left + lane % kTile;
+      Store(lane, static_cast<std::size_t>(pixel));
+    }
+  }
+
+ private:
+  void Store(int lane, std::size_t pixel) {
+    const std::size_t mesh = packet_.hit.instID[0][lane];
+    const MeshView& view = views_[mesh];
+    const Eigen::Vector3d direction(packet_.ray.dir_x[lane], packet_.ray.dir_y[lane],
+                                    packet_.ray.dir_z[lane]);
+    image_.depth_m[pixel] = DepthAt(scene_.PlaneOf(mesh, packet_.hit.primID[lane]), view, direction,
+                                    packet_.ray.tfar[lane]);
+    image_.link[pixel] = view.link;
+    image_.label[pixel] = view.label;
+  }
+
+  const SceneGeometry::Runtime& scene_;
+  std::vector<MeshView> views_;
+  DepthImage& image_;
+  RTCIntersectContext context_{};
+  RTCRayHit16 packet_{};
+};
+
+DepthImage EmptyImage(const CameraModel& camera) {
+  DepthImage image;
+  image.width = camera.width;
+  image.height = camera.height;
+  const std::size_t count =
+      static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
+  image.depth_m.assign(count, kInfinity);
+  image.link.assign(count, -1);
+  image.label.assign(count, static_cast<std::uint8_t>(PointLabel::kOther));
+  return image;
+}
+
+}  // namespace
+
+struct DepthCamera::RayTable {
+  std::optional<CameraModel> camera;
+  std::vector<TileRays> tiles;  // row by row
+
+  void Prepare(const CameraModel& wanted) {
+    if (camera && SameCamera(*camera, wanted)) return;
+    const PixelRays rays(wanted);
+    tiles.clear();
+    for (int top = 0; top < wanted.height; top += kTile) {
+      for (int left = 0; left < wanted.width; left += kTile)
+        tiles.push_back(MakeTile(rays, wanted, left, top));
+    }
+    camera = wanted;
+  }
+};
+
+DepthCamera::DepthCamera(std::vector<VisibleMesh> meshes, RayIsa isa)
+    : scene_(std::move(meshes), isa), rays_(std::make_unique<RayTable>()) {}
+DepthCamera::~DepthCamera() = default;
+DepthCamera::DepthCamera(DepthCamera&&) noexcept = default;
+DepthCamera& DepthCamera::operator=(DepthCamera&&) noexcept = default;
+
+DepthImage DepthCamera::Render(const CameraModel& camera,
+                               std::span<const RigidTransform> world_from_link) {
+  const bool valid =
+      camera.width > 0 && camera.height > 0 && camera.width <= 8192 && camera.height <= 8192;
+  Require(valid, ErrorCode::kInvalidArgument, "depth camera: image size out of 1..8192 pixels");
+  const double handedness = WorldFromCamera(camera).linear().determinant();
+  Require(std::fabs(handedness - 1) < 1e-6 && IntrinsicMatrix(camera).allFinite(),
+          ErrorCode::kInvalidArgument,
+          "depth camera: position, target, up and field of view give no pose");
+  rays_->Prepare(camera);
+  DepthImage image = EmptyImage(camera);
+  const DenormalsAreZero denormals_are_zero;
+  scene_.MoveLinks(world_from_link);
+  TileRenderer renderer(scene_.runtime(), PixelRays(camera).origin(), image);
+  std::size_t next = 0;
+  for (int top = 0; top < camera.height; top += kTile) {
+    for (int left = 0; left < camera.width; left += kTile)
+      renderer.Render(rays_->tiles[next++], left, top);
+  }
+  return image;
+}
+
+}  // namespace doorforge

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/sensor/picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/error.h"
+
+#include "picture_mat.h"
+
+namespace doorforge {
+namespace {
+
+constexpr int kCaptionHeight = 26;
+constexpr int kGap = 10;
+
+std::string Encode(const cv::Mat& mat) {
+  // fixed compression settings: equal pixels give equal bytes
+  const std::vector<int> settings = {cv::IMWRITE_PNG_COMPRESSION, 6, cv::IMWRITE_PNG_STRATEGY,
+                                     cv::IMWRITE_PNG_STRATEGY_FILTERED};
+  std::vector<std::uint8_t> bytes;
+  if (!cv::imencode(".png", mat, bytes, settings))
+    throw Error(ErrorCode::kIo, "picture: cannot be encoded as PNG");
+  return {bytes.begin(), bytes.end()};
+}
+
+// Nearest and farthest depth seen up to `limit`.
+std::pair<float, float> DepthRange(const DepthImage& image, float limit) {
+  float near = limit;
+  float far = 0;
+  for (const float depth : image.depth_m) {
+    if (depth >= limit) continue;
+    near = std::min(near, depth);
+    far = std::max(far, depth);
+  }
+  return {near, far};
+}
+
+// The picture scaled to fit the tile, centred on white.
+cv::Mat FitInto(const Picture& picture, const cv::Size& tile) {
+  const double scale = std::min(static_cast<double>(tile.width) / picture.width,
+                                static_cast<double>(tile.height) / picture.height);
+  const cv::Size size(
+      std::clamp(static_cast<int>(std::lround(picture.width * scale)), 1, tile.width),
+      std::clamp(static_cast<int>(std::lround(picture.height * scale)), 1, tile.height));
+  cv::Mat scaled;
+  cv::resize(ToMat(picture), scaled, size, 0, 0, scale < 1 ? cv::INTER_AREA : cv::INTER_CUBIC);
+  cv::Mat result(tile, CV_8UC3, cv::Scalar(255, 255, 255));
+  const cv::Rect place((tile.width - size.width) / 2, (tile.height - size.height) / 2, size.width,
+                       size.height);
+  scaled.copyTo(result(place));
+  return result;
+}
+
+void DrawCaption(cv::Mat& sheet, const std::string& caption, const cv::Rect& box) {
+  constexpr double kScale = 0.45;
+  std::string text = caption;
+  cv::Size size = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kScale, 1, nullptr);
+  while (size.width > box.width && text.size() > 3) {
+    text = text.substr(0, text.size() - 4) + "...";
+    size = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kScale, 1, nullptr);
+  }
+  const cv::Point origin(box.x + (box.width - size.width) / 2, box.y + (box.height + 10) / 2);
+  cv::putText(sheet, text, origin, cv::FONT_HERSHEY_SIMPLEX, kScale, cv::Scalar(60, 60, 60), 1,
+              cv::LINE_AA);
+}
+
+}  // namespace
+
+cv::Mat ToMat(const Picture& picture) {
+  const std::size_t count =
+      3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
+  const bool valid = picture.width > 0 && picture.height > 0 && picture.rgb.size() == count;
+  Require(valid, ErrorCode::kInvalidArgument, "picture: empty, or its size and pixels disagree");
+  const cv::Mat rgb(picture.height, picture.width, CV_8UC3,
+                    const_cast<std::uint8_t*>(picture.rgb.data()));  // only read from
+  cv::Mat bgr;
+  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
+  return bgr;
+}
+
+Picture FromMat(const cv::Mat& bgr) {
+  Picture picture{bgr.cols, bgr.rows, {}};
+  picture.rgb.resize(3 * bgr.total());
+  cv::Mat rgb(bgr.rows, bgr.cols, CV_8UC3, picture.rgb.data());
+  cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
+  return picture;
+}
+
+std::string EncodePng(const Picture& picture) { return Encode(ToMat(picture)); }
+
+std::string EncodeDepthPng(const DepthImage& image) {
+  Require(image.width > 0 && image.height > 0, ErrorCode::kInvalidArgument,
+          "depth picture: the image is empty");
+  cv::Mat millimetres(image.height, image.width, CV_16UC1, cv::Scalar(0));
+  auto* pixels = millimetres.ptr<std::uint16_t>();
+  for (std::size_t i = 0; i < image.depth_m.size(); ++i) {
+    const double rounded = std::round(1000.0 * image.depth_m[i]);
+    if (rounded <= std::numeric_limits<std::uint16_t>::max())
+      pixels[i] = static_cast<std::uint16_t>(rounded);
+  }
+  return Encode(millimetres);
+}
+
+void WritePng(const std::filesystem::path& path, const Picture& picture) {
+  CommitFile(path, EncodePng(picture));
+}
+
+void WriteDepthPng(const std::filesystem::path& path, const DepthImage& image) {
+  CommitFile(path, EncodeDepthPng(image));
+}
+
+Picture DepthPreview(const DepthImage& image, double max_depth_m) {
+  const auto [near, far] = DepthRange(image, static_cast<float>(max_depth_m));
+  const float range = std::max(far - near, 1e-6F);
+  cv::Mat grey(image.height, image.width, CV_8UC1, cv::Scalar(0));
+  cv::Mat unseen(image.height, image.width, CV_8UC1, cv::Scalar(255));
+  for (std::size_t i = 0; i < image.depth_m.size(); ++i) {
+    if (image.depth_m[i] > far) continue;
+    const float nearness = 1 - (image.depth_m[i] - near) / range;
+    grey.ptr<std::uint8_t>()[i] = static_cast<std::uint8_t>(std::lround(255 * nearness));
+    unseen.ptr<std::uint8_t>()[i] = 0;
+  }
+  cv::Mat colors;
+  cv::applyColorMap(grey, colors, cv::COLORMAP_VIRIDIS);
+  colors.setTo(cv::Scalar(232, 232, 232), unseen);
+  return FromMat(colors);
+}
+
+Picture ContactSheet(std::span<const Picture> pictures, std::span<const std::string> captions,
+                     const ContactSheetConfig& config) {
+  const bool valid = !pictures.empty() && config.columns > 0 && config.tile_width > 0 &&
+                     config.tile_height > 0 &&
+                     (captions.empty() || captions.size() == pictures.size());
+  Require(valid, ErrorCode::kInvalidArgument,
+          "contact sheet: needs pictures, one caption each or none, and a tile size");
+  const int count = static_cast<int>(pictures.size());
+  const int columns = std::min(config.columns, count);
+  const int rows = (count + columns - 1) / columns;
+  const int step_x = config.tile_width + kGap;
+  const int step_y = config.tile_height + kGap + (captions.empty() ? 0 : kCaptionHeight);
+  cv::Mat sheet(rows * step_y + kGap, columns * step_x + kGap, CV_8UC3, cv::Scalar(255, 255, 255));
+  for (int i = 0; i < count; ++i) {
+    const cv::Rect tile(kGap + i % columns * step_x, kGap + i / columns * step_y, config.tile_width,
+                        config.tile_height);
+    FitInto(pictures[static_cast<std::size_t>(i)], tile.size()).copyTo(sheet(tile));
+    if (captions.empty()) continue;
+    DrawCaption(sheet, captions[static_cast<std::size_t>(i)],
+                cv::Rect(tile.x, tile.y + tile.height, tile.width, kCaptionHeight));
+  }
+  return FromMat(sheet);
+}
+
+}  // namespace doorforge

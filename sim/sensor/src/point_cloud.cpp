@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/sensor/point_cloud.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "doorforge/core/error.h"
+#include "doorforge/sensor/farthest_point_sampling.h"
+
+#include "pixel_rays.h"
+
+namespace doorforge {
+namespace {
+
+int NearestPoint(const std::vector<float>& xyz, const Eigen::Vector3d& target) {
+  int nearest = 0;
+  double nearest_squared = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i * 3 < xyz.size(); ++i) {
+    const Eigen::Vector3d point(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
+    const double squared = (point - target).squaredNorm();
+    if (squared >= nearest_squared) continue;
+    nearest_squared = squared;
+    nearest = static_cast<int>(i);
+  }
+  return nearest;
+}
+
+void AppendPoint(const LabelledCloud& from, std::size_t index, LabelledCloud& to) {
+  to.xyz.insert(to.xyz.end(), from.xyz.begin() + static_cast<std::ptrdiff_t>(3 * index),
+                from.xyz.begin() + static_cast<std::ptrdiff_t>(3 * index + 3));
+  to.label.push_back(from.label[index]);
+}
+
+}  // namespace
+
+LabelledCloud CropCloud(const DepthImage& image, const CameraModel& camera,
+                        const CloudConfig& config) {
+  Require(image.width == camera.width && image.height == camera.height, ErrorCode::kInvalidArgument,
+          "point cloud: image and camera differ in size");
+  const PixelRays rays(camera);
+  LabelledCloud cloud;
+  for (int row = 0; row < image.height; ++row) {
+    for (int column = 0; column < image.width; ++column) {
+      const std::size_t pixel = static_cast<std::size_t>(row * image.width + column);
+      const double depth = image.depth_m[pixel];
+      if (depth >= config.max_depth_m) continue;
+      const Eigen::Vector3d direction = rays.Direction(column + 0.5, row + 0.5).cast<double>();
+      const Eigen::Vector3d point = rays.origin() + depth * direction;
+      if (point.z() <= config.min_height_m) continue;
+      for (const double coordinate : point) cloud.xyz.push_back(static_cast<float>(coordinate));
+      cloud.label.push_back(image.label[pixel]);
+    }
+  }
+  return cloud;
+}
+
+SampledCloud SampleCloud(const LabelledCloud& visible, const Eigen::Vector3d& start_m,
+                         int point_count) {
+  Require(point_count >= 1 && point_count <= 1000000, ErrorCode::kInvalidArgument,
+          "point cloud: point_count out of 1..1000000");
+  Require(start_m.allFinite(), ErrorCode::kInvalidArgument,
+          "point cloud: the start position is not finite");
+  SampledCloud result;
+  result.visible_count = static_cast<int>(visible.label.size());
+  if (result.visible_count == 0) return result;
+  const std::vector<std::int32_t> order = FarthestPoints(
+      visible.xyz, std::min(point_count, result.visible_count), NearestPoint(visible.xyz, start_m));
+  const std::size_t count = static_cast<std::size_t>(point_count);
+  result.cloud.xyz.reserve(3 * count);
+  result.cloud.label.reserve(count);
+  for (std::size_t i = 0; i < count; ++i)
+    AppendPoint(visible, static_cast<std::size_t>(order[i % order.size()]), result.cloud);
+  return result;
+}
+
+SampledCloud ObserveCloud(const DepthImage& image, const CameraModel& camera,
+                          const Eigen::Vector3d& start_m, const CloudConfig& config) {
+  return SampleCloud(CropCloud(image, camera, config), start_m, config.point_count);
+}
+
+}  // namespace doorforge

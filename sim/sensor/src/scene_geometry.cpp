@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/sensor/scene_geometry.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+#include <immintrin.h>
+
+#include "doorforge/core/error.h"
+
+#include "embree_scene.h"
+
+namespace doorforge {
+namespace {
+
+constexpr std::size_t kMostMeshes = 32767;
+
+void CheckMesh(const VisibleMesh& visible, std::size_t index) {
+  const std::string where = "visible mesh " + std::to_string(index);
+  Require(visible.link >= 0, ErrorCode::kInvalidArgument, where + ": negative link");
+  const int count = static_cast<int>(visible.mesh.vertices.size());
+  for (const Eigen::Vector3d& vertex : visible.mesh.vertices)
+    Require(vertex.allFinite(), ErrorCode::kInvalidArgument, where + ": vertex is not finite");
+  for (const Eigen::Vector3i& triangle : visible.mesh.triangles) {
+    const bool inside = triangle.minCoeff() >= 0 && triangle.maxCoeff() < count;
+    Require(inside, ErrorCode::kInvalidArgument, where + ": triangle index out of range");
+  }
+}
+
+std::vector<TrianglePlane> PlanesOf(const TriangleMesh& mesh) {
+  std::vector<TrianglePlane> planes;
+  planes.reserve(mesh.triangles.size());
+  for (const Eigen::Vector3i& triangle : mesh.triangles) {
+    const Eigen::Vector3d& a = mesh.vertices[static_cast<std::size_t>(triangle[0])];
+    const Eigen::Vector3d& b = mesh.vertices[static_cast<std::size_t>(triangle[1])];
+    const Eigen::Vector3d& c = mesh.vertices[static_cast<std::size_t>(triangle[2])];
+    const Eigen::Vector3d normal = (b - a).cross(c - a).normalized();
+    planes.push_back({normal, normal.dot(a)});
+  }
+  return planes;
+}
+
+// One mesh as an Embree scene of its own, to be instanced.
+RTCScene BuildTree(RTCDevice device, const TriangleMesh& mesh) {
+  RTCScene scene = rtcNewScene(device);
+  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);  // no rays slip through between triangles
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                               RTC_FORMAT_FLOAT3, 3 * sizeof(float),
+                                                               mesh.vertices.size()));
+  for (const Eigen::Vector3d& vertex : mesh.vertices) {
+    for (const double coordinate : vertex) *vertices++ = static_cast<float>(coordinate);
+  }
+  auto* indices = static_cast<unsigned*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                              3 * sizeof(unsigned), mesh.triangles.size()));
+  for (const Eigen::Vector3i& triangle : mesh.triangles) {
+    for (const int index : triangle) *indices++ = static_cast<unsigned>(index);
+  }
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(scene);
+  return scene;
+}
+
+void SetPose(RTCGeometry instance, const RigidTransform& pose) {
+  std::array<float, 12> columns{};
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 3; ++row)
+      columns[static_cast<std::size_t>(3 * column + row)] =
+          static_cast<float>(pose.matrix()(row, column));
+  }
+  rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
+  rtcCommitGeometry(instance);
+}
+
+}  // namespace
+
+bool IsSupported(RayIsa isa) {
+  switch (isa) {
+    case RayIsa::kSse42:
+      return __builtin_cpu_supports("sse4.2") != 0;
+    case RayIsa::kAvx2:
+      return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
+    case RayIsa::kAvx512:
+      return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512bw") != 0 &&
+             __builtin_cpu_supports("avx512dq") != 0 && __builtin_cpu_supports("avx512cd") != 0 &&
+             __builtin_cpu_supports("avx512vl") != 0;
+  }
+  return false;
+}
+
+RayIsa DefaultRayIsa() { return IsSupported(RayIsa::kAvx2) ? RayIsa::kAvx2 : RayIsa::kSse42; }
+
+std::string_view NameOf(RayIsa isa) {
+  constexpr std::array<std::string_view, 3> kNames = {"sse4.2", "avx2", "avx512"};
+  return kNames.at(static_cast<std::size_t>(isa));
+}
+
+DenormalsAreZero::DenormalsAreZero() : saved_(_mm_getcsr()) {
+  constexpr unsigned kFlushToZero = 0x8000;
+  constexpr unsigned kInputsAreZero = 0x0040;
+  _mm_setcsr(saved_ | kFlushToZero | kInputsAreZero);
+}
+
+DenormalsAreZero::~DenormalsAreZero() { _mm_setcsr(saved_); }
+
+SceneGeometry::Runtime::Runtime(std::vector<VisibleMesh> meshes, RayIsa isa)
+    : meshes_(std::move(meshes)),
+      world_from_mesh_(meshes_.size(), RigidTransform::Identity()),
+      instances_(meshes_.size(), nullptr),
+      isa_(isa) {
+  Require(meshes_.size() <= kMostMeshes, ErrorCode::kInvalidArgument,
+          "scene geometry: " + std::to_string(meshes_.size()) + " meshes, allowed 32767");
+  Require(IsSupported(isa), ErrorCode::kInvalidArgument,
+          "scene geometry: this processor does not have " + std::string(NameOf(isa)));
+  for (std::size_t i = 0; i < meshes_.size(); ++i) CheckMesh(meshes_[i], i);
+
+  const std::string settings = "threads=1,set_affinity=0,isa=" + std::string(NameOf(isa));
+  device_ = rtcNewDevice(settings.c_str());
+  if (device_ == nullptr) throw Error(ErrorCode::kIo, "scene geometry: Embree does not start");
+  top_ = rtcNewScene(device_);
+  rtcSetSceneFlags(top_, RTC_SCENE_FLAG_DYNAMIC);
+  for (unsigned i = 0; i < meshes_.size(); ++i) AddMesh(i);
+  rtcCommitScene(top_);
+  ThrowOnDeviceError();
+}
+
+SceneGeometry::Runtime::~Runtime() {
+  rtcReleaseScene(top_);
+  rtcReleaseDevice(device_);
+}
+
+void SceneGeometry::Runtime::AddMesh(unsigned index) {
+  const VisibleMesh& visible = meshes_[index];
+  link_count_ = std::max(link_count_, visible.link + 1);
+  planes_.push_back(PlanesOf(visible.mesh));
+  if (visible.mesh.triangles.empty()) return;
+  RTCScene tree = BuildTree(device_, visible.mesh);
+  RTCGeometry instance = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(instance, tree);
+  rtcSetGeometryTimeStepCount(instance, 1);
+  SetPose(instance, world_from_mesh_[index]);
+  rtcAttachGeometryByID(top_, instance, index);
+  instances_[index] = instance;
+  // the top scene keeps both alive
+  rtcReleaseGeometry(instance);
+  rtcReleaseScene(tree);
+}
+
+void SceneGeometry::Runtime::MoveLinks(std::span<const RigidTransform> world_from_link) {
+  Require(std::cmp_greater_equal(world_from_link.size(), link_count_), ErrorCode::kInvalidArgument,
+          "scene geometry: " + std::to_string(world_from_link.size()) + " poses for " +
+              std::to_string(link_count_) + " links");
+  for (const RigidTransform& pose : world_from_link)
+    Require(pose.matrix().allFinite(), ErrorCode::kInvalidArgument,
+            "scene geometry: a link's pose is not finite");
+  for (std::size_t i = 0; i < meshes_.size(); ++i) {
+    world_from_mesh_[i] = world_from_link[static_cast<std::size_t>(meshes_[i].link)];
+    if (instances_[i] != nullptr) SetPose(instances_[i], world_from_mesh_[i]);
+  }
+  rtcCommitScene(top_);
+  ThrowOnDeviceError();
+}
+
+void SceneGeometry::Runtime::ThrowOnDeviceError() const {
+  const RTCError error = rtcGetDeviceError(device_);
+  if (error != RTC_ERROR_NONE)
+    throw Error(ErrorCode::kIo, "scene geometry: Embree error " + std::to_string(error));
+}
+
+SceneGeometry::SceneGeometry(std::vector<VisibleMesh> meshes, RayIsa isa)
+    : runtime_(std::make_unique<Runtime>(std::move(meshes), isa)) {}
+SceneGeometry::~SceneGeometry() = default;
+SceneGeometry::SceneGeometry(SceneGeometry&&) noexcept = default;
+SceneGeometry& SceneGeometry::operator=(SceneGeometry&&) noexcept = default;
+
+void SceneGeometry::MoveLinks(std::span<const RigidTransform> world_from_link) {
+  runtime_->MoveLinks(world_from_link);
+}
+const std::vector<VisibleMesh>& SceneGeometry::meshes() const { return runtime_->meshes(); }
+const RigidTransform& SceneGeometry::world_from_mesh(std::size_t mesh) const {
+  return runtime_->world_from_mesh()[mesh];
+}
+int SceneGeometry::link_count() const { return runtime_->link_count(); }
+RayIsa SceneGeometry::isa() const { return runtime_->isa(); }
+
+}  // namespace doorforge

@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/sensor/picture.h"
+
+#include <array>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "doorforge/core/error.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+
+Picture Gradient(int width, int height) {
+  Picture picture{width, height, {}};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      picture.rgb.push_back(static_cast<std::uint8_t>(x));
+      picture.rgb.push_back(static_cast<std::uint8_t>(y));
+      picture.rgb.push_back(200);
+    }
+  }
+  return picture;
+}
+
+// Size, bit depth, colour type and the first pixels' samples of a PNG, read by an independent
+// decoder: Python's zlib and the filters of the PNG specification.
+std::string DecodeWithPython(const fs::path& path) {
+  const fs::path script = path.string() + ".py";
+  std::ofstream(script) << R"(
+import struct, sys, zlib
+data = open(sys.argv[1], 'rb').read()
+at, packed = 8, b''
+while at < len(data):
+    size, kind = struct.unpack('>I4s', data[at:at + 8])
+    body = data[at + 8:at + 8 + size]
+    assert struct.unpack('>I', data[at + 8 + size:at + 12 + size])[0] == zlib.crc32(kind + body)
+    if kind == b'IHDR': w, h, depth, color = struct.unpack('>IIBB', body[:10])
+    if kind == b'IDAT': packed += body
+    at += 12 + size
+bpp = depth // 8 * {0: 1, 2: 3}[color]
+raw, line, out = zlib.decompress(packed), bytearray(w * bpp), []
+for y in range(h):
+    row = bytearray(raw[y * (w * bpp + 1):(y + 1) * (w * bpp + 1)])
+    kind, row = row[0], row[1:]
+    for i in range(len(row)):
+        a = row[i - bpp] if i >= bpp else 0
+        b, c = line[i], line[i - bpp] if i >= bpp else 0
+        p = a + b - c
+        near = min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - c), 2, c))[2]
+        row[i] = (row[i] + [0, a, b, (a + b) // 2, near][kind]) & 255
+    line = row
+    out.append(row)
+text = b''.join(out)
+samples = struct.unpack('>%d%s' % (len(text) // (depth // 8), {8: 'B', 16: 'H'}[depth]), text)
+print(w, h, depth, color, *samples[:12])
+)";
+  const fs::path answer = path.string() + ".txt";
+  const std::string command = "/usr/bin/python3 '" + script.string() + "' '" + path.string() +
+                              "' > '" + answer.string() + "'";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  std::stringstream text;
+  text << std::ifstream(answer).rdbuf();
+  return text.str();
+}
+
+class PictureFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("doorforge_picture_" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  fs::path folder_;
+};
+
+TEST_F(PictureFile, IsAnRgbPngThatOtherProgramsDecode) {
+  WritePng(folder_ / "a.png", Gradient(20, 3));
+  EXPECT_EQ(DecodeWithPython(folder_ / "a.png"), "20 3 8 2 0 0 200 1 0 200 2 0 200 3 0 200\n");
+}
+
+TEST_F(PictureFile, HoldsDepthAsMillimetres) {
+  DepthImage image;
+  image.width = 3;
+  image.height = 2;
+  image.depth_m = {1.0F, 0.0004F, 2.4996F, std::numeric_limits<float>::infinity(), 65.535F, 66.0F};
+  WriteDepthPng(folder_ / "d.png", image);
+  EXPECT_EQ(DecodeWithPython(folder_ / "d.png"), "3 2 16 0 1000 0 2500 0 65535 0\n");
+}
+
+TEST(Picture, GivesTheSameBytesForTheSamePixels) {
+  EXPECT_EQ(EncodePng(Gradient(50, 40)), EncodePng(Gradient(50, 40)));
+}
+
+TEST(Picture, IsRefusedWhereItIsEmpty) {
+  EXPECT_THROW(EncodePng(Picture{}), Error);
+  EXPECT_THROW(EncodePng(Picture{4, 4, std::vector<std::uint8_t>(5)}), Error);
+  EXPECT_THROW(EncodeDepthPng(DepthImage{}), Error);
+}
+
+TEST(DepthPreview, ColorsNearAndFarDifferentlyAndLeavesTheUnseenGrey) {
+  DepthImage image;
+  image.width = 3;
+  image.height = 1;
+  image.depth_m = {0.5F, 2.0F, std::numeric_limits<float>::infinity()};
+  const Picture preview = DepthPreview(image);
+  const auto pixel = [&](std::size_t i) {
+    return std::array<int, 3>{preview.rgb[3 * i], preview.rgb[3 * i + 1], preview.rgb[3 * i + 2]};
+  };
+  EXPECT_GT(pixel(0)[1], 200);  // viridis ends in yellow ...
+  EXPECT_LT(pixel(1)[1], 40);   // ... and in violet
+  EXPECT_EQ(pixel(2), (std::array<int, 3>{232, 232, 232}));
+}
+
+TEST(ContactSheet, PlacesPicturesInRows) {
+  std::vector<Picture> pictures(5, Gradient(40, 30));
+  const std::vector<std::string> captions(5,
+                                          "a door with a name that is far too long for its tile");
+  const Picture sheet =
+      ContactSheet(pictures, captions, {.columns = 3, .tile_width = 80, .tile_height = 60});
+  EXPECT_EQ(sheet.width, 3 * 90 + 10);
+  EXPECT_EQ(sheet.height, 2 * (60 + 10 + 26) + 10);
+  EXPECT_EQ(sheet.rgb[0], 255);
+  EXPECT_THROW(ContactSheet({}, {}), Error);
+  EXPECT_THROW(ContactSheet(pictures, std::vector<std::string>(2, "x")), Error);
+}
+
+}  // namespace
+}  // namespace doorforge

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "doorforge/schemas/episode.h"
+#include "doorforge/schemas/names.h"
+
+// Names for people.
+
+namespace doorforge::internal {
+
+struct OutcomeText {
+  std::string title;    ///< "Grip lost"
+  std::string meaning;  ///< One sentence.
+};
+OutcomeText TextOf(EpisodeOutcome outcome);
+
+std::string TitleOf(Category category);  ///< "Storage furniture"
+
+}  // namespace doorforge::internal

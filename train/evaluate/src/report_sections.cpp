@@ -1,0 +1,378 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "report_sections.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "doorforge/core/hash.h"
+
+#include "html_text.h"
+#include "outcome_text.h"
+#include "report_charts.h"
+
+namespace doorforge::internal {
+namespace {
+
+using Episodes = std::span<const EvaluatedEpisode>;
+
+constexpr std::size_t kMostTrainingPictures = 12;
+
+std::string PolicyName(const EvaluationReport& report) {
+  return IsExpert(report) ? "rule-based expert" : "trained opener";
+}
+
+std::string PictureFigure(const ReportPicture& picture) {
+  if (picture.png.empty()) return {};
+  return Fill(
+      R"(<figure><img src="{uri}" alt="{caption}"/><figcaption>{caption}</figcaption></figure>)",
+      {{"uri", PngUri(picture.png)}, {"caption", Escape(picture.caption)}});
+}
+
+std::string Figure(const std::string& number, const std::string& text, bool first = false) {
+  return Fill(R"(<div class="figure{first}"><b>{number}</b><span>{text}</span></div>)",
+              {{"first", first ? " first" : ""}, {"number", number}, {"text", text}});
+}
+
+std::string SpreadText(const SeedSpread& spread) {
+  if (spread.rates.empty()) return "–";
+  return Fixed(100 * spread.mean, 1) + " ± " + Fixed(100 * std::sqrt(spread.variance), 1) +
+         "\u00a0%";
+}
+
+// one row of the table of success
+std::string SuccessRow(const std::string& name, Episodes episodes, Episodes reference,
+                       bool overall) {
+  const SuccessSummary summary = Summarise(episodes);
+  const SuccessSummary expert = Summarise(reference);
+  return Fill(
+      R"(<tr{class}><td>{name}</td><td>{bar}</td><td class="number">{rate}</td>)"
+      R"(<td class="number soft">{interval}</td><td class="number">{opened} / {episodes}</td>)"
+      R"(<td class="number">{spread}</td><td class="number">{expert}</td></tr>)",
+      {{"class", overall ? R"( class="overall")" : ""},
+       {"name", name},
+       {"bar", RateBar(summary.opened, expert.opened)},
+       {"rate", Percent(summary.opened.rate)},
+       {"interval", IntervalText(summary.opened)},
+       {"opened", std::to_string(summary.opened.successes)},
+       {"episodes", std::to_string(summary.opened.episodes)},
+       {"spread", SpreadText(summary.over_seeds)},
+       {"expert", reference.empty() ? "–" : Percent(expert.opened.rate)}});
+}
+
+std::string AngleRow(const std::string& name, Episodes episodes) {
+  std::string cells;
+  for (const AngleSuccess& angle : Summarise(episodes).over_angle) {
+    cells +=
+        Fill(R"(<td class="number">{rate} <span class="soft">[{interval}]</span></td>)",
+             {{"rate", Percent(angle.success.rate)}, {"interval", IntervalText(angle.success)}});
+  }
+  return "<tr><td>" + name + "</td>" + cells + "</tr>";
+}
+
+const EvaluatedEpisode* FirstWith(Episodes episodes, EpisodeOutcome outcome) {
+  const auto found = std::find_if(episodes.begin(), episodes.end(),
+                                  [&](const auto& e) { return e.outcome == outcome; });
+  return found == episodes.end() ? nullptr : &*found;
+}
+
+// a way to fail, how often, where, and a film strip of one such episode
+std::string Cause(const EvaluationReport& report, const ReportPictures& pictures,
+                  EpisodeOutcome outcome) {
+  const int count = Summarise(report.episodes).outcomes[static_cast<std::size_t>(outcome)];
+  const EvaluatedEpisode& example = *FirstWith(report.episodes, outcome);
+  const auto picture = pictures.episodes.find(outcome);
+  const double share = static_cast<double>(count) / static_cast<double>(report.episodes.size());
+  return Fill(
+      R"(<div class="cause"><div class="head"><h3>{title}</h3><span>{count} of {all} episodes, {share}</span>)"
+      R"(<span class="soft">{meaning}</span></div><div class="meter"><div style="width: {width}%"></div></div>{film})"
+      R"(<p class="soft">For example {door}, seed {seed}: {detail}</p></div>)",
+      {{"title", TextOf(outcome).title},
+       {"count", std::to_string(count)},
+       {"all", std::to_string(report.episodes.size())},
+       {"share", Percent(share)},
+       {"meaning", TextOf(outcome).meaning},
+       {"width", Fixed(100 * share, 1)},
+       {"film", picture == pictures.episodes.end() ? "" : PictureFigure(picture->second)},
+       {"door", Escape(example.door_id)},
+       {"seed", std::to_string(example.seed)},
+       {"detail", Escape(example.detail)}});
+}
+
+// which episodes on a door opened it, as filled and hollow dots
+std::string Dots(const ReportDoor& door, Episodes episodes) {
+  std::string dots;
+  int opened = 0;
+  int all = 0;
+  for (const EvaluatedEpisode& episode : episodes) {
+    if (episode.door_id != door.id) continue;
+    const bool success = episode.outcome == EpisodeOutcome::kOpened;
+    dots += success ? "●" : "○";
+    opened += success ? 1 : 0;
+    ++all;
+  }
+  if (all == 0) return {};
+  return Fill(R"(<br/><span class="dots" aria-hidden="true">{dots}</span> {opened} of {all})",
+              {{"dots", dots}, {"opened", std::to_string(opened)}, {"all", std::to_string(all)}});
+}
+
+std::string DoorTile(const ReportDoor& door, const ReportPictures& pictures, Episodes episodes) {
+  const auto picture = pictures.doors.find(door.id);
+  const std::string image = picture == pictures.doors.end()
+                                ? ""
+                                : Fill(R"(<img src="{uri}" alt="{id}" loading="lazy"/>)",
+                                       {{"uri", PngUri(picture->second)}, {"id", Escape(door.id)}});
+  return Fill(
+      R"(<figure>{image}<figcaption><b>{body}</b> with <b>{handle}</b><br/>{category}, {mechanism}{dots}</figcaption></figure>)",
+      {{"image", image},
+       {"body", Escape(door.body_id)},
+       {"handle", Escape(door.handle_id)},
+       {"category", TitleOf(door.category)},
+       {"mechanism",
+        door.mechanism == Mechanism::kNone ? "no latch" : std::string(NameOf(door.mechanism))},
+       {"dots", Dots(door, episodes)}});
+}
+
+// training doors to show: those with pictures, evenly spaced
+std::vector<const ReportDoor*> SomeWithPictures(const std::vector<ReportDoor>& doors,
+                                                const ReportPictures& pictures) {
+  std::vector<const ReportDoor*> all;
+  for (const ReportDoor& door : doors) {
+    if (pictures.doors.contains(door.id)) all.push_back(&door);
+  }
+  const std::size_t count = std::min(all.size(), kMostTrainingPictures);
+  std::vector<const ReportDoor*> some;
+  for (std::size_t i = 0; i < count; ++i) some.push_back(all[i * all.size() / count]);
+  return some;
+}
+
+std::string TrainingGallery(const EvaluationReport& report, const ReportPictures& pictures) {
+  if (report.training_doors.empty()) return {};
+  const auto shown = SomeWithPictures(report.training_doors, pictures);
+  std::string tiles;
+  for (const ReportDoor* door : shown) tiles += DoorTile(*door, pictures, {});
+  const std::size_t all = report.training_doors.size();
+  return Fill(
+      R"(<h3>Trained on</h3><p class="soft">{count}{shown}.</p><div class="tiles small">{tiles}</div>)",
+      {{"count", Plural(all, "door")},
+       {"shown", shown.size() < all ? ", " + std::to_string(shown.size()) + " of them shown" : ""},
+       {"tiles", tiles}});
+}
+
+std::string EpisodeRow(const EvaluatedEpisode& episode) {
+  return Fill(
+      R"(<tr data-category="{category}" data-outcome="{outcome}"><td class="name">{door}</td><td>{category_title}</td>)"
+      R"(<td class="number">{seed}</td><td class="number">{episode}</td><td>{outcome_title}</td><td class="number">{hinge}</td>)"
+      R"(<td class="number">{handle}</td><td class="number">{actions}</td><td class="soft">{detail}</td></tr>)",
+      {{"category", std::string(NameOf(episode.category))},
+       {"outcome", std::string(NameOf(episode.outcome))},
+       {"door", Escape(episode.door_id)},
+       {"category_title", TitleOf(episode.category)},
+       {"seed", std::to_string(episode.seed)},
+       {"episode", std::to_string(episode.episode)},
+       {"outcome_title", TextOf(episode.outcome).title},
+       {"hinge", Degrees(episode.peak_hinge_rad)},
+       {"handle", Degrees(episode.peak_handle_rad)},
+       {"actions", std::to_string(episode.opening_actions)},
+       {"detail", Escape(episode.detail)}});
+}
+
+std::string Option(std::string_view value, const std::string& title) {
+  return Fill(R"(<option value="{value}">{title}</option>)",
+              {{"value", std::string(value)}, {"title", title}});
+}
+
+std::string Filters(Episodes episodes) {
+  std::string categories = Option("", "all categories");
+  for (const Category category : CategoriesOf(episodes))
+    categories += Option(NameOf(category), TitleOf(category));
+  std::string outcomes = Option("", "all outcomes");
+  for (int i = 0; i < kEpisodeOutcomeCount; ++i) {
+    const auto outcome = static_cast<EpisodeOutcome>(i);
+    if (FirstWith(episodes, outcome) != nullptr)
+      outcomes += Option(NameOf(outcome), TextOf(outcome).title);
+  }
+  return Fill(
+      R"(<form class="filters" id="filters" hidden="hidden"><select name="category" aria-label="category">{categories}</select>)"
+      R"(<select name="outcome" aria-label="outcome">{outcomes}</select>)"
+      R"(<input name="text" type="search" placeholder="door or detail" aria-label="door or detail"/><span class="soft" id="shown"></span></form>)",
+      {{"categories", categories}, {"outcomes", outcomes}});
+}
+
+std::string Term(const std::string& term, const std::string& value) {
+  return value.empty() ? "" : "<dt>" + term + "</dt><dd>" + value + "</dd>";
+}
+
+std::string Code(const std::string& text) {
+  return text.empty() ? "" : "<code>" + Escape(text) + "</code>";
+}
+
+std::string SeedList(Episodes episodes) {
+  std::string list;
+  for (const std::uint64_t seed : Summarise(episodes).over_seeds.seeds)
+    list += (list.empty() ? "" : ", ") + std::to_string(seed);
+  return list;
+}
+
+}  // namespace
+
+bool IsExpert(const EvaluationReport& report) { return report.provenance.policy == "expert"; }
+
+std::string HeadlineSection(const EvaluationReport& report, const ReportPictures& pictures) {
+  const SuccessSummary summary = Summarise(report.episodes);
+  const std::string doors = Plural(report.doors.size(), "door");
+  const bool held_out =
+      !report.training_doors.empty() && SeenDoors(report.doors, report.training_doors).empty();
+  std::string figures =
+      Figure(Percent(summary.opened.rate),
+             "opened beyond 45°, 95&#160;% interval " + IntervalText(summary.opened), true) +
+      Figure(SpreadText(summary.over_seeds),
+             "mean and standard deviation over " + Plural(summary.over_seeds.seeds.size(), "seed"));
+  if (!report.reference.empty()) {
+    const SuccessRate expert = Summarise(report.reference).opened;
+    figures +=
+        Figure(Percent(expert.rate), "the expert on the same scenes, " + IntervalText(expert));
+  }
+  figures += Figure(std::to_string(report.doors.size()),
+                    std::string(held_out ? "held-out doors" : "doors") + ", " +
+                        Plural(report.episodes.size(), "episode"));
+  const auto film = pictures.episodes.find(EpisodeOutcome::kOpened);
+  return Fill(
+      R"(<header><div class="over">doorforge evaluation</div><h1>{title}</h1><p class="lead">{lead}</p>)"
+      R"(<nav><a href="#success">Success</a><a href="#angle">Door angle</a><a href="#causes">Causes of failure</a><a href="#doors">Doors</a>)"
+      R"(<a href="#episodes">Episodes</a><a href="#provenance">How it was made</a></nav>)"
+      R"(<div class="figures">{figures}</div>{film}</header>)",
+      {{"title", IsExpert(report)
+                     ? "The rule-based expert on " + doors
+                     : "A trained opener on " + doors + (held_out ? " it has never seen" : "")},
+       {"lead",
+        IsExpert(report)
+            ? "A mobile Franka grasps the handle, unlocks it and pulls the door open, by "
+              "rules that read the joints from the simulator."
+            : "The rule-based expert grasps and unlocks the handle; then the trained policy "
+              "takes over and opens the door from an occluded point cloud and the robot's "
+              "own joints." +
+                  std::string(held_out ? " No body and no handle of these doors was in a "
+                                         "training episode."
+                                       : "")},
+       {"figures", figures},
+       {"film", film == pictures.episodes.end() ? "" : PictureFigure(film->second)}});
+}
+
+std::string SuccessSection(const EvaluationReport& report) {
+  std::string rows = SuccessRow("All", report.episodes, report.reference, true);
+  for (const Category category : CategoriesOf(report.episodes)) {
+    rows += SuccessRow(TitleOf(category), OfCategory(report.episodes, category),
+                       OfCategory(report.reference, category), false);
+  }
+  const std::string expert_legend =
+      report.reference.empty()
+          ? ""
+          : R"(<span><svg class="bar" style="width: 12px" viewBox="0 0 12 12"><path class="reference" d="M6 1l5 5l-5 5l-5 -5z"/></svg>expert on the same scenes</span>)";
+  return Fill(
+      R"(<section id="success"><h2>Success by category</h2><p class="soft">Share of episodes that opened the door beyond 45° with the gripper still on the handle.</p>)"
+      R"(<div class="legend"><span><svg viewBox="0 0 34 12"><rect class="fill" y="1" width="34" height="10" rx="2"/></svg>{policy}</span>)"
+      R"(<span><svg viewBox="0 0 34 12"><path class="whisker" d="M1 6H33M1 2v8M33 2v8"/></svg>95&#160;% interval</span>{expert_legend}</div>)"
+      R"(<div class="scroll"><table><thead><tr><th>category</th><th></th><th class="number">success</th><th class="number">95&#160;% interval</th>)"
+      R"(<th class="number">opened</th><th class="number">over seeds</th><th class="number">expert</th></tr></thead><tbody>{rows}</tbody></table></div></section>)",
+      {{"policy", PolicyName(report)}, {"expert_legend", expert_legend}, {"rows", rows}});
+}
+
+std::string AngleSection(const EvaluationReport& report) {
+  std::string rows = AngleRow("All", report.episodes);
+  for (const Category category : CategoriesOf(report.episodes))
+    rows += AngleRow(TitleOf(category), OfCategory(report.episodes, category));
+  if (!report.reference.empty()) rows += AngleRow("Expert, all", report.reference);
+  const std::string expert_legend =
+      report.reference.empty()
+          ? ""
+          : R"(<span><svg viewBox="0 0 34 12"><path class="line reference" d="M1 6H33"/></svg>expert on the same scenes</span>)";
+  return Fill(
+      R"(<section id="angle"><h2>Success over the door angle</h2><p class="soft">Share of episodes whose door passed an angle at any time. Dotted lines and dots: the paper's thresholds of 0.1 rad, 15°, 30° and 45°.</p>)"
+      R"(<div class="legend"><span><svg viewBox="0 0 34 12"><path class="line policy" d="M1 6H33"/></svg>{policy}</span>{expert_legend}</div>)"
+      R"(<div class="card">{chart}</div><div class="scroll"><table><thead><tr><th>category</th><th class="number">beyond 0.1 rad</th><th class="number">15°</th>)"
+      R"(<th class="number">30°</th><th class="number">45°</th></tr></thead><tbody>{rows}</tbody></table></div></section>)",
+      {{"policy", PolicyName(report)},
+       {"expert_legend", expert_legend},
+       {"chart", AngleChart(report.episodes, report.reference)},
+       {"rows", rows}});
+}
+
+std::string CauseSection(const EvaluationReport& report, const ReportPictures& pictures) {
+  const auto outcomes = Summarise(report.episodes).outcomes;
+  std::vector<EpisodeOutcome> causes;
+  for (int i = 1; i < kEpisodeOutcomeCount; ++i) {
+    if (outcomes[static_cast<std::size_t>(i)] > 0) causes.push_back(static_cast<EpisodeOutcome>(i));
+  }
+  std::stable_sort(causes.begin(), causes.end(), [&](EpisodeOutcome a, EpisodeOutcome b) {
+    return outcomes[static_cast<std::size_t>(a)] > outcomes[static_cast<std::size_t>(b)];
+  });
+  std::string content = causes.empty() ? "<p>No episode failed.</p>" : "";
+  for (const EpisodeOutcome cause : causes) content += Cause(report, pictures, cause);
+  return R"(<section id="causes"><h2>Causes of failure</h2>)" + content + "</section>";
+}
+
+std::string DoorSection(const EvaluationReport& report, const ReportPictures& pictures) {
+  std::string tiles;
+  for (const ReportDoor& door : report.doors) tiles += DoorTile(door, pictures, report.episodes);
+  const auto seen = SeenDoors(report.doors, report.training_doors);
+  std::string note = "Filled dots are episodes that opened the door, in the order of the seeds.";
+  if (!report.training_doors.empty()) {
+    note += seen.empty() ? " None of their bodies and handles occurs among the training doors."
+                         : " The body or the handle of " + Plural(seen.size(), "door") +
+                               " was trained on; these numbers do not show generalisation.";
+  }
+  return Fill(
+      R"(<section id="doors"><h2>Doors</h2><h3>Evaluated on</h3><p class="soft">{note}</p><div class="tiles">{tiles}</div>{training}</section>)",
+      {{"note", note}, {"tiles", tiles}, {"training", TrainingGallery(report, pictures)}});
+}
+
+std::string SightSection(const ReportPictures& pictures) {
+  const std::string figures =
+      PictureFigure(pictures.scene) + PictureFigure(pictures.depth) + PictureFigure(pictures.cloud);
+  if (figures.empty()) return {};
+  return R"(<section id="sight"><h2>What the policy sees</h2><div class="three">)" + figures +
+         "</div></section>";
+}
+
+std::string LossSection(const EvaluationReport& report) {
+  std::string charts;
+  for (const LossCurve& loss : report.losses) {
+    charts += Fill(R"(<figure class="card"><h3>{name}</h3>{chart}</figure>)",
+                   {{"name", Escape(loss.name)}, {"chart", LossChart(loss)}});
+  }
+  if (charts.empty()) return {};
+  return R"(<section id="training"><h2>Training</h2><div class="legend"><span><svg viewBox="0 0 34 12"><path class="line training" d="M1 6H33"/></svg>training doors</span>)"
+         R"(<span><svg viewBox="0 0 34 12"><path class="line validation" d="M1 6H33"/></svg>validation doors</span></div><div class="two">)" +
+         charts + "</div></section>";
+}
+
+std::string EpisodeSection(const EvaluationReport& report) {
+  std::string rows;
+  for (const EvaluatedEpisode& episode : report.episodes) rows += EpisodeRow(episode);
+  return Fill(
+      R"(<section id="episodes"><h2>Every episode</h2>{filters}<div class="rows"><table><thead><tr><th>door</th><th>category</th><th class="number">seed</th>)"
+      R"(<th class="number">episode</th><th>outcome</th><th class="number">door</th><th class="number">handle</th><th class="number">actions</th>)"
+      R"(<th>detail</th></tr></thead><tbody id="rows">{rows}</tbody></table></div></section>)",
+      {{"filters", Filters(report.episodes)}, {"rows", rows}});
+}
+
+std::string ProvenanceSection(const EvaluationReport& report) {
+  const ReportProvenance& provenance = report.provenance;
+  return Fill(
+      R"(<section id="provenance"><h2>How it was made</h2><pre>{command}</pre><dl>{terms}</dl>)"
+      R"(<p class="soft">Success: the hinge passes 45° with the gripper on the handle. Intervals: Wilson score, 95&#160;%, episodes taken as independent. )"
+      R"(The same command on the same files gives the same numbers, for any number of threads.</p>)"
+      R"(<details><summary>effective configuration</summary><pre>{config}</pre></details></section>)",
+      {{"command", Escape(provenance.command)},
+       {"terms", Term("code", Code(provenance.code_version)) +
+                     Term("policy", Code(provenance.policy)) +
+                     Term("policy SHA-256", Code(provenance.policy_sha256)) +
+                     Term("data set SHA-256", Code(provenance.dataset_sha256)) +
+                     Term("configuration SHA-256", Code(Sha256Hex(provenance.config.dump()))) +
+                     Term("seeds", SeedList(report.episodes))},
+       {"config", Escape(provenance.config.dump(2))}});
+}
+
+}  // namespace doorforge::internal

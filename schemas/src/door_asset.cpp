@@ -37,15 +37,15 @@ Json GeometryToJson(const DoorGeometry& geometry) {
           {"hulls", hulls}};
 }
 
-DoorGeometry GeometryFromJson(const Json& json, const std::filesystem::path& folder,
+DoorGeometry GeometryFromJson(const Json& json, const MeshReader& read_mesh,
                               const std::string& path) {
   DoorGeometry geometry;
   geometry.name = ValueOf<std::string>(json, "name", path);
   geometry.label = LabelNamed(ValueOf<std::string>(json, "label", path), path);
   geometry.color_rgba = internal::ColorFromJson(MemberOf(json, "color_rgba", path), path);
-  geometry.mesh = internal::ReadReferencedMesh(MemberOf(json, "mesh", path), folder, path);
+  geometry.mesh = internal::ReadReferencedMesh(MemberOf(json, "mesh", path), read_mesh, path);
   for (const Json& hull : MemberOf(json, "hulls", path))
-    geometry.hulls.push_back(internal::ReadReferencedMesh(hull, folder, path));
+    geometry.hulls.push_back(internal::ReadReferencedMesh(hull, read_mesh, path));
   return geometry;
 }
 
@@ -55,13 +55,12 @@ Json LinkToJson(const DoorLink& link) {
   return {{"name", link.name}, {"mass", internal::MassToJson(link.mass)}, {"geometry", geometry}};
 }
 
-DoorLink LinkFromJson(const Json& json, const std::filesystem::path& folder,
-                      const std::string& path) {
+DoorLink LinkFromJson(const Json& json, const MeshReader& read_mesh, const std::string& path) {
   DoorLink link;
   link.name = ValueOf<std::string>(json, "name", path);
   link.mass = internal::MassFromJson(MemberOf(json, "mass", path), path);
   for (const Json& piece : MemberOf(json, "geometry", path))
-    link.geometry.push_back(GeometryFromJson(piece, folder, path));
+    link.geometry.push_back(GeometryFromJson(piece, read_mesh, path));
   return link;
 }
 
@@ -157,6 +156,10 @@ void WriteDoor(const DoorAsset& door, const std::filesystem::path& folder) {
 }
 
 DoorAsset ReadDoor(const std::filesystem::path& folder) {
+  return ReadDoor(folder, internal::ReaderBelow(folder, (folder / "door.json").string()));
+}
+
+DoorAsset ReadDoor(const std::filesystem::path& folder, const MeshReader& read_mesh) {
   const std::string path = (folder / "door.json").string();
   const Json json = ReadJsonFile(path);
   RequireSchema(json, "doorforge.door", kDoorSchemaVersion, path);
@@ -171,7 +174,7 @@ DoorAsset ReadDoor(const std::filesystem::path& folder) {
   if (!links.is_array() || links.size() != door.links.size())
     throw Error(ErrorCode::kFormat, path + ".links: expected base, leaf and handle");
   for (std::size_t i = 0; i < door.links.size(); ++i)
-    door.links[i] = LinkFromJson(links[i], folder, path + ".links");
+    door.links[i] = LinkFromJson(links[i], read_mesh, path + ".links");
   return door;
 }
 

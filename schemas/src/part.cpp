@@ -32,13 +32,12 @@ Json PieceToJson(const PartPiece& piece) {
           {"mass", internal::MassToJson(piece.mass)}};
 }
 
-PartPiece PieceFromJson(const Json& json, const std::filesystem::path& folder,
-                        const std::string& path) {
+PartPiece PieceFromJson(const Json& json, const MeshReader& read_mesh, const std::string& path) {
   PartPiece piece;
   piece.name = ValueOf<std::string>(json, "name", path);
-  piece.mesh = internal::ReadReferencedMesh(MemberOf(json, "mesh", path), folder, path);
+  piece.mesh = internal::ReadReferencedMesh(MemberOf(json, "mesh", path), read_mesh, path);
   for (const Json& hull : MemberOf(json, "hulls", path))
-    piece.hulls.push_back(internal::ReadReferencedMesh(hull, folder, path));
+    piece.hulls.push_back(internal::ReadReferencedMesh(hull, read_mesh, path));
   piece.color_rgba = internal::ColorFromJson(MemberOf(json, "color_rgba", path), path);
   piece.mass = internal::MassFromJson(MemberOf(json, "mass", path), path);
   return piece;
@@ -103,6 +102,10 @@ void WritePart(const Part& part, const std::filesystem::path& folder) {
 }
 
 Part ReadPart(const std::filesystem::path& folder) {
+  return ReadPart(folder, internal::ReaderBelow(folder, (folder / "part.json").string()));
+}
+
+Part ReadPart(const std::filesystem::path& folder, const MeshReader& read_mesh) {
   const std::string path = (folder / "part.json").string();
   const Json json = ReadJsonFile(path);
   RequireSchema(json, "doorforge.part", kPartSchemaVersion, path);
@@ -125,7 +128,7 @@ Part ReadPart(const std::filesystem::path& folder) {
         Vector3FromJson(MemberOf(json, "grasp_half_extent_m", path), path + ".grasp_half_extent_m");
   }
   for (const Json& piece : MemberOf(json, "pieces", path))
-    part.pieces.push_back(PieceFromJson(piece, folder, path + ".pieces"));
+    part.pieces.push_back(PieceFromJson(piece, read_mesh, path + ".pieces"));
   return part;
 }
 

@@ -67,9 +67,16 @@ Json MeshReference(const std::string& relative_path, const TriangleMesh& mesh) {
   return {{"path", relative_path}, {"sha256", Sha256Hex(ToObj(mesh))}};
 }
 
-TriangleMesh ReadReferencedMesh(const Json& reference, const fs::path& folder,
+TriangleMesh ReadReferencedMesh(const Json& reference, const MeshReader& read_mesh,
                                 const std::string& path) {
-  return ReadObj(PathInside(ValueOf<std::string>(reference, "path", path), folder, path));
+  return read_mesh(ValueOf<std::string>(reference, "path", path),
+                   ValueOf<std::string>(reference, "sha256", path));
+}
+
+MeshReader ReaderBelow(const fs::path& folder, const std::string& path) {
+  return [folder, path](const std::string& relative, const std::string&) {
+    return ReadObj(PathInside(relative, folder, path));
+  };
 }
 
 }  // namespace doorforge::internal

@@ -9,6 +9,7 @@
 
 #include "doorforge/core/mass_properties.h"
 #include "doorforge/core/triangle_mesh.h"
+#include "doorforge/schemas/mesh_file.h"
 
 // Pieces that the codecs of parts and doors share.
 
@@ -25,8 +26,11 @@ Eigen::Vector4d ColorFromJson(const Json& json, const std::string& path);
 /// {"path": relative path, "sha256": of the canonical text}.
 Json MeshReference(const std::string& relative_path, const TriangleMesh& mesh);
 
-/// Reads a mesh named by a record. Refuses absolute paths, "..", and links out of the folder.
-TriangleMesh ReadReferencedMesh(const Json& reference, const std::filesystem::path& folder,
+/// Reads a mesh named by a record through `read_mesh`; `path` names the record.
+TriangleMesh ReadReferencedMesh(const Json& reference, const MeshReader& read_mesh,
                                 const std::string& path);
+
+/// Reads canonical files below `folder`. Refuses absolute paths, "..", and links out of the folder.
+MeshReader ReaderBelow(const std::filesystem::path& folder, const std::string& path);
 
 }  // namespace doorforge::internal

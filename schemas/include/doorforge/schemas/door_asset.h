@@ -12,6 +12,7 @@
 #include "doorforge/core/rigid_transform.h"
 #include "doorforge/core/triangle_mesh.h"
 #include "doorforge/schemas/cloud.h"
+#include "doorforge/schemas/mesh_file.h"
 #include "doorforge/schemas/names.h"
 
 namespace doorforge {
@@ -97,6 +98,8 @@ void WriteDoor(const DoorAsset& door, const std::filesystem::path& folder);
 /// Reads a door's folder. Throws Error(kMissing) or Error(kFormat); mesh paths that leave the
 /// folder are refused.
 DoorAsset ReadDoor(const std::filesystem::path& folder);
+/// The same with meshes from `read_mesh`, which also decides which paths it accepts.
+DoorAsset ReadDoor(const std::filesystem::path& folder, const MeshReader& read_mesh);
 
 /// File of a mesh relative to the door's folder: "meshes/visual/<name>.obj" and
 /// "meshes/collision/<name>_<index>.obj".

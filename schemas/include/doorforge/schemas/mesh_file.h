@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "doorforge/core/triangle_mesh.h"
@@ -18,5 +19,11 @@ std::string ToObj(const TriangleMesh& mesh);
 /// Reads a canonical file. Throws Error(kMissing) if it does not exist and Error(kFormat), naming
 /// file and line, on anything that ToObj() would not write.
 TriangleMesh ReadObj(const std::filesystem::path& path);
+
+/// Gives the mesh that a record names by its path relative to the record's folder and the SHA-256 of
+/// its canonical text. ReadPart() and ReadDoor() take one from whoever wants to count the meshes
+/// that cannot be read and go on.
+using MeshReader =
+    std::function<TriangleMesh(const std::string& relative_path, const std::string& sha256)>;
 
 }  // namespace doorforge

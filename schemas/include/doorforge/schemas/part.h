@@ -9,6 +9,7 @@
 #include "doorforge/core/mass_properties.h"
 #include "doorforge/core/rigid_transform.h"
 #include "doorforge/core/triangle_mesh.h"
+#include "doorforge/schemas/mesh_file.h"
 #include "doorforge/schemas/names.h"
 
 namespace doorforge {
@@ -68,6 +69,8 @@ void WritePart(const Part& part, const std::filesystem::path& folder);
 /// Reads a part's folder. Throws Error(kMissing) or Error(kFormat); mesh paths that leave the
 /// folder are refused. Closedness is not checked here: that is `doorforge validate`.
 Part ReadPart(const std::filesystem::path& folder);
+/// The same with meshes from `read_mesh`, which also decides which paths it accepts.
+Part ReadPart(const std::filesystem::path& folder, const MeshReader& read_mesh);
 
 /// SHA-256 over part.json's fields and the mesh bytes: the part's identity for later values.
 std::string ContentHash(const Part& part);

@@ -20,8 +20,9 @@ struct RepairConfig {
   double alpha_fraction = 0.01;  ///< The wrap enters openings wider than this times D.
   double offset_fraction = 1.0 / 1200;  ///< The wrap lies this times D outside the input.
   double max_hole_fraction = 0.05;      ///< Holes up to this times D across are filled.
-  double max_overlap_fraction = 0.02;   ///< Closed pieces may share this part of their volume.
-  int max_triangles = 6000;             ///< Of the output; 0: any number.
+  double max_flat_hole_share = 0.08;   ///< So are flat holes up to this part of their piece's area.
+  double max_overlap_fraction = 0.02;  ///< Closed pieces may share this part of their volume.
+  int max_triangles = 6000;            ///< Of the output; 0: any number.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -29,6 +30,7 @@ struct RepairConfig {
     visit("alpha_fraction", self.alpha_fraction);
     visit("offset_fraction", self.offset_fraction);
     visit("max_hole_fraction", self.max_hole_fraction);
+    visit("max_flat_hole_share", self.max_flat_hole_share);
     visit("max_overlap_fraction", self.max_overlap_fraction);
     visit("max_triangles", self.max_triangles);
   }
@@ -52,8 +54,9 @@ struct RepairReport {
   MeshTopology after;              ///< Of the output; zeros if there is none.
   int holes_filled = 0;
   int components_kept = 0;
-  int components_dropped = 0;    ///< Closed pieces without thickness.
-  bool self_intersects = false;  ///< The output does; only where closed pieces were kept.
+  int components_dropped = 0;    ///< Pieces without thickness or hidden wholly inside others.
+  double overlap_fraction = 0;   ///< Part of the pieces' volume that several pieces share.
+  bool self_intersects = false;  ///< Two triangles of the output cross.
   SurfaceDeviation output_to_input;
   /// From the points of the input that a ray from outside can reach: what lies hidden inside, a
   /// wrap rightly leaves out.

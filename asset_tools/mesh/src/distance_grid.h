@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "doorforge/core/closed_mesh.h"
+
+#include "solid_rows.h"
+
+namespace doorforge {
+
+/// How far each cell of a grid is from the solid inside a closed mesh: centre to centre of the
+/// nearest cell that holds a piece of the solid. Overlapping pieces count as their union.
+class DistanceGrid {
+ public:
+  /// The grid covers the mesh's bounds.
+  DistanceGrid(const ClosedMesh& mesh, double cell_m);
+
+  const Grid& grid() const { return grid_; }
+  float DistanceAt(int i, int j, int k) const { return distance_m_[grid_.IndexOf(i, j, k)]; }
+
+ private:
+  void MarkInside(const TriangleMesh& mesh);
+  void MarkSurface(const TriangleMesh& mesh);
+  void SpreadDistances();
+
+  Grid grid_;
+  std::vector<float> distance_m_;
+};
+
+}  // namespace doorforge

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "doorforge/core/triangle_mesh.h"
+
+// What CGAL does for this room. Its headers take gigabytes and minutes to compile, so only the
+// three sources behind this header include them: close_soup.cpp, wrap_surface.cpp,
+// reduce_surface.cpp. Indices must be in range and vertices finite. All deterministic.
+
+namespace doorforge {
+
+/// A hole is filled if it is small, or flat and closed by little beside the area of its piece.
+struct HoleLimits {
+  double max_size_m = 0;           ///< Diagonal of the bounding box.
+  double max_flat_area_share = 0;  ///< Of the piece's area.
+  double flatness_m = 0;           ///< How far a flat hole's border may leave its plane.
+};
+
+struct ClosedSoup {
+  TriangleMesh mesh;  ///< Manifold and consistently oriented; may have boundaries.
+  int duplicate_triangles = 0;
+  int degenerate_triangles = 0;  ///< Those with a repeated corner.
+  int split_vertices = 0;        ///< Copies made where the surface was not manifold.
+  int holes_filled = 0;
+};
+
+/// Makes an oriented surface of a triangle soup: duplicate and degenerate triangles dropped,
+/// neighbours turned to agree, non-manifold places cut apart, borders that fit stitched, holes
+/// filled with triangles between their own vertices.
+ClosedSoup CloseSoup(const TriangleMesh& soup, const HoleLimits& holes);
+
+/// Whether two triangles of the manifold mesh cross, other than in a shared vertex or edge.
+bool SelfIntersects(const TriangleMesh& mesh);
+
+/// Alpha wrap (Portaneri et al. 2022): closed, oriented, without self-intersections, `offset_m`
+/// outside of the triangles, entering openings wider than about `alpha_m`.
+TriangleMesh AlphaWrap(const TriangleMesh& soup, double alpha_m, double offset_m);
+
+/// Edge collapse by quadrics (Garland and Heckbert 1997) to at most `max_triangles`, or as near as
+/// the topology allows, and below that as long as it costs at most `free_error_m`. The mesh must be
+/// closed; the result is closed.
+TriangleMesh Simplified(const TriangleMesh& mesh, int max_triangles, double free_error_m);
+
+}  // namespace doorforge

@@ -11,6 +11,9 @@
 namespace doorforge::internal {
 namespace {
 
+constexpr std::string_view kBase64Digits =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
 bool IsName(std::string_view text) {
   return !text.empty() &&
          text.find_first_not_of("abcdefghijklmnopqrstuvwxyz_0123456789") == std::string_view::npos;
@@ -71,8 +74,6 @@ std::string Fill(std::string_view pattern,
 }
 
 std::string PngUri(std::string_view png) {
-  constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string uri = "data:image/png;base64,";
   uri.reserve(uri.size() + png.size() * 4 / 3 + 4);
   for (std::size_t i = 0; i < png.size(); i += 3) {
@@ -80,10 +81,10 @@ std::string PngUri(std::string_view png) {
       return i + k < png.size() ? static_cast<unsigned char>(png[i + k]) : 0U;
     };
     const unsigned three = byte(0) << 16 | byte(1) << 8 | byte(2);
-    uri += kDigits[three >> 18 & 63];
-    uri += kDigits[three >> 12 & 63];
-    uri += i + 1 < png.size() ? kDigits[three >> 6 & 63] : '=';
-    uri += i + 2 < png.size() ? kDigits[three & 63] : '=';
+    uri += kBase64Digits[three >> 18 & 63];
+    uri += kBase64Digits[three >> 12 & 63];
+    uri += i + 1 < png.size() ? kBase64Digits[three >> 6 & 63] : '=';
+    uri += i + 2 < png.size() ? kBase64Digits[three & 63] : '=';
   }
   return uri;
 }

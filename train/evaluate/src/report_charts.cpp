@@ -16,6 +16,7 @@ using Episodes = std::span<const EvaluatedEpisode>;
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kLastAngle = 90 * kDegree;
+constexpr double kBarWidth = 300;  // of 308 units
 
 // share of episodes whose peak is larger than x, as the corners of a falling staircase
 PlotPoints Staircase(Episodes episodes) {
@@ -111,8 +112,7 @@ std::string LossDots(const SvgPlot& plot, const LossCurve& loss, std::size_t i) 
 }  // namespace
 
 std::string RateBar(const SuccessRate& rate, const SuccessRate& reference) {
-  constexpr double kWidth = 300;
-  const auto x = [](double share) { return Fixed(4 + share * kWidth, 1); };
+  const auto x = [](double share) { return Fixed(4 + share * kBarWidth, 1); };
   std::string mark;
   if (reference.episodes > 0) {
     mark =
@@ -126,7 +126,7 @@ std::string RateBar(const SuccessRate& rate, const SuccessRate& reference) {
       R"(<path class="whisker" d="M{low} 19H{high}M{low} 15v8M{high} 15v8"/>{mark}</svg>)",
       {{"rate", Percent(rate.rate)},
        {"interval", IntervalText(rate)},
-       {"width", Fixed(rate.rate * kWidth, 1)},
+       {"width", Fixed(rate.rate * kBarWidth, 1)},
        {"low", x(rate.low)},
        {"high", x(rate.high)},
        {"mark", mark}});

@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace doorforge {
+
+inline constexpr int kShardSchemaVersion = 1;
+
+/// A shard is `shard-NNNNNN.tar` in WebDataset naming (members "<key>.<name>", a key's members side
+/// by side) and `shard-NNNNNN.index.json`, whose presence means that the shard is complete. The
+/// format is specified in docs/format-shards.md.
+
+/// A member as it is handed to the writer. Names hold the extension: "cloud.npy", "meta.json".
+struct MemberBytes {
+  std::string name;
+  std::string bytes;
+};
+
+/// Where a member lies in the tar.
+struct ShardMember {
+  std::string name;
+  std::uint64_t offset = 0;  ///< Of the data, from the beginning of the tar; a multiple of 512.
+  std::uint64_t size = 0;    ///< [bytes]
+  std::uint32_t crc32c = 0;  ///< Of the data.
+};
+
+struct ShardEpisode {
+  std::string key;                   ///< Without dots, unique in the shard.
+  std::uint64_t decisions = 0;       ///< Length of the arrays' leading axis.
+  std::vector<ShardMember> members;  ///< Sorted by name; the same names for every key.
+};
+
+/// An episode of the shard's part of the plan that was not written, and why.
+struct FailedEpisode {
+  std::string key;
+  std::string door_id;
+  std::string outcome;  ///< NameOf(EpisodeOutcome), never "opened".
+  std::string detail;   ///< The numbers that explain it, for people.
+  double peak_hinge_rad = 0;
+  double peak_handle_rad = 0;
+};
+
+/// What decides a shard's content, apart from its episodes.
+struct ShardHeader {
+  int number = 0;             ///< In the file's name, 0..999999.
+  std::string stage;          ///< "open", "handle" or "grasp".
+  std::string split;          ///< "train", "val", ...
+  std::string config_sha256;  ///< Of the effective config.
+};
+
+struct ShardIndex {
+  ShardHeader header;
+  std::string tar;  ///< File name, beside the index.
+  std::uint64_t tar_bytes = 0;
+  std::string tar_sha256;
+  std::vector<ShardEpisode> episodes;   ///< In file order.
+  std::vector<FailedEpisode> failures;  ///< In the plan's order.
+};
+
+/// "shard-000007".
+std::string ShardStem(int number);
+
+nlohmann::ordered_json ShardIndexToJson(const ShardIndex& index);
+/// Throws Error(kFormat) unless every range lies in the tar, none overlap, keys are unique and
+/// without dots, and all keys have the same members.
+ShardIndex ShardIndexFromJson(const nlohmann::ordered_json& json, const std::string& path);
+ShardIndex ReadShardIndex(const std::filesystem::path& path);
+
+enum class ShardCommit {
+  kWritten,
+  kAlreadyThere,  ///< Another writer had committed the same bytes.
+};
+
+/// Writes one shard. Nothing appears under the final names before Commit(); an uncommitted writer
+/// removes what it wrote. Memory use does not grow with the shard.
+class ShardWriter {
+ public:
+  /// Creates the folder if need be. Throws Error(kIo) or, on a bad number, kInvalidArgument.
+  ShardWriter(std::filesystem::path folder, ShardHeader header);
+  ~ShardWriter();
+  ShardWriter(const ShardWriter&) = delete;
+  ShardWriter& operator=(const ShardWriter&) = delete;
+
+  /// Appends an episode; members are sorted by name.
+  ///
+  /// @throws Error(kInvalidArgument) if the key is empty, has a dot, slash or blank or was there
+  ///     before, or if the members' names are not those of the first episode.
+  void Add(const std::string& key, std::uint64_t decisions, std::vector<MemberBytes> members);
+
+  void AddFailure(FailedEpisode failure);
+
+  /// Ends the tar, syncs and renames it, and writes the index last.
+  ///
+  /// If the shard is already committed, nothing is overwritten: the same bytes are fine, different
+  /// ones throw Error(kInvalidArgument). A tar without an index is a crashed writer's and is
+  /// replaced.
+  ShardCommit Commit();
+
+ private:
+  struct Output;
+
+  std::filesystem::path folder_;
+  ShardIndex index_;
+  std::unique_ptr<Output> output_;
+};
+
+/// Whether members are checked against the index when they are first read.
+enum class CrcCheck { kOnFirstRead, kNever };
+
+/// Reads a committed shard through a memory map. Safe to use from several threads.
+class ShardReader {
+ public:
+  /// @param index_path The .index.json file.
+  /// @throws Error(kMissing, kIo or kFormat), naming the file and what is wrong, such as a tar that
+  ///     is shorter than its index says.
+  explicit ShardReader(const std::filesystem::path& index_path,
+                       CrcCheck check = CrcCheck::kOnFirstRead);
+  ~ShardReader();
+  ShardReader(ShardReader&&) noexcept;
+  ShardReader& operator=(ShardReader&&) noexcept;
+
+  const ShardIndex& index() const { return index_; }
+
+  /// Bytes of a member, valid while the reader lives; 64-byte aligned .npy data.
+  ///
+  /// @throws Error(kMissing) if the episode has no such member, Error(kFormat) if its checksum is
+  ///     wrong; the message names tar, member and byte range.
+  std::span<const std::byte> Read(std::size_t episode, std::string_view member) const;
+
+  /// Every member of every episode against its checksum, and the tar against its SHA-256 and its
+  /// own headers. Each fault is one line; empty if all is well.
+  std::vector<std::string> FindFaults() const;
+
+  /// "path/shard-000000.tar: ep000012.cloud.npy", for messages.
+  std::string Describe(std::size_t episode, std::string_view member) const;
+
+ private:
+  struct Mapping;
+
+  ShardIndex index_;
+  std::filesystem::path tar_path_;
+  std::unique_ptr<Mapping> mapping_;
+};
+
+/// What can be had from a tar whose index is missing or whose end is cut off.
+struct RecoveredShard {
+  ShardIndex index;  ///< Of the complete episodes; header fields other than tar unset.
+  std::vector<std::string> incomplete_keys;
+  std::string fault;  ///< Why the tar ends early; empty if it does not.
+};
+
+/// Rebuilds an index from the tar alone. An episode counts as complete if it has all the members of
+/// the first one and its arrays agree in their leading axis. Without an index a flipped bit in the
+/// data cannot be noticed. Throws Error(kMissing or kIo).
+RecoveredShard RecoverShard(const std::filesystem::path& tar_path);
+
+}  // namespace doorforge

@@ -1,0 +1,386 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/schemas/dataset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "doorforge/core/error.h"
+#include "doorforge/core/hash.h"
+#include "doorforge/core/json_file.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kTrain = "train";
+
+Json FeaturesToJson() {
+  Json features = Json::array();
+  for (const EpisodeFeature& feature : EpisodeFeatures()) {
+    Json shape = Json::array({"decisions"});
+    for (const std::size_t length : feature.shape)
+      shape.push_back(length == 0 ? Json("points") : Json(length));
+    features.push_back({{"name", feature.name},
+                        {"member", feature.name + ".npy"},
+                        {"dtype", feature.type},
+                        {"shape", shape},
+                        {"unit", feature.unit},
+                        {"frame", feature.frame},
+                        {"meaning", feature.meaning}});
+  }
+  return features;
+}
+
+Json PartToJson(const DatasetPart& part) {
+  return {{"stage", part.stage},
+          {"split", part.split},
+          {"shards", part.shards},
+          {"episodes", part.episodes},
+          {"failed_episodes", part.failed_episodes},
+          {"decisions", part.decisions},
+          {"bytes", part.bytes}};
+}
+
+DatasetPart PartFromJson(const Json& json, const std::string& path) {
+  DatasetPart part;
+  part.stage = ValueOf<std::string>(json, "stage", path);
+  part.split = ValueOf<std::string>(json, "split", path);
+  part.shards = ValueOf<std::uint64_t>(json, "shards", path);
+  part.episodes = ValueOf<std::uint64_t>(json, "episodes", path);
+  part.failed_episodes = ValueOf<std::uint64_t>(json, "failed_episodes", path);
+  part.decisions = ValueOf<std::uint64_t>(json, "decisions", path);
+  part.bytes = ValueOf<std::uint64_t>(json, "bytes", path);
+  return part;
+}
+
+std::vector<double> NumbersFromJson(const Json& json, const std::string& key,
+                                    const std::string& path) {
+  std::vector<double> numbers;
+  for (const Json& number : MemberOf(json, key, path)) {
+    if (!number.is_number()) throw Error(ErrorCode::kFormat, path + "." + key + ": wrong type");
+    numbers.push_back(number.get<double>());
+  }
+  return numbers;
+}
+
+// Sums of one feature, from which its statistics follow. Added to in shard order, so that the
+// result is the same for any number of threads that made the shards.
+class FeatureSums {
+ public:
+  explicit FeatureSums(std::size_t width)
+      : sum_(width, 0),
+        square_(width, 0),
+        minimum_(width, std::numeric_limits<double>::infinity()),
+        maximum_(width, -std::numeric_limits<double>::infinity()) {}
+
+  void Add(std::span<const float> rows) {
+    const std::size_t width = sum_.size();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const double value = rows[i];
+      const std::size_t component = i % width;
+      sum_[component] += value;
+      square_[component] += value * value;
+      minimum_[component] = std::min(minimum_[component], value);
+      maximum_[component] = std::max(maximum_[component], value);
+    }
+    count_ += static_cast<double>(rows.size() / width);
+  }
+
+  FeatureStatistics Finish() const {
+    FeatureStatistics statistics{{}, {}, minimum_, maximum_};
+    for (std::size_t i = 0; i < sum_.size(); ++i) {
+      const double mean = sum_[i] / count_;
+      statistics.mean.push_back(mean);
+      statistics.standard_deviation.push_back(
+          std::sqrt(std::max(0.0, square_[i] / count_ - mean * mean)));
+    }
+    return statistics;
+  }
+
+ private:
+  std::vector<double> sum_;
+  std::vector<double> square_;
+  std::vector<double> minimum_;
+  std::vector<double> maximum_;
+  double count_ = 0;
+};
+
+// Largest distance of a point from the mean of its cloud; `xyz` is one cloud.
+double RadiusOf(std::span<const float> xyz) {
+  double center[3] = {0, 0, 0};
+  for (std::size_t i = 0; i < xyz.size(); ++i) center[i % 3] += xyz[i];
+  for (double& c : center) c /= static_cast<double>(xyz.size() / 3);
+  double largest = 0;
+  for (std::size_t i = 0; i < xyz.size(); i += 3) {
+    const double x = xyz[i] - center[0];
+    const double y = xyz[i + 1] - center[1];
+    const double z = xyz[i + 2] - center[2];
+    largest = std::max(largest, x * x + y * y + z * z);
+  }
+  return std::sqrt(largest);
+}
+
+class StatisticsBuilder {
+ public:
+  void Add(const EpisodeArrays& arrays) {
+    action_.Add(arrays.action);
+    cloud_.Add(arrays.cloud);
+    joints_.Add(arrays.joints);
+    proprio_.Add(arrays.proprio);
+    score_.Add(arrays.score);
+    for (std::size_t i = 0; i < arrays.decisions; ++i)
+      radius_ = std::max(radius_,
+                         RadiusOf(arrays.cloud.subspan(3 * arrays.points * i, 3 * arrays.points)));
+    any_ = true;
+  }
+
+  void StoreIn(DatasetRecord& record) const {
+    if (!any_) return;
+    record.statistics = {{"action", action_.Finish()},
+                         {"cloud", cloud_.Finish()},
+                         {"joints", joints_.Finish()},
+                         {"proprio", proprio_.Finish()},
+                         {"score", score_.Finish()}};
+    record.cloud_radius_m = radius_;
+  }
+
+ private:
+  FeatureSums action_{9};
+  FeatureSums cloud_{3};
+  FeatureSums joints_{2};
+  FeatureSums proprio_{32};
+  FeatureSums score_{1};
+  double radius_ = 0;
+  bool any_ = false;
+};
+
+// Names of the folders directly below `folder`, hidden ones left out, in ascending order.
+std::set<std::string> FoldersIn(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.is_directory() && !name.starts_with('.')) names.insert(name);
+  }
+  return names;
+}
+
+DatasetPart SummarizePart(const fs::path& folder, const std::string& stage,
+                          const std::string& split, StatisticsBuilder& statistics) {
+  DatasetPart part{stage, split, 0, 0, 0, 0, 0};
+  for (const fs::path& path : ShardIndices(folder, stage, split)) {
+    const ShardReader reader(path);
+    ++part.shards;
+    part.episodes += reader.index().episodes.size();
+    part.failed_episodes += reader.index().failures.size();
+    part.bytes += reader.index().tar_bytes;
+    for (std::size_t i = 0; i < reader.index().episodes.size(); ++i) {
+      part.decisions += reader.index().episodes[i].decisions;
+      if (split == kTrain) statistics.Add(ViewEpisode(reader, i));
+    }
+  }
+  return part;
+}
+
+Json DoorToJson(const DatasetDoor& door) {
+  return {{"id", door.id},
+          {"sha256", door.sha256},
+          {"category", door.category},
+          {"mechanism", door.mechanism},
+          {"body", {{"id", door.body_id}, {"sha256", door.body_sha256}}},
+          {"handle", {{"id", door.handle_id}, {"sha256", door.handle_sha256}}},
+          {"license", door.license},
+          {"split", door.split}};
+}
+
+DatasetDoor DoorFromJson(const Json& json, const std::string& path) {
+  const Json& body = MemberOf(json, "body", path);
+  const Json& handle = MemberOf(json, "handle", path);
+  DatasetDoor door;
+  door.id = ValueOf<std::string>(json, "id", path);
+  door.sha256 = ValueOf<std::string>(json, "sha256", path);
+  door.category = ValueOf<std::string>(json, "category", path);
+  door.mechanism = ValueOf<std::string>(json, "mechanism", path);
+  door.body_id = ValueOf<std::string>(body, "id", path + ".body");
+  door.body_sha256 = ValueOf<std::string>(body, "sha256", path + ".body");
+  door.handle_id = ValueOf<std::string>(handle, "id", path + ".handle");
+  door.handle_sha256 = ValueOf<std::string>(handle, "sha256", path + ".handle");
+  door.license = ValueOf<std::string>(json, "license", path);
+  door.split = ValueOf<std::string>(json, "split", path);
+  return door;
+}
+
+}  // namespace
+
+Json DatasetToJson(const DatasetRecord& record) {
+  Json parts = Json::array();
+  for (const DatasetPart& part : record.parts) parts.push_back(PartToJson(part));
+  Json statistics = Json::object();
+  for (const auto& [name, feature] : record.statistics)
+    statistics[name] = {{"mean", feature.mean},
+                        {"standard_deviation", feature.standard_deviation},
+                        {"minimum", feature.minimum},
+                        {"maximum", feature.maximum}};
+  return {{"schema", "doorforge.dataset"},  {"schema_version", kDatasetSchemaVersion},
+          {"features", FeaturesToJson()},   {"parts", parts},
+          {"train_statistics", statistics}, {"train_cloud_radius_m", record.cloud_radius_m}};
+}
+
+DatasetRecord DatasetFromJson(const Json& json, const std::string& path) {
+  RequireSchema(json, "doorforge.dataset", kDatasetSchemaVersion, path);
+  DatasetRecord record;
+  for (const Json& part : MemberOf(json, "parts", path))
+    record.parts.push_back(PartFromJson(part, path + ".parts"));
+  for (const auto& [name, feature] : MemberOf(json, "train_statistics", path).items()) {
+    const std::string where = path + ".train_statistics." + name;
+    record.statistics[name] = {NumbersFromJson(feature, "mean", where),
+                               NumbersFromJson(feature, "standard_deviation", where),
+                               NumbersFromJson(feature, "minimum", where),
+                               NumbersFromJson(feature, "maximum", where)};
+  }
+  record.cloud_radius_m = ValueOf<double>(json, "train_cloud_radius_m", path);
+  return record;
+}
+
+DatasetRecord ReadDataset(const fs::path& folder) {
+  const fs::path path = folder / "dataset.json";
+  if (!fs::is_regular_file(path))
+    throw Error(ErrorCode::kMissing,
+                folder.string() +
+                    ": no dataset here, or an unfinished one (no dataset.json); "
+                    "finish it with --resume");
+  return DatasetFromJson(ReadJsonFile(path), path.string());
+}
+
+Json ProvenanceToJson(const DatasetProvenance& provenance) {
+  Json libraries = Json::object();
+  for (const auto& [name, version] : provenance.libraries) libraries[name] = version;
+  Json doors = Json::array();
+  for (const DatasetDoor& door : provenance.doors) doors.push_back(DoorToJson(door));
+  return {{"schema", "doorforge.provenance"},
+          {"schema_version", kDatasetSchemaVersion},
+          {"code_version", provenance.code_version},
+          {"compiler", provenance.compiler},
+          {"libraries", libraries},
+          {"config_sha256", provenance.config_sha256},
+          {"seed", provenance.seed},
+          {"doors", doors}};
+}
+
+DatasetProvenance ProvenanceFromJson(const Json& json, const std::string& path) {
+  RequireSchema(json, "doorforge.provenance", kDatasetSchemaVersion, path);
+  DatasetProvenance provenance;
+  provenance.code_version = ValueOf<std::string>(json, "code_version", path);
+  provenance.compiler = ValueOf<std::string>(json, "compiler", path);
+  const Json& libraries = MemberOf(json, "libraries", path);
+  for (const auto& [name, unused] : libraries.items())
+    provenance.libraries[name] = ValueOf<std::string>(libraries, name, path + ".libraries");
+  provenance.config_sha256 = ValueOf<std::string>(json, "config_sha256", path);
+  provenance.seed = ValueOf<std::uint64_t>(json, "seed", path);
+  for (const Json& door : MemberOf(json, "doors", path))
+    provenance.doors.push_back(DoorFromJson(door, path + ".doors"));
+  return provenance;
+}
+
+std::string FailureLine(const FailedEpisode& failure, const DatasetPart& part) {
+  const Json json = {{"stage", part.stage},
+                     {"split", part.split},
+                     {"key", failure.key},
+                     {"door_id", failure.door_id},
+                     {"outcome", failure.outcome},
+                     {"detail", failure.detail},
+                     {"peak_hinge_rad", failure.peak_hinge_rad},
+                     {"peak_handle_rad", failure.peak_handle_rad}};
+  return json.dump();
+}
+
+std::string DatasetCard(const DatasetRecord& record, const DatasetProvenance& provenance) {
+  std::set<std::string> licenses;
+  for (const DatasetDoor& door : provenance.doors) licenses.insert(door.license);
+  std::string license = licenses.size() == 1 ? *licenses.begin() : "other";
+  std::transform(license.begin(), license.end(), license.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::string card = "---\nlicense: " + license +
+                     "\ntags:\n- robotics\n- manipulation\n- articulated-objects\n- point-clouds\n"
+                     "- webdataset\n---\n\n# Door episodes\n\n"
+                     "A mobile Franka opens latched doors in simulation; every decision point "
+                     "holds the cloud that a depth camera sees, what the robot feels of itself, "
+                     "and what the expert asked for next. Made by doorforge " +
+                     provenance.code_version + " with seed " + std::to_string(provenance.seed) +
+                     ".\n\n| stage | split | episodes | failed | decisions | shards | MiB |\n"
+                     "|---|---|---|---|---|---|---|\n";
+  for (const DatasetPart& part : record.parts)
+    card += "| " + part.stage + " | " + part.split + " | " + std::to_string(part.episodes) + " | " +
+            std::to_string(part.failed_episodes) + " | " + std::to_string(part.decisions) + " | " +
+            std::to_string(part.shards) + " | " + std::to_string(part.bytes >> 20) + " |\n";
+  card += "\nDoors: " + std::to_string(provenance.doors.size()) +
+          "; no body and no handle is on "
+          "both sides of a split. Licences of the doors' parts:";
+  for (const std::string& name : licenses) card += " " + name;
+  return card +
+         ".\n\nThe shards are plain tar files of .npy arrays with a JSON index beside each. "
+         "`dataset.json` describes every array, `provenance.json` every door; "
+         "`python/doorforge_shards.py` of doorforge reads them with numpy alone, and "
+         "WebDataset and Hugging Face `datasets` read them directly.\n";
+}
+
+std::vector<fs::path> ShardIndices(const fs::path& folder, std::string_view stage,
+                                   std::string_view split) {
+  const fs::path part = folder / stage / split;
+  if (!fs::is_directory(part))
+    throw Error(ErrorCode::kMissing, part.string() + ": no such part of a dataset");
+  std::set<fs::path> indices;
+  for (const auto& entry : fs::directory_iterator(part)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("shard-") && name.ends_with(".index.json")) indices.insert(entry.path());
+  }
+  return {indices.begin(), indices.end()};
+}
+
+DatasetRecord SummarizeShards(const fs::path& folder) {
+  DatasetRecord record;
+  StatisticsBuilder statistics;
+  for (const std::string& stage : FoldersIn(folder)) {
+    if (stage != "open" && stage != "handle" && stage != "grasp") continue;
+    for (const std::string& split : FoldersIn(folder / stage))
+      record.parts.push_back(SummarizePart(folder, stage, split, statistics));
+  }
+  statistics.StoreIn(record);
+  return record;
+}
+
+DatasetReader::DatasetReader(const fs::path& folder, std::string_view stage, std::string_view split,
+                             CrcCheck check) {
+  for (const fs::path& path : ShardIndices(folder, stage, split)) {
+    shards_.emplace_back(path, check);
+    for (std::size_t i = 0; i < shards_.back().index().episodes.size(); ++i)
+      places_.push_back({shards_.size() - 1, i});
+  }
+}
+
+const ShardEpisode& DatasetReader::entry(std::size_t episode) const {
+  const Place& place = places_.at(episode);
+  return shards_[place.shard].index().episodes[place.episode];
+}
+
+EpisodeArrays DatasetReader::Arrays(std::size_t episode) const {
+  const Place& place = places_.at(episode);
+  return ViewEpisode(shards_[place.shard], place.episode);
+}
+
+Json DatasetReader::Meta(std::size_t episode) const {
+  const Place& place = places_.at(episode);
+  return ReadEpisodeMeta(shards_[place.shard], place.episode);
+}
+
+std::string DatasetReader::ContentHash() const {
+  Sha256 hash;
+  for (const ShardReader& shard : shards_) hash.Update(shard.index().tar_sha256);
+  return hash.HexDigest();
+}
+
+}  // namespace doorforge

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "mapped_file.h"
+
+#include <cerrno>
+#include <cstring>
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "doorforge/core/error.h"
+
+namespace doorforge {
+
+MappedFile::MappedFile(const std::filesystem::path& path) {
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  struct stat status {};
+  if (fd < 0 || ::fstat(fd, &status) != 0 || !S_ISREG(status.st_mode)) {
+    if (fd >= 0) ::close(fd);
+    throw Error(ErrorCode::kMissing, path.string() + ": no such file, or it cannot be opened");
+  }
+  size_ = static_cast<std::size_t>(status.st_size);
+  if (size_ == 0) {  // mmap refuses empty files
+    ::close(fd);
+    return;
+  }
+  void* data = ::mmap(nullptr, size_, PROT_READ, MAP_SHARED, fd, 0);
+  const int error = errno;
+  ::close(fd);
+  if (data == MAP_FAILED)
+    throw Error(ErrorCode::kIo, path.string() + ": cannot be mapped: " + std::strerror(error));
+  data_ = static_cast<const std::byte*>(data);
+}
+
+MappedFile::~MappedFile() {
+  if (data_ != nullptr) ::munmap(const_cast<std::byte*>(data_), size_);
+}
+
+}  // namespace doorforge

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "doorforge/physics/robot_model.h"
+#include "doorforge/schemas/door_asset.h"
+#include "doorforge/schemas/scene.h"
+
+namespace doorforge {
+
+/// What the robot's drives are asked for during one step.
+struct RobotCommand {
+  ArmVector arm_position = ArmVector::Zero();  ///< Position targets of sliders and arm.
+  bool close_fingers = false;                  ///< Squeeze with finger_force_n, or open.
+};
+
+struct WorldState {
+  JointVector robot_position = JointVector::Zero();
+  JointVector robot_velocity = JointVector::Zero();
+  double hinge_rad = 0;
+  double hinge_rad_s = 0;
+  double handle_rad = 0;
+  double handle_rad_s = 0;
+  bool locked = false;       ///< The latch holds the leaf, see Latch in door_asset.h.
+  bool handle_done = false;  ///< The handle has reached handle_done_angle_rad once in this episode.
+  double time_s = 0;
+};
+
+/// What the robot touches of the door after a step. Two shapes touch if they are nearer than 1 mm.
+struct DoorContacts {
+  std::array<int, 2> pad_points{};      ///< Left and right finger with the handle.
+  std::array<double, 2> pad_force_n{};  ///< Sum of the normal forces of these points.
+  double deepest_m = 0;                 ///< Deepest overlap of a finger and the handle, >= 0.
+  /// Smallest finger to handle distance that the solver looks at; 0.02 or more is reported as 0.02.
+  double pad_distance_m = 0.02;
+  int arm_points = 0;       ///< Any other pair of robot and door.
+  double arm_force_n = 0;   ///< Sum of their normal forces.
+  std::string arm_touches;  ///< Such as "hand-leaf"; empty if there are none.
+
+  bool AnyPad() const { return pad_points[0] > 0 || pad_points[1] > 0; }
+  bool BothPads() const { return pad_points[0] > 0 && pad_points[1] > 0; }
+};
+
+/// The simulated scene: robot, door and latch in a Bullet multibody world, double precision.
+///
+/// Contacts are Coulomb friction between convex hulls; nothing is ever glued to the gripper. The
+/// latch is the effort law of Latch. Gravity is off for robot and door, as in UniDoorManip; the
+/// other departures are in docs/design/simulation.md.
+///
+/// Deterministic: the same scene, door and commands give the same states bit by bit, in any number
+/// of worlds side by side (each world belongs to one thread at a time).
+class DoorWorld {
+ public:
+  /// The robot starts in `start` (fingers open), the door closed, everything at rest.
+  ///
+  /// @throws Error(kInvalidArgument) if a setting of the scene's physics is out of range, or if a
+  ///     link of the door has no mass or a hull of fewer than four points.
+  DoorWorld(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
+            const JointVector& start);
+  ~DoorWorld();
+  DoorWorld(DoorWorld&&) noexcept;
+  DoorWorld& operator=(DoorWorld&&) noexcept;
+
+  /// Advances by the scene's time step.
+  void Step(const RobotCommand& command);
+
+  const WorldState& state() const;
+  DoorContacts Contacts() const;
+
+  /// A force at a point of the leaf during the next step only, both in the leaf's frame: for
+  /// experiments without a robot.
+  void PushLeaf(const Eigen::Vector3d& point_m, const Eigen::Vector3d& force_n);
+  /// Torque about the handle's axis during the next step only [N m].
+  void TurnHandle(double torque_nm);
+
+  /// Poses of base, leaf and handle in the world.
+  std::array<RigidTransform, 3> WorldFromDoorLinks() const;
+  RobotPose PoseOfRobot() const;
+
+  /// False once a state is not finite, or a joint is so fast that it must have gained energy from
+  /// nowhere: an arm joint beyond 30 rad/s, the hinge beyond 20 rad/s, a slider beyond 10 m/s.
+  bool Healthy() const;
+
+  /// SHA-256 of all joint positions and velocities, bit by bit.
+  std::string StateHash() const;
+
+ private:
+  class Runtime;
+  std::unique_ptr<Runtime> runtime_;
+};
+
+}  // namespace doorforge

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "doorforge/schemas/door_asset.h"
+
+namespace doorforge {
+
+/// What of the latch is remembered between steps.
+struct LatchState {
+  bool locked = false;
+  bool handle_done = false;  ///< Sticky; true from the start on a door without a latch.
+};
+
+/// State after the door and the handle have come to these angles. See Latch in door_asset.h for the
+/// law (UniDoorManip, Section 3.3).
+LatchState UpdatedLatch(const Latch& latch, const LatchState& before, double hinge_rad,
+                        double handle_rad);
+
+struct LatchTorques {
+  double hinge_nm = 0;   ///< About the hinge; positive opens.
+  double handle_nm = 0;  ///< About the handle's axis; positive unlocks.
+};
+
+LatchTorques TorquesOf(const Latch& latch, const LatchState& state, double hinge_rad,
+                       double handle_rad);
+
+}  // namespace doorforge

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "doorforge/schemas/door_asset.h"
+#include "doorforge/schemas/scene.h"
+
+namespace doorforge {
+
+struct SceneConfig {
+  PhysicsConfig physics;
+  double base_jitter = 1;  ///< Scales the spread of the robot's place; 0: always the same.
+  double grasp_noise = 1;  ///< Scales the offset of the expert's grasp; 0: the nominal grasp.
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    visit("physics", self.physics);
+    visit("base_jitter", self.base_jitter);
+    visit("grasp_noise", self.grasp_noise);
+  }
+};
+
+/// Draws episode number `episode` of a door. A pure function of its arguments: the random streams
+/// are named "scene/<door id>/<episode>/<purpose>".
+///
+/// The door stands axis-parallel, 0.1 m or more over the floor, so that the closed door's grasp
+/// point lies where UniDoorManip's objects of this category have it (its range of heights,
+/// sideways positions and distances, measured on the released objects); a door that is in the range
+/// at height 0.1 m is not moved. Robot: facing the door at the category's distance, x and y
+/// jittered independently by clip(N(0, 0.5), -1, 1) times 0.08 to 0.15 m. Grasp: turned about the
+/// approach by the same kind of number times 10 degrees; on levers and flaps also shifted along the
+/// handle by up to grasp_half_extent_m.
+Scene SampleScene(const DoorAsset& door, std::uint64_t seed, std::uint64_t episode,
+                  const SceneConfig& config = {});
+
+}  // namespace doorforge

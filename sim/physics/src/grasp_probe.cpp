@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/physics/grasp_probe.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <vector>
+
+#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
+#include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
+#include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
+
+#include "bullet_body.h"
+
+namespace doorforge {
+namespace {
+
+struct Hull {
+  std::unique_ptr<btConvexHullShape> shape;
+  Eigen::AlignedBox3d box;  ///< In the frame of its owner.
+};
+
+Hull MakeProbeHull(const TriangleMesh& mesh, const RigidTransform& owner_from_mesh) {
+  Hull hull;
+  hull.shape = std::make_unique<btConvexHullShape>();
+  for (const Eigen::Vector3d& vertex : mesh.vertices) {
+    const Eigen::Vector3d point = owner_from_mesh * vertex;
+    hull.shape->addPoint(internal::ToBullet(point), false);
+    hull.box.extend(point);
+  }
+  hull.shape->setMargin(0.001);
+  hull.shape->recalcLocalAabb();
+  return hull;
+}
+
+Eigen::Vector3d FromBullet(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
+
+struct Separation {
+  double distance = std::numeric_limits<double>::infinity();
+  Eigen::Vector3d point_on_door = Eigen::Vector3d::Zero();  ///< In the door's frame.
+  Eigen::Vector3d normal_of_door = Eigen::Vector3d::Zero();
+};
+
+Separation Separate(const Hull& gripper, const RigidTransform& door_from_gripper,
+                    const Hull& door) {
+  btVoronoiSimplexSolver simplex;
+  btGjkEpaPenetrationDepthSolver penetration;
+  btGjkPairDetector detector(gripper.shape.get(), door.shape.get(), &simplex, &penetration);
+  btGjkPairDetector::ClosestPointInput input;
+  input.m_transformA = internal::ToBullet(door_from_gripper);
+  input.m_transformB.setIdentity();
+  btPointCollector result;
+  detector.getClosestPoints(input, result, nullptr);
+  if (!result.m_hasResult) return {};
+  return {result.m_distance, FromBullet(result.m_pointInWorld),
+          FromBullet(result.m_normalOnBInWorld)};
+}
+
+}  // namespace
+
+class GraspProbe::Runtime {
+ public:
+  Runtime(const DoorAsset& door, const RobotModel& robot);
+
+  Separation NearestOfHandle(const Hull& finger, const RigidTransform& door_from_finger) const;
+  double Clearance(const std::vector<Hull>& gripper, const RigidTransform& door_from_gripper,
+                   double cutoff) const;
+
+  std::vector<Hull> hand;                   ///< In the tool centre's frame.
+  std::array<std::vector<Hull>, 2> finger;  ///< The same, at finger position 0.
+  std::array<Eigen::Vector3d, 2> opening;   ///< Direction in which each finger opens.
+  double most_open;
+
+ private:
+  std::vector<Hull> door_;  ///< All of the closed door, in its frame.
+  std::size_t handle_begin_ = 0;
+};
+
+GraspProbe::Runtime::Runtime(const DoorAsset& door, const RobotModel& robot) {
+  const RigidTransform tcp_from_body = robot.tcp().body_from_frame.inverse();
+  most_open = robot.joints()[kLeftFinger].upper;
+  for (const RobotPiece& piece : robot.hulls()) {
+    if (piece.joint == kArmJointCount - 1) hand.push_back(MakeProbeHull(piece.mesh, tcp_from_body));
+    if (piece.joint < kArmJointCount) continue;
+    const RobotJoint& joint = robot.joints()[static_cast<std::size_t>(piece.joint)];
+    const auto side = static_cast<std::size_t>(piece.joint - kLeftFinger);
+    const RigidTransform tcp_from_joint = tcp_from_body * joint.parent_from_joint;
+    opening.at(side) = tcp_from_joint.linear() * joint.axis;
+    finger.at(side).push_back(MakeProbeHull(piece.mesh, tcp_from_joint));
+  }
+  const auto poses = DoorFromLinks(door, 0, 0);
+  for (const int link : {kBaseLink, kLeafLink, kHandleLink}) {
+    const auto index = static_cast<std::size_t>(link);
+    if (link == kHandleLink) handle_begin_ = door_.size();
+    for (const DoorGeometry& geometry : door.links[index].geometry) {
+      for (const TriangleMesh& hull : geometry.hulls)
+        door_.push_back(MakeProbeHull(hull, poses[index]));
+    }
+  }
+}
+
+Separation GraspProbe::Runtime::NearestOfHandle(const Hull& moving,
+                                                const RigidTransform& door_from_finger) const {
+  Separation nearest;
+  for (std::size_t i = handle_begin_; i < door_.size(); ++i) {
+    const Separation found = Separate(moving, door_from_finger, door_[i]);
+    if (found.distance < nearest.distance) nearest = found;
+  }
+  return nearest;
+}
+
+double GraspProbe::Runtime::Clearance(const std::vector<Hull>& gripper,
+                                      const RigidTransform& door_from_gripper,
+                                      double cutoff) const {
+  double clearance = cutoff;
+  for (const Hull& piece : gripper) {
+    const Eigen::AlignedBox3d box = piece.box.transformed(door_from_gripper);
+    for (const Hull& other : door_) {
+      if (box.exteriorDistance(other.box) >= clearance) continue;
+      clearance = std::min(clearance, Separate(piece, door_from_gripper, other).distance);
+    }
+  }
+  return clearance;
+}
+
+GraspProbe::GraspProbe(const DoorAsset& door, const RobotModel& robot)
+    : runtime_(std::make_unique<Runtime>(door, robot)) {}
+GraspProbe::~GraspProbe() = default;
+GraspProbe::GraspProbe(GraspProbe&&) noexcept = default;
+GraspProbe& GraspProbe::operator=(GraspProbe&&) noexcept = default;
+
+double GraspProbe::Clearance(const RigidTransform& door_from_tcp, double cutoff_m) const {
+  double clearance = runtime_->Clearance(runtime_->hand, door_from_tcp, cutoff_m);
+  for (const std::size_t side : {0U, 1U}) {
+    const RigidTransform door_from_finger =
+        door_from_tcp * Translation(runtime_->opening.at(side) * runtime_->most_open);
+    clearance = std::min(
+        clearance, runtime_->Clearance(runtime_->finger.at(side), door_from_finger, clearance));
+  }
+  return clearance;
+}
+
+std::optional<PadContact> GraspProbe::Close(const RigidTransform& door_from_tcp, int finger) const {
+  const auto side = static_cast<std::size_t>(finger - kLeftFinger);
+  double position = runtime_->most_open;
+  // conservative advancement: a hull cannot be reached before the distance is travelled
+  for (int i = 0; i < 40 && position > 0; ++i) {
+    const RigidTransform door_from_finger =
+        door_from_tcp * Translation(runtime_->opening.at(side) * position);
+    Separation nearest;
+    for (const Hull& piece : runtime_->finger.at(side)) {
+      const Separation found = runtime_->NearestOfHandle(piece, door_from_finger);
+      if (found.distance < nearest.distance) nearest = found;
+    }
+    if (nearest.distance < 2e-4) {
+      const RigidTransform tcp_from_door = door_from_tcp.inverse();
+      return PadContact{position, tcp_from_door * nearest.point_on_door,
+                        tcp_from_door.linear() * nearest.normal_of_door};
+    }
+    position -= nearest.distance;
+  }
+  return std::nullopt;
+}
+
+}  // namespace doorforge

@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/physics/door_world.h"
+
+#include <cmath>
+#include <numbers>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "doorforge/core/error.h"
+#include "doorforge/physics/hand_controller.h"
+#include "doorforge/physics/scene_sampling.h"
+
+#include "primitive_door.h"
+
+namespace doorforge {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+class DoorWorldTest : public testing::Test {
+ protected:
+  DoorWorldTest() : robot_(LoadMobileFranka()), door_(MakePrimitiveDoor({})) {
+    SceneConfig config;
+    config.base_jitter = 0;
+    scene_ = SampleScene(door_, 1, 0, config);
+    hold_.arm_position = robot_.InitialPosition().head<kArmJointCount>();
+  }
+
+  DoorWorld MakeWorld() const { return {scene_, door_, robot_, robot_.InitialPosition()}; }
+
+  // Pulls at the grasp point, out of the leaf.
+  void Pull(DoorWorld& world, double newton, int steps) const {
+    const Eigen::Vector3d point =
+        door_.handle_joint.parent_from_child_at_zero * door_.handle_from_grasp.translation();
+    for (int i = 0; i < steps; ++i) {
+      world.PushLeaf(point, {newton, 0, 0});
+      world.Step(hold_);
+    }
+  }
+
+  RobotModel robot_;
+  DoorAsset door_;
+  Scene scene_;
+  RobotCommand hold_;
+};
+
+TEST_F(DoorWorldTest, ALockedDoorHoldsAgainst100NewtonAtTheHandle) {
+  DoorWorld world = MakeWorld();
+  Pull(world, 100, 240);
+  EXPECT_TRUE(world.state().locked);
+  EXPECT_LT(world.state().hinge_rad, 1 * kDegree);
+}
+
+TEST_F(DoorWorldTest, TheLatchGivesWayWhereItsTorqueIsExceeded) {
+  // the law is an effort: 150 N m at this reach is the force below, and no more
+  const Eigen::Vector3d point =
+      door_.handle_joint.parent_from_child_at_zero * door_.handle_from_grasp.translation();
+  const double reach = point.y();
+  DoorWorld below = MakeWorld();
+  Pull(below, 0.97 * 150 / reach, 240);
+  EXPECT_LT(below.state().hinge_rad, 1 * kDegree);
+  DoorWorld above = MakeWorld();
+  Pull(above, 1.10 * 150 / reach, 240);
+  EXPECT_GT(above.state().hinge_rad, 2 * kDegree);
+}
+
+TEST_F(DoorWorldTest, WithTheHandleTurnedTheSamePullOpensIt) {
+  DoorWorld world = MakeWorld();
+  for (int i = 0; i < 240; ++i) {
+    world.TurnHandle(5);
+    world.Step(hold_);
+  }
+  EXPECT_FALSE(world.state().locked);
+  EXPECT_TRUE(world.state().handle_done);
+  EXPECT_NEAR(world.state().handle_rad, door_.handle_joint.upper_rad, 1 * kDegree);
+  for (int i = 0; i < 60; ++i) {
+    world.TurnHandle(5);
+    Pull(world, 100, 1);
+  }
+  EXPECT_GT(world.state().hinge_rad, 5 * kDegree);
+}
+
+TEST_F(DoorWorldTest, AnOpenDoorStopsWhereItsSpringBalancesThePull) {
+  scene_.latch.type = LatchType::kNone;
+  DoorWorld world = MakeWorld();
+  // hinge torque from a force along the leaf's normal: spring * angle in balance
+  const double newton = 1.0;
+  const Eigen::Vector3d point(0.02, 0.7, 0.8);
+  for (int i = 0; i < 240 * 60; ++i) {
+    world.PushLeaf(point, {newton, 0, 0});
+    world.Step(hold_);
+  }
+  EXPECT_NEAR(world.state().hinge_rad, newton * 0.7 / scene_.latch.hinge_spring_nm_per_rad,
+              0.2 * kDegree);
+}
+
+TEST_F(DoorWorldTest, TheHandleSpringsBack) {
+  DoorWorld world = MakeWorld();
+  for (int i = 0; i < 120; ++i) {
+    world.TurnHandle(5);
+    world.Step(hold_);
+  }
+  ASSERT_GT(world.state().handle_rad, 40 * kDegree);
+  for (int i = 0; i < 240; ++i) world.Step(hold_);
+  EXPECT_NEAR(world.state().handle_rad, 0, 0.5 * kDegree);
+  EXPECT_TRUE(world.state().locked);
+  EXPECT_TRUE(world.state().handle_done);
+}
+
+TEST_F(DoorWorldTest, TheHandleTurnsAsItsSpringSays) {
+  DoorWorld world = MakeWorld();
+  const double torque = 1.2;
+  for (int i = 0; i < 480; ++i) {
+    world.TurnHandle(torque);
+    world.Step(hold_);
+  }
+  EXPECT_NEAR(world.state().handle_rad, torque / scene_.latch.handle_spring_nm_per_rad,
+              0.3 * kDegree);
+}
+
+TEST_F(DoorWorldTest, TheRobotHoldsStillAndFollowsItsJoints) {
+  DoorWorld world = MakeWorld();
+  for (int i = 0; i < 240; ++i) world.Step(hold_);
+  EXPECT_LT((world.state().robot_position - robot_.InitialPosition()).cwiseAbs().maxCoeff(), 1e-3);
+  RobotCommand command = hold_;
+  command.arm_position[0] += 0.1;
+  command.arm_position[8] += 0.3;
+  for (int i = 0; i < 240; ++i) world.Step(command);
+  EXPECT_LT((world.state().robot_position.head<kArmJointCount>() - command.arm_position)
+                .cwiseAbs()
+                .maxCoeff(),
+            2e-3);
+  EXPECT_TRUE(world.Healthy());
+}
+
+TEST_F(DoorWorldTest, FingersCloseOnNothingAndOpenAgain) {
+  DoorWorld world = MakeWorld();
+  RobotCommand close = hold_;
+  close.close_fingers = true;
+  for (int i = 0; i < 240; ++i) world.Step(close);
+  EXPECT_NEAR(world.state().robot_position[kLeftFinger], 0, 1e-3);
+  EXPECT_NEAR(world.state().robot_position[kRightFinger], 0, 1e-3);
+  EXPECT_FALSE(world.Contacts().AnyPad());
+  for (int i = 0; i < 240; ++i) world.Step(hold_);
+  EXPECT_NEAR(world.state().robot_position[kLeftFinger], 0.04, 1e-3);
+}
+
+// Hash after 200 steps of a moving robot.
+std::string HashOfRun(const Scene& scene, const DoorAsset& door, const RobotModel& robot) {
+  DoorWorld world(scene, door, robot, robot.InitialPosition());
+  HandController controller(robot, scene.world_from_robot_base, robot.InitialPosition());
+  RigidTransform target = controller.CommandedHand();
+  target.translation() += Eigen::Vector3d(-0.5, 0.2, 0.1);  // into the door
+  controller.MoveHandTo(target, 0.3);
+  for (int i = 0; i < 200; ++i)
+    world.Step(controller.Step(world.state().robot_position, scene.physics.time_step_s));
+  return world.StateHash();
+}
+
+TEST_F(DoorWorldTest, TheSameSceneGivesTheSameBitsAlsoInTwoThreads) {
+  const std::string expected = HashOfRun(scene_, door_, robot_);
+  EXPECT_EQ(HashOfRun(scene_, door_, robot_), expected);
+  std::array<std::string, 2> hashes;
+  std::thread first([&] { hashes[0] = HashOfRun(scene_, door_, robot_); });
+  std::thread second([&] { hashes[1] = HashOfRun(scene_, door_, robot_); });
+  first.join();
+  second.join();
+  EXPECT_EQ(hashes[0], expected);
+  EXPECT_EQ(hashes[1], expected);
+  Scene other = scene_;
+  other.world_from_robot_base.translate(Eigen::Vector3d(1e-9, 0, 0));
+  EXPECT_NE(HashOfRun(other, door_, robot_), expected);
+}
+
+TEST_F(DoorWorldTest, RefusesSettingsThatCannotBeStepped) {
+  scene_.physics.time_step_s = 0;
+  EXPECT_THROW(MakeWorld(), Error);
+}
+
+}  // namespace
+}  // namespace doorforge

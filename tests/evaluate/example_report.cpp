@@ -51,6 +51,7 @@ EvaluatedEpisode Row(const ReportDoor& door, std::uint64_t seed, double skill) {
 LossCurve Loss(const std::string& name, double first) {
   LossCurve loss;
   loss.name = name;
+  loss.unit = "m";
   for (int epoch = 1; epoch <= 12; ++epoch) {
     loss.epoch.push_back(epoch);
     loss.train.push_back(first * std::exp(-0.25 * epoch) + 0.02);

@@ -119,6 +119,7 @@ std::vector<double> NumbersFromJson(const Json& json, const std::string& path) {
 
 Json LossToJson(const LossCurve& loss) {
   return {{"name", loss.name},
+          {"unit", loss.unit},
           {"epoch", NumbersToJson(loss.epoch)},
           {"train", NumbersToJson(loss.train)},
           {"validation", NumbersToJson(loss.validation)}};
@@ -127,6 +128,7 @@ Json LossToJson(const LossCurve& loss) {
 LossCurve LossFromJson(const Json& json, const std::string& path) {
   LossCurve loss;
   loss.name = ValueOf<std::string>(json, "name", path);
+  loss.unit = ValueOf<std::string>(json, "unit", path);
   loss.epoch = NumbersFromJson(MemberOf(json, "epoch", path), path + ".epoch");
   loss.train = NumbersFromJson(MemberOf(json, "train", path), path + ".train");
   loss.validation = NumbersFromJson(MemberOf(json, "validation", path), path + ".validation");

@@ -158,7 +158,7 @@ std::string LossChart(const LossCurve& loss) {
   plot.x_range = {loss.epoch.front(), loss.epoch.back()};
   plot.y_range = {Smallest(loss), Largest(loss) * 1.05};
   std::string svg = HorizontalGrid(plot, RoundTicks(plot.y_range.first, plot.y_range.second, 4)) +
-                    VerticalTicks(plot, EpochTicks(loss)) + AxisTitles(plot, "epoch", "loss");
+                    VerticalTicks(plot, EpochTicks(loss)) + AxisTitles(plot, "epoch", loss.unit);
   svg += Line(plot, PointsOf(loss.epoch, loss.train), "training");
   svg += Line(plot, PointsOf(loss.epoch, loss.validation), "validation");
   for (std::size_t i = 0; i < loss.epoch.size(); ++i) svg += LossDots(plot, loss, i);

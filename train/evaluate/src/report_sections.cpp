@@ -343,8 +343,8 @@ std::string LossSection(const EvaluationReport& report) {
                    {{"name", Escape(loss.name)}, {"chart", LossChart(loss)}});
   }
   if (charts.empty()) return {};
-  return R"(<section id="training"><h2>Training</h2><div class="legend"><span><svg viewBox="0 0 34 12"><path class="line training" d="M1 6H33"/></svg>training doors</span>)"
-         R"(<span><svg viewBox="0 0 34 12"><path class="line validation" d="M1 6H33"/></svg>validation doors</span></div><div class="two">)" +
+  return R"(<section id="training"><h2>Training</h2><div class="legend"><span><svg viewBox="0 0 34 12"><path class="line training" d="M1 6H33"/></svg>training</span>)"
+         R"(<span><svg viewBox="0 0 34 12"><path class="line validation" d="M1 6H33"/></svg>validation</span></div><div class="two">)" +
          charts + "</div></section>";
 }
 

@@ -30,7 +30,8 @@ struct ReportDoor {
 /// samples. All three have the same length; a validation value that was not measured is NaN (null
 /// in files).
 struct LossCurve {
-  std::string name;  ///< Such as "actor.position".
+  std::string name;  ///< Such as "hand position".
+  std::string unit;  ///< Such as "m"; empty if it has none.
   std::vector<double> epoch;
   std::vector<double> train;
   std::vector<double> validation;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "verb_options.h"
+#include <nlohmann/json.hpp>
 
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/parallel_for.h"
@@ -16,6 +16,8 @@
 #include "doorforge/core/progress.h"
 #include "doorforge/core/rigid_transform.h"
 #include "doorforge/door/catalogue.h"
+
+#include "verb_options.h"
 
 namespace doorforge {
 namespace {
@@ -61,8 +63,9 @@ int List(const Options& options) {
   if (options.json) {
     Json parts = Json::array();
     for (const CatalogueEntry& entry : entries) parts.push_back(ToJson(entry));
-    std::cout << Json{{"schema", "doorforge.catalog"}, {"schema_version", 1}, {"parts", parts}}.dump(2)
-              << '\n';
+    std::cout
+        << Json{{"schema", "doorforge.catalog"}, {"schema_version", 1}, {"parts", parts}}.dump(2)
+        << '\n';
     return 0;
   }
   for (const CatalogueEntry& entry : entries)
@@ -137,7 +140,9 @@ int Build(const Options& options) {
     std::fprintf(stderr, "doorforge: %s: %s\n", entries[i].id.c_str(), problems[i].c_str());
   }
   if (options.json)
-    std::cout << Json{{"schema", "doorforge.catalog_build"}, {"schema_version", 1}, {"parts", parts}}
+    std::cout << Json{{"schema", "doorforge.catalog_build"},
+                      {"schema_version", 1},
+                      {"parts", parts}}
                      .dump(2)
               << '\n';
   else

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "doorforge/mesh/convex_parts.h"
+#include "doorforge/mesh/repair_mesh.h"
+#include "doorforge/schemas/part.h"
+
+namespace doorforge {
+
+struct MakePartConfig {
+  RepairConfig repair;
+  ConvexPartsConfig frame_convex{.max_parts = 24, .max_concavity_m = 0.02};
+  ConvexPartsConfig leaf_convex{.max_parts = 16, .max_concavity_m = 0.01};
+  /// Finer: what the fingers grasp must not be thicker in collisions than in the picture.
+  ConvexPartsConfig handle_convex{.max_parts = 32, .max_concavity_m = 0.002};
+  int threads = 0;  ///< 0: all processors. Does not change the result.
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    visit("repair", self.repair);
+    visit("frame_convex", self.frame_convex);
+    visit("leaf_convex", self.leaf_convex);
+    visit("handle_convex", self.handle_convex);
+    visit("threads", self.threads);
+  }
+};
+
+/// A piece in any state, in the part's frame.
+struct RawPiece {
+  std::string name;  ///< As PartPiece::name.
+  TriangleMesh mesh;
+  Eigen::Vector4d color_rgba{0.7, 0.7, 0.7, 1.0};
+};
+
+/// All that is known of a part before its pieces are repaired.
+struct PartDraft {
+  Part facts;  ///< Without pieces.
+  std::vector<RawPiece> pieces;
+};
+
+struct PieceReport {
+  std::string piece;
+  RepairReport repair;
+  int convex_parts = 0;
+  ConvexPartsFit convex_fit;  ///< Measured, not the bound that was asked for.
+  bool mass_limited = false;  ///< The volume times the density lay outside the plausible range.
+};
+
+struct MadePart {
+  std::optional<Part> part;         ///< Empty exactly if a piece could not be closed.
+  std::vector<PieceReport> pieces;  ///< One a piece of the draft, in order.
+};
+
+/// Closes every piece, finds its convex parts and its mass.
+///
+/// Coordinates are rounded to float, as the canonical files hold them, so a part that is written
+/// and read back equals the part in memory. The density follows from category and piece (see
+/// docs/design/door.md); masses are kept between limits that a robot can move. Deterministic for
+/// any number of threads.
+///
+/// @throws Error(kInvalidArgument) if the draft has no leaf (body) or no grip (handle), or a piece
+///     name that its role does not have; Error(kInvalidConfig) from the config's parts.
+MadePart MakePart(const PartDraft& draft, const MakePartConfig& config);
+
+/// Why a part could not be made: "leaf: <reason of its repair>; ..."; empty if it was.
+std::string ProblemOf(const MadePart& made);
+
+/// A record of schema "doorforge.part_report", version 1: one repair report a piece.
+nlohmann::ordered_json ToJson(const MadePart& made);
+
+}  // namespace doorforge

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/door/export_urdf.h"
+
+namespace doorforge {
+namespace {
+
+void AddShapes(const DoorGeometry& geometry, UrdfLink& link) {
+  UrdfShape visual;
+  visual.name = geometry.name;
+  visual.geometry = UrdfMeshFile{.filename = VisualMeshPath(geometry)};
+  visual.color_rgba = geometry.color_rgba;
+  link.visuals.push_back(visual);
+  for (std::size_t i = 0; i < geometry.hulls.size(); ++i) {
+    UrdfShape collision;
+    collision.name = geometry.name + "_" + std::to_string(i);
+    collision.geometry = UrdfMeshFile{.filename = CollisionMeshPath(geometry, i)};
+    link.collisions.push_back(collision);
+  }
+}
+
+UrdfJoint ToUrdfJoint(const DoorJoint& joint, const std::string& parent, const std::string& child) {
+  UrdfJoint urdf;
+  urdf.name = joint.name;
+  urdf.type = joint.upper_rad > joint.lower_rad ? UrdfJointType::kRevolute : UrdfJointType::kFixed;
+  urdf.parent = parent;
+  urdf.child = child;
+  urdf.parent_from_joint = joint.parent_from_child_at_zero;
+  urdf.axis = joint.axis;
+  urdf.lower = joint.lower_rad;
+  urdf.upper = joint.upper_rad;
+  urdf.effort = joint.effort_limit_nm;
+  urdf.velocity = joint.velocity_limit_rad_s;
+  urdf.damping = joint.damping_nm_s;
+  return urdf;
+}
+
+}  // namespace
+
+UrdfModel ToUrdfModel(const DoorAsset& door) {
+  UrdfModel model;
+  model.name = door.id;
+  for (const DoorLink& link : door.links) {
+    UrdfLink urdf;
+    urdf.name = link.name;
+    urdf.inertial = link.mass;
+    for (const DoorGeometry& geometry : link.geometry) AddShapes(geometry, urdf);
+    model.links.push_back(std::move(urdf));
+  }
+  const auto& names = door.links;
+  model.joints = {ToUrdfJoint(door.hinge, names[kBaseLink].name, names[kLeafLink].name),
+                  ToUrdfJoint(door.handle_joint, names[kLeafLink].name, names[kHandleLink].name)};
+  return model;
+}
+
+void WriteDoorFolder(const DoorAsset& door, const std::filesystem::path& folder,
+                     Existing existing) {
+  StagedFolder staged(folder, existing);
+  WriteDoor(door, staged.path());
+  CommitFile(staged.path() / "model.urdf", ToUrdf(ToUrdfModel(door)));
+  staged.Commit();
+}
+
+}  // namespace doorforge

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "doorforge/core/rigid_transform.h"
+#include "doorforge/core/triangle_mesh.h"
+
+namespace doorforge::internal {
+
+/// Where a handle's back touches: the handle's points within a few millimetres of its rearmost.
+struct BackOutline {
+  double rear_m;          ///< Smallest x of the handle.
+  Eigen::Vector2d min_m;  ///< In (y, z).
+  Eigen::Vector2d max_m;
+  std::vector<Eigen::Vector2d> samples;  ///< Points of the back, (y, z); at least one.
+};
+
+/// `handle` in its own frame: all pieces as one mesh, not empty.
+BackOutline BackOutlineOf(const TriangleMesh& handle);
+
+/// The translation that brings the back onto the leaf, starting from `mount_m`. Both `leaf` and
+/// `mount_m` are in the body's frame. Empty, with no guess, if the leaf has no surface there or is
+/// smaller than the back.
+std::optional<Eigen::Vector3d> SeatOn(const TriangleMesh& leaf, const BackOutline& back,
+                                      const Eigen::Vector3d& mount_m);
+
+}  // namespace doorforge::internal

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "doorforge/physics/robot_model.h"
+#include "doorforge/schemas/door_asset.h"
+#include "doorforge/schemas/scene.h"
+
+namespace doorforge {
+
+/// Where the expert takes hold of the handle, and how the arm gets there.
+struct GraspPlan {
+  /// Tool centre in the handle's frame.
+  RigidTransform handle_from_tcp = RigidTransform::Identity();
+  JointVector pregrasp = JointVector::Zero();  ///< kPregraspDistance before the grasp.
+  JointVector grasp = JointVector::Zero();
+  double cost = 0;  ///< Of the geometry; 0 is flat, central contact of both pads.
+};
+
+inline constexpr double kPregraspDistance = 0.12;  ///< [m], back along the approach.
+
+/// Picks the best grasp among small variations of the scene's (noisy) grasp: depth, place along the
+/// handle and turn about the approach are searched, the place across is chosen so that both pads
+/// touch at once. Judged by the hulls of the closed door: both pads must meet the handle, the open
+/// gripper must pass; flat contact near the middle of the pads, little change and a wrist far from
+/// its limits are better. If no variation satisfies all that, the least bad one is returned.
+///
+/// Privileged: uses the door's geometry. Deterministic.
+GraspPlan PlanGrasp(const Scene& scene, const DoorAsset& door, const RobotModel& robot);
+
+}  // namespace doorforge

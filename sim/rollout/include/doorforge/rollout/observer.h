@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "doorforge/physics/robot_model.h"
+#include "doorforge/schemas/cloud.h"
+
+namespace doorforge {
+
+/// Where everything is at one instant, in the world.
+struct SceneSnapshot {
+  RobotPose robot;
+  std::array<RigidTransform, 3> door;  ///< Indexed by DoorLinkIndex.
+  double time_s = 0;
+  std::string_view stage;  ///< "start", "reach", "grasp", "unlock", "open", "end".
+};
+
+/// Looks at an episode while it runs. Episodes run without one as well: the physics does not
+/// change.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  /// The cloud for a policy's decision; may be empty.
+  virtual LabelledCloud Observe(const SceneSnapshot& snapshot) = 0;
+  /// Called at the beginning, after each stage and at each decision.
+  virtual void Watch(const SceneSnapshot& /*snapshot*/) {}
+};
+
+}  // namespace doorforge

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "doorforge/schemas/policy.h"
+
+namespace doorforge {
+
+struct OpeningExpertConfig {
+  double step_m = 0.055;       ///< Arc that the hand is led ahead by one action.
+  double first_step_m = 0.02;  ///< Of the first action; grows to step_m over four.
+  /// The handle stays turned, pressed this much beyond its angle, until the door is ajar.
+  double press_rad = 0.25;
+  double ajar_rad = 0.0873;             ///< 5 degrees.
+  double relax_rad_per_action = 0.133;  ///< 0.8 rad/s.
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    visit("step_m", self.step_m);
+    visit("first_step_m", self.first_step_m);
+    visit("press_rad", self.press_rad);
+    visit("ajar_rad", self.ajar_rad);
+    visit("relax_rad_per_action", self.relax_rad_per_action);
+  }
+};
+
+/// Opens the door by replaying the grasp on the true arc of the measured hinge: the target leads
+/// the measured angle, so a door that is stuck does not wind it up. Reads only the privileged
+/// state.
+class OpeningExpert : public Policy {
+ public:
+  explicit OpeningExpert(const OpeningExpertConfig& config = {}) : config_(config) {}
+
+  void Reset() override;
+  Action Act(const Observation& observation) override;
+
+ private:
+  OpeningExpertConfig config_;
+  int actions_ = 0;
+  double handle_target_rad_ = 0;
+  RigidTransform handle_from_hand_ = RigidTransform::Identity();
+};
+
+}  // namespace doorforge

@@ -1,0 +1,328 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "episode_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <numbers>
+
+namespace doorforge::internal {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kOpenAngle = 45 * kDegree;
+constexpr double kReachSpeedFraction = 0.6;  // of the joints' velocity limits
+constexpr double kApproachSpeed = 0.15;      // [m/s]
+constexpr double kCloseTime = 1.2;           // [s]
+constexpr double kBothPadsTime = 0.12;       // [s] of touch that makes a grasp
+constexpr double kCenteringSpeed = 0.05;     // [m/s]
+constexpr double kTurnSpeed = 0.8;           // [rad/s]
+constexpr double kTurnLead = 0.25;           // [rad] ahead of the measured handle
+constexpr double kTurnBeyond = 0.07;         // [rad] past "handle done"
+constexpr double kTurnTime = 4;              // [s]
+constexpr double kLostTime = 0.25;           // [s] without any pad on the handle
+constexpr double kReachTolerance = 0.012;    // [m]
+
+#if defined(__GNUC__)
+__attribute__((format(printf, 1, 2)))
+#endif
+std::string
+Format(const char* format, ...) {
+  char text[400];
+  std::va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  return text;
+}
+
+}  // namespace
+
+EpisodeRun::EpisodeRun(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
+                       Observer* observer)
+    : door_(door),
+      robot_(robot),
+      observer_(observer),
+      plan_(PlanGrasp(scene, door, robot)),
+      world_(scene, door, robot, robot.InitialPosition()),
+      controller_(robot, scene.world_from_robot_base, robot.InitialPosition()) {
+  episode_.scene = scene;
+  controller_.SetPosture(plan_.grasp);
+}
+
+// ---- stepping -----------------------------------------------------------------------------------
+
+void EpisodeRun::Step(const RobotCommand& command) {
+  if (diverged_) return;
+  world_.Step(command);
+  ++step_;
+  const WorldState& state = world_.state();
+  diverged_ = !world_.Healthy();
+  if (diverged_) return;
+  episode_.peak_hinge_rad = std::max(episode_.peak_hinge_rad, state.hinge_rad);
+  episode_.peak_handle_rad = std::max(episode_.peak_handle_rad, state.handle_rad);
+}
+
+void EpisodeRun::StepHand() {
+  Step(controller_.Step(world_.state().robot_position, episode_.scene.physics.time_step_s));
+}
+
+int EpisodeRun::StepsIn(double seconds) const {
+  return static_cast<int>(std::lround(seconds / episode_.scene.physics.time_step_s));
+}
+
+double EpisodeRun::HandError(const RigidTransform& world_from_hand) const {
+  return (world_.PoseOfRobot().world_from_hand.translation() - world_from_hand.translation())
+      .norm();
+}
+
+bool EpisodeRun::MoveHand(const RigidTransform& world_from_hand, double speed_m_s) {
+  const double distance =
+      (world_from_hand.translation() - controller_.CommandedHand().translation()).norm();
+  controller_.MoveHandTo(world_from_hand, distance / speed_m_s);
+  const int patience = StepsIn(0.4);
+  for (int waited = 0; waited < patience && !diverged_;) {
+    StepHand();
+    if (!controller_.Arrived()) continue;
+    ++waited;
+    if (HandError(world_from_hand) < 0.002) return true;
+  }
+  return HandError(world_from_hand) < kReachTolerance;
+}
+
+// ---- stages -------------------------------------------------------------------------------------
+
+EpisodeRun::Failure EpisodeRun::Reach() {
+  Watch("start");
+  const double dt = episode_.scene.physics.time_step_s;
+  const int budget = StepsIn(4);
+  for (int i = 0; i < budget && !diverged_; ++i) {
+    const JointVector& now = world_.state().robot_position;
+    Step(controller_.StepJoints(plan_.pregrasp, now, dt, kReachSpeedFraction));
+    const JointVector rest = plan_.pregrasp - world_.state().robot_position;
+    if (rest.head<kArmJointCount>().cwiseAbs().maxCoeff() < 0.01) break;
+  }
+  Watch("reach");
+  const RigidTransform goal =
+      WorldFromHandle(0) * plan_.handle_from_tcp * robot_.hand_from_tcp().inverse();
+  const bool arrived = MoveHand(goal, kApproachSpeed);
+  if (arrived) return std::nullopt;
+  problem_ = Format("hand %.0f mm from the grasp pose", 1000 * HandError(goal));
+  const DoorContacts contacts = world_.Contacts();
+  if (!contacts.arm_touches.empty()) problem_ += ", blocked at " + contacts.arm_touches;
+  return EpisodeOutcome::kNotReached;
+}
+
+// The arm does not yield to a finger that touches first, so it follows that finger.
+void EpisodeRun::CenterHand(const DoorContacts& contacts) {
+  if (contacts.BothPads() || !contacts.AnyPad()) return;
+  RigidTransform hand = controller_.CommandedHand();
+  const double way = contacts.pad_points[0] > 0 ? 1 : -1;
+  const double distance = kCenteringSpeed * episode_.scene.physics.time_step_s;
+  hand.translation() += way * distance * hand.linear().col(1);
+  controller_.FollowHand(hand);
+}
+
+EpisodeRun::Failure EpisodeRun::Grasp() {
+  controller_.close_fingers = true;
+  const int budget = StepsIn(kCloseTime);
+  const int enough = StepsIn(kBothPadsTime);
+  int both = 0;
+  DoorContacts contacts;
+  for (int i = 0; i < budget && both < enough && !diverged_; ++i) {
+    StepHand();
+    contacts = world_.Contacts();
+    both = contacts.BothPads() ? both + 1 : 0;
+    CenterHand(contacts);
+  }
+  Watch("grasp");
+  handle_from_hand_at_grasp_ =
+      WorldFromHandle(world_.state().handle_rad).inverse() * world_.PoseOfRobot().world_from_hand;
+  if (both >= enough) {
+    last_pad_step_ = step_;
+    return std::nullopt;
+  }
+  problem_ = Format("pads touch with %d and %d points, fingers at %.1f mm", contacts.pad_points[0],
+                    contacts.pad_points[1], 1000 * world_.state().robot_position[kLeftFinger]);
+  return EpisodeOutcome::kGraspMissed;
+}
+
+EpisodeRun::Failure EpisodeRun::Unlock() {
+  if (world_.state().handle_done) return std::nullopt;
+  const double dt = episode_.scene.physics.time_step_s;
+  const double goal = std::min(episode_.scene.latch.handle_done_angle_rad + kTurnBeyond,
+                               door_.handle_joint.upper_rad);
+  const int budget = StepsIn(kTurnTime);
+  int lost = 0;
+  double commanded = world_.state().handle_rad;
+  for (int i = 0; i < budget && !diverged_; ++i) {
+    const WorldState& state = world_.state();
+    if (state.handle_done && !state.locked) {
+      Watch("unlock");
+      return std::nullopt;
+    }
+    // leads the measured angle, so that a stuck handle does not wind the arm up
+    commanded =
+        std::min({commanded + kTurnSpeed * dt, state.handle_rad + kTurnLead, goal + kTurnLead});
+    controller_.FollowHand(WorldFromHandle(commanded) * handle_from_hand_at_grasp_);
+    StepHand();
+    lost = world_.Contacts().AnyPad() ? 0 : lost + 1;
+    if (lost > StepsIn(kLostTime)) break;
+  }
+  Watch("unlock");
+  const bool slipped = lost > 0 || Slip() > 0.025 || TurnSlip() > 0.35;
+  problem_ = Format("handle at %.1f of %.1f deg, grasp moved %.0f mm and turned %.0f deg in it",
+                    world_.state().handle_rad / kDegree,
+                    episode_.scene.latch.handle_done_angle_rad / kDegree, 1000 * Slip(),
+                    TurnSlip() / kDegree);
+  return slipped ? EpisodeOutcome::kHandleSlipped : EpisodeOutcome::kHandleStuck;
+}
+
+void EpisodeRun::NoteContacts() {
+  const DoorContacts contacts = world_.Contacts();
+  const int per_action = episode_.scene.physics.steps_per_action;
+  if (contacts.AnyPad()) last_pad_step_ = step_;
+  if (contacts.AnyPad() || contacts.arm_points > 0) last_touch_step_ = step_;
+  const bool beyond = world_.state().hinge_rad > kOpenAngle;
+  if (!beyond || opened_ || coasted_) return;
+  opened_ = last_touch_step_ >= 0 && step_ - last_touch_step_ <= per_action;
+  coasted_ = !opened_;
+  const bool pads = last_pad_step_ >= 0 && step_ - last_pad_step_ <= per_action;
+  touched_at_opening_ = Format("%s at 45 deg, finger to handle %.1f mm",
+                               contacts.BothPads() ? "both pads"
+                               : pads              ? "one pad or just before"
+                                                   : "no pad",
+                               1000 * contacts.pad_distance_m);
+  if (contacts.arm_points > 0)
+    touched_at_opening_ +=
+        ", arm touches " + contacts.arm_touches + Format(" with %.0f N", contacts.arm_force_n);
+}
+
+void EpisodeRun::HoldAction() {
+  for (int i = 0; i < episode_.scene.physics.steps_per_action && !diverged_; ++i) {
+    StepHand();
+    NoteContacts();
+  }
+}
+
+void EpisodeRun::Decide(Policy& opening) {
+  Watch("open");
+  const WorldState& state = world_.state();
+  Observation observation;
+  if (observer_ != nullptr) observation.cloud = observer_->Observe(Snapshot("open"));
+  observation.proprioception =
+      ProprioceptionOf(robot_, state, episode_.scene.world_from_robot_base);
+  observation.privileged = Privileged();
+  const Action action = opening.Act(observation);
+
+  Decision decision;
+  decision.cloud = std::move(observation.cloud);
+  decision.proprioception = observation.proprioception;
+  decision.action = ToVector(action);
+  decision.time_s = state.time_s;
+  decision.hinge_rad = state.hinge_rad;
+  decision.handle_rad = state.handle_rad;
+
+  RigidTransform target = RigidTransform::Identity();
+  target.linear() = action.world_from_hand_rotation;
+  target.translation() =
+      observation.privileged.world_from_hand.translation() + action.position_delta_m;
+  const PhysicsConfig& physics = episode_.scene.physics;
+  controller_.MoveHandTo(target, physics.steps_per_action * physics.time_step_s);
+  HoldAction();
+  decision.hinge_gain_rad = world_.state().hinge_rad - decision.hinge_rad;
+  episode_.decisions.push_back(std::move(decision));
+}
+
+EpisodeRun::Failure EpisodeRun::Open(Policy& opening) {
+  const PhysicsConfig& physics = episode_.scene.physics;
+  // a hand that has been off the door for a second does not come back by itself
+  const int given_up = 6 * physics.steps_per_action;
+  opening.Reset();
+  last_touch_step_ = step_;
+  for (int i = 0; i < physics.max_opening_actions && !opened_ && !coasted_ && !diverged_; ++i) {
+    Decide(opening);
+    if (step_ - last_touch_step_ > given_up) break;
+  }
+  Watch("end");
+  if (opened_) return std::nullopt;
+  const bool lost = step_ - last_pad_step_ > physics.steps_per_action;
+  problem_ = Format(
+      "hinge at %.1f deg after %zu actions, last pad contact %.2f s before the end, "
+      "grasp moved %.0f mm",
+      world_.state().hinge_rad / kDegree, episode_.decisions.size(),
+      static_cast<double>(step_ - last_pad_step_) * physics.time_step_s, 1000 * Slip());
+  const DoorContacts contacts = world_.Contacts();
+  if (!contacts.arm_touches.empty()) problem_ += ", arm touches " + contacts.arm_touches;
+  if (coasted_) problem_ += ", the door coasted past 45 deg by itself";
+  return lost || coasted_ ? EpisodeOutcome::kGripLost : EpisodeOutcome::kDoorStuck;
+}
+
+// ---- what is seen -------------------------------------------------------------------------------
+
+RigidTransform EpisodeRun::WorldFromHandle(double handle_rad) const {
+  return episode_.scene.world_from_door *
+         DoorFromLinks(door_, world_.state().hinge_rad, handle_rad)[kHandleLink];
+}
+
+double EpisodeRun::Slip() const {
+  const RigidTransform now =
+      WorldFromHandle(world_.state().handle_rad).inverse() * world_.PoseOfRobot().world_from_hand;
+  const Eigen::Vector3d tcp = robot_.hand_from_tcp().translation();
+  return (now * tcp - handle_from_hand_at_grasp_ * tcp).norm();
+}
+
+double EpisodeRun::TurnSlip() const {
+  const RigidTransform now =
+      WorldFromHandle(world_.state().handle_rad).inverse() * world_.PoseOfRobot().world_from_hand;
+  return RotationVector(now.linear().transpose() * handle_from_hand_at_grasp_.linear()).norm();
+}
+
+PrivilegedState EpisodeRun::Privileged() const {
+  const WorldState& state = world_.state();
+  const auto links = world_.WorldFromDoorLinks();
+  PrivilegedState privileged;
+  privileged.hinge_rad = state.hinge_rad;
+  privileged.handle_rad = state.handle_rad;
+  privileged.world_from_handle = links[kHandleLink];
+  privileged.world_from_hand = world_.PoseOfRobot().world_from_hand;
+  privileged.hinge_origin_in_world = links[kLeafLink].translation();
+  privileged.hinge_axis_in_world = links[kLeafLink].linear() * door_.hinge.axis;
+  privileged.handle_origin_in_world = links[kHandleLink].translation();
+  privileged.handle_axis_in_world = links[kHandleLink].linear() * door_.handle_joint.axis;
+  privileged.handle_from_hand_at_grasp = handle_from_hand_at_grasp_;
+  return privileged;
+}
+
+SceneSnapshot EpisodeRun::Snapshot(std::string_view stage) const {
+  return {world_.PoseOfRobot(), world_.WorldFromDoorLinks(), world_.state().time_s, stage};
+}
+
+void EpisodeRun::Watch(std::string_view stage) {
+  if (observer_ != nullptr) observer_->Watch(Snapshot(stage));
+}
+
+std::string EpisodeRun::Detail(Failure failure) const {
+  std::string text = Format("grasp cost %.2f; ", plan_.cost);
+  if (failure) return text + problem_;
+  return text +
+         Format("hinge %.1f deg after %zu actions; ", world_.state().hinge_rad / kDegree,
+                episode_.decisions.size()) +
+         touched_at_opening_ + Format("; grasp moved %.0f mm", 1000 * Slip());
+}
+
+Episode EpisodeRun::Finish(Failure failure) {
+  if (diverged_) {
+    failure = EpisodeOutcome::kDiverged;
+    problem_ = Format("state not finite or too fast after %ld steps", step_);
+  }
+  episode_.outcome = failure.value_or(EpisodeOutcome::kOpened);
+  episode_.detail = Detail(failure);
+  episode_.simulated_s = world_.state().time_s;
+  episode_.state_sha256 = world_.StateHash();
+  return std::move(episode_);
+}
+
+}  // namespace doorforge::internal

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "doorforge/physics/hand_controller.h"
+#include "doorforge/rollout/grasp_plan.h"
+#include "doorforge/rollout/run_episode.h"
+
+namespace doorforge::internal {
+
+/// One running episode. Stages are called in order; each returns the failure that ends the episode,
+/// or nothing.
+class EpisodeRun {
+ public:
+  EpisodeRun(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
+             Observer* observer);
+
+  using Failure = std::optional<EpisodeOutcome>;
+  Failure Reach();
+  Failure Grasp();
+  Failure Unlock();
+  Failure Open(Policy& opening);
+
+  Episode Finish(Failure failure);
+
+ private:
+  void Step(const RobotCommand& command);
+  void StepHand();
+  int StepsIn(double seconds) const;
+  bool MoveHand(const RigidTransform& world_from_hand, double speed_m_s);
+  void CenterHand(const DoorContacts& contacts);
+  double HandError(const RigidTransform& world_from_hand) const;
+
+  RigidTransform WorldFromHandle(double handle_rad) const;
+  double Slip() const;  ///< [m] of the tool centre in the handle's frame since the grasp.
+  double TurnSlip() const;
+  PrivilegedState Privileged() const;
+  SceneSnapshot Snapshot(std::string_view stage) const;
+  void Watch(std::string_view stage);
+  void Decide(Policy& opening);
+  void HoldAction();
+  void NoteContacts();
+  std::string Detail(Failure failure) const;
+
+  const DoorAsset& door_;
+  const RobotModel& robot_;
+  Observer* observer_;
+  GraspPlan plan_;
+  DoorWorld world_;
+  HandController controller_;
+  Episode episode_;
+  RigidTransform handle_from_hand_at_grasp_ = RigidTransform::Identity();
+
+  // bookkeeping of contacts, in steps
+  long step_ = 0;
+  long last_pad_step_ = -1;
+  long last_touch_step_ = -1;
+  bool opened_ = false;
+  bool coasted_ = false;
+  bool diverged_ = false;
+  std::string problem_;
+  std::string touched_at_opening_;
+};
+
+}  // namespace doorforge::internal

@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/rollout/grasp_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "doorforge/physics/grasp_probe.h"
+#include "doorforge/physics/inverse_kinematics.h"
+
+namespace doorforge {
+namespace {
+
+constexpr double kMissCost = 10;       // a pad that meets nothing
+constexpr double kUnreachedCost = 20;  // a pose that the arm does not get to
+constexpr double kGoodEnough = 0.3;
+constexpr double kTurnCheck = 0.7;  // [rad] about 40 degrees, with the press a whole handle range
+
+struct Variation {
+  double depth_m = 0;
+  double along_m = 0;
+  double roll_rad = 0;
+};
+
+RigidTransform Varied(const RigidTransform& grasp, const Variation& variation) {
+  return grasp * Translation({variation.along_m, 0, variation.depth_m}) *
+         RotationAbout(Eigen::Vector3d::UnitZ(), variation.roll_rad);
+}
+
+// 0 for a flat contact between the middle of the pad and its root.
+double ContactCost(const PadContact& contact) {
+  const double tilt = 1 - std::abs(contact.normal_in_tcp.y());
+  const double beyond_middle = std::max(0.0, contact.point_in_tcp_m.z() - 0.003);
+  return 4 * std::max(0.0, tilt - 0.03) + beyond_middle / 0.005 +
+         0.1 * std::abs(contact.point_in_tcp_m.x()) / 0.0105;
+}
+
+// The open gripper at the grasp and on its way there.
+double PassageCost(const GraspProbe& probe, const RigidTransform& door_from_tcp) {
+  constexpr double kGap = 0.002;
+  double cost = 0;
+  for (int i = 0; i <= 4; ++i) {
+    const RigidTransform back = door_from_tcp * Translation({0, 0, -kPregraspDistance * i / 4});
+    const double missing = kGap - probe.Clearance(back, kGap);
+    cost = std::max(cost, std::min(missing / 0.001, 5.0));
+  }
+  return cost;
+}
+
+struct JudgedGrasp {
+  RigidTransform door_from_tcp = RigidTransform::Identity();
+  double cost = std::numeric_limits<double>::infinity();
+};
+
+JudgedGrasp Judge(const GraspProbe& probe, const RigidTransform& door_from_grasp,
+                  const Variation& variation) {
+  JudgedGrasp judged;
+  judged.door_from_tcp = Varied(door_from_grasp, variation);
+  const auto left = probe.Close(judged.door_from_tcp, kLeftFinger);
+  const auto right = probe.Close(judged.door_from_tcp, kRightFinger);
+  judged.cost = std::abs(variation.depth_m) / 0.1 + std::abs(variation.along_m) / 0.1 +
+                std::abs(variation.roll_rad) / 1.75;
+  if (!left || !right) {
+    judged.cost += kMissCost * ((left ? 0 : 1) + (right ? 0 : 1));
+    return judged;
+  }
+  const double off_center = (left->finger_position_m - right->finger_position_m) / 2;
+  const double half_gap = (left->finger_position_m + right->finger_position_m) / 2;
+  judged.door_from_tcp.translate(Eigen::Vector3d(0, off_center, 0));
+  judged.cost += ContactCost(*left) + ContactCost(*right) +
+                 std::max(0.0, half_gap - 0.036) / 0.001 + PassageCost(probe, judged.door_from_tcp);
+  return judged;
+}
+
+std::vector<Variation> Variations(Mechanism mechanism) {
+  std::vector<Variation> variations;
+  const double roll_step = mechanism == Mechanism::kRound ? 0.26 : 0.17;
+  for (const double roll : {0.0, roll_step, -roll_step, 2 * roll_step, -2 * roll_step}) {
+    for (const double along : {0.0, 0.008, -0.008, 0.02, -0.02}) {
+      for (const double depth : {0.0, -0.006, 0.006, -0.012, 0.012})
+        variations.push_back({depth, along, roll});
+    }
+  }
+  return variations;
+}
+
+JudgedGrasp SearchGrasp(const GraspProbe& probe, const RigidTransform& door_from_grasp,
+                        Mechanism mechanism) {
+  JudgedGrasp best;
+  for (const Variation& variation : Variations(mechanism)) {
+    const JudgedGrasp judged = Judge(probe, door_from_grasp, variation);
+    if (judged.cost < best.cost) best = judged;
+    if (best.cost < kGoodEnough) break;
+  }
+  return best;
+}
+
+// ---- the arm ------------------------------------------------------------------------------------
+
+// Facing the door with a level hand; the sliders take the distance.
+JointVector LevelPosture(double last_joint) {
+  JointVector posture = JointVector::Zero();
+  posture[3] = -0.3;
+  posture[5] = -2.1;
+  posture[7] = posture[3] - posture[5] + std::numbers::pi / 2;
+  posture[8] = last_joint;
+  return posture;
+}
+
+struct ReachedGrasp {
+  GraspPlan plan;
+  double cost = std::numeric_limits<double>::infinity();
+};
+
+struct Reach {
+  const RobotModel& robot;
+  const RigidTransform& world_from_base;
+
+  double Solve(const RigidTransform& world_from_tcp, JointVector& position) const {
+    const auto solution =
+        SolveInverseKinematics(robot, world_from_base, {world_from_tcp, position}, position);
+    position = solution.position;
+    return solution.Reached() ? 0 : kUnreachedCost * (1 + solution.position_error_m);
+  }
+};
+
+// Part of the way from the middle of its range to a limit that the last joint has gone, 0 to 1.
+double WristUse(const RobotModel& robot, const JointVector& position) {
+  const RobotJoint& wrist = robot.joints()[kArmJointCount - 1];
+  return std::abs(position[kArmJointCount - 1]) / wrist.upper;
+}
+
+ReachedGrasp ReachFrom(const Reach& reach, const Scene& scene, const DoorAsset& door,
+                       const RigidTransform& door_from_tcp, double last_joint) {
+  const RigidTransform world_from_tcp = scene.world_from_door * door_from_tcp;
+  ReachedGrasp reached;
+  reached.cost = 0;
+  JointVector position = LevelPosture(last_joint);
+  position.tail<2>().setConstant(reach.robot.joints()[kLeftFinger].upper);
+  reached.cost += reach.Solve(world_from_tcp * Translation({0, 0, -kPregraspDistance}), position);
+  reached.plan.pregrasp = position;
+  reached.cost += reach.Solve(world_from_tcp, position);
+  reached.plan.grasp = position;
+  double use = WristUse(reach.robot, position);
+  if (door.handle_joint.upper_rad > 0) {
+    const RigidTransform handle = DoorFromLinks(door, 0, 0)[kHandleLink];
+    const double angle = std::min(kTurnCheck, door.handle_joint.upper_rad);
+    const RigidTransform turned = DoorFromLinks(door, 0, angle)[kHandleLink];
+    reached.cost +=
+        reach.Solve(scene.world_from_door * turned * handle.inverse() * door_from_tcp, position);
+    use = std::max(use, WristUse(reach.robot, position));
+  }
+  reached.cost += use;
+  return reached;
+}
+
+}  // namespace
+
+GraspPlan PlanGrasp(const Scene& scene, const DoorAsset& door, const RobotModel& robot) {
+  const RigidTransform door_from_handle = DoorFromLinks(door, 0, 0)[kHandleLink];
+  const RigidTransform door_from_grasp =
+      door_from_handle * door.handle_from_grasp * scene.grasp_from_noisy_grasp;
+  const JudgedGrasp judged = SearchGrasp(GraspProbe(door, robot), door_from_grasp, door.mechanism);
+
+  // the two fingers are alike: half a turn about the approach is the same grasp
+  const Reach reach{robot, scene.world_from_robot_base};
+  ReachedGrasp best;
+  for (const double half_turn : {0.0, std::numbers::pi}) {
+    const RigidTransform door_from_tcp =
+        judged.door_from_tcp * RotationAbout(Eigen::Vector3d::UnitZ(), half_turn);
+    for (const double last_joint : {-0.785, 0.785, 2.356, -2.356}) {
+      ReachedGrasp reached = ReachFrom(reach, scene, door, door_from_tcp, last_joint);
+      reached.plan.handle_from_tcp = door_from_handle.inverse() * door_from_tcp;
+      if (reached.cost < best.cost) best = reached;
+    }
+  }
+  best.plan.cost = judged.cost;
+  return best.plan;
+}
+
+}  // namespace doorforge

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "doorforge/learn/instruction_set.h"
+
+namespace doorforge {
+
+/// Points in every cloud the networks read.
+inline constexpr int kCloudPoints = 4096;
+
+/// One set abstraction of PointNet++ (single-scale, UniDoorManip's table).
+struct SetAbstractionShape {
+  int points;
+  float radius_m;
+  int samples;
+};
+inline constexpr std::array<SetAbstractionShape, 4> kSetAbstractions = {
+    SetAbstractionShape{1024, 0.1F, 32}, SetAbstractionShape{256, 0.2F, 32},
+    SetAbstractionShape{64, 0.4F, 32}, SetAbstractionShape{16, 0.8F, 32}};
+
+/// What the encoder needs to know about where the points of one cloud lie, and nothing of any
+/// weight: computed once per cloud. It covers exactly the part of the network that the features of
+/// the chosen output points depend on; all indices are into that part.
+struct CloudGeometry {
+  /// A level's centres that matter, each with its ball in the level below.
+  struct Level {
+    std::vector<float> centre_xyz;          ///< n x 3, relative to the cloud's centre [m].
+    std::vector<std::uint32_t> ball_begin;  ///< n + 1 offsets into `member`.
+    std::vector<std::uint16_t> member;      ///< Rows of the level below, without padding.
+
+    std::size_t size() const { return centre_xyz.size() / 3; }
+  };
+  /// A level's points whose upsampled feature matters.
+  struct Upsampling {
+    std::vector<std::uint16_t> skip;       ///< Row of each in its level; targets are in this order.
+    std::vector<std::uint16_t> neighbour;  ///< Targets x 3: targets of the next coarser upsampling
+                                           ///< (of levels[3] for upsampling[3]).
+    std::vector<float> weight;             ///< Targets x 3.
+
+    std::size_t size() const { return skip.size(); }
+  };
+  std::vector<float> xyz;  ///< 4096 x 3, relative to the centre [m]: level 0.
+  std::array<Level, 4> levels;
+  std::array<Upsampling, 4> upsampling;  ///< [0] ends in the output points.
+};
+
+/// @param xyz 4096 x 3 finite numbers [m], world frame.
+/// @param centre Subtracted from every point; the same for all clouds of a policy.
+/// @param outputs Points whose feature will be read, ascending; the opening policy reads point 0.
+/// @throws Error(kInvalidArgument) on another number of points, or numbers that are not finite.
+CloudGeometry BuildGeometry(std::span<const float> xyz, const std::array<float, 3>& centre,
+                            std::span<const std::uint16_t> outputs, InstructionSet set);
+
+/// BuildGeometry() for point 0 alone.
+CloudGeometry BuildGeometry(std::span<const float> xyz, const std::array<float, 3>& centre);
+
+}  // namespace doorforge

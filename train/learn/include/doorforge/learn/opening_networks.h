@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "doorforge/learn/parameters.h"
+#include "doorforge/learn/training_sample.h"
+
+namespace doorforge {
+
+inline constexpr int kLatentSize = 128;
+
+/// Mean and standard deviation of the training set, component by component. Deviations have a lower
+/// bound, so that what hardly varied in training is not blown up later.
+template <std::size_t N>
+struct Normaliser {
+  std::array<float, N> mean{};
+  std::array<float, N> deviation{};
+
+  std::array<float, N> Apply(const std::array<float, N>& value) const {
+    std::array<float, N> out{};
+    for (std::size_t i = 0; i < N; ++i) out[i] = (value[i] - mean[i]) / deviation[i];
+    return out;
+  }
+};
+
+/// Constants between the world's numbers and the networks'. Part of a checkpoint.
+struct OpeningNormalisation {
+  std::array<float, 3> cloud_centre_m{};  ///< Subtracted from every cloud; the scale stays metres.
+  Normaliser<18> state;
+  Normaliser<9> action;  ///< Position [m], then the six rotation numbers.
+  Normaliser<3> hand_m;
+  Normaliser<3> base_m;
+  Normaliser<1> hinge_gain_rad;
+};
+
+/// Throws Error(kInvalidArgument) if there is no sample.
+OpeningNormalisation MeasureNormalisation(std::span<const TrainingSample> samples);
+nlohmann::ordered_json NormalisationToJson(const OpeningNormalisation& normalisation);
+/// Throws Error(kFormat), naming `path`.
+OpeningNormalisation NormalisationFromJson(const nlohmann::ordered_json& json,
+                                           const std::string& path);
+
+/// The actor: encoder ("encoder.*") and conditional VAE (UniDoorManip's table): action
+/// 9-128-128-64, state 18-128-128-64, posterior 256-128-128 -> mean and log-variance of 128
+/// latents, decoder 320-512-256-9.
+const ParameterLayout& ActorLayout();
+
+/// The critic: encoder of its own, state 18-128-128-64, action 9-128-128-64, hand and base position
+/// 3-128-128-64 each, score 384-256-128-1.
+const ParameterLayout& CriticLayout();
+
+/// The trained values of both networks, each a flat vector of its layout.
+struct OpeningNetworks {
+  OpeningNormalisation normalisation;
+  bool linear_branches = false;  ///< See TrainConfig.
+  std::vector<float> actor;
+  std::vector<float> critic;
+};
+
+/// He initialisation; layers that give results start at a tenth of it, so training starts near the
+/// mean of the training set.
+OpeningNetworks InitialNetworks(const OpeningNormalisation& normalisation, bool linear_branches,
+                                std::uint64_t seed);
+
+}  // namespace doorforge

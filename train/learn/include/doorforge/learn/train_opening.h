@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "doorforge/learn/opening_networks.h"
+#include "doorforge/learn/training_sample.h"
+
+namespace doorforge {
+
+/// What decides a training run besides its samples. Two runs of equal configs on equal samples give
+/// equal bytes, for any number of threads and any interruption.
+struct TrainConfig {
+  int epochs = 10;
+  int batch_size = 32;  ///< UniDoorManip 5.5; an epoch leaves out the last, incomplete batch.
+  double learning_rate = 1e-3;
+  double weight_decay = 1e-5;
+  /// "cosine": half a cosine from the learning rate to 1 % of it over all steps. "step": times 0.9
+  /// every 5000 steps (UniDoorManip). "constant".
+  std::string schedule = "cosine";
+  int warmup_steps = 30;         ///< The rate grows linearly over these.
+  double lambda_position = 100;  ///< Times mean L1 of the position [m].
+  double lambda_rotation = 5;    ///< Times the geodesic angle [rad].
+  double lambda_kl = 0.02;       ///< Times the divergence, summed over latents.
+  /// Weight of the same reconstruction decoded from the latent 0, which is what the policy decodes
+  /// when it runs; 0 gives the plain conditional VAE.
+  double prior_reconstruction = 1;
+  /// True: no ReLU between the layers of the actor's branches and decoder, as released.
+  bool linear_branches = false;
+  /// The critic learns on every n-th step only; 1: on all.
+  int critic_interval = 1;
+  double validation_share = 0.1;  ///< Of the episodes, if the data set has no split "val".
+  std::uint64_t seed = 1;
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    visit("epochs", self.epochs);
+    visit("batch_size", self.batch_size);
+    visit("learning_rate", self.learning_rate);
+    visit("weight_decay", self.weight_decay);
+    visit("schedule", self.schedule);
+    visit("warmup_steps", self.warmup_steps);
+    visit("lambda_position", self.lambda_position);
+    visit("lambda_rotation", self.lambda_rotation);
+    visit("lambda_kl", self.lambda_kl);
+    visit("prior_reconstruction", self.prior_reconstruction);
+    visit("linear_branches", self.linear_branches);
+    visit("critic_interval", self.critic_interval);
+    visit("validation_share", self.validation_share);
+    visit("seed", self.seed);
+  }
+};
+
+/// Throws Error(kInvalidConfig) on a value out of range, naming it.
+void CheckTrainConfig(const TrainConfig& config);
+
+/// Mean losses of a batch or of a set. Position and rotation are decoded from the latent 0.
+struct OpeningLosses {
+  double position_m = 0;      ///< Mean absolute error of a component.
+  double rotation_rad = 0;    ///< Mean geodesic angle.
+  double divergence = 0;      ///< Posterior against N(0, I).
+  double hinge_gain_rad = 0;  ///< Critic's mean absolute error.
+};
+
+struct EpochLosses {
+  OpeningLosses train;  ///< Mean over the epoch's steps.
+  OpeningLosses validation;
+};
+
+/// Everything that a run needs to go on as if it had never stopped.
+struct TrainerState {
+  std::uint64_t step = 0;  ///< Steps done.
+  OpeningNetworks networks;
+  /// Adam's first and second moments, as the networks' flat vectors.
+  std::vector<float> actor_first, actor_second, critic_first, critic_second;
+  std::vector<OpeningLosses> steps;  ///< One a step done.
+  std::vector<EpochLosses> epochs;   ///< One an epoch done.
+};
+
+/// How a run is carried out; none of it changes the result.
+struct TrainHooks {
+  int threads = 0;  ///< 0: all processors.
+  /// Goes on from here. Must come from a run of the same config and samples.
+  std::optional<TrainerState> resume;
+  /// Called after every step.
+  std::function<void(const TrainerState&)> on_step;
+  /// Called after every epoch, with its losses measured.
+  std::function<void(const TrainerState&)> on_epoch;
+  /// Asked after every step; true ends the run there.
+  std::function<bool()> stop;
+  /// Point geometry of the samples is kept up to this size instead of being found again each epoch.
+  std::size_t geometry_cache_bytes = std::size_t{2} << 30U;
+};
+
+/// Steps of one epoch: whole batches; a set smaller than a batch is one batch.
+std::uint64_t StepsPerEpoch(std::size_t samples, const TrainConfig& config);
+
+/// Trains actor and critic of the opening stage (UniDoorManip 5; departures and their reasons are
+/// in docs/design/learn.md): Adam, the losses above, batches that are a pure function of (seed,
+/// epoch, step). Gradients are summed over fixed parts of the batch in a fixed order.
+///
+/// @returns The state at the end, or where `stop` ended it.
+/// @throws Error(kInvalidConfig), Error(kInvalidArgument) without samples or with a damaged cloud,
+///     Error(kIncomplete) if a loss stops being finite.
+TrainerState TrainOpening(std::span<const TrainingSample> train,
+                          std::span<const TrainingSample> validation, const TrainConfig& config,
+                          const TrainHooks& hooks);
+
+}  // namespace doorforge

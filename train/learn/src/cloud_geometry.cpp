@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/learn/cloud_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "doorforge/core/error.h"
+#include "doorforge/learn/point_operators.h"
+
+namespace doorforge {
+namespace {
+
+using Indices = std::vector<std::uint16_t>;
+
+void SortUnique(Indices& indices) {
+  std::sort(indices.begin(), indices.end());
+  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+}
+
+// Replaces indices of a level by their rows in `kept`, which is ascending and holds all of them.
+void ToRows(const Indices& kept, Indices& indices) {
+  std::vector<std::uint16_t> row(kept.empty() ? 0 : kept.back() + std::size_t{1});
+  for (std::size_t i = 0; i < kept.size(); ++i) row[kept[i]] = static_cast<std::uint16_t>(i);
+  for (std::uint16_t& index : indices) index = row[index];
+}
+
+// The targets of each level: the outputs, and upwards their three nearest. Fills skip, neighbour
+// and weight with indices into whole levels; the last entry returned are the level 4 points needed.
+std::array<Indices, 5> PlanUpsampling(const std::array<PointColumns, 5>& points,
+                                      std::span<const std::uint16_t> outputs,
+                                      CloudGeometry& geometry) {
+  std::array<Indices, 5> targets;
+  targets[0].assign(outputs.begin(), outputs.end());
+  for (std::size_t level = 0; level < 4; ++level) {
+    CloudGeometry::Upsampling& upsampling = geometry.upsampling[level];
+    upsampling.skip = targets[level];
+    for (const std::uint16_t target : targets[level]) {
+      const NearestThree nearest = ThreeNearest(points[level + 1], points[level][target]);
+      std::copy(nearest.index.begin(), nearest.index.end(),
+                std::back_inserter(upsampling.neighbour));
+      std::copy(nearest.weight.begin(), nearest.weight.end(),
+                std::back_inserter(upsampling.weight));
+    }
+    targets[level + 1] = upsampling.neighbour;
+    SortUnique(targets[level + 1]);
+    ToRows(targets[level + 1], upsampling.neighbour);
+  }
+  return targets;
+}
+
+// Balls of the centres `kept`, with indices into the whole level below.
+void FillBalls(const PointColumns& below, const PointColumns& centres, const Indices& kept,
+               std::size_t level, CloudGeometry& geometry, InstructionSet set) {
+  const SetAbstractionShape& shape = kSetAbstractions[level];
+  CloudGeometry::Level& out = geometry.levels[level];
+  out.ball_begin.push_back(0);
+  for (const std::uint16_t index : kept) {
+    const std::array<float, 3> centre = centres[index];
+    const Indices ball = PointsWithin(below, centre, shape.radius_m, shape.samples, set);
+    out.centre_xyz.insert(out.centre_xyz.end(), centre.begin(), centre.end());
+    out.member.insert(out.member.end(), ball.begin(), ball.end());
+    out.ball_begin.push_back(static_cast<std::uint32_t>(out.member.size()));
+  }
+}
+
+}  // namespace
+
+CloudGeometry BuildGeometry(std::span<const float> xyz, const std::array<float, 3>& centre,
+                            std::span<const std::uint16_t> outputs, InstructionSet set) {
+  Require(xyz.size() == std::size_t{3} * kCloudPoints, ErrorCode::kInvalidArgument,
+          "a cloud must hold 4096 points, found " + std::to_string(xyz.size() / 3));
+  Require(std::all_of(xyz.begin(), xyz.end(), [](float v) { return std::isfinite(v); }),
+          ErrorCode::kInvalidArgument, "a cloud must hold finite numbers");
+  std::array<PointColumns, 5> points;
+  points[0] = ToColumns(xyz, centre);
+  for (std::size_t level = 0; level < 4; ++level) {
+    points[level + 1] =
+        points[level].Select(FarthestPoints(points[level], kSetAbstractions[level].points, set));
+  }
+
+  CloudGeometry geometry;
+  for (std::size_t i = 0; i < points[0].size(); ++i) {
+    const std::array<float, 3> point = points[0][i];
+    geometry.xyz.insert(geometry.xyz.end(), point.begin(), point.end());
+  }
+  // from the coarsest level down: a level keeps what the one above and the upsampling read
+  std::array<Indices, 5> kept = PlanUpsampling(points, outputs, geometry);
+  for (std::size_t level = 4; level-- > 0;) {
+    FillBalls(points[level], points[level + 1], kept[level + 1], level, geometry, set);
+    if (level == 0) break;
+    Indices& members = geometry.levels[level].member;
+    kept[level].insert(kept[level].end(), members.begin(), members.end());
+    SortUnique(kept[level]);
+    ToRows(kept[level], members);
+    ToRows(kept[level], geometry.upsampling[level].skip);
+  }
+  return geometry;
+}
+
+CloudGeometry BuildGeometry(std::span<const float> xyz, const std::array<float, 3>& centre) {
+  constexpr std::array<std::uint16_t, 1> kPointZero = {0};
+  return BuildGeometry(xyz, centre, kPointZero, BestInstructionSet());
+}
+
+}  // namespace doorforge

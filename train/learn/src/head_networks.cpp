@@ -1,0 +1,253 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "head_networks.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include <ATen/Parallel.h>
+#include <torch/types.h>
+
+#include "doorforge/core/error.h"
+#include "doorforge/learn/point_encoder.h"
+
+namespace doorforge::internal {
+namespace {
+
+using torch::Tensor;
+
+constexpr double kLeakySlope = 0.01;
+
+Tensor View(const std::vector<float>& values, std::int64_t columns) {
+  return torch::from_blob(const_cast<float*>(values.data()),
+                          {static_cast<std::int64_t>(values.size()) / columns, columns});
+}
+
+template <std::size_t N>
+Tensor Row(const std::array<float, N>& values) {
+  return torch::from_blob(const_cast<float*>(values.data()), {1, static_cast<std::int64_t>(N)})
+      .clone();
+}
+
+template <std::size_t N>
+Tensor Denormalise(const Normaliser<N>& normaliser, const Tensor& value) {
+  return value * Row(normaliser.deviation) + Row(normaliser.mean);
+}
+
+enum class Activation { kNone, kLeaky, kRectified };
+
+Tensor Activate(Activation activation, const Tensor& x) {
+  if (activation == Activation::kLeaky) return torch::leaky_relu(x, kLeakySlope);
+  return activation == Activation::kRectified ? torch::relu(x) : x;
+}
+
+// The parameters of one network as tensors that share the flat vector's memory.
+class HeadParameters {
+ public:
+  HeadParameters(const ParameterLayout& layout, const std::vector<float>& parameters,
+                 bool with_gradient)
+      : layout_(layout) {
+    for (const DenseLayer& layer : layout.layers()) {
+      float* data = const_cast<float*>(parameters.data());
+      weights_.push_back(torch::from_blob(data + layer.offset, {layer.outputs, layer.inputs})
+                             .set_requires_grad(with_gradient));
+      biases_.push_back(torch::from_blob(data + layer.bias_offset(), {layer.outputs})
+                            .set_requires_grad(with_gradient));
+    }
+  }
+
+  Tensor Dense(const std::string& name, const Tensor& x) const {
+    for (std::size_t i = 0; i < weights_.size(); ++i) {
+      if (layout_.layers()[i].name == name) return torch::addmm(biases_[i], x, weights_[i].t());
+    }
+    throw Error(ErrorCode::kInvalidArgument, "no layer \"" + name + "\" in this network");
+  }
+
+  // "<name>.0", "<name>.1", "<name>.2" with the activation between them.
+  Tensor Branch(const std::string& name, Activation activation, const Tensor& x) const {
+    const Tensor first = Activate(activation, Dense(name + ".0", x));
+    const Tensor second = Activate(activation, Dense(name + ".1", first));
+    return Dense(name + ".2", second);
+  }
+
+  void AddGradient(std::span<float> gradient) const {
+    const auto add = [&](const Tensor& tensor, std::size_t offset) {
+      if (!tensor.grad().defined()) return;
+      const Tensor grad = tensor.grad().contiguous();
+      const float* from = grad.data_ptr<float>();
+      for (std::int64_t i = 0; i < grad.numel(); ++i)
+        gradient[offset + static_cast<std::size_t>(i)] += from[i];
+    };
+    for (std::size_t i = 0; i < weights_.size(); ++i) {
+      add(weights_[i], layout_.layers()[i].offset);
+      add(biases_[i], layout_.layers()[i].bias_offset());
+    }
+  }
+
+ private:
+  const ParameterLayout& layout_;
+  std::vector<Tensor> weights_;
+  std::vector<Tensor> biases_;
+};
+
+// Rows x, y, z of the rotations that six numbers stand for (Gram-Schmidt; Zhou et al. 2019).
+std::array<Tensor, 3> RotationRows(const Tensor& six) {
+  const auto normalise = [](const Tensor& v) {
+    return v / (v.square().sum(1, true) + 1e-12).sqrt();
+  };
+  const Tensor x = normalise(six.narrow(1, 0, 3));
+  const Tensor second = six.narrow(1, 3, 3);
+  const Tensor y = normalise(second - (x * second).sum(1, true) * x);
+  return {x, y, torch::cross(x, y, 1)};
+}
+
+// Mean angle between rotations. The angle is 2 asin(|A - B| / sqrt 8): the arc cosine of the trace
+// has no usable gradient at 0, where training ends.
+Tensor MeanGeodesicAngle(const Tensor& six_a, const Tensor& six_b) {
+  const auto a = RotationRows(six_a);
+  const auto b = RotationRows(six_b);
+  Tensor squared = torch::zeros({six_a.size(0)});
+  for (std::size_t i = 0; i < 3; ++i) squared = squared + (a[i] - b[i]).square().sum(1);
+  const Tensor half_sine = ((squared + 1e-10) / 8).sqrt().clamp_max(1 - 1e-4);
+  return (2 * torch::asin(half_sine)).mean();
+}
+
+struct Reconstruction {
+  Tensor position;  // mean absolute error of a component [m]
+  Tensor rotation;  // mean angle [rad]
+};
+
+Reconstruction Compare(const Tensor& decoded, const Tensor& wanted) {
+  return {(decoded.narrow(1, 0, 3) - wanted.narrow(1, 0, 3)).abs().mean(),
+          MeanGeodesicAngle(decoded.narrow(1, 3, 6), wanted.narrow(1, 3, 6))};
+}
+
+class Actor {
+ public:
+  Actor(const OpeningNetworks& networks, const HeadBatch& batch, const Tensor& features,
+        bool with_gradient)
+      : parameters_(ActorLayout(), networks.actor, with_gradient),
+        networks_(networks),
+        activation_(networks.linear_branches ? Activation::kNone : Activation::kLeaky),
+        features_(features),
+        state_(parameters_.Branch("state", activation_, View(batch.states, 18))) {}
+
+  // Action numbers in the world's units.
+  Tensor Decode(const Tensor& latent) const {
+    const Tensor condition = torch::cat({latent, features_, state_}, 1);
+    return Denormalise(networks_.normalisation.action,
+                       parameters_.Branch("decoder", activation_, condition));
+  }
+
+  std::pair<Tensor, Tensor> Posterior(const Tensor& actions) const {
+    const Tensor action = parameters_.Branch("action", activation_, actions);
+    Tensor hidden = parameters_.Dense("posterior.0", torch::cat({action, features_, state_}, 1));
+    hidden = parameters_.Dense("posterior.1", torch::leaky_relu(hidden, kLeakySlope));
+    return {parameters_.Dense("mean", hidden), parameters_.Dense("log_variance", hidden)};
+  }
+
+  const HeadParameters& parameters() const { return parameters_; }
+
+ private:
+  HeadParameters parameters_;
+  const OpeningNetworks& networks_;
+  Activation activation_;
+  Tensor features_;
+  Tensor state_;
+};
+
+Tensor CriticScore(const HeadParameters& parameters, const OpeningNetworks& networks,
+                   const HeadBatch& batch, const Tensor& features) {
+  const auto branch = [&](const char* name, const std::vector<float>& values,
+                          std::int64_t columns) {
+    return parameters.Branch(name, Activation::kRectified, View(values, columns));
+  };
+  const Tensor joined =
+      torch::cat({features, branch("state", batch.states, 18), branch("action", batch.actions, 9),
+                  branch("hand", batch.hands, 3), branch("base", batch.bases, 3)},
+                 1);
+  return Denormalise(networks.normalisation.hinge_gain_rad,
+                     parameters.Branch("score", Activation::kRectified, joined));
+}
+
+void BackPropagate(const Tensor& objective, const Tensor& features,
+                   const HeadParameters& parameters, std::span<float> gradient,
+                   HeadResult& result) {
+  objective.backward();
+  parameters.AddGradient(gradient);
+  const Tensor grad = features.grad().contiguous();
+  result.feature_gradient.assign(grad.data_ptr<float>(), grad.data_ptr<float>() + grad.numel());
+}
+
+std::vector<float> ToVector(const Tensor& tensor) {
+  const Tensor flat = tensor.contiguous();
+  return {flat.data_ptr<float>(), flat.data_ptr<float>() + flat.numel()};
+}
+
+}  // namespace
+
+void UseOneTorchThread() {
+  at::set_num_threads(1);
+  at::init_num_threads();
+}
+
+HeadResult ActorObjective(const OpeningNetworks& networks, const HeadBatch& batch,
+                          const TrainConfig& config, std::span<float> gradient) {
+  const bool with_gradient = !gradient.empty();
+  const at::AutoGradMode mode(with_gradient);
+  const Tensor features = View(batch.features, kFeatureSize).set_requires_grad(with_gradient);
+  const Actor actor(networks, batch, features, with_gradient);
+  const Tensor actions = View(batch.actions, 9);
+  const Tensor wanted = Denormalise(networks.normalisation.action, actions);
+
+  const auto [mean, log_variance] = actor.Posterior(actions);
+  const Tensor latent = mean + (0.5 * log_variance).exp() * View(batch.noise, kLatentSize);
+  const Tensor divergence =
+      (0.5 * (mean.square() + log_variance.exp() - 1 - log_variance)).sum(1).mean();
+  const Reconstruction posterior = Compare(actor.Decode(latent), wanted);
+  const Reconstruction prior = Compare(actor.Decode(torch::zeros_like(latent)), wanted);
+  const auto weigh = [&](const Reconstruction& r) {
+    return config.lambda_position * r.position + config.lambda_rotation * r.rotation;
+  };
+  const Tensor objective =
+      weigh(posterior) + config.prior_reconstruction * weigh(prior) + config.lambda_kl * divergence;
+
+  HeadResult result;
+  result.objective = objective.item<double>();
+  result.losses.position_m = prior.position.item<double>();
+  result.losses.rotation_rad = prior.rotation.item<double>();
+  result.losses.divergence = divergence.item<double>();
+  if (with_gradient) BackPropagate(objective, features, actor.parameters(), gradient, result);
+  return result;
+}
+
+HeadResult CriticObjective(const OpeningNetworks& networks, const HeadBatch& batch,
+                           std::span<float> gradient) {
+  const bool with_gradient = !gradient.empty();
+  const at::AutoGradMode mode(with_gradient);
+  const Tensor features = View(batch.features, kFeatureSize).set_requires_grad(with_gradient);
+  const HeadParameters parameters(CriticLayout(), networks.critic, with_gradient);
+  const Tensor score = CriticScore(parameters, networks, batch, features);
+  const Tensor objective = (score - View(batch.gains, 1)).abs().mean();
+  HeadResult result;
+  result.objective = objective.item<double>();
+  result.losses.hinge_gain_rad = result.objective;
+  if (with_gradient) BackPropagate(objective, features, parameters, gradient, result);
+  return result;
+}
+
+std::vector<float> DecodeActions(const OpeningNetworks& networks, const HeadBatch& batch,
+                                 const std::vector<float>& latents) {
+  const at::AutoGradMode mode(false);
+  const Actor actor(networks, batch, View(batch.features, kFeatureSize), false);
+  return ToVector(actor.Decode(View(latents, kLatentSize)));
+}
+
+std::vector<float> ScoreActions(const OpeningNetworks& networks, const HeadBatch& batch) {
+  const at::AutoGradMode mode(false);
+  const HeadParameters parameters(CriticLayout(), networks.critic, false);
+  return ToVector(CriticScore(parameters, networks, batch, View(batch.features, kFeatureSize)));
+}
+
+}  // namespace doorforge::internal

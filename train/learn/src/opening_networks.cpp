@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/learn/opening_networks.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
+#include "doorforge/learn/point_encoder.h"
+
+namespace doorforge {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr float kResultScale = 0.1F;
+
+void AddBranch(const std::string& name, std::initializer_list<int> sizes, ParameterLayout& layout) {
+  std::size_t i = 0;
+  for (const int* size = sizes.begin(); size + 1 != sizes.end(); ++size, ++i)
+    layout.Add(name + "." + std::to_string(i), size[0], size[1]);
+}
+
+ParameterLayout MakeActorLayout() {
+  ParameterLayout layout;
+  AddEncoderLayers("encoder.", layout);
+  AddBranch("action", {9, 128, 128, 64}, layout);
+  AddBranch("state", {18, 128, 128, 64}, layout);
+  AddBranch("posterior", {kFeatureSize + 128, 128, 128}, layout);
+  layout.Add("mean", 128, kLatentSize);
+  layout.Add("log_variance", 128, kLatentSize);
+  AddBranch("decoder", {kLatentSize + kFeatureSize + 64, 512, 256, 9}, layout);
+  return layout;
+}
+
+ParameterLayout MakeCriticLayout() {
+  ParameterLayout layout;
+  AddEncoderLayers("encoder.", layout);
+  AddBranch("state", {18, 128, 128, 64}, layout);
+  AddBranch("action", {9, 128, 128, 64}, layout);
+  AddBranch("hand", {3, 128, 128, 64}, layout);
+  AddBranch("base", {3, 128, 128, 64}, layout);
+  AddBranch("score", {kFeatureSize + 4 * 64, 256, 128, 1}, layout);
+  return layout;
+}
+
+std::vector<float> Initial(const ParameterLayout& layout, std::uint64_t seed,
+                           const std::string& prefix) {
+  std::vector<float> parameters = HeInitialisation(layout, seed, prefix);
+  for (const DenseLayer& layer : layout.layers()) {
+    if (layer.name != "mean" && layer.name != "log_variance" && layer.name != "decoder.2" &&
+        layer.name != "score.2")
+      continue;
+    for (std::size_t i = layer.offset; i < layer.bias_offset(); ++i) parameters[i] *= kResultScale;
+  }
+  return parameters;
+}
+
+// `value(sample)` gives the array to measure; `least` is the lower bound of each deviation.
+template <std::size_t N, class Value>
+Normaliser<N> Measure(std::span<const TrainingSample> samples, const std::array<float, N>& least,
+                      const Value& value) {
+  Normaliser<N> normaliser;
+  const auto count = static_cast<double>(samples.size());
+  for (std::size_t i = 0; i < N; ++i) {
+    double sum = 0;
+    for (const TrainingSample& sample : samples) sum += value(sample)[i];
+    const double mean = sum / count;
+    double squares = 0;
+    for (const TrainingSample& sample : samples) {
+      const double difference = value(sample)[i] - mean;
+      squares += difference * difference;
+    }
+    normaliser.mean[i] = static_cast<float>(mean);
+    normaliser.deviation[i] = std::max(static_cast<float>(std::sqrt(squares / count)), least[i]);
+  }
+  return normaliser;
+}
+
+template <std::size_t N>
+constexpr std::array<float, N> Filled(float value) {
+  std::array<float, N> array{};
+  array.fill(value);
+  return array;
+}
+
+std::array<float, 3> MeanPoint(std::span<const TrainingSample> samples) {
+  std::array<double, 3> sum{};
+  double count = 0;
+  for (const TrainingSample& sample : samples) {
+    for (std::size_t i = 0; i < sample.cloud.size(); ++i) sum[i % 3] += sample.cloud[i];
+    count += static_cast<double>(sample.cloud.size() / 3);
+  }
+  std::array<float, 3> mean{};
+  for (std::size_t i = 0; i < 3; ++i) mean[i] = static_cast<float>(sum[i] / count);
+  return mean;
+}
+
+template <std::size_t N>
+std::array<float, N> ArrayFromJson(const Json& json, const std::string& path) {
+  const auto refuse = [&] {
+    throw Error(ErrorCode::kFormat,
+                path + ": expected an array of " + std::to_string(N) + " finite numbers");
+  };
+  if (!json.is_array() || json.size() != N) refuse();
+  std::array<float, N> values{};
+  for (std::size_t i = 0; i < N; ++i) {
+    if (!json[i].is_number()) refuse();
+    values[i] = json[i].get<float>();
+    if (!std::isfinite(values[i])) refuse();
+  }
+  return values;
+}
+
+template <std::size_t N>
+Json NormaliserToJson(const Normaliser<N>& normaliser) {
+  return {{"mean", normaliser.mean}, {"deviation", normaliser.deviation}};
+}
+
+template <std::size_t N>
+Normaliser<N> NormaliserFromJson(const Json& parent, const std::string& key,
+                                 const std::string& path) {
+  const Json& json = MemberOf(parent, key, path);
+  const std::string inner = path + "." + key;
+  Normaliser<N> normaliser{
+      ArrayFromJson<N>(MemberOf(json, "mean", inner), inner + ".mean"),
+      ArrayFromJson<N>(MemberOf(json, "deviation", inner), inner + ".deviation")};
+  for (const float deviation : normaliser.deviation) {
+    if (deviation <= 0) throw Error(ErrorCode::kFormat, inner + ".deviation: must be positive");
+  }
+  return normaliser;
+}
+
+}  // namespace
+
+OpeningNormalisation MeasureNormalisation(std::span<const TrainingSample> samples) {
+  Require(!samples.empty(), ErrorCode::kInvalidArgument, "no sample to train from");
+  constexpr float kPosition = 0.005F;
+  constexpr float kRotation = 0.05F;
+  OpeningNormalisation normalisation;
+  normalisation.cloud_centre_m = MeanPoint(samples);
+  normalisation.state =
+      Measure<18>(samples, Filled<18>(0.02F), [](const TrainingSample& s) { return s.state; });
+  normalisation.action = Measure<9>(samples,
+                                    {kPosition, kPosition, kPosition, kRotation, kRotation,
+                                     kRotation, kRotation, kRotation, kRotation},
+                                    [](const TrainingSample& s) { return s.action; });
+  normalisation.hand_m =
+      Measure<3>(samples, Filled<3>(0.02F), [](const TrainingSample& s) { return s.hand_m; });
+  normalisation.base_m =
+      Measure<3>(samples, Filled<3>(0.02F), [](const TrainingSample& s) { return s.base_m; });
+  normalisation.hinge_gain_rad = Measure<1>(samples, {0.005F}, [](const TrainingSample& s) {
+    return std::array<float, 1>{s.hinge_gain_rad};
+  });
+  return normalisation;
+}
+
+Json NormalisationToJson(const OpeningNormalisation& normalisation) {
+  return {{"cloud_centre_m", normalisation.cloud_centre_m},
+          {"cloud_scale", 1},
+          {"state", NormaliserToJson(normalisation.state)},
+          {"action", NormaliserToJson(normalisation.action)},
+          {"hand_m", NormaliserToJson(normalisation.hand_m)},
+          {"base_m", NormaliserToJson(normalisation.base_m)},
+          {"hinge_gain_rad", NormaliserToJson(normalisation.hinge_gain_rad)}};
+}
+
+OpeningNormalisation NormalisationFromJson(const Json& json, const std::string& path) {
+  OpeningNormalisation normalisation;
+  normalisation.cloud_centre_m =
+      ArrayFromJson<3>(MemberOf(json, "cloud_centre_m", path), path + ".cloud_centre_m");
+  normalisation.state = NormaliserFromJson<18>(json, "state", path);
+  normalisation.action = NormaliserFromJson<9>(json, "action", path);
+  normalisation.hand_m = NormaliserFromJson<3>(json, "hand_m", path);
+  normalisation.base_m = NormaliserFromJson<3>(json, "base_m", path);
+  normalisation.hinge_gain_rad = NormaliserFromJson<1>(json, "hinge_gain_rad", path);
+  return normalisation;
+}
+
+const ParameterLayout& ActorLayout() {
+  static const ParameterLayout layout = MakeActorLayout();
+  return layout;
+}
+
+const ParameterLayout& CriticLayout() {
+  static const ParameterLayout layout = MakeCriticLayout();
+  return layout;
+}
+
+OpeningNetworks InitialNetworks(const OpeningNormalisation& normalisation, bool linear_branches,
+                                std::uint64_t seed) {
+  return {normalisation, linear_branches, Initial(ActorLayout(), seed, "actor."),
+          Initial(CriticLayout(), seed, "critic.")};
+}
+
+}  // namespace doorforge

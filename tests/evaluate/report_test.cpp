@@ -45,7 +45,7 @@ TEST(Report, ADoorIsSeenWhenItsBodyOrItsHandleWasTrainedOn) {
   EvaluationReport report = ExampleReport();
   EXPECT_TRUE(SeenDoors(report.doors, report.training_doors).empty());
   report.doors[1].handle_id = report.training_doors[3].handle_id;
-  report.doors[4].body_id = report.training_doors[0].body_id;
+  report.doors[4].body_sha256 = report.training_doors[0].body_sha256;  // the same under another id
   EXPECT_EQ(SeenDoors(report.doors, report.training_doors),
             (std::vector<std::string>{report.doors[1].id, report.doors[4].id}));
 }

@@ -76,7 +76,9 @@ Json DoorToJson(const ReportDoor& door) {
           {"category", NameOf(door.category)},
           {"mechanism", NameOf(door.mechanism)},
           {"body_id", door.body_id},
+          {"body_sha256", door.body_sha256},
           {"handle_id", door.handle_id},
+          {"handle_sha256", door.handle_sha256},
           {"sha256", door.sha256},
           {"license", door.license}};
 }
@@ -91,7 +93,9 @@ ReportDoor DoorFromJson(const Json& json, const std::string& path) {
   door.category = *category;
   door.mechanism = *mechanism;
   door.body_id = ValueOf<std::string>(json, "body_id", path);
+  door.body_sha256 = ValueOf<std::string>(json, "body_sha256", path);
   door.handle_id = ValueOf<std::string>(json, "handle_id", path);
+  door.handle_sha256 = ValueOf<std::string>(json, "handle_sha256", path);
   door.sha256 = ValueOf<std::string>(json, "sha256", path);
   door.license = ValueOf<std::string>(json, "license", path);
   return door;
@@ -181,12 +185,14 @@ std::vector<std::string> SeenDoors(std::span<const ReportDoor> doors,
   std::set<std::string> bodies;
   std::set<std::string> handles;
   for (const ReportDoor& door : training_doors) {
-    bodies.insert(door.body_id);
-    handles.insert(door.handle_id);
+    bodies.insert({door.body_id, door.body_sha256});
+    handles.insert({door.handle_id, door.handle_sha256});
   }
   std::vector<std::string> seen;
   for (const ReportDoor& door : doors) {
-    if (bodies.contains(door.body_id) || handles.contains(door.handle_id)) seen.push_back(door.id);
+    if (bodies.contains(door.body_id) || bodies.contains(door.body_sha256) ||
+        handles.contains(door.handle_id) || handles.contains(door.handle_sha256))
+      seen.push_back(door.id);
   }
   return seen;
 }

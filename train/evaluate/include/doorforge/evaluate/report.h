@@ -21,7 +21,9 @@ struct ReportDoor {
   Category category = Category::kInterior;
   Mechanism mechanism = Mechanism::kNone;
   std::string body_id;
+  std::string body_sha256;  ///< ContentHash of the part.
   std::string handle_id;
+  std::string handle_sha256;
   std::string sha256;   ///< ContentHash of the door.
   std::string license;  ///< SPDX expression of its parts.
 };
@@ -59,7 +61,8 @@ struct EvaluationReport {
   std::vector<LossCurve> losses;            ///< Of the training; empty for the expert.
 };
 
-/// Doors whose body or whose handle is a part of a training door: they are not held out.
+/// Doors whose body or whose handle is a part of a training door, by id or by content: they are not
+/// held out.
 std::vector<std::string> SeenDoors(std::span<const ReportDoor> doors,
                                    std::span<const ReportDoor> training_doors);
 

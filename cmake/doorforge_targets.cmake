@@ -9,7 +9,7 @@ set(DOORFORGE_ALLOWED_sensor core schemas)
 set(DOORFORGE_ALLOWED_rollout core schemas physics sensor)
 set(DOORFORGE_ALLOWED_datagen core schemas rollout)
 set(DOORFORGE_ALLOWED_learn core schemas)
-set(DOORFORGE_ALLOWED_evaluate core schemas rollout learn)
+set(DOORFORGE_ALLOWED_evaluate core schemas physics sensor rollout learn)
 
 # Contraction off: an asset, an episode and a cloud must not depend on whether the compiler fused
 # a multiply with an add.

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "doorforge/evaluate/evaluated_episode.h"
+#include "doorforge/physics/robot_model.h"
+#include "doorforge/physics/scene_sampling.h"
+#include "doorforge/rollout/observer.h"
+#include "doorforge/schemas/door_asset.h"
+#include "doorforge/schemas/policy.h"
+
+namespace doorforge {
+
+/// Which episodes an evaluation consists of: every door in every seed.
+struct EvaluationConfig {
+  int seeds = 3;                 ///< >= 1; UniDoorManip repeats over 3.
+  std::uint64_t first_seed = 1;  ///< The seeds are first_seed, first_seed + 1, ...
+  int episodes_per_door = 1;     ///< In each seed, >= 1.
+  bool expert_reference = true;  ///< The expert opens the same scenes, too.
+  SceneConfig scene;
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    visit("seeds", self.seeds);
+    visit("first_seed", self.first_seed);
+    visit("episodes_per_door", self.episodes_per_door);
+    visit("expert_reference", self.expert_reference);
+    visit("scene", self.scene);
+  }
+};
+
+/// One episode to come: a door, by its place in the list, and its scene.
+struct Trial {
+  std::size_t door = 0;
+  Scene scene;
+};
+
+/// All episodes, by door, seed and episode. Throws Error(kInvalidConfig) on a number out of range.
+std::vector<Trial> PlanTrials(std::span<const DoorAsset> doors, const EvaluationConfig& config);
+
+/// Who opens the doors after the expert's grasp and unlock.
+struct Contender {
+  /// A new instance, equal to all others; called from one thread at a time.
+  std::function<std::unique_ptr<Policy>()> make_policy;
+  /// The camera of an episode; nothing for a policy that does not look. May be called from several
+  /// threads at once.
+  std::function<std::unique_ptr<Observer>(const Scene&, const DoorAsset&)> make_observer;
+};
+
+/// How episodes are carried out; none of it changes the rows.
+struct RunHooks {
+  int threads = 0;                                    ///< 0: all processors.
+  std::function<void(const EvaluatedEpisode&)> done;  ///< After each; called from any thread.
+};
+
+/// Runs the trials and gives their rows in their order.
+///
+/// Each policy instance serves one episode at a time (RunEpisode resets it) and may serve several
+/// one after the other. The rows do not depend on the number of threads if a policy forgets
+/// everything at Reset(). Throws Error(kIncomplete) if the program was asked to stop.
+std::vector<EvaluatedEpisode> RunTrials(std::span<const DoorAsset> doors,
+                                        std::span<const Trial> trials, const Contender& contender,
+                                        const RunHooks& hooks = {});
+
+}  // namespace doorforge

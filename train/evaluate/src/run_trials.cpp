@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/evaluate/run_trials.h"
+
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include "doorforge/core/error.h"
+#include "doorforge/core/parallel_for.h"
+#include "doorforge/core/program.h"
+#include "doorforge/rollout/run_episode.h"
+
+namespace doorforge {
+namespace {
+
+// Lends policy instances: as many as are ever in use at once, each to one episode at a time.
+class PolicyPool {
+ public:
+  explicit PolicyPool(const Contender& contender) : contender_(contender) {}
+
+  std::unique_ptr<Policy> Take() {
+    const std::scoped_lock lock(mutex_);
+    if (idle_.empty()) return contender_.make_policy();
+    std::unique_ptr<Policy> policy = std::move(idle_.back());
+    idle_.pop_back();
+    return policy;
+  }
+
+  void Return(std::unique_ptr<Policy> policy) {
+    const std::scoped_lock lock(mutex_);
+    idle_.push_back(std::move(policy));
+  }
+
+ private:
+  const Contender& contender_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Policy>> idle_;
+};
+
+void RequireAtLeastOne(int value, const std::string& name) {
+  Require(value >= 1, ErrorCode::kInvalidConfig,
+          "config." + name + ": " + std::to_string(value) + ", expected 1 or more");
+}
+
+}  // namespace
+
+std::vector<Trial> PlanTrials(std::span<const DoorAsset> doors, const EvaluationConfig& config) {
+  RequireAtLeastOne(config.seeds, "seeds");
+  RequireAtLeastOne(config.episodes_per_door, "episodes_per_door");
+  std::vector<Trial> trials;
+  for (std::size_t door = 0; door < doors.size(); ++door) {
+    for (int seed = 0; seed < config.seeds; ++seed) {
+      for (int episode = 0; episode < config.episodes_per_door; ++episode) {
+        trials.push_back(
+            {door, SampleScene(doors[door], config.first_seed + static_cast<std::uint64_t>(seed),
+                               static_cast<std::uint64_t>(episode), config.scene)});
+      }
+    }
+  }
+  return trials;
+}
+
+std::vector<EvaluatedEpisode> RunTrials(std::span<const DoorAsset> doors,
+                                        std::span<const Trial> trials, const Contender& contender,
+                                        const RunHooks& hooks) {
+  const RobotModel robot = LoadMobileFranka();
+  PolicyPool pool(contender);
+  std::vector<EvaluatedEpisode> rows(trials.size());
+  ParallelFor(trials.size(), hooks.threads, [&](std::size_t i) {
+    Require(StopRequested() == 0, ErrorCode::kIncomplete, "evaluation interrupted");
+    const DoorAsset& door = doors[trials[i].door];
+    const Scene& scene = trials[i].scene;
+    std::unique_ptr<Observer> observer;
+    if (contender.make_observer) observer = contender.make_observer(scene, door);
+    std::unique_ptr<Policy> policy = pool.Take();
+    rows[i] = RowOf(RunEpisode(scene, door, robot, *policy, observer.get()), door.category);
+    pool.Return(std::move(policy));
+    if (hooks.done) hooks.done(rows[i]);
+  });
+  return rows;
+}
+
+}  // namespace doorforge

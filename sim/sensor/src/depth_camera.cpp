@@ -65,12 +65,25 @@ std::vector<MeshView> ViewsOf(const SceneGeometry::Runtime& scene, const Eigen::
   return views;
 }
 
-// Ray parameter at the triangle's plane. `traced` is Embree's own; it stands where the ray runs
-// almost within the plane, or the triangle has no area.
-float DepthAt(const TrianglePlane& plane, const MeshView& view, const Eigen::Vector3d& direction,
-              float traced) {
-  const double slope = (view.world_from_mesh * plane.normal).dot(direction);
-  const double depth = (plane.offset - plane.normal.dot(view.origin_in_mesh)) / slope;
+// A triangle's plane as the camera sees it: depth = height / normal.dot(direction).
+struct SeenPlane {
+  unsigned mesh = RTC_INVALID_GEOMETRY_ID;
+  unsigned triangle = RTC_INVALID_GEOMETRY_ID;
+  Eigen::Vector3d normal_in_world;
+  double height;  // of the plane over the camera, along the normal
+};
+
+SeenPlane Look(const TrianglePlane& plane, const MeshView& view) {
+  SeenPlane seen;
+  seen.normal_in_world = view.world_from_mesh * plane.normal;
+  seen.height = plane.offset - plane.normal.dot(view.origin_in_mesh);
+  return seen;
+}
+
+// Ray parameter at the plane. `traced` is Embree's own; it stands where the ray runs almost within
+// the plane, or the triangle has no area.
+float DepthAt(const SeenPlane& plane, const Eigen::Vector3d& direction, float traced) {
+  const double depth = plane.height / plane.normal_in_world.dot(direction);
   const bool plausible = std::fabs(depth - traced) <= 1e-4 * traced;
   return plausible ? static_cast<float>(depth) : traced;
 }
@@ -111,12 +124,17 @@ class TileRenderer {
 
  private:
   void Store(int lane, std::size_t pixel) {
-    const std::size_t mesh = packet_.hit.instID[0][lane];
+    const unsigned mesh = packet_.hit.instID[0][lane];
+    const unsigned triangle = packet_.hit.primID[lane];
     const MeshView& view = views_[mesh];
+    if (mesh != plane_.mesh || triangle != plane_.triangle) {  // neighbours often hit the same one
+      plane_ = Look(scene_.PlaneOf(mesh, triangle), view);
+      plane_.mesh = mesh;
+      plane_.triangle = triangle;
+    }
     const Eigen::Vector3d direction(packet_.ray.dir_x[lane], packet_.ray.dir_y[lane],
                                     packet_.ray.dir_z[lane]);
-    image_.depth_m[pixel] = DepthAt(scene_.PlaneOf(mesh, packet_.hit.primID[lane]), view, direction,
-                                    packet_.ray.tfar[lane]);
+    image_.depth_m[pixel] = DepthAt(plane_, direction, packet_.ray.tfar[lane]);
     image_.link[pixel] = view.link;
     image_.label[pixel] = view.label;
   }
@@ -124,6 +142,7 @@ class TileRenderer {
   const SceneGeometry::Runtime& scene_;
   std::vector<MeshView> views_;
   DepthImage& image_;
+  SeenPlane plane_{};
   RTCIntersectContext context_{};
   RTCRayHit16 packet_{};
 };

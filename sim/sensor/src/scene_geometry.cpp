@@ -101,6 +101,10 @@ std::string_view NameOf(RayIsa isa) {
   return kNames.at(static_cast<std::size_t>(isa));
 }
 
+std::string RayCasterVersion() {
+  return "Embree " RTC_VERSION_STRING ", " + std::string(NameOf(DefaultRayIsa()));
+}
+
 DenormalsAreZero::DenormalsAreZero() : saved_(_mm_getcsr()) {
   constexpr unsigned kFlushToZero = 0x8000;
   constexpr unsigned kInputsAreZero = 0x0040;

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -32,6 +33,9 @@ enum class RayIsa { kSse42, kAvx2, kAvx512 };
 RayIsa DefaultRayIsa();
 bool IsSupported(RayIsa isa);
 std::string_view NameOf(RayIsa isa);  ///< "sse4.2", "avx2", "avx512".
+
+/// Library, version and default instruction set, such as "Embree 3.13.5, avx2". For provenance.
+std::string RayCasterVersion();
 
 /// Meshes prepared for ray casting: one search tree a mesh, built once; one instance a mesh, moved
 /// with its link. Belongs to one thread at a time; several objects may be used side by side.

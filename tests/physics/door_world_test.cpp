@@ -147,6 +147,48 @@ TEST_F(DoorWorldTest, FingersCloseOnNothingAndOpenAgain) {
   EXPECT_NEAR(world.state().robot_position[kLeftFinger], 0.04, 1e-3);
 }
 
+// Turns a knob by the wrist until the pads slip on it; the largest torque of its spring.
+double LargestKnobTorque(double friction, const RobotModel& robot) {
+  PrimitiveDoor shape;
+  shape.mechanism = Mechanism::kRound;
+  const DoorAsset door = MakePrimitiveDoor(shape);
+  SceneConfig config;
+  config.base_jitter = 0;
+  config.grasp_noise = 0;
+  config.physics.finger_friction = friction;
+  const Scene scene = SampleScene(door, 1, 0, config);
+  const RigidTransform world_from_tcp =
+      scene.world_from_door * DoorFromLinks(door, 0, 0)[kHandleLink] * door.handle_from_grasp;
+  JointVector guess = robot.InitialPosition();
+  guess[5] = -2.1;
+  guess[7] = 3.37;
+  guess[8] = -0.785;
+  const auto solution =
+      SolveInverseKinematics(robot, scene.world_from_robot_base, {world_from_tcp, guess}, guess);
+  EXPECT_TRUE(solution.Reached());
+  DoorWorld world(scene, door, robot, solution.position);
+  RobotCommand command{solution.position.head<kArmJointCount>(), true};
+  // the wrist's axis is the approach, which points against the handle's
+  const double way = -0.4 * scene.physics.time_step_s;
+  double largest = 0;
+  for (int i = 0; i < 960; ++i) {
+    if (i > 120) command.arm_position[kArmJointCount - 1] += way;
+    world.Step(command);
+    largest = std::max(largest, world.state().handle_rad * scene.latch.handle_spring_nm_per_rad);
+  }
+  return largest;
+}
+
+TEST_F(DoorWorldTest, PadsTurnAKnobByCoulombFrictionAndNoMore) {
+  // two pads of 80 N at 28 mm and the hulls' margin of 1 mm; the 48-gon's facets add up to 0.3 N m
+  const double force_times_radius = 2 * 80 * 0.029;
+  for (const double friction : {0.02, 0.1, 0.3}) {
+    const double torque = LargestKnobTorque(friction, robot_);
+    EXPECT_GT(torque, 0.9 * friction * force_times_radius) << friction;
+    EXPECT_LT(torque, friction * force_times_radius + 0.35) << friction;
+  }
+}
+
 // Hash after 200 steps of a moving robot.
 std::string HashOfRun(const Scene& scene, const DoorAsset& door, const RobotModel& robot) {
   DoorWorld world(scene, door, robot, robot.InitialPosition());

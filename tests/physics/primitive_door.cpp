@@ -14,7 +14,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 // Disc about x.
 TriangleMesh DiscMesh(double low_x, double high_x, double radius) {
-  constexpr int kSides = 24;
+  constexpr int kSides = 48;
   TriangleMesh mesh;
   for (int i = 0; i < kSides; ++i) {
     const double angle = 2 * std::numbers::pi * i / kSides;

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+
+#include "doorforge/core/config_file.h"
+#include "doorforge/core/program.h"
+
+#include "simulate_verb.h"
+
+namespace doorforge {
+namespace {
+
+int Main(int argc, char** argv) {
+  CLI::App app("Lets the rule-based expert open doors in the physics and says what came of it.");
+  app.name("doorforge simulate");
+  app.footer(
+      "example:\n  doorforge compose --all --category interior --out doors\n"
+      "  doorforge simulate --door doors --episodes 5");
+  SimulateOptions options;
+  std::string config;
+  std::vector<std::string> settings;
+  app.add_option("--door", options.doors, "a door's folder, or a folder of them")->required();
+  app.add_option("--seed", options.seed, "first seed")->capture_default_str();
+  app.add_option("--seeds", options.seeds, "number of seeds")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000000));
+  app.add_option("--episodes", options.episodes, "episodes of each door in each seed")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000000));
+  app.add_option("--film", options.film, "folder for a PNG of each episode");
+  app.add_option("--threads", options.threads, "0: all processors")->check(CLI::Range(0, 4096));
+  app.add_option("--config", config, "YAML file with the settings of scene and expert");
+  app.add_option("--set", settings, "a.b=c overrides one setting");
+  app.add_flag("--json", options.json, "print one JSON document");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  options.config = LoadConfig<SimulateConfig>(config, settings);
+  return Simulate(options);
+}
+
+}  // namespace
+}  // namespace doorforge
+
+int main(int argc, char** argv) {
+  return doorforge::RunProgram([&] { return doorforge::Main(argc, argv); });
+}

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/rollout/camera_observer.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "doorforge/physics/scene_sampling.h"
+#include "doorforge/rollout/opening_expert.h"
+#include "doorforge/rollout/run_episode.h"
+
+#include "../physics/primitive_door.h"
+
+namespace doorforge {
+namespace {
+
+TEST(CameraObserver, EveryDecisionSeesDoorAndRobotAndThePhysicsIsTheSame) {
+  const RobotModel robot = LoadMobileFranka();
+  const DoorAsset door = MakePrimitiveDoor({});
+  const Scene scene = SampleScene(door, 1, 0);
+  OpeningExpert expert;
+  CameraObserver camera(scene, door, robot);
+  const Episode seen = RunEpisode(scene, door, robot, expert, &camera);
+  const Episode blind = RunEpisode(scene, door, robot, expert, nullptr);
+  EXPECT_EQ(seen.state_sha256, blind.state_sha256);
+  ASSERT_FALSE(seen.decisions.empty());
+  for (const Decision& decision : seen.decisions) {
+    ASSERT_EQ(decision.cloud.label.size(), 4096U);
+    for (const PointLabel label : {PointLabel::kBody, PointLabel::kRobot})
+      EXPECT_GT(std::count(decision.cloud.label.begin(), decision.cloud.label.end(),
+                           static_cast<std::uint8_t>(label)),
+                50);
+    // point 0 is near the gripper
+    const Eigen::Vector3f hand = HandPositionOf(decision.proprioception);
+    const Eigen::Vector3f first(decision.cloud.xyz[0], decision.cloud.xyz[1],
+                                decision.cloud.xyz[2]);
+    EXPECT_LT((first - hand).norm(), 0.2F);
+  }
+}
+
+}  // namespace
+}  // namespace doorforge

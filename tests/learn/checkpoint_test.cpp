@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/learn/checkpoint.h"
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/error.h"
+#include "doorforge/core/hash.h"
+
+#include "synthetic_samples.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path EmptyFolder(const std::string& name) {
+  const fs::path folder = fs::path(::testing::TempDir()) / ("doorforge_checkpoint_" + name);
+  fs::remove_all(folder);
+  return folder;
+}
+
+TrainerState SomeState() {
+  const auto made = testing::MakeSyntheticSamples(1, 3);
+  TrainerState state;
+  state.networks = InitialNetworks(MeasureNormalisation(made.samples), false, 9);
+  state.step = 2;
+  state.actor_first.assign(ActorLayout().size(), 0.25F);
+  state.actor_second.assign(ActorLayout().size(), 0.5F);
+  state.critic_first.assign(CriticLayout().size(), -1.0F);
+  state.critic_second.assign(CriticLayout().size(), 1e-20F);
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  state.steps = {{0.1, 0.2, 0.3, 0.4}, {0.01, 1.0 / 3, 0.03, 0.04}};
+  state.epochs = {{{0.055, 0.25, 0.165, 0.22}, {kNone, kNone, kNone, kNone}}};
+  return state;
+}
+
+void ExpectError(ErrorCode code, const std::string& part, const std::function<void()>& call) {
+  try {
+    call();
+    FAIL() << "no error; expected: " << part;
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), code) << error.what();
+    EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+  }
+}
+
+TEST(Checkpoint, APolicyComesBackAsItWasWritten) {
+  const fs::path folder = EmptyFolder("policy");
+  const TrainerState state = SomeState();
+  TrainConfig config;
+  config.epochs = 3;
+  const PolicyProvenance provenance{"abc", "0.1.0+test", config, 77};
+  WritePolicy(folder, state.networks, provenance);
+  const PolicyRecord record = ReadPolicy(folder);
+  EXPECT_EQ(record.networks.actor, state.networks.actor);
+  EXPECT_EQ(record.networks.critic, state.networks.critic);
+  EXPECT_EQ(record.networks.normalisation.state.deviation,
+            state.networks.normalisation.state.deviation);
+  EXPECT_EQ(record.networks.normalisation.cloud_centre_m,
+            state.networks.normalisation.cloud_centre_m);
+  EXPECT_EQ(record.provenance.dataset_sha256, "abc");
+  EXPECT_EQ(record.provenance.step, 77U);
+  EXPECT_EQ(record.provenance.config.epochs, 3);
+  EXPECT_EQ(record.weights_sha256, Sha256OfFile(folder / "policy.safetensors"));
+
+  const std::string before = ReadFile(folder / "policy.json");
+  WritePolicy(folder, record.networks, record.provenance);
+  EXPECT_EQ(ReadFile(folder / "policy.json"), before);
+}
+
+TEST(Checkpoint, DamagedPoliciesAreRefused) {
+  const fs::path folder = EmptyFolder("damaged");
+  ExpectError(ErrorCode::kMissing, "policy.json", [&] { ReadPolicy(folder); });
+  WritePolicy(folder, SomeState().networks, {"abc", "v", {}, 1});
+  std::string weights = ReadFile(folder / "policy.safetensors");
+  weights[weights.size() / 2] ^= 1;
+  CommitFile(folder / "policy.safetensors", weights);
+  ExpectError(ErrorCode::kFormat, "SHA-256", [&] { ReadPolicy(folder); });
+  std::string record = ReadFile(folder / "policy.json");
+  record.replace(record.find("\"mean\""), 6, "\"men\" ");
+  CommitFile(folder / "policy.json", record);
+  ExpectError(ErrorCode::kFormat, "mean", [&] { ReadPolicy(folder); });
+}
+
+TEST(Checkpoint, ATrainingStateComesBackExactly) {
+  const fs::path folder = EmptyFolder("state");
+  EXPECT_FALSE(HasTrainerState(folder));
+  const TrainerState state = SomeState();
+  const PolicyProvenance provenance{"abc", "v", {}, 0};
+  WriteTrainerState(folder, state, provenance);
+  const TrainerState back = ReadTrainerState(folder, provenance);
+  EXPECT_EQ(back.step, state.step);
+  EXPECT_EQ(back.networks.actor, state.networks.actor);
+  EXPECT_EQ(back.networks.normalisation.action.mean, state.networks.normalisation.action.mean);
+  EXPECT_EQ(back.actor_first, state.actor_first);
+  EXPECT_EQ(back.actor_second, state.actor_second);
+  EXPECT_EQ(back.critic_first, state.critic_first);
+  EXPECT_EQ(back.critic_second, state.critic_second);
+  EXPECT_EQ(back.steps[1].rotation_rad, 1.0 / 3);
+  EXPECT_TRUE(std::isnan(back.epochs[0].validation.divergence));
+}
+
+TEST(Checkpoint, AStateOfAnotherRunIsNotResumed) {
+  const fs::path folder = EmptyFolder("other");
+  PolicyProvenance provenance{"abc", "v", {}, 0};
+  WriteTrainerState(folder, SomeState(), provenance);
+  provenance.dataset_sha256 = "def";
+  ExpectError(ErrorCode::kInvalidArgument, "dataset_sha256",
+              [&] { ReadTrainerState(folder, provenance); });
+  provenance.dataset_sha256 = "abc";
+  provenance.config.learning_rate = 2e-3;
+  ExpectError(ErrorCode::kInvalidArgument, "config", [&] { ReadTrainerState(folder, provenance); });
+}
+
+TEST(Checkpoint, LossCurvesAreWrittenForPeopleAndPrograms) {
+  const fs::path folder = EmptyFolder("losses");
+  WriteLosses(folder, SomeState());
+  EXPECT_EQ(ReadFile(folder / "losses.csv"),
+            "step,actor.position_m,actor.rotation_rad,actor.divergence,critic.hinge_gain_rad\n"
+            "1,0.1,0.2,0.3,0.4\n"
+            "2,0.01,0.333333333,0.03,0.04\n");
+  const std::vector<TrainingCurve> curves = ReadTrainingCurves(folder);
+  ASSERT_EQ(curves.size(), 4U);
+  EXPECT_EQ(curves[1].name, "actor.rotation_rad");
+  EXPECT_EQ(curves[1].epoch, std::vector<double>{1});
+  EXPECT_EQ(curves[1].train, std::vector<double>{0.25});
+  EXPECT_TRUE(std::isnan(curves[1].validation[0]));
+}
+
+}  // namespace
+}  // namespace doorforge

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/learn/opening_dataset.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/error.h"
+#include "doorforge/schemas/dataset.h"
+#include "doorforge/schemas/episode_arrays.h"
+
+#include "synthetic_samples.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kDecisions = 3;
+
+// A data set of `episodes` episodes with three decisions each, in one shard.
+testing::SyntheticSamples WriteDataset(const fs::path& folder, const std::string& split,
+                                       std::size_t episodes) {
+  auto made = testing::MakeSyntheticSamples(11, episodes * kDecisions);
+  ShardWriter writer(folder / "open" / split, {0, "open", split, "config"});
+  for (std::size_t e = 0; e < episodes; ++e) {
+    Episode episode;
+    episode.outcome = EpisodeOutcome::kOpened;
+    for (std::size_t t = 0; t < kDecisions; ++t) {
+      TrainingSample& sample = made.samples[e * kDecisions + t];
+      Decision decision;
+      decision.cloud.xyz.assign(sample.cloud.begin(), sample.cloud.end());
+      decision.cloud.label.assign(sample.cloud.size() / 3, 0);
+      for (std::size_t i = 0; i < decision.proprioception.size(); ++i)
+        decision.proprioception[i] = static_cast<float>(100 * e + 40 * t + i);
+      decision.action = sample.action;
+      decision.hinge_gain_rad = sample.hinge_gain_rad;
+      episode.decisions.push_back(decision);
+    }
+    writer.Add("ep" + std::to_string(100000 + e), kDecisions,
+               EncodeEpisode(episode, EpisodeMetaToJson(episode), ""));
+  }
+  writer.Commit();
+  return made;
+}
+
+fs::path EmptyFolder(const std::string& name) {
+  const fs::path folder = fs::path(::testing::TempDir()) / ("doorforge_dataset_" + name);
+  fs::remove_all(folder);
+  return folder;
+}
+
+TEST(OpeningDataset, HoldsTheDecisionsOfTheShards) {
+  const fs::path folder = EmptyFolder("read");
+  const auto made = WriteDataset(folder, "train", 4);
+  const OpeningDataset dataset = ReadOpeningDataset(folder, 0.25);
+  ASSERT_EQ(dataset.train.size(), 9U);
+  ASSERT_EQ(dataset.validation.size(), 3U);
+  EXPECT_EQ(dataset.content_sha256.size(), 64U);
+  const TrainingSample& sample = dataset.train[5];  // episode 1, decision 2
+  EXPECT_TRUE(std::equal(sample.cloud.begin(), sample.cloud.end(), made.samples[5].cloud.begin(),
+                         made.samples[5].cloud.end()));
+  EXPECT_EQ(sample.action, made.samples[5].action);
+  EXPECT_EQ(sample.hinge_gain_rad, made.samples[5].hinge_gain_rad);
+  EXPECT_EQ(sample.state[0], 180);  // first joint position
+  EXPECT_EQ(sample.state[9], 191);  // first joint velocity
+  EXPECT_EQ(sample.base_m[0], 202);
+  EXPECT_EQ(sample.hand_m[2], 207);
+}
+
+TEST(OpeningDataset, UsesTheSplitForValidationWhereThereIsOne) {
+  const fs::path folder = EmptyFolder("val");
+  WriteDataset(folder, "train", 2);
+  const std::string alone = ReadOpeningDataset(folder, 0).content_sha256;
+  WriteDataset(folder, "val", 3);
+  const OpeningDataset dataset = ReadOpeningDataset(folder, 0.5);
+  EXPECT_EQ(dataset.train.size(), 6U);
+  EXPECT_EQ(dataset.validation.size(), 9U);
+  EXPECT_NE(dataset.content_sha256, alone);
+  EXPECT_THROW(ReadOpeningDataset(folder / "none", 0), Error);
+}
+
+int RunTrain(const std::string& arguments) {
+  const std::string command = std::string(DOORFORGE_BINARY_DIR "/bin/doorforge-train train open ") +
+                              arguments + " > /dev/null 2> /dev/null";
+  const int status = std::system(command.c_str());  // NOLINT: fixed program
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(TrainProgram, ResumesToTheBytesOfAnUninterruptedRun) {
+  const fs::path folder = EmptyFolder("program");
+  WriteDataset(folder / "data", "train", 4);
+  const std::string common = "--data " + (folder / "data").string() +
+                             " --epochs 2 --set batch_size=4 --set warmup_steps=1 --seed 5 --out ";
+  const std::string whole = (folder / "whole").string();
+  const std::string cut = (folder / "cut").string();
+  ASSERT_EQ(RunTrain(common + whole + " --threads 1"), 0);
+  // each run stops after its first step
+  ASSERT_EQ(RunTrain(common + cut + " --threads 2 --minutes 0.00001"), 0);
+  EXPECT_NE(ReadFile(cut + "/policy.safetensors"), ReadFile(whole + "/policy.safetensors"));
+  EXPECT_EQ(RunTrain(common + cut), 2) << "a folder with a training is not overwritten";
+  EXPECT_EQ(RunTrain(common + cut + " --resume --set learning_rate=1e-4"), 2);
+  ASSERT_EQ(RunTrain(common + cut + " --threads 2 --resume"), 0);
+  for (const char* file : {"policy.safetensors", "policy.json", "training.safetensors",
+                           "losses.csv", "losses.json", "config.yaml"})
+    EXPECT_EQ(ReadFile(fs::path(cut) / file), ReadFile(fs::path(whole) / file)) << file;
+}
+
+TEST(TrainProgram, RefusesWrongUse) {
+  const fs::path folder = EmptyFolder("use");
+  fs::create_directories(folder);
+  EXPECT_EQ(RunTrain("--out x"), 2);
+  EXPECT_EQ(RunTrain("--data " + folder.string() + " --out " + (folder / "o").string()), 3);
+  EXPECT_EQ(
+      RunTrain("--data " + folder.string() + " --set batchsize=3 --out " + (folder / "o").string()),
+      2);
+  EXPECT_FALSE(fs::exists(folder / "o"));
+}
+
+}  // namespace
+}  // namespace doorforge

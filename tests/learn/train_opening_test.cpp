@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/learn/train_opening.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "doorforge/core/error.h"
+
+#include "../../train/learn/src/sampler.h"
+#include "synthetic_samples.h"
+
+namespace doorforge {
+namespace {
+
+TrainConfig SmallConfig() {
+  TrainConfig config;
+  config.epochs = 2;
+  config.batch_size = 8;
+  config.warmup_steps = 2;
+  return config;
+}
+
+void ExpectEqual(const TrainerState& a, const TrainerState& b) {
+  EXPECT_EQ(a.step, b.step);
+  EXPECT_EQ(a.networks.actor, b.networks.actor);
+  EXPECT_EQ(a.networks.critic, b.networks.critic);
+  EXPECT_EQ(a.actor_first, b.actor_first);
+  EXPECT_EQ(a.critic_second, b.critic_second);
+  ASSERT_EQ(a.steps.size(), b.steps.size());
+  for (std::size_t i = 0; i < a.steps.size(); ++i) {
+    EXPECT_EQ(a.steps[i].position_m, b.steps[i].position_m);
+    EXPECT_EQ(a.steps[i].hinge_gain_rad, b.steps[i].hinge_gain_rad);
+  }
+  ASSERT_EQ(a.epochs.size(), b.epochs.size());
+  for (std::size_t i = 0; i < a.epochs.size(); ++i)
+    EXPECT_EQ(a.epochs[i].validation.rotation_rad, b.epochs[i].validation.rotation_rad);
+}
+
+TEST(TrainOpening, GivesTheSameBitsForAnyNumberOfThreadsAndAnyInterruption) {
+  const auto train = testing::MakeSyntheticSamples(1, 20);
+  const auto validation = testing::MakeSyntheticSamples(2, 4);
+  const TrainConfig config = SmallConfig();
+  TrainHooks one;
+  one.threads = 1;
+  const TrainerState whole = TrainOpening(train.samples, validation.samples, config, one);
+  EXPECT_EQ(whole.step, 4U);
+  EXPECT_EQ(whole.epochs.size(), 2U);
+
+  TrainHooks stopped;
+  stopped.threads = 3;
+  stopped.geometry_cache_bytes = 0;
+  stopped.stop = [count = 0]() mutable { return ++count == 3; };
+  TrainHooks resumed;
+  resumed.threads = 2;
+  resumed.resume = TrainOpening(train.samples, validation.samples, config, stopped);
+  EXPECT_EQ(resumed.resume->step, 3U);
+  ExpectEqual(TrainOpening(train.samples, validation.samples, config, resumed), whole);
+}
+
+TEST(TrainOpening, LearnsToReadTheHingeFromTheCloud) {
+  auto train = testing::MakeSyntheticSamples(3, 64);
+  auto validation = testing::MakeSyntheticSamples(4, 24);
+  // only the cloud tells the angle
+  for (auto* samples : {&train.samples, &validation.samples}) {
+    for (TrainingSample& sample : *samples) sample.state[0] = 0;
+  }
+  TrainConfig config;
+  config.epochs = 7;
+  config.batch_size = 8;
+  config.critic_interval = 4;
+  const TrainerState state = TrainOpening(train.samples, validation.samples, config, {});
+  // the mean action of the training set is off by 13 degrees on average
+  EXPECT_GT(state.epochs.front().train.rotation_rad, 0.15);
+  EXPECT_LT(state.epochs.back().validation.rotation_rad, 0.08);
+  EXPECT_LT(state.epochs.back().validation.hinge_gain_rad, 0.005);
+}
+
+TEST(TrainOpening, RefusesBadConfigsAndEmptySets) {
+  const auto train = testing::MakeSyntheticSamples(1, 1);
+  TrainConfig config = SmallConfig();
+  EXPECT_THROW(TrainOpening({}, {}, config, {}), Error);
+  config.schedule = "cosinus";
+  EXPECT_THROW(TrainOpening(train.samples, {}, config, {}), Error);
+  config = SmallConfig();
+  config.batch_size = 0;
+  EXPECT_THROW(TrainOpening(train.samples, {}, config, {}), Error);
+}
+
+TEST(TrainOpening, ASetSmallerThanABatchIsOneBatchWithoutValidation) {
+  const auto train = testing::MakeSyntheticSamples(1, 3);
+  TrainConfig config = SmallConfig();
+  config.epochs = 1;
+  const TrainerState state = TrainOpening(train.samples, {}, config, {});
+  EXPECT_EQ(state.step, 1U);
+  EXPECT_TRUE(std::isnan(state.epochs[0].validation.position_m));
+}
+
+TEST(TrainOpening, StopsWhenALossIsNotFinite) {
+  auto train = testing::MakeSyntheticSamples(1, 8);
+  train.samples[3].hinge_gain_rad = std::numeric_limits<float>::infinity();
+  EXPECT_THROW(TrainOpening(train.samples, {}, SmallConfig(), {}), Error);
+}
+
+TEST(Sampler, VisitsEverySampleOnceAnEpochInAnOrderOfItsOwn) {
+  std::vector<std::size_t> first;
+  std::vector<std::size_t> second;
+  for (std::uint64_t step = 0; step < 10; ++step) {
+    for (const std::size_t i : internal::BatchOf(7, 0, step, 100, 10)) first.push_back(i);
+    for (const std::size_t i : internal::BatchOf(7, 1, step, 100, 10)) second.push_back(i);
+  }
+  EXPECT_NE(first, second);
+  EXPECT_EQ(std::set<std::size_t>(first.begin(), first.end()).size(), 100U);
+  EXPECT_EQ(std::set<std::size_t>(second.begin(), second.end()).size(), 100U);
+  EXPECT_EQ(internal::BatchOf(7, 1, 4, 100, 10),
+            std::vector<std::size_t>(second.begin() + 40, second.begin() + 50));
+}
+
+}  // namespace
+}  // namespace doorforge

@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "train_verb.h"
+
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/config_file.h"
+#include "doorforge/core/config_io.h"
+#include "doorforge/core/error.h"
+#include "doorforge/core/program.h"
+#include "doorforge/core/progress.h"
+#include "doorforge/learn/checkpoint.h"
+#include "doorforge/learn/linear_algebra.h"
+#include "doorforge/learn/opening_dataset.h"
+#include "doorforge/learn/train_opening.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+struct Options {
+  std::string stage;
+  std::string data;
+  std::string out;
+  std::string config;
+  std::vector<std::string> settings;
+  std::optional<int> epochs;
+  std::optional<std::uint64_t> seed;
+  double minutes = 0;
+  int threads = 0;
+  bool resume = false;
+  bool overwrite = false;
+};
+
+Options Parse(int argc, char** argv) {
+  Options options;
+  CLI::App app("Trains a stage's policy from the shards of `doorforge datagen`.",
+               "doorforge train");
+  app.add_option("stage", options.stage, "open")->required()->check(CLI::IsMember({"open"}));
+  app.add_option("--data", options.data, "data set")->required()->check(CLI::ExistingDirectory);
+  app.add_option("--out", options.out, "folder of the policy")->required();
+  app.add_option("--epochs", options.epochs, "passes over the samples (config: epochs)");
+  app.add_option("--minutes", options.minutes,
+                 "stop after this time, at the end of a step; --resume goes on")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--config", options.config, "YAML file with training settings")
+      ->check(CLI::ExistingFile);
+  app.add_option("--set", options.settings, "key=value overrides one setting");
+  app.add_option("--seed", options.seed, "decides every random choice (config: seed)");
+  app.add_option("--threads", options.threads, "threads, 0: all; the result does not depend on it")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  app.add_flag("--resume", options.resume, "go on from the state in --out, if there is one");
+  app.add_flag("--overwrite", options.overwrite, "start anew where --out holds a training");
+  app.footer(
+      "Writes policy.safetensors and policy.json (the policy), losses.csv and losses.json (the\n"
+      "curves), config.yaml and training.safetensors (what --resume reads).\n\n"
+      "example:\n"
+      "  doorforge train open --data run/data --out run/policy --epochs 10 --set batch_size=32");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& help) {
+    std::exit(app.exit(help));
+  } catch (const CLI::ParseError& error) {
+    throw Error(ErrorCode::kInvalidArgument,
+                std::string(error.what()) + "; see `doorforge train --help`");
+  }
+  return options;
+}
+
+TrainConfig ConfigOf(const Options& options) {
+  auto config = LoadConfig<TrainConfig>(options.config, options.settings);
+  if (options.epochs) config.epochs = *options.epochs;
+  if (options.seed) config.seed = *options.seed;
+  CheckTrainConfig(config);
+  return config;
+}
+
+void WarnOfSlowLinearAlgebra() {
+  const LinearAlgebra found = MeasureLinearAlgebra();
+  if (found.gflops >= kLeastGflops) return;
+  std::fprintf(stderr,
+               "doorforge: warning: libtorch multiplies matrices at %.1f GFLOP/s (%s); with "
+               "OpenBLAS training is faster:\n%s\n",
+               found.gflops, found.blas_library.c_str(), LinearAlgebraRemedy().c_str());
+}
+
+std::string Note(const TrainerState& state, std::uint64_t per_epoch, const TrainConfig& config) {
+  const OpeningLosses& losses = state.steps.back();
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "samples; epoch %.1f/%d step %llu: position %.2f mm, rotation %.2f deg, "
+                "critic %.2f deg",
+                static_cast<double>(state.step) / static_cast<double>(per_epoch), config.epochs,
+                static_cast<unsigned long long>(state.step), 1e3 * losses.position_m,
+                57.29578 * losses.rotation_rad, 57.29578 * losses.hinge_gain_rad);
+  return text;
+}
+
+// A folder that holds a training is only touched if the user said how.
+void CheckFolder(const Options& options) {
+  if (options.resume || options.overwrite) return;
+  for (const char* file : {"training.safetensors", "policy.safetensors"}) {
+    if (fs::exists(fs::path(options.out) / file))
+      throw Error(ErrorCode::kInvalidArgument,
+                  options.out +
+                      ": holds a training already; pass --resume to go on, or "
+                      "--overwrite to start anew");
+  }
+}
+
+void PrintSummary(const TrainerState& state, const OpeningDataset& dataset,
+                  const Options& options) {
+  std::printf("policy:     %s\n", fs::absolute(options.out).lexically_normal().c_str());
+  std::printf("samples:    %zu for training, %zu for validation\n", dataset.train.size(),
+              dataset.validation.size());
+  if (state.epochs.empty()) return;
+  const EpochLosses& last = state.epochs.back();
+  const auto row = [](const char* name, const OpeningLosses& losses) {
+    std::printf("%-11s position %.2f mm, rotation %.2f deg, critic %.2f deg\n", name,
+                1e3 * losses.position_m, 57.29578 * losses.rotation_rad,
+                57.29578 * losses.hinge_gain_rad);
+  };
+  row("training:", last.train);
+  row("validation:", last.validation);
+}
+
+int Train(const Options& options) {
+  const fs::path out = options.out;
+  const TrainConfig config = ConfigOf(options);
+  CheckFolder(options);
+  WarnOfSlowLinearAlgebra();
+  const OpeningDataset dataset = ReadOpeningDataset(options.data, config.validation_share);
+  PolicyProvenance provenance{dataset.content_sha256, CodeVersion(), config, 0};
+
+  TrainHooks hooks;
+  hooks.threads = options.threads;
+  if (options.resume && HasTrainerState(out)) hooks.resume = ReadTrainerState(out, provenance);
+  CommitFile(out / "config.yaml", ToJson(config).dump(2) + "\n");
+
+  const std::uint64_t per_epoch = StepsPerEpoch(dataset.train.size(), config);
+  const std::uint64_t total = per_epoch * static_cast<std::uint64_t>(config.epochs);
+  const std::uint64_t done = hooks.resume ? hooks.resume->step : 0;
+  const std::size_t batch =
+      std::min(dataset.train.size(), static_cast<std::size_t>(config.batch_size));
+  const auto start = Clock::now();
+  TrainerState state;
+  {
+    Progress progress("train open",
+                      static_cast<std::size_t>(total - std::min(done, total)) * batch);
+    hooks.on_step = [&](const TrainerState& now) {
+      progress.Advance(batch, Note(now, per_epoch, config));
+    };
+    hooks.on_epoch = [&](const TrainerState& now) {
+      WriteTrainerState(out, now, provenance);
+      WriteLosses(out, now);
+    };
+    hooks.stop = [&] {
+      const std::chrono::duration<double> elapsed = Clock::now() - start;
+      return StopRequested() != 0 ||
+             (options.minutes > 0 && elapsed.count() > 60 * options.minutes);
+    };
+    state = TrainOpening(dataset.train, dataset.validation, config, hooks);
+  }
+  WriteTrainerState(out, state, provenance);
+  WriteLosses(out, state);
+  const bool finished = state.step >= total;
+  if (!finished)
+    std::fprintf(stderr, "doorforge: stopped after %llu of %llu steps; --resume goes on\n",
+                 static_cast<unsigned long long>(state.step),
+                 static_cast<unsigned long long>(total));
+  if (!finished && StopRequested() != 0) return 128 + StopRequested();
+  provenance.step = state.step;
+  WritePolicy(out, state.networks, provenance);
+  PrintSummary(state, dataset, options);
+  return 0;
+}
+
+}  // namespace
+
+int RunTrainVerb(int argc, char** argv) { return Train(Parse(argc, argv)); }
+
+}  // namespace doorforge

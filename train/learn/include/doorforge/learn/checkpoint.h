@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "doorforge/learn/train_opening.h"
+
+namespace doorforge {
+
+inline constexpr int kPolicySchemaVersion = 1;
+
+/// What a policy was made from.
+struct PolicyProvenance {
+  std::string dataset_sha256;  ///< DatasetReader::ContentHash() of what it was trained from.
+  std::string code_version;
+  TrainConfig config;
+  std::uint64_t step = 0;
+};
+
+/// The record of a policy's folder, docs/format-policy.md.
+struct PolicyRecord {
+  PolicyProvenance provenance;
+  std::string weights_sha256;  ///< Of policy.safetensors.
+  OpeningNetworks networks;
+};
+
+/// SHA-256 of the effective config's JSON text.
+std::string ConfigHash(const TrainConfig& config);
+
+/// Writes `policy.safetensors` (every weight under its layer's name, after "actor." or "critic.")
+/// and then `policy.json` (schema doorforge.policy: sizes, normalisation, provenance and the
+/// weights' SHA-256). Equal arguments give equal bytes.
+void WritePolicy(const std::filesystem::path& folder, const OpeningNetworks& networks,
+                 const PolicyProvenance& provenance);
+
+/// Throws Error(kMissing), Error(kFormat) on a damaged record or weights that do not belong to it.
+PolicyRecord ReadPolicy(const std::filesystem::path& folder);
+
+/// Writes `training.safetensors`, one file with all that TrainerState holds, so that a crash leaves
+/// either the old state or the new one.
+void WriteTrainerState(const std::filesystem::path& folder, const TrainerState& state,
+                       const PolicyProvenance& provenance);
+
+/// Whether the folder holds a state to resume from.
+bool HasTrainerState(const std::filesystem::path& folder);
+
+/// Reads it back, exactly. Throws Error(kInvalidArgument) if it was written for another config or
+/// data set, naming what differs; Error(kFormat) if it is damaged.
+TrainerState ReadTrainerState(const std::filesystem::path& folder,
+                              const PolicyProvenance& expected);
+
+/// A loss over the epochs; `validation` may hold NaN (null in the file).
+struct TrainingCurve {
+  std::string name;  ///< "actor.position_m", "actor.rotation_rad", "actor.divergence",
+                     ///< "critic.hinge_gain_rad".
+  std::vector<double> epoch;
+  std::vector<double> train;
+  std::vector<double> validation;
+};
+
+/// Writes `losses.csv` (a row a step) and `losses.json` (schema doorforge.losses: the curves).
+void WriteLosses(const std::filesystem::path& folder, const TrainerState& state);
+
+/// Reads `losses.json`. Throws Error(kMissing or kFormat).
+std::vector<TrainingCurve> ReadTrainingCurves(const std::filesystem::path& folder);
+
+}  // namespace doorforge

@@ -1,0 +1,342 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/learn/checkpoint.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <nlohmann/json.hpp>
+
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/config_io.h"
+#include "doorforge/core/error.h"
+#include "doorforge/core/hash.h"
+#include "doorforge/core/json_file.h"
+#include "doorforge/learn/cloud_geometry.h"
+#include "doorforge/learn/point_encoder.h"
+#include "doorforge/schemas/safetensors.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kWeightsFile = "policy.safetensors";
+constexpr const char* kRecordFile = "policy.json";
+constexpr const char* kStateFile = "training.safetensors";
+constexpr const char* kLossesFile = "losses.json";
+constexpr int kLossesSchemaVersion = 1;
+constexpr std::size_t kLossCount = 4;
+
+// Every layer's weight and bias under its own name.
+void AddParameters(const ParameterLayout& layout, const std::string& prefix,
+                   const std::vector<float>& parameters, TensorFile& file) {
+  for (const DenseLayer& layer : layout.layers()) {
+    const auto slice = [&](std::size_t begin, std::size_t count) {
+      return std::span<const float>(parameters).subspan(begin, count);
+    };
+    const auto outputs = static_cast<std::uint64_t>(layer.outputs);
+    file.tensors[prefix + layer.name + ".weight"] =
+        MakeTensor<float>(slice(layer.offset, layer.weight_count()),
+                          {outputs, static_cast<std::uint64_t>(layer.inputs)});
+    file.tensors[prefix + layer.name + ".bias"] =
+        MakeTensor<float>(slice(layer.bias_offset(), outputs), {outputs});
+  }
+}
+
+std::vector<float> ReadParameters(const ParameterLayout& layout, const std::string& prefix,
+                                  const TensorFile& file, const std::string& path) {
+  std::vector<float> parameters;
+  parameters.reserve(layout.size());
+  const auto append = [&](const std::string& name, const std::vector<std::uint64_t>& shape) {
+    const std::string where = path + ": " + name;
+    for (const float value : ValuesOf<float>(TensorNamed(file, name, path), shape, where)) {
+      if (!std::isfinite(value))
+        throw Error(ErrorCode::kFormat, where + ": holds a number that is not finite");
+      parameters.push_back(value);
+    }
+  };
+  for (const DenseLayer& layer : layout.layers()) {
+    const auto outputs = static_cast<std::uint64_t>(layer.outputs);
+    append(prefix + layer.name + ".weight", {outputs, static_cast<std::uint64_t>(layer.inputs)});
+    append(prefix + layer.name + ".bias", {outputs});
+  }
+  return parameters;
+}
+
+TensorFile WeightsOf(const OpeningNetworks& networks) {
+  TensorFile file;
+  AddParameters(ActorLayout(), "actor.", networks.actor, file);
+  AddParameters(CriticLayout(), "critic.", networks.critic, file);
+  return file;
+}
+
+void ReadWeights(const TensorFile& file, const std::string& path, OpeningNetworks& networks) {
+  networks.actor = ReadParameters(ActorLayout(), "actor.", file, path);
+  networks.critic = ReadParameters(CriticLayout(), "critic.", file, path);
+}
+
+std::array<double, kLossCount> ToArray(const OpeningLosses& losses) {
+  return {losses.position_m, losses.rotation_rad, losses.divergence, losses.hinge_gain_rad};
+}
+
+constexpr std::array<const char*, kLossCount> kLossNames = {
+    "actor.position_m", "actor.rotation_rad", "actor.divergence", "critic.hinge_gain_rad"};
+
+OpeningLosses FromArray(const double* values) {
+  return {values[0], values[1], values[2], values[3]};
+}
+
+struct Moments {
+  const char* name;
+  std::vector<float> TrainerState::*values;
+  std::size_t size;
+};
+
+std::array<Moments, 4> MomentsOfState() {
+  return {Moments{"adam.actor.first", &TrainerState::actor_first, ActorLayout().size()},
+          Moments{"adam.actor.second", &TrainerState::actor_second, ActorLayout().size()},
+          Moments{"adam.critic.first", &TrainerState::critic_first, CriticLayout().size()},
+          Moments{"adam.critic.second", &TrainerState::critic_second, CriticLayout().size()}};
+}
+
+std::string ConfigText(const TrainConfig& config) { return ToJson(config).dump(); }
+
+void AddLosses(const TrainerState& state, TensorFile& file) {
+  std::vector<double> steps;
+  std::vector<double> epochs;
+  const auto append = [](const OpeningLosses& losses, std::vector<double>& out) {
+    for (const double value : ToArray(losses)) out.push_back(value);
+  };
+  for (const OpeningLosses& losses : state.steps) append(losses, steps);
+  for (const EpochLosses& epoch : state.epochs) {
+    append(epoch.train, epochs);
+    append(epoch.validation, epochs);
+  }
+  file.tensors["losses.steps"] = MakeTensor<double>(steps, {state.steps.size(), kLossCount});
+  file.tensors["losses.epochs"] = MakeTensor<double>(epochs, {state.epochs.size(), 2, kLossCount});
+}
+
+// Length of the leading axis of a tensor that is checked in full right after.
+std::uint64_t LengthOf(const Tensor& tensor) { return tensor.shape.empty() ? 0 : tensor.shape[0]; }
+
+void ReadLosses(const TensorFile& file, const std::string& path, TrainerState& state) {
+  const Tensor& steps = TensorNamed(file, "losses.steps", path);
+  const Tensor& epochs = TensorNamed(file, "losses.epochs", path);
+  const auto of_steps = ValuesOf<double>(steps, {LengthOf(steps), kLossCount}, path);
+  const auto of_epochs = ValuesOf<double>(epochs, {LengthOf(epochs), 2, kLossCount}, path);
+  for (std::size_t i = 0; i < of_steps.size(); i += kLossCount)
+    state.steps.push_back(FromArray(of_steps.data() + i));
+  for (std::size_t i = 0; i < of_epochs.size(); i += 2 * kLossCount)
+    state.epochs.push_back(
+        {FromArray(of_epochs.data() + i), FromArray(of_epochs.data() + i + kLossCount)});
+}
+
+const std::string& MetadataOf(const TensorFile& file, const std::string& key,
+                              const std::string& path) {
+  const auto found = file.metadata.find(key);
+  if (found == file.metadata.end())
+    throw Error(ErrorCode::kFormat, path + ": lacks the metadata \"" + key + "\"");
+  return found->second;
+}
+
+void RequireSame(const TensorFile& file, const std::string& key, const std::string& expected,
+                 const std::string& path) {
+  const std::string& found = MetadataOf(file, key, path);
+  if (found != expected)
+    throw Error(ErrorCode::kInvalidArgument, path + ": was written with another " + key + ": " +
+                                                 found + " instead of " + expected +
+                                                 "; train into another folder");
+}
+
+Json ProvenanceToJson(const PolicyProvenance& provenance) {
+  return {{"config", ToJson(provenance.config)},
+          {"config_sha256", ConfigHash(provenance.config)},
+          {"dataset_sha256", provenance.dataset_sha256},
+          {"code_version", provenance.code_version},
+          {"seed", provenance.config.seed},
+          {"step", provenance.step}};
+}
+
+PolicyProvenance ProvenanceFromJson(const Json& json, const std::string& path) {
+  PolicyProvenance provenance;
+  try {
+    Assign(MemberOf(json, "config", path), provenance.config, path + ".config");
+  } catch (const Error& error) {
+    throw Error(ErrorCode::kFormat, error.what());
+  }
+  provenance.dataset_sha256 = ValueOf<std::string>(json, "dataset_sha256", path);
+  provenance.code_version = ValueOf<std::string>(json, "code_version", path);
+  provenance.step = ValueOf<std::uint64_t>(json, "step", path);
+  return provenance;
+}
+
+Json NumbersToJson(const std::vector<double>& numbers) {
+  Json json = Json::array();
+  for (const double number : numbers)
+    json.push_back(std::isfinite(number) ? Json(number) : Json(nullptr));
+  return json;
+}
+
+std::vector<double> NumbersFromJson(const Json& json, const std::string& path) {
+  if (!json.is_array()) throw Error(ErrorCode::kFormat, path + ": expected an array");
+  std::vector<double> numbers;
+  for (const Json& number : json) {
+    if (!number.is_number() && !number.is_null())
+      throw Error(ErrorCode::kFormat, path + ": expected numbers or null");
+    numbers.push_back(number.is_null() ? std::numeric_limits<double>::quiet_NaN()
+                                       : number.get<double>());
+  }
+  return numbers;
+}
+
+std::vector<TrainingCurve> CurvesOf(const TrainerState& state) {
+  std::vector<TrainingCurve> curves(kLossCount);
+  for (std::size_t i = 0; i < kLossCount; ++i) {
+    curves[i].name = kLossNames[i];
+    for (std::size_t e = 0; e < state.epochs.size(); ++e) {
+      curves[i].epoch.push_back(static_cast<double>(e + 1));
+      curves[i].train.push_back(ToArray(state.epochs[e].train)[i]);
+      curves[i].validation.push_back(ToArray(state.epochs[e].validation)[i]);
+    }
+  }
+  return curves;
+}
+
+std::string LossTable(const TrainerState& state) {
+  std::string text = "step";
+  for (const char* name : kLossNames) text.append(",").append(name);
+  text += "\n";
+  for (std::size_t i = 0; i < state.steps.size(); ++i) {
+    text += std::to_string(i + 1);
+    for (const double value : ToArray(state.steps[i])) {
+      char number[32];
+      std::snprintf(number, sizeof number, ",%.9g", value);
+      text += number;
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string ConfigHash(const TrainConfig& config) { return Sha256Hex(ConfigText(config)); }
+
+void WritePolicy(const fs::path& folder, const OpeningNetworks& networks,
+                 const PolicyProvenance& provenance) {
+  const std::string weights = EncodeTensors(WeightsOf(networks));
+  CommitFile(folder / kWeightsFile, weights);
+  Json json = {{"schema", "doorforge.policy"},
+               {"schema_version", kPolicySchemaVersion},
+               {"stage", "open"},
+               {"weights", kWeightsFile},
+               {"weights_sha256", Sha256Hex(weights)},
+               {"sizes",
+                {{"cloud_points", kCloudPoints},
+                 {"feature", kFeatureSize},
+                 {"state", 18},
+                 {"action", 9},
+                 {"latent", kLatentSize}}},
+               {"linear_branches", networks.linear_branches},
+               {"normalisation", NormalisationToJson(networks.normalisation)},
+               {"provenance", ProvenanceToJson(provenance)}};
+  WriteJsonFile(folder / kRecordFile, json);
+}
+
+PolicyRecord ReadPolicy(const fs::path& folder) {
+  const std::string path = (folder / kRecordFile).string();
+  const Json json = ReadJsonFile(path);
+  RequireSchema(json, "doorforge.policy", kPolicySchemaVersion, path);
+  const std::string stage = ValueOf<std::string>(json, "stage", path);
+  if (stage != "open")
+    throw Error(ErrorCode::kFormat, path + ": a policy of the stage \"" + stage +
+                                        "\"; this build runs policies of the stage \"open\"");
+  PolicyRecord record;
+  record.weights_sha256 = ValueOf<std::string>(json, "weights_sha256", path);
+  record.networks.linear_branches = ValueOf<bool>(json, "linear_branches", path);
+  record.networks.normalisation =
+      NormalisationFromJson(MemberOf(json, "normalisation", path), path + ".normalisation");
+  record.provenance = ProvenanceFromJson(MemberOf(json, "provenance", path), path + ".provenance");
+
+  const std::string weights_path = (folder / kWeightsFile).string();
+  const std::string weights = ReadFile(weights_path);
+  if (Sha256Hex(weights) != record.weights_sha256)
+    throw Error(ErrorCode::kFormat, weights_path + ": its SHA-256 is not the one in " + path +
+                                        "; run the training again with --resume");
+  ReadWeights(DecodeTensors(weights, weights_path), weights_path, record.networks);
+  return record;
+}
+
+void WriteTrainerState(const fs::path& folder, const TrainerState& state,
+                       const PolicyProvenance& provenance) {
+  TensorFile file = WeightsOf(state.networks);
+  for (const Moments& moments : MomentsOfState())
+    file.tensors[moments.name] = MakeTensor<float>(state.*(moments.values), {moments.size});
+  AddLosses(state, file);
+  file.metadata = {{"config", ConfigText(provenance.config)},
+                   {"dataset_sha256", provenance.dataset_sha256},
+                   {"normalisation", NormalisationToJson(state.networks.normalisation).dump()},
+                   {"step", std::to_string(state.step)}};
+  CommitFile(folder / kStateFile, EncodeTensors(file));
+}
+
+bool HasTrainerState(const fs::path& folder) { return fs::exists(folder / kStateFile); }
+
+TrainerState ReadTrainerState(const fs::path& folder, const PolicyProvenance& expected) {
+  const std::string path = (folder / kStateFile).string();
+  const TensorFile file = ReadTensors(path);
+  RequireSame(file, "dataset_sha256", expected.dataset_sha256, path);
+  RequireSame(file, "config", ConfigText(expected.config), path);
+  TrainerState state;
+  state.networks.linear_branches = expected.config.linear_branches;
+  ReadWeights(file, path, state.networks);
+  for (const Moments& moments : MomentsOfState())
+    state.*(moments.values) =
+        ValuesOf<float>(TensorNamed(file, moments.name, path), {moments.size}, path);
+  ReadLosses(file, path, state);
+  const Json normalisation =
+      Json::parse(MetadataOf(file, "normalisation", path), nullptr, /*allow_exceptions=*/false);
+  state.networks.normalisation = NormalisationFromJson(normalisation, path + ": normalisation");
+  state.step = state.steps.size();
+  if (MetadataOf(file, "step", path) != std::to_string(state.step))
+    throw Error(ErrorCode::kFormat, path + ": its losses and its step do not agree");
+  return state;
+}
+
+void WriteLosses(const fs::path& folder, const TrainerState& state) {
+  CommitFile(folder / "losses.csv", LossTable(state));
+  Json curves = Json::array();
+  for (const TrainingCurve& curve : CurvesOf(state))
+    curves.push_back({{"name", curve.name},
+                      {"epoch", NumbersToJson(curve.epoch)},
+                      {"train", NumbersToJson(curve.train)},
+                      {"validation", NumbersToJson(curve.validation)}});
+  WriteJsonFile(folder / kLossesFile, {{"schema", "doorforge.losses"},
+                                       {"schema_version", kLossesSchemaVersion},
+                                       {"curves", curves}});
+}
+
+std::vector<TrainingCurve> ReadTrainingCurves(const fs::path& folder) {
+  const std::string path = (folder / kLossesFile).string();
+  const Json json = ReadJsonFile(path);
+  RequireSchema(json, "doorforge.losses", kLossesSchemaVersion, path);
+  const Json& array = MemberOf(json, "curves", path);
+  if (!array.is_array()) throw Error(ErrorCode::kFormat, path + ".curves: expected an array");
+  std::vector<TrainingCurve> curves;
+  for (const Json& entry : array) {
+    TrainingCurve curve;
+    curve.name = ValueOf<std::string>(entry, "name", path);
+    curve.epoch = NumbersFromJson(MemberOf(entry, "epoch", path), path);
+    curve.train = NumbersFromJson(MemberOf(entry, "train", path), path);
+    curve.validation = NumbersFromJson(MemberOf(entry, "validation", path), path);
+    if (curve.train.size() != curve.epoch.size() || curve.validation.size() != curve.epoch.size())
+      throw Error(ErrorCode::kFormat, path + ": the columns of a curve differ in length");
+    curves.push_back(std::move(curve));
+  }
+  return curves;
+}
+
+}  // namespace doorforge

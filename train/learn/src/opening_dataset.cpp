@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/learn/opening_dataset.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "doorforge/core/error.h"
+#include "doorforge/core/hash.h"
+#include "doorforge/learn/cloud_geometry.h"
+#include "doorforge/schemas/dataset.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kStage = "open";
+constexpr std::size_t kCloudFloats = std::size_t{3} * kCloudPoints;
+
+template <std::size_t N>
+std::array<float, N> RowOf(std::span<const float> values, std::size_t row) {
+  std::array<float, N> out{};
+  std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(row * N), N, out.begin());
+  return out;
+}
+
+std::array<float, 3> ToArray(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
+
+void AppendEpisode(const EpisodeArrays& arrays, std::vector<TrainingSample>& samples) {
+  for (std::size_t t = 0; t < arrays.decisions; ++t) {
+    const auto proprioception = RowOf<std::tuple_size_v<Proprioception>>(arrays.proprio, t);
+    TrainingSample sample;
+    sample.cloud = arrays.cloud.subspan(t * kCloudFloats, kCloudFloats);
+    sample.state = PolicyStateOf(proprioception);
+    sample.hand_m = ToArray(HandPositionOf(proprioception));
+    sample.base_m = ToArray(BasePositionOf(proprioception));
+    sample.action = RowOf<std::tuple_size_v<ActionVector>>(arrays.action, t);
+    sample.hinge_gain_rad = arrays.score[t];
+    samples.push_back(sample);
+  }
+}
+
+// Episodes [begin, end) of a split.
+std::vector<TrainingSample> SamplesOf(const DatasetReader& reader, std::size_t begin,
+                                      std::size_t end) {
+  std::vector<TrainingSample> samples;
+  for (std::size_t i = begin; i < end; ++i) {
+    const EpisodeArrays arrays = reader.Arrays(i);
+    if (arrays.points != kCloudPoints)
+      throw Error(ErrorCode::kFormat, "episode " + reader.entry(i).key + ": clouds of " +
+                                          std::to_string(arrays.points) +
+                                          " points; the networks read " +
+                                          std::to_string(kCloudPoints));
+    AppendEpisode(arrays, samples);
+  }
+  return samples;
+}
+
+}  // namespace
+
+OpeningDataset::OpeningDataset() = default;
+OpeningDataset::~OpeningDataset() = default;
+OpeningDataset::OpeningDataset(OpeningDataset&&) noexcept = default;
+OpeningDataset& OpeningDataset::operator=(OpeningDataset&&) noexcept = default;
+
+OpeningDataset ReadOpeningDataset(const fs::path& folder, double validation_share) {
+  OpeningDataset dataset;
+  dataset.readers.push_back(std::make_unique<DatasetReader>(folder, kStage, "train"));
+  const DatasetReader& train = *dataset.readers.back();
+  std::string content = train.ContentHash();
+  const std::size_t episodes = train.size();
+  if (fs::exists(folder / kStage / "val")) {
+    dataset.readers.push_back(std::make_unique<DatasetReader>(folder, kStage, "val"));
+    const DatasetReader& validation = *dataset.readers.back();
+    content += "\n" + validation.ContentHash();
+    dataset.train = SamplesOf(train, 0, episodes);
+    dataset.validation = SamplesOf(validation, 0, validation.size());
+  } else {
+    const auto aside = std::min(
+        episodes > 0 ? episodes - 1 : 0,
+        static_cast<std::size_t>(std::ceil(validation_share * static_cast<double>(episodes))));
+    dataset.train = SamplesOf(train, 0, episodes - aside);
+    dataset.validation = SamplesOf(train, episodes - aside, episodes);
+  }
+  dataset.content_sha256 = Sha256Hex(content);
+  return dataset;
+}
+
+}  // namespace doorforge

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/learn/opening_policy.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "doorforge/core/error.h"
+#include "doorforge/core/rng.h"
+#include "doorforge/learn/checkpoint.h"
+#include "doorforge/learn/cloud_geometry.h"
+#include "doorforge/learn/point_encoder.h"
+
+#include "head_networks.h"
+
+namespace doorforge {
+namespace {
+
+using internal::HeadBatch;
+
+template <std::size_t N>
+void AppendCopies(const std::array<float, N>& values, int copies, std::vector<float>& out) {
+  for (int i = 0; i < copies; ++i) out.insert(out.end(), values.begin(), values.end());
+}
+
+void AppendCopies(const std::vector<float>& values, int copies, std::vector<float>& out) {
+  for (int i = 0; i < copies; ++i) out.insert(out.end(), values.begin(), values.end());
+}
+
+std::array<float, 3> ToArray(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
+
+class OpeningPolicy : public Policy {
+ public:
+  OpeningPolicy(OpeningNetworks networks, const PolicyOptions& options)
+      : networks_(std::move(networks)),
+        options_(options),
+        actor_(ActorLayout(), "encoder.", networks_.actor, BestInstructionSet()) {
+    if (options_.candidates > 1)
+      critic_.emplace(CriticLayout(), "encoder.", networks_.critic, BestInstructionSet());
+  }
+
+  void Reset() override { decision_ = 0; }
+
+  Action Act(const Observation& observation) override {
+    internal::UseOneTorchThread();
+    const CloudGeometry geometry =
+        BuildGeometry(observation.cloud.xyz, networks_.normalisation.cloud_centre_m);
+    HeadBatch batch = Conditions(observation);
+    AppendCopies(actor_.Forward(geometry).features, batch.size, batch.features);
+    const std::vector<float> actions = DecodeActions(networks_, batch, Latents());
+    const std::size_t best = critic_ ? Best(geometry, actions, batch) : 0;
+    ++decision_;
+    ActionVector chosen{};
+    std::copy_n(actions.begin() + static_cast<std::ptrdiff_t>(9 * best), 9, chosen.begin());
+    return FromVector(chosen);
+  }
+
+ private:
+  HeadBatch Conditions(const Observation& observation) const {
+    const OpeningNormalisation& normalisation = networks_.normalisation;
+    const Proprioception& proprioception = observation.proprioception;
+    const int copies = options_.candidates;
+    HeadBatch batch;
+    batch.size = copies;
+    AppendCopies(normalisation.state.Apply(PolicyStateOf(proprioception)), copies, batch.states);
+    AppendCopies(normalisation.hand_m.Apply(ToArray(HandPositionOf(proprioception))), copies,
+                 batch.hands);
+    AppendCopies(normalisation.base_m.Apply(ToArray(BasePositionOf(proprioception))), copies,
+                 batch.bases);
+    return batch;
+  }
+
+  std::vector<float> Latents() const {
+    std::vector<float> latents(static_cast<std::size_t>(options_.candidates) * kLatentSize);
+    Rng rng(options_.seed, "policy/open/" + std::to_string(decision_));
+    for (std::size_t i = kLatentSize; i < latents.size(); ++i)
+      latents[i] = static_cast<float>(rng.Normal());
+    return latents;
+  }
+
+  std::size_t Best(const CloudGeometry& geometry, const std::vector<float>& actions,
+                   HeadBatch& batch) const {
+    batch.features.clear();
+    AppendCopies(critic_->Forward(geometry).features, batch.size, batch.features);
+    for (std::size_t i = 0; i < actions.size(); i += 9) {
+      ActionVector action{};
+      std::copy_n(actions.begin() + static_cast<std::ptrdiff_t>(i), 9, action.begin());
+      AppendCopies(networks_.normalisation.action.Apply(action), 1, batch.actions);
+    }
+    const std::vector<float> scores = ScoreActions(networks_, batch);
+    return static_cast<std::size_t>(
+        std::distance(scores.begin(), std::max_element(scores.begin(), scores.end())));
+  }
+
+  OpeningNetworks networks_;
+  PolicyOptions options_;
+  PointEncoder actor_;
+  std::optional<PointEncoder> critic_;
+  std::uint64_t decision_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Policy> MakePolicy(OpeningNetworks networks, const PolicyOptions& options) {
+  Require(options.candidates >= 1 && options.candidates <= 1000, ErrorCode::kInvalidConfig,
+          "policy.candidates: must be 1 to 1000");
+  return std::make_unique<OpeningPolicy>(std::move(networks), options);
+}
+
+std::unique_ptr<Policy> LoadPolicy(const std::filesystem::path& folder,
+                                   const PolicyOptions& options) {
+  return MakePolicy(ReadPolicy(folder).networks, options);
+}
+
+}  // namespace doorforge

@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "datagen_verb.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "doorforge/core/config_file.h"
+#include "doorforge/core/program.h"
+#include "doorforge/datagen/describe_dataset.h"
+#include "doorforge/schemas/urdf.h"
+
+#include "door_folder.h"
+#include "open_stage.h"
+#include "verb_options.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string doors;
+  std::string robot;
+  std::string out;
+  std::string config;
+  std::vector<std::string> settings;
+  std::optional<std::uint64_t> episodes;
+  std::optional<std::uint64_t> seed;
+  int threads = 0;
+  bool resume = false;
+  bool overwrite = false;
+  bool json = false;
+};
+
+void AddOptions(CLI::App& app, Options& options) {
+  app.add_option("--doors", options.doors, "folder of composed doors")->required();
+  app.add_option("--out", options.out, "folder of the dataset")->required();
+  app.add_option("--episodes", options.episodes, "episodes to run, failed ones included")
+      ->check(CLI::Range(1, 100000000));
+  app.add_option("--seed", options.seed, "decides every random choice");
+  app.add_option("--robot", options.robot, "URDF of the robot; the embedded one if left out");
+  app.add_option("--config", options.config, "YAML file with settings");
+  app.add_option("--set", options.settings, "a.b=c overrides one setting, e.g. cloud.point_count");
+  app.add_option("--threads", options.threads, "threads, 0: all; does not change the bytes")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  app.add_flag("--resume", options.resume, "go on in --out: shards that are complete are kept");
+  app.add_flag("--overwrite", options.overwrite, "replace the dataset in --out");
+  app.add_flag("--json", options.json, "print one JSON document");
+  app.footer(
+      "Interrupted with Ctrl-C or killed, it goes on with --resume and gives the same bytes.\n\n"
+      "examples:\n"
+      "  doorforge datagen open --doors doors/train --out data --episodes 2000 --seed 7\n"
+      "  doorforge datagen open --doors doors/train --out data --episodes 2000 --seed 7 --resume");
+}
+
+OpenStageConfig LoadOpenConfig(const Options& options) {
+  auto config = LoadConfig<OpenStageConfig>(options.config, options.settings);
+  if (options.episodes) config.episodes = *options.episodes;
+  if (options.seed) config.seed = *options.seed;
+  Require(config.cloud.point_count >= 1 && config.cloud.point_count <= 1000000,
+          ErrorCode::kInvalidConfig, "config.cloud.point_count: out of 1..1000000");
+  return config;
+}
+
+RobotModel LoadRobot(const std::string& path) {
+  if (path.empty()) return LoadMobileFranka();
+  return RobotModel(ReadUrdf(path), fs::path(path).parent_path());
+}
+
+// The effective config. A comment names what else decides the bytes, so that a run on other doors
+// or with another build is noticed when it is resumed.
+std::string ConfigText(const OpenStageConfig& config, const DoorFolder& doors,
+                       const std::string& robot) {
+  return "# doorforge datagen open, " + CodeVersion() + "\n# " +
+         std::to_string(doors.doors.size()) + " doors, sha256 " + ContentHash(doors) +
+         "\n# robot " + (robot.empty() ? "embedded" : fs::path(robot).filename().string()) +
+         ", rays by " + RayCasterVersion() + "\n" + ToJson(config).dump(2) + "\n";
+}
+
+void PrepareFolder(const Options& options) {
+  const fs::path out = options.out;
+  if (!fs::exists(out) || fs::is_empty(out)) {
+    fs::create_directories(out);
+    return;
+  }
+  if (options.resume) return;
+  if (!options.overwrite)
+    throw Error(ErrorCode::kInvalidArgument,
+                options.out + ": already exists; pass --resume to go on there, or --overwrite");
+  if (!fs::exists(out / "config.yaml"))
+    throw Error(ErrorCode::kInvalidArgument,
+                options.out + ": holds no dataset (no config.yaml), so --overwrite keeps off");
+  fs::remove_all(out);
+  fs::create_directories(out);
+}
+
+DatasetProvenance ProvenanceOf(const OpenStageConfig& config, const DoorFolder& doors) {
+  DatasetProvenance provenance;
+  provenance.code_version = CodeVersion();
+  provenance.compiler = __VERSION__;
+  provenance.libraries = {{"ray_caster", RayCasterVersion()}};
+  provenance.seed = config.seed;
+  provenance.doors = RecordsOf(doors);
+  return provenance;
+}
+
+int Finish(const CollectSummary& summary, const Options& options) {
+  if (summary.stopped_by_signal != 0) {
+    std::fprintf(stderr,
+                 "doorforge: stopped; complete shards are kept in %s, go on with --resume\n",
+                 options.out.c_str());
+    return 128 + summary.stopped_by_signal;
+  }
+  const nlohmann::ordered_json description = DescribeDataset(options.out);
+  std::cout << (options.json ? description.dump(2) + "\n" : DescriptionText(description));
+  if (summary.written > 0) return 0;
+  std::fprintf(stderr, "doorforge: no episode succeeded; %s lists the causes\n",
+               (fs::path(options.out) / "failures.jsonl").c_str());
+  return 1;
+}
+
+int CollectOpenStage(const Options& options) {
+  const OpenStageConfig config = LoadOpenConfig(options);
+  const DoorFolder doors = ReadDoorFolder(options.doors, options.threads);
+  const RobotModel robot = LoadRobot(options.robot);
+  const CollectionPlan plan =
+      MakePlan(PartsOf(doors), config.episodes, config.seed, config.collection);
+  PrepareFolder(options);
+  CollectRequest request;
+  request.folder = options.out;
+  request.config_text = ConfigText(config, doors, options.robot);
+  request.provenance = ProvenanceOf(config, doors);
+  request.threads = options.threads;
+  const CollectSummary summary = Collect(
+      plan,
+      [&](const PlannedEpisode& planned) {
+        return RunOpenEpisode(planned, doors.doors[planned.door], robot, config);
+      },
+      request);
+  return Finish(summary, options);
+}
+
+}  // namespace
+
+int RunDatagenVerb(int argc, char** argv) {
+  Options options;
+  CLI::App app("Collects a stage's dataset.", "doorforge datagen");
+  app.require_subcommand(1);
+  auto* open = app.add_subcommand(
+      "open",
+      "expert episodes of the opening stage: grasp and unlock by rule, then every decision "
+      "of opening is recorded");
+  AddOptions(*open, options);
+  app.footer("example:\n  doorforge datagen open --doors doors/train --out data --episodes 200");
+  ParseVerb(app, argc, argv);
+  return CollectOpenStage(options);
+}
+
+}  // namespace doorforge

@@ -367,14 +367,16 @@ double BoxDeviation(const UniDoorManipObject& object, const PartDraft& half) {
   const bool is_body = half.facts.role == PartRole::kBody;
   const Eigen::AlignedBox3d& stated = is_body ? object.body_box : object.handle_box;
   if (stated.isEmpty()) return 0;
+  const bool has_frame = is_body && half.pieces.size() > 1;
   Eigen::AlignedBox3d loaded;
   for (const RawPiece& piece : half.pieces) {
-    if (piece.name != "rose") loaded.extend(internal::BoundsOf(piece.mesh));
+    if (piece.name == "rose" || (has_frame && piece.name == "leaf")) continue;
+    loaded.extend(internal::BoundsOf(piece.mesh));
   }
-  // the body was lifted onto the floor
-  const Eigen::Vector3d back(0, 0, is_body ? stated.min().z() : 0);
-  return std::max((loaded.min() + back - stated.min()).cwiseAbs().maxCoeff(),
-                  (loaded.max() + back - stated.max()).cwiseAbs().maxCoeff());
+  // a body was lifted onto the floor
+  if (is_body) loaded.translate(object.hinge.origin_m - half.facts.joint.origin_m);
+  return std::max((loaded.min() - stated.min()).cwiseAbs().maxCoeff(),
+                  (loaded.max() - stated.max()).cwiseAbs().maxCoeff());
 }
 
 }  // namespace doorforge

@@ -63,6 +63,11 @@ std::optional<ClosedMesh> RoundedClosed(const ClosedMesh& mesh, const RepairConf
   return RepairMesh(rounded, config).mesh;
 }
 
+// rounding moves vertices across the flat faces of a hull; the hull of the rounded ones is convex
+TriangleMesh RoundedHull(const TriangleMesh& hull) {
+  return ConvexHull(internal::RoundedToFloat(hull).vertices);
+}
+
 MadePiece MakePiece(const RawPiece& raw, Category category, const MakePartConfig& config) {
   MadePiece made;
   made.report.piece = raw.name;
@@ -79,8 +84,8 @@ MadePiece MakePiece(const RawPiece& raw, Category category, const MakePartConfig
   piece.name = raw.name;
   piece.mesh = closed->mesh();
   piece.color_rgba = raw.color_rgba;
-  for (TriangleMesh& hull : ConvexParts(*closed, ConvexConfigOf(raw.name, config)))
-    piece.hulls.push_back(internal::RoundedToFloat(std::move(hull)));
+  for (const TriangleMesh& hull : ConvexParts(*closed, ConvexConfigOf(raw.name, config)))
+    piece.hulls.push_back(RoundedHull(hull));
   made.report.convex_parts = static_cast<int>(piece.hulls.size());
   made.report.convex_fit = MeasureConvexParts(*closed, piece.hulls);
   const internal::PieceDensity density = internal::DensityOf(category, raw.name);

@@ -10,7 +10,7 @@
 namespace doorforge {
 
 struct ComposeConfig {
-  std::string id;  ///< Empty: "<body id>__<handle id>".
+  std::string id = {};  ///< Empty: "<body id>__<handle id>".
   double handle_height_m =
       0;                 ///< Above the body's lowest point; 0: where the body's author put it.
   double backset_m = 0;  ///< Handle to free edge of the leaf; 0: as the body's author put it.

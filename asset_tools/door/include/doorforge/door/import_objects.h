@@ -16,8 +16,8 @@
 namespace doorforge {
 
 struct ImportConfig {
-  std::string category;  ///< Empty: told by each object's folder, else its content.
-  MakePartConfig make;
+  std::string category = {};  ///< Empty: told by each object's folder, else its content.
+  MakePartConfig make = {};
   int threads = 0;  ///< 0: all processors. Does not change the result.
 
   template <class Self, class Visitor>

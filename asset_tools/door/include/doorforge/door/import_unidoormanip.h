@@ -74,6 +74,7 @@ std::string HandleSourceHash(const UniDoorManipObject& object);
 
 /// Largest distance between the faces of the box that the object's own JSON files state and the box
 /// of the loaded meshes, an independent check of frames and scales [m]; 0 where no box is stated.
+/// The stated boxes are those of the frame (of the leaf where there is no frame) and of the grip.
 double BoxDeviation(const UniDoorManipObject& object, const PartDraft& half);
 
 }  // namespace doorforge

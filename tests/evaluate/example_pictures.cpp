@@ -24,14 +24,15 @@ ReportPictures ExamplePictures(const EvaluationReport& report) {
     for (const ReportDoor& door : *doors) pictures.doors[door.id] = png;
   }
   for (int i = 0; i < kEpisodeOutcomeCount; ++i)
-    pictures.episodes[static_cast<EpisodeOutcome>(i)] = {png, "start <grasped> & \"turned\""};
+    pictures.episodes[static_cast<EpisodeOutcome>(i)] = {
+        {{png, "start <0 s> & \"more\""}, {png, "end"}}, "the 'first' one"};
   pictures.scene = pictures.depth = pictures.cloud = {png, "what the camera sees"};
   return pictures;
 }
 
 int PictureCount(const EvaluationReport& report) {
   int count = static_cast<int>(report.doors.size() + report.training_doors.size()) + 3;
-  for (const int outcomes : Summarise(report.episodes).outcomes) count += outcomes > 0 ? 1 : 0;
+  for (const int outcomes : Summarise(report.episodes).outcomes) count += outcomes > 0 ? 2 : 0;
   return count;
 }
 

@@ -100,7 +100,7 @@ std::string Degrees(double angle_rad) { return Fixed(angle_rad * 180 / std::numb
 std::string Percent(double share) { return Fixed(100 * share, 0) + "\u00a0%"; }
 
 std::string IntervalText(const SuccessRate& rate) {
-  return Fixed(100 * rate.low, 0) + "–" + Percent(rate.high);
+  return Fixed(100 * rate.low, 0) + "\u2060–\u2060" + Percent(rate.high);
 }
 
 std::string Plural(std::size_t count, const std::string& noun) {

@@ -17,8 +17,6 @@ namespace {
 
 using Episodes = std::span<const EvaluatedEpisode>;
 
-constexpr std::size_t kMostTrainingPictures = 12;
-
 std::string PolicyName(const EvaluationReport& report) {
   return IsExpert(report) ? "rule-based expert" : "trained opener";
 }
@@ -30,13 +28,23 @@ std::string PictureFigure(const ReportPicture& picture) {
       {{"uri", PngUri(picture.png)}, {"caption", Escape(picture.caption)}});
 }
 
+std::string FilmFigure(const ReportPictures& pictures, EpisodeOutcome outcome) {
+  const auto film = pictures.episodes.find(outcome);
+  if (film == pictures.episodes.end()) return {};
+  std::string frames;
+  for (const ReportPicture& frame : film->second.frames) frames += PictureFigure(frame);
+  return Fill(
+      R"(<figure><div class="film">{frames}</div><figcaption>{caption}</figcaption></figure>)",
+      {{"frames", frames}, {"caption", Escape(film->second.caption)}});
+}
+
 std::string Figure(const std::string& number, const std::string& text, bool first = false) {
   return Fill(R"(<div class="figure{first}"><b>{number}</b><span>{text}</span></div>)",
               {{"first", first ? " first" : ""}, {"number", number}, {"text", text}});
 }
 
 std::string SpreadText(const SeedSpread& spread) {
-  if (spread.rates.empty()) return "–";
+  if (spread.rates.size() < 2) return "–";
   return Fixed(100 * spread.mean, 1) + " ± " + Fixed(100 * std::sqrt(spread.variance), 1) +
          "\u00a0%";
 }
@@ -49,7 +57,7 @@ std::string SuccessRow(const std::string& name, Episodes episodes, Episodes refe
   return Fill(
       R"(<tr{class}><td>{name}</td><td>{bar}</td><td class="number">{rate}</td>)"
       R"(<td class="number soft">{interval}</td><td class="number">{opened} / {episodes}</td>)"
-      R"(<td class="number">{spread}</td><td class="number">{expert}</td></tr>)",
+      R"(<td class="number">{spread}</td>{expert}</tr>)",
       {{"class", overall ? R"( class="overall")" : ""},
        {"name", name},
        {"bar", RateBar(summary.opened, expert.opened)},
@@ -58,7 +66,9 @@ std::string SuccessRow(const std::string& name, Episodes episodes, Episodes refe
        {"opened", std::to_string(summary.opened.successes)},
        {"episodes", std::to_string(summary.opened.episodes)},
        {"spread", SpreadText(summary.over_seeds)},
-       {"expert", reference.empty() ? "–" : Percent(expert.opened.rate)}});
+       {"expert", reference.empty()
+                      ? ""
+                      : R"(<td class="number">)" + Percent(expert.opened.rate) + "</td>"}});
 }
 
 std::string AngleRow(const std::string& name, Episodes episodes) {
@@ -82,22 +92,22 @@ std::string Cause(const EvaluationReport& report, const ReportPictures& pictures
                   EpisodeOutcome outcome) {
   const int count = Summarise(report.episodes).outcomes[static_cast<std::size_t>(outcome)];
   const EvaluatedEpisode& example = *FirstWith(report.episodes, outcome);
-  const auto picture = pictures.episodes.find(outcome);
   const double share = static_cast<double>(count) / static_cast<double>(report.episodes.size());
+  const std::string film = FilmFigure(pictures, outcome);
+  const std::string text = Fill(R"(<p class="soft">{door}, seed {seed}: {detail}</p>)",
+                                {{"door", Escape(example.door_id)},
+                                 {"seed", std::to_string(example.seed)},
+                                 {"detail", Escape(example.detail)}});
   return Fill(
       R"(<div class="cause"><div class="head"><h3>{title}</h3><span>{count} of {all} episodes, {share}</span>)"
-      R"(<span class="soft">{meaning}</span></div><div class="meter"><div style="width: {width}%"></div></div>{film})"
-      R"(<p class="soft">For example {door}, seed {seed}: {detail}</p></div>)",
+      R"(<span class="soft">{meaning}</span></div><div class="meter"><div style="width: {width}%"></div></div>{example}</div>)",
       {{"title", TextOf(outcome).title},
        {"count", std::to_string(count)},
        {"all", std::to_string(report.episodes.size())},
        {"share", Percent(share)},
        {"meaning", TextOf(outcome).meaning},
        {"width", Fixed(100 * share, 1)},
-       {"film", picture == pictures.episodes.end() ? "" : PictureFigure(picture->second)},
-       {"door", Escape(example.door_id)},
-       {"seed", std::to_string(example.seed)},
-       {"detail", Escape(example.detail)}});
+       {"example", film.empty() ? text : film}});
 }
 
 // which episodes on a door opened it, as filled and hollow dots
@@ -134,30 +144,29 @@ std::string DoorTile(const ReportDoor& door, const ReportPictures& pictures, Epi
        {"dots", Dots(door, episodes)}});
 }
 
-// training doors to show: those with pictures, evenly spaced
-std::vector<const ReportDoor*> SomeWithPictures(const std::vector<ReportDoor>& doors,
-                                                const ReportPictures& pictures) {
-  std::vector<const ReportDoor*> all;
+// of many doors, those with pictures are enough to look at
+std::vector<const ReportDoor*> DoorsToShow(const std::vector<ReportDoor>& doors,
+                                           const ReportPictures& pictures) {
+  std::vector<const ReportDoor*> shown;
   for (const ReportDoor& door : doors) {
-    if (pictures.doors.contains(door.id)) all.push_back(&door);
+    if (pictures.doors.contains(door.id)) shown.push_back(&door);
   }
-  const std::size_t count = std::min(all.size(), kMostTrainingPictures);
-  std::vector<const ReportDoor*> some;
-  for (std::size_t i = 0; i < count; ++i) some.push_back(all[i * all.size() / count]);
-  return some;
+  return shown;
+}
+
+std::string CountText(std::size_t shown, std::size_t all) {
+  return Plural(all, "door") +
+         (shown < all ? ", " + std::to_string(shown) + " of them shown" : "") + ".";
 }
 
 std::string TrainingGallery(const EvaluationReport& report, const ReportPictures& pictures) {
   if (report.training_doors.empty()) return {};
-  const auto shown = SomeWithPictures(report.training_doors, pictures);
+  const auto shown = DoorsToShow(report.training_doors, pictures);
   std::string tiles;
   for (const ReportDoor* door : shown) tiles += DoorTile(*door, pictures, {});
-  const std::size_t all = report.training_doors.size();
   return Fill(
-      R"(<h3>Trained on</h3><p class="soft">{count}{shown}.</p><div class="tiles small">{tiles}</div>)",
-      {{"count", Plural(all, "door")},
-       {"shown", shown.size() < all ? ", " + std::to_string(shown.size()) + " of them shown" : ""},
-       {"tiles", tiles}});
+      R"(<h3>Trained on</h3><p class="soft">{count}</p><div class="tiles small">{tiles}</div>)",
+      {{"count", CountText(shown.size(), report.training_doors.size())}, {"tiles", tiles}});
 }
 
 std::string EpisodeRow(const EvaluatedEpisode& episode) {
@@ -226,9 +235,12 @@ std::string HeadlineSection(const EvaluationReport& report, const ReportPictures
       !report.training_doors.empty() && SeenDoors(report.doors, report.training_doors).empty();
   std::string figures =
       Figure(Percent(summary.opened.rate),
-             "opened beyond 45°, 95&#160;% interval " + IntervalText(summary.opened), true) +
-      Figure(SpreadText(summary.over_seeds),
-             "mean and standard deviation over " + Plural(summary.over_seeds.seeds.size(), "seed"));
+             "opened beyond 45°, 95&#160;% interval " + IntervalText(summary.opened), true);
+  if (summary.over_seeds.rates.size() > 1) {
+    figures +=
+        Figure(SpreadText(summary.over_seeds), "mean and standard deviation over " +
+                                                   Plural(summary.over_seeds.seeds.size(), "seed"));
+  }
   if (!report.reference.empty()) {
     const SuccessRate expert = Summarise(report.reference).opened;
     figures +=
@@ -237,7 +249,6 @@ std::string HeadlineSection(const EvaluationReport& report, const ReportPictures
   figures += Figure(std::to_string(report.doors.size()),
                     std::string(held_out ? "held-out doors" : "doors") + ", " +
                         Plural(report.episodes.size(), "episode"));
-  const auto film = pictures.episodes.find(EpisodeOutcome::kOpened);
   return Fill(
       R"(<header><div class="over">doorforge evaluation</div><h1>{title}</h1><p class="lead">{lead}</p>)"
       R"(<nav><a href="#success">Success</a><a href="#angle">Door angle</a><a href="#causes">Causes of failure</a><a href="#doors">Doors</a>)"
@@ -257,7 +268,7 @@ std::string HeadlineSection(const EvaluationReport& report, const ReportPictures
                                          "training episode."
                                        : "")},
        {"figures", figures},
-       {"film", film == pictures.episodes.end() ? "" : PictureFigure(film->second)}});
+       {"film", FilmFigure(pictures, EpisodeOutcome::kOpened)}});
 }
 
 std::string SuccessSection(const EvaluationReport& report) {
@@ -275,8 +286,11 @@ std::string SuccessSection(const EvaluationReport& report) {
       R"(<div class="legend"><span><svg viewBox="0 0 34 12"><rect class="fill" y="1" width="34" height="10" rx="2"/></svg>{policy}</span>)"
       R"(<span><svg viewBox="0 0 34 12"><path class="whisker" d="M1 6H33M1 2v8M33 2v8"/></svg>95&#160;% interval</span>{expert_legend}</div>)"
       R"(<div class="scroll"><table><thead><tr><th>category</th><th></th><th class="number">success</th><th class="number">95&#160;% interval</th>)"
-      R"(<th class="number">opened</th><th class="number">over seeds</th><th class="number">expert</th></tr></thead><tbody>{rows}</tbody></table></div></section>)",
-      {{"policy", PolicyName(report)}, {"expert_legend", expert_legend}, {"rows", rows}});
+      R"(<th class="number">opened</th><th class="number">over seeds</th>{expert_head}</tr></thead><tbody>{rows}</tbody></table></div></section>)",
+      {{"policy", PolicyName(report)},
+       {"expert_legend", expert_legend},
+       {"expert_head", report.reference.empty() ? "" : R"(<th class="number">expert</th>)"},
+       {"rows", rows}});
 }
 
 std::string AngleSection(const EvaluationReport& report) {
@@ -315,9 +329,11 @@ std::string CauseSection(const EvaluationReport& report, const ReportPictures& p
 
 std::string DoorSection(const EvaluationReport& report, const ReportPictures& pictures) {
   std::string tiles;
-  for (const ReportDoor& door : report.doors) tiles += DoorTile(door, pictures, report.episodes);
+  const auto shown = DoorsToShow(report.doors, pictures);
+  for (const ReportDoor* door : shown) tiles += DoorTile(*door, pictures, report.episodes);
   const auto seen = SeenDoors(report.doors, report.training_doors);
-  std::string note = "Filled dots are episodes that opened the door, in the order of the seeds.";
+  std::string note = CountText(shown.size(), report.doors.size()) +
+                     " Filled dots are episodes that opened the door, in the order of the seeds.";
   if (!report.training_doors.empty()) {
     note += seen.empty() ? " None of their bodies and handles occurs among the training doors."
                          : " The body or the handle of " + Plural(seen.size(), "door") +

@@ -72,6 +72,8 @@ svg text { font: 12px system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans",
 .tiles.small { grid-template-columns: repeat(auto-fill, minmax(130px, 1fr)); gap: 14px; }
 .tiles figcaption { overflow-wrap: anywhere; font-size: 0.82rem; line-height: 1.4; }
 .tiles figcaption b { color: var(--ink); font-weight: 600; }
+.film { display: grid; grid-template-columns: repeat(auto-fit, minmax(150px, 1fr)); gap: 8px; }
+.film figcaption { font-size: 0.82rem; margin-top: 3px; }
 .three { display: grid; grid-template-columns: repeat(auto-fit, minmax(260px, 1fr)); gap: 18px; margin-top: 14px; }
 .two { display: grid; grid-template-columns: repeat(auto-fit, minmax(300px, 1fr)); gap: 18px; margin-top: 14px; }
 .cause { margin: 22px 0 34px; }

@@ -9,6 +9,8 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
+#include "doorforge/physics/robot_model.h"
+#include "doorforge/physics/scene_sampling.h"
 #include "doorforge/rollout/run_episode.h"
 
 namespace doorforge {

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "doorforge/evaluate/report.h"
 
@@ -15,13 +16,19 @@ struct ReportPicture {
   std::string caption;  ///< Plain text, UTF-8.
 };
 
+/// Pictures of one episode in the order of time.
+struct ReportFilm {
+  std::vector<ReportPicture> frames;
+  std::string caption;  ///< Plain text, UTF-8.
+};
+
 /// Pictures of a report. All of them are optional.
 struct ReportPictures {
-  std::map<std::string, std::string> doors;          ///< PNG by id, of doors and training doors.
-  std::map<EpisodeOutcome, ReportPicture> episodes;  ///< A film strip for each way to end.
-  ReportPicture scene;                               ///< What the policy's camera looks at, shaded.
-  ReportPicture depth;                               ///< The same as the depth image.
-  ReportPicture cloud;                               ///< The same as the cloud, coloured by label.
+  std::map<std::string, std::string> doors;       ///< PNG by id, of doors and training doors.
+  std::map<EpisodeOutcome, ReportFilm> episodes;  ///< An episode for each way to end.
+  ReportPicture scene;                            ///< What the policy's camera looks at, shaded.
+  ReportPicture depth;                            ///< The same as the depth image.
+  ReportPicture cloud;                            ///< The same as the cloud, coloured by label.
 };
 
 /// The report as one HTML page for people: success per category with intervals, success over the

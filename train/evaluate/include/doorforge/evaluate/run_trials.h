@@ -2,38 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "doorforge/evaluate/evaluated_episode.h"
-#include "doorforge/physics/robot_model.h"
-#include "doorforge/physics/scene_sampling.h"
+#include "doorforge/evaluate/evaluation_config.h"
 #include "doorforge/rollout/observer.h"
 #include "doorforge/schemas/door_asset.h"
 #include "doorforge/schemas/policy.h"
+#include "doorforge/schemas/scene.h"
 
 namespace doorforge {
-
-/// Which episodes an evaluation consists of: every door in every seed.
-struct EvaluationConfig {
-  int seeds = 3;                 ///< >= 1; UniDoorManip repeats over 3.
-  std::uint64_t first_seed = 1;  ///< The seeds are first_seed, first_seed + 1, ...
-  int episodes_per_door = 1;     ///< In each seed, >= 1.
-  bool expert_reference = true;  ///< The expert opens the same scenes, too.
-  SceneConfig scene;
-
-  template <class Self, class Visitor>
-  static void VisitFields(Self& self, Visitor&& visit) {
-    visit("seeds", self.seeds);
-    visit("first_seed", self.first_seed);
-    visit("episodes_per_door", self.episodes_per_door);
-    visit("expert_reference", self.expert_reference);
-    visit("scene", self.scene);
-  }
-};
 
 /// One episode to come: a door, by its place in the list, and its scene.
 struct Trial {
@@ -41,7 +23,8 @@ struct Trial {
   Scene scene;
 };
 
-/// All episodes, by door, seed and episode. Throws Error(kInvalidConfig) on a number out of range.
+/// Every door in every seed, by door, seed and episode. Throws Error(kInvalidConfig) on a number
+/// out of range.
 std::vector<Trial> PlanTrials(std::span<const DoorAsset> doors, const EvaluationConfig& config);
 
 /// Who opens the doors after the expert's grasp and unlock.

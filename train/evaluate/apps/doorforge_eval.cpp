@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/config_file.h"
+#include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
+#include "doorforge/core/program.h"
+#include "doorforge/evaluate/evaluate_opener.h"
+
+#include "print_report.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  EvaluationRequest request;
+  std::string out;
+  std::string config;
+  std::vector<std::string> settings;
+  std::optional<int> seeds;
+  std::optional<std::uint64_t> first_seed;
+  std::optional<int> episodes_per_door;
+  bool json = false;
+  bool overwrite = false;
+};
+
+void AddOptions(CLI::App& app, Options& options) {
+  app.add_option("--policy", options.request.policy,
+                 "folder of a trained policy, or `expert` for the rule-based one")
+      ->required();
+  app.add_option("--doors", options.request.doors, "folders of composed doors, searched in depth")
+      ->required();
+  app.add_option("--out", options.out, "folder for report.json and report.html")->required();
+  app.add_option("--data", options.request.data,
+                 "data set that the policy was trained from: says which doors it has seen");
+  app.add_option("--seeds", options.seeds, "repetitions with other scenes (config: seeds, 3)");
+  app.add_option("--seed", options.first_seed, "the first of them (config: first_seed, 1)");
+  app.add_option("--episodes-per-door", options.episodes_per_door,
+                 "in each seed (config: episodes_per_door, 1)");
+  app.add_option("--threads", options.request.threads,
+                 "0: all processors; the result does not depend on it")
+      ->check(CLI::Range(0, 1024));
+  app.add_option("--config", options.config, "YAML file with settings")->check(CLI::ExistingFile);
+  app.add_option("--set", options.settings, "a.b=c overrides one setting");
+  app.add_flag("--allow-seen", options.request.allow_seen,
+               "evaluate on doors with parts that the policy was trained on, too");
+  app.add_flag("--json", options.json, "print report.json's document instead of a table");
+  app.add_flag("--overwrite", options.overwrite, "replace the report in --out");
+}
+
+Options Parse(int argc, char** argv) {
+  Options options;
+  CLI::App app(
+      "Success of a policy in closed loop: the expert grasps and unlocks, then the policy opens.\n"
+      "Prints success with 95 % intervals per category and the causes of failure, and writes\n"
+      "report.json and report.html.",
+      "doorforge eval");
+  AddOptions(app, options);
+  app.footer(
+      "examples:\n"
+      "  doorforge eval --policy run/policy --data run/data --doors run/doors/test --out "
+      "run/report\n"
+      "  doorforge eval --policy expert --doors run/doors/test --seeds 5 --out run/expert");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& help) {
+    std::exit(app.exit(help));
+  } catch (const CLI::ParseError& error) {
+    throw Error(ErrorCode::kInvalidArgument,
+                std::string(error.what()) + "; see `doorforge eval --help`");
+  }
+  return options;
+}
+
+EvaluationConfig ConfigOf(const Options& options) {
+  auto config = LoadConfig<EvaluationConfig>(options.config, options.settings);
+  if (options.seeds) config.seeds = *options.seeds;
+  if (options.first_seed) config.first_seed = *options.first_seed;
+  if (options.episodes_per_door) config.episodes_per_door = *options.episodes_per_door;
+  return config;
+}
+
+// the command as a user would type it, with quotes where a shell needs them
+std::string CommandLine(int argc, char** argv) {
+  std::string line = "doorforge eval";
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const bool plain =
+        !argument.empty() && argument.find_first_of(" \t\"'$&|;<>()*?\\") == std::string::npos;
+    line += plain ? " " + argument : " '" + argument + "'";
+  }
+  return line;
+}
+
+void WriteReport(const Evaluation& evaluation, const fs::path& out, StagedFolder& staged) {
+  WriteJsonFile(staged.path() / "report.json", ReportToJson(evaluation.report));
+  CommitFile(staged.path() / "report.html", ReportPage(evaluation.report, evaluation.pictures));
+  CommitFile(staged.path() / "config.yaml", evaluation.report.provenance.config.dump(2) + "\n");
+  staged.Commit();
+  std::fprintf(stderr, "report: %s\n",
+               fs::absolute(out / "report.html").lexically_normal().c_str());
+}
+
+int Evaluate(Options& options) {
+  StagedFolder staged(options.out, options.overwrite ? Existing::kReplace : Existing::kRefuse);
+  Evaluation evaluation;
+  try {
+    evaluation = EvaluateOpener(options.request);
+  } catch (const Error&) {
+    if (StopRequested() == 0) throw;
+    std::fprintf(stderr, "doorforge: interrupted; nothing was written\n");
+    return 128 + StopRequested();
+  }
+  WriteReport(evaluation, options.out, staged);
+  const std::string text = options.json ? ReportToJson(evaluation.report).dump(2) + "\n"
+                                        : ReportTable(evaluation.report);
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  return 0;
+}
+
+// `doorforge eval ...` starts this program with the verb as first argument
+int Run(int argc, char** argv) {
+  const bool has_verb = argc > 1 && std::string(argv[1]) == "eval";
+  if (has_verb) {
+    --argc;
+    ++argv;
+  }
+  Options options = Parse(argc, argv);
+  options.request.config = ConfigOf(options);
+  options.request.command = CommandLine(argc, argv);
+  return Evaluate(options);
+}
+
+}  // namespace
+}  // namespace doorforge
+
+int main(int argc, char** argv) {
+  return doorforge::RunProgram([&] { return doorforge::Run(argc, argv); });
+}

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "print_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+namespace doorforge {
+namespace {
+
+using Episodes = std::span<const EvaluatedEpisode>;
+
+template <class... Values>
+std::string Format(const char* pattern, Values... values) {
+  char text[256];
+  std::snprintf(text, sizeof text, pattern, values...);
+  return text;
+}
+
+std::string Row(const std::string& name, Episodes episodes, Episodes reference) {
+  const SuccessSummary summary = Summarise(episodes);
+  const SuccessRate& opened = summary.opened;
+  std::string row = Format("%-18s %6.1f %%   %5.1f - %5.1f %%   %4d/%-4d   %5.1f +- %4.1f %%",
+                           name.c_str(), 100 * opened.rate, 100 * opened.low, 100 * opened.high,
+                           opened.successes, opened.episodes, 100 * summary.over_seeds.mean,
+                           100 * std::sqrt(summary.over_seeds.variance));
+  if (!reference.empty()) row += Format("   %6.1f %%", 100 * Summarise(reference).opened.rate);
+  return row + "\n";
+}
+
+std::string AngleLine(const SuccessSummary& summary) {
+  std::string line = "door angle passed: ";
+  for (const AngleSuccess& angle : summary.over_angle) {
+    line += Format(" %.0f deg %.1f %%%s", angle.angle_rad * 57.29577951308232,
+                   100 * angle.success.rate, &angle == &summary.over_angle.back() ? "\n" : ",");
+  }
+  return line;
+}
+
+std::string Causes(const EvaluationReport& report) {
+  const SuccessSummary summary = Summarise(report.episodes);
+  std::string text;
+  for (int i = 1; i < kEpisodeOutcomeCount; ++i) {
+    const int count = summary.outcomes[static_cast<std::size_t>(i)];
+    const auto outcome = static_cast<EpisodeOutcome>(i);
+    if (count == 0) continue;
+    const auto example =
+        std::find_if(report.episodes.begin(), report.episodes.end(),
+                     [&](const auto& episode) { return episode.outcome == outcome; });
+    text += Format("  %-15s %4d   ", std::string(NameOf(outcome)).c_str(), count) + "such as " +
+            example->door_id + ", seed " + std::to_string(example->seed) + ": " + example->detail +
+            "\n";
+  }
+  return text.empty() ? "no failures\n" : "causes of failure\n" + text;
+}
+
+}  // namespace
+
+std::string ReportTable(const EvaluationReport& report) {
+  std::string text =
+      Format("%-18s %8s   %15s   %9s   %15s%s\n", "success > 45 deg", "rate", "95 % interval",
+             "opened", "over seeds", report.reference.empty() ? "" : "     expert");
+  text += Row("overall", report.episodes, report.reference);
+  for (const Category category : CategoriesOf(report.episodes)) {
+    text += Row(std::string(NameOf(category)), OfCategory(report.episodes, category),
+                OfCategory(report.reference, category));
+  }
+  return text + AngleLine(Summarise(report.episodes)) + Causes(report);
+}
+
+}  // namespace doorforge

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "doorforge/evaluate/evaluation_config.h"
+#include "doorforge/evaluate/report.h"
+#include "doorforge/evaluate/report_page.h"
+
+namespace doorforge {
+
+/// What is to be evaluated.
+struct EvaluationRequest {
+  std::filesystem::path policy;    ///< Folder that `doorforge train open` wrote, or "expert".
+  std::vector<std::string> doors;  ///< Folders of composed doors, see ReadDoors().
+  /// Data set that the policy was trained from; it says which bodies and handles were seen. Empty
+  /// only with `allow_seen`, or for the expert.
+  std::filesystem::path data;
+  bool allow_seen = false;  ///< Doors with trained-on parts are evaluated, and marked as such.
+  EvaluationConfig config;
+  int threads = 0;      ///< 0: all processors. Does not change the result.
+  std::string command;  ///< Goes into the report.
+};
+
+struct Evaluation {
+  EvaluationReport report;
+  ReportPictures pictures;
+};
+
+/// Closed-loop evaluation of the opening stage (UniDoorManip, Section 6): in every scene the expert
+/// grasps and unlocks, then the policy opens. The rule-based expert by itself with policy "expert".
+/// Progress is shown on standard error.
+///
+/// Same request, same report and pictures, for any number of threads.
+///
+/// @throws Error(kInvalidArgument) if a door's body or handle was in the policy's training set,
+///     naming these doors, or if `data` is not what the policy was trained from;
+///     Error(kInvalidConfig); Error(kMissing or kFormat) as the readers of policy, doors and data;
+///     Error(kIncomplete) if the program was asked to stop.
+Evaluation EvaluateOpener(const EvaluationRequest& request);
+
+}  // namespace doorforge

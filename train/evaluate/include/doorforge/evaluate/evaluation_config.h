@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "doorforge/learn/opening_policy.h"
+#include "doorforge/physics/scene_sampling.h"
+#include "doorforge/sensor/point_cloud.h"
+
+namespace doorforge {
+
+/// Everything that decides an evaluation's result besides policy and doors.
+struct EvaluationConfig {
+  int seeds = 3;                 ///< >= 1; UniDoorManip repeats over 3.
+  std::uint64_t first_seed = 1;  ///< The seeds are first_seed, first_seed + 1, ...
+  int episodes_per_door = 1;     ///< In each seed, >= 1.
+  bool expert_reference = true;  ///< The expert opens the same scenes, too.
+  PolicyOptions policy;
+  SceneConfig scene;
+  CloudConfig cloud;  ///< As in the data set that the policy was trained from.
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    visit("seeds", self.seeds);
+    visit("first_seed", self.first_seed);
+    visit("episodes_per_door", self.episodes_per_door);
+    visit("expert_reference", self.expert_reference);
+    visit("policy", self.policy);
+    visit("scene", self.scene);
+    visit("cloud", self.cloud);
+  }
+};
+
+}  // namespace doorforge

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "doorforge/evaluate/report_page.h"
+#include "doorforge/evaluate/run_trials.h"
+
+namespace doorforge {
+
+/// Trials that have been run, with their rows.
+struct FinishedTrials {
+  std::span<const DoorAsset> doors;
+  std::span<const Trial> trials;
+  std::span<const EvaluatedEpisode> rows;  ///< One a trial, in order.
+};
+
+/// Doors that get a picture; of more doors, this many are chosen evenly.
+inline constexpr std::size_t kMostDoorPictures = 30;
+
+/// Pictures for a report's page: every door closed, a film strip of the first episode of each
+/// outcome, and what the camera saw when the policy first decided in an episode that opened the
+/// door (else in the first that came so far).
+///
+/// The episodes for film strips are run again with an observer; being deterministic they end in the
+/// same state, and one that does not throws Error(kInvalidArgument), because then `contender` is
+/// not the one that made the rows. Same arguments, same pictures, for any number of threads.
+ReportPictures TakePictures(const FinishedTrials& finished, const Contender& contender,
+                            int threads = 0);
+
+}  // namespace doorforge

@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/evaluate/evaluate_opener.h"
+
+#include <atomic>
+#include <memory>
+
+#include "doorforge/core/config_io.h"
+#include "doorforge/core/error.h"
+#include "doorforge/core/program.h"
+#include "doorforge/core/progress.h"
+#include "doorforge/evaluate/door_folders.h"
+#include "doorforge/evaluate/run_trials.h"
+#include "doorforge/evaluate/take_pictures.h"
+#include "doorforge/learn/checkpoint.h"
+#include "doorforge/learn/opening_dataset.h"
+#include "doorforge/physics/robot_model.h"
+#include "doorforge/rollout/camera_observer.h"
+#include "doorforge/rollout/opening_expert.h"
+
+#include "training_record.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kTrainingPreviews = 12;
+constexpr std::size_t kMostNamedDoors = 8;
+
+bool IsExpert(const EvaluationRequest& request) { return request.policy == "expert"; }
+
+Contender Expert() {
+  return {[] { return std::make_unique<OpeningExpert>(); }, nullptr};
+}
+
+Contender ContenderOf(const EvaluationRequest& request) {
+  if (IsExpert(request)) return Expert();
+  const auto robot = std::make_shared<const RobotModel>(LoadMobileFranka());
+  return {[&request] { return LoadPolicy(request.policy, request.config.policy); },
+          [&request, robot](const Scene& scene, const DoorAsset& door) {
+            return std::make_unique<CameraObserver>(scene, door, *robot, request.config.cloud);
+          }};
+}
+
+std::string NameOfPolicy(const EvaluationRequest& request) {
+  if (IsExpert(request)) return "expert";
+  const fs::path folder = fs::absolute(request.policy).lexically_normal();
+  return (folder.has_filename() ? folder : folder.parent_path()).filename().string();
+}
+
+void RequireSameData(const PolicyRecord& policy, const EvaluationRequest& request) {
+  const std::string found = ReadOpeningDataset(request.data, 0).content_sha256;
+  if (found != policy.provenance.dataset_sha256)
+    throw Error(ErrorCode::kInvalidArgument, request.data.string() + ": has the hash " +
+                                                 found.substr(0, 12) +
+                                                 "..., but the policy was trained from " +
+                                                 policy.provenance.dataset_sha256.substr(0, 12) +
+                                                 "...; give its own data set with --data");
+}
+
+void RequireHeldOut(const EvaluationReport& report) {
+  const auto seen = SeenDoors(report.doors, report.training_doors);
+  if (seen.empty()) return;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(seen.size(), kMostNamedDoors); ++i)
+    names += "\n  " + seen[i];
+  if (seen.size() > kMostNamedDoors)
+    names += "\n  and " + std::to_string(seen.size() - kMostNamedDoors) + " more";
+  throw Error(ErrorCode::kInvalidArgument,
+              std::to_string(seen.size()) + " of " + std::to_string(report.doors.size()) +
+                  " doors have a body or a handle that the policy was trained on; compose others, "
+                  "or pass --allow-seen to evaluate them all the same:" +
+                  names);
+}
+
+// fills in what the policy's and the data set's records say
+void AddTraining(const EvaluationRequest& request, EvaluationReport& report) {
+  const PolicyRecord policy = ReadPolicy(request.policy);
+  report.provenance.policy_sha256 = policy.weights_sha256;
+  report.provenance.dataset_sha256 = policy.provenance.dataset_sha256;
+  report.losses = internal::TrainingLosses(request.policy);
+  if (request.data.empty()) {
+    Require(request.allow_seen, ErrorCode::kInvalidArgument,
+            "--data is needed: the data set that the policy was trained from says which doors it "
+            "has seen; --allow-seen evaluates without that check");
+    return;
+  }
+  RequireSameData(policy, request);
+  report.training_doors = internal::TrainingDoors(request.data);
+  if (!request.allow_seen) RequireHeldOut(report);
+}
+
+std::vector<EvaluatedEpisode> RunWithProgress(const std::string& title,
+                                              std::span<const DoorAsset> doors,
+                                              std::span<const Trial> trials,
+                                              const Contender& contender, int threads) {
+  Progress progress(title, trials.size());
+  std::atomic<int> opened = 0;
+  std::atomic<int> done = 0;
+  return RunTrials(doors, trials, contender,
+                   {.threads = threads, .done = [&](const EvaluatedEpisode& row) {
+                      opened += row.outcome == EpisodeOutcome::kOpened ? 1 : 0;
+                      const int percent = 100 * opened / ++done;
+                      progress.Advance(1, "opened " + std::to_string(percent) + " %");
+                    }});
+}
+
+EvaluationReport NewReport(const EvaluationRequest& request, std::span<const DoorAsset> doors) {
+  EvaluationReport report;
+  report.provenance.policy = NameOfPolicy(request);
+  report.provenance.code_version = CodeVersion();
+  report.provenance.command = request.command;
+  report.provenance.config = ToJson(request.config);
+  for (const DoorAsset& door : doors) report.doors.push_back(ReportDoorOf(door));
+  return report;
+}
+
+}  // namespace
+
+Evaluation EvaluateOpener(const EvaluationRequest& request) {
+  const std::vector<DoorAsset> doors = ReadDoors(request.doors);
+  const std::vector<Trial> trials = PlanTrials(doors, request.config);
+  Evaluation evaluation;
+  EvaluationReport& report = evaluation.report;
+  report = NewReport(request, doors);
+  if (!IsExpert(request)) AddTraining(request, report);
+
+  const Contender contender = ContenderOf(request);
+  report.episodes = RunWithProgress("evaluate", doors, trials, contender, request.threads);
+  if (!IsExpert(request) && request.config.expert_reference)
+    report.reference = RunWithProgress("expert", doors, trials, Expert(), request.threads);
+
+  evaluation.pictures = TakePictures({doors, trials, report.episodes}, contender, request.threads);
+  if (!request.data.empty())
+    evaluation.pictures.doors.merge(internal::TrainingPreviews(request.data, kTrainingPreviews));
+  return evaluation;
+}
+
+}  // namespace doorforge

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/evaluate/take_pictures.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "doorforge/core/error.h"
+#include "doorforge/core/parallel_for.h"
+#include "doorforge/physics/robot_model.h"
+#include "doorforge/rollout/camera_observer.h"
+#include "doorforge/rollout/run_episode.h"
+#include "doorforge/sensor/depth_camera.h"
+#include "doorforge/sensor/picture.h"
+#include "doorforge/sensor/scene_picture.h"
+
+#include "episode_film.h"
+
+namespace doorforge {
+namespace {
+
+// the door alone, closed; link indices as in VisibleMeshesOf()
+std::vector<VisibleMesh> MeshesOf(const DoorAsset& door) {
+  std::vector<VisibleMesh> meshes;
+  for (std::size_t link = 0; link < door.links.size(); ++link) {
+    for (const DoorGeometry& geometry : door.links[link].geometry) {
+      meshes.push_back(
+          {geometry.mesh, static_cast<int>(link), geometry.label, geometry.color_rgba.head<3>()});
+    }
+  }
+  return meshes;
+}
+
+std::string DoorPng(const DoorAsset& door) {
+  SceneGeometry scene(MeshesOf(door));
+  const auto poses = DoorFromLinks(door, 0, 0);
+  scene.MoveLinks(poses);
+  ViewConfig view;
+  view.width = 320;
+  view.height = 320;
+  return EncodePng(RenderPicture(scene, FramingCamera(scene, view)));
+}
+
+std::vector<const DoorAsset*> DoorsToShow(std::span<const DoorAsset> doors) {
+  const std::size_t count = std::min(doors.size(), kMostDoorPictures);
+  std::vector<const DoorAsset*> shown;
+  for (std::size_t i = 0; i < count; ++i) shown.push_back(&doors[i * doors.size() / count]);
+  return shown;
+}
+
+// the first trial of each outcome
+std::vector<std::size_t> TrialsToFilm(std::span<const EvaluatedEpisode> rows) {
+  std::array<std::optional<std::size_t>, kEpisodeOutcomeCount> first;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    auto& place = first.at(static_cast<std::size_t>(rows[i].outcome));
+    if (!place) place = i;
+  }
+  std::vector<std::size_t> trials;
+  for (const auto& place : first) {
+    if (place) trials.push_back(*place);
+  }
+  return trials;
+}
+
+struct FilmedTrial {
+  ReportFilm film;
+  std::optional<SceneSnapshot> first_decision;
+};
+
+FilmedTrial FilmTrial(const FinishedTrials& finished, std::size_t index, Policy& policy,
+                      const Contender& contender) {
+  const Scene& scene = finished.trials[index].scene;
+  const DoorAsset& door = finished.doors[finished.trials[index].door];
+  const RobotModel robot = LoadMobileFranka();
+  internal::EpisodeFilm film(contender.make_observer ? contender.make_observer(scene, door)
+                                                     : nullptr);
+  const Episode episode = RunEpisode(scene, door, robot, policy, &film);
+  Require(episode.state_sha256 == finished.rows[index].state_sha256, ErrorCode::kInvalidArgument,
+          door.id + ": the episode for the film strip ended in another state than the first run");
+  FilmedTrial filmed;
+  filmed.film.frames = internal::RenderFrames(film.Frames(), scene, door, robot);
+  filmed.film.caption =
+      door.id + ", seed " + std::to_string(scene.seed) + ": " + finished.rows[index].detail;
+  if (film.HasDecision()) filmed.first_decision = film.FirstDecision();
+  return filmed;
+}
+
+void AddSight(const FinishedTrials& finished, std::size_t index, const SceneSnapshot& snapshot,
+              ReportPictures& pictures) {
+  const Scene& scene = finished.trials[index].scene;
+  const DoorAsset& door = finished.doors[finished.trials[index].door];
+  const RobotModel robot = LoadMobileFranka();
+  DepthCamera camera(VisibleMeshesOf(door, robot));
+  const DepthImage depth = camera.Render(scene.camera, LinkPosesOf(snapshot));
+  CameraModel large = scene.camera;  // the same view with pixels enough for people
+  large.width *= 2;
+  large.height *= 2;
+  pictures.scene = {EncodePng(RenderPicture(camera.scene(), large)),
+                    "The scene from the policy's camera when it takes over: " + door.id +
+                        ", seed " + std::to_string(scene.seed) + "."};
+  pictures.depth = {EncodePng(DepthPreview(depth)),
+                    "The depth image, " + std::to_string(depth.width) + " × " +
+                        std::to_string(depth.height) +
+                        ": near is yellow, far violet; the robot hides part of the door."};
+  const SampledCloud sampled =
+      ObserveCloud(depth, scene.camera, snapshot.robot.world_from_tcp.translation());
+  pictures.cloud = {EncodePng(CloudPicture(sampled.cloud, large)),
+                    "What the policy gets: " + std::to_string(sampled.cloud.label.size()) +
+                        " points by farthest point sampling. Colours are the labels, which it is "
+                        "not given."};
+}
+
+void TakeDoorPictures(const FinishedTrials& finished, int threads, ReportPictures& pictures) {
+  const auto shown = DoorsToShow(finished.doors);
+  std::vector<std::string> pngs(shown.size());
+  ParallelFor(shown.size(), threads, [&](std::size_t i) { pngs[i] = DoorPng(*shown[i]); });
+  for (std::size_t i = 0; i < shown.size(); ++i) pictures.doors[shown[i]->id] = std::move(pngs[i]);
+}
+
+}  // namespace
+
+ReportPictures TakePictures(const FinishedTrials& finished, const Contender& contender,
+                            int threads) {
+  ReportPictures pictures;
+  TakeDoorPictures(finished, threads, pictures);
+  const std::vector<std::size_t> trials = TrialsToFilm(finished.rows);
+  std::vector<std::unique_ptr<Policy>> policies;
+  for (std::size_t i = 0; i < trials.size(); ++i) policies.push_back(contender.make_policy());
+  std::vector<FilmedTrial> films(trials.size());
+  ParallelFor(trials.size(), threads, [&](std::size_t i) {
+    films[i] = FilmTrial(finished, trials[i], *policies[i], contender);
+  });
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    pictures.episodes[finished.rows[trials[i]].outcome] = std::move(films[i].film);
+    if (films[i].first_decision && pictures.cloud.png.empty())
+      AddSight(finished, trials[i], *films[i].first_decision, pictures);
+  }
+  return pictures;
+}
+
+}  // namespace doorforge

@@ -88,9 +88,9 @@ int FillHoles(SurfaceMesh& surface, const HoleLimits& limits) {
   for (const SurfaceMesh::Halfedge_index border : borders) {
     const std::vector<Eigen::Vector3d> corners = BorderOf(surface, border);
     const double area = area_of[piece_of[surface.face(surface.opposite(border))]];
-    if (!IsSmall(corners, limits.max_size_m) &&
-        FlatArea(corners, limits.flatness_m) > limits.max_flat_area_share * area)
-      continue;
+    const bool flat = IsSmall(corners, limits.max_flat_size_m) &&
+                      FlatArea(corners, limits.flatness_m) <= limits.max_flat_area_share * area;
+    if (!flat && !IsSmall(corners, limits.max_size_m)) continue;
     std::vector<SurfaceMesh::Face_index> faces;
     pmp::triangulate_hole(surface, border, std::back_inserter(faces));
     filled += !faces.empty();

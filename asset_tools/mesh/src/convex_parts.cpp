@@ -45,10 +45,12 @@ Polygon Clipped(const Polygon& polygon, const Cut& cut, int sign) {
 // The part of the solid inside one box: the surface in it, clipped, and the box's corners that lie
 // in the solid. Their hull is the hull of the part.
 struct Region {
+  int id = 0;
   Eigen::AlignedBox3d box;
   std::vector<Polygon> surface;
   TriangleMesh hull;
   Concavity concavity;
+  bool indivisible = false;  // no cut separates anything
 };
 
 std::vector<Eigen::Vector3d> PointsOf(const std::vector<Polygon>& polygons) {
@@ -63,42 +65,80 @@ std::vector<Eigen::Vector3d> PointsOf(const std::vector<Polygon>& polygons) {
   return points;
 }
 
-std::vector<Polygon> OneSide(const std::vector<Polygon>& polygons, const Cut& cut, int sign) {
-  std::vector<Polygon> kept;
-  for (const Polygon& polygon : polygons) {
-    Polygon clipped = Clipped(polygon, cut, sign);
-    if (!clipped.empty()) kept.push_back(std::move(clipped));
-  }
-  return kept;
+Eigen::Vector3d DoubledAreaOf(const Polygon& polygon) {
+  Eigen::Vector3d doubled = Eigen::Vector3d::Zero();
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
+    doubled += (polygon[i] - polygon[0]).cross(polygon[i + 1] - polygon[0]);
+  return doubled;
 }
 
-// Places where a cut along `axis` may separate something: faces across the axis, the largest
-// first, then even steps, and the deepest point of the concavity.
-std::vector<double> CutPositions(const Region& region, int axis) {
-  constexpr int kFaces = 6;
-  constexpr int kSteps = 7;
-  std::map<double, double> area_at;
+// Whether the polygon only ends what lies on the other side: it reaches no more than `skin_m` into
+// this side and is no face of a solid on this side. Kept here, the ends of opposite walls would
+// span the air between them.
+bool IsSkinOfOtherSide(const Polygon& polygon, const Cut& cut, int sign, double skin_m) {
+  const Eigen::Vector3d doubled = DoubledAreaOf(polygon);
+  if (sign * doubled[cut.axis] < -0.5 * doubled.norm()) return false;
+  return std::all_of(polygon.begin(), polygon.end(), [&](const Eigen::Vector3d& p) {
+    return sign * (p[cut.axis] - cut.position_m) <= skin_m;
+  });
+}
+
+// Where a cut may separate something.
+struct Candidate {
+  Cut cut;
+  double face_share = 0;  // area of the faces in its plane, against the largest such area
+};
+
+// Planes across `axis` in which much of the surface lies, the largest first. Faces within `bin_m`
+// of each other count as one, since a wrap's faces are only nearly flat.
+std::vector<Candidate> FaceCuts(const Region& region, int axis, double bin_m) {
+  struct Bin {
+    double area = 0;
+    double moment = 0;
+  };
+  constexpr std::size_t kFaces = 6;
+  constexpr double kAcross = 0.98;  // cosine of the angle between a face's normal and the axis
+  std::map<std::int64_t, Bin> bins;
   for (const Polygon& polygon : region.surface) {
-    const double position = polygon[0][axis];
-    const bool across = std::all_of(polygon.begin(), polygon.end(), [&](const Eigen::Vector3d& p) {
-      return std::abs(p[axis] - position) < 1e-6 * region.box.diagonal().norm();
-    });
-    if (!across) continue;
-    Eigen::Vector3d doubled = Eigen::Vector3d::Zero();
-    for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
-      doubled += (polygon[i] - polygon[0]).cross(polygon[i + 1] - polygon[0]);
-    area_at[position] += doubled.norm();
+    const Eigen::Vector3d doubled = DoubledAreaOf(polygon);
+    const double area = doubled.norm();
+    if (!(area > 0) || std::abs(doubled[axis]) < kAcross * area) continue;
+    double position = 0;
+    for (const Eigen::Vector3d& p : polygon)
+      position += p[axis] / static_cast<double>(polygon.size());
+    Bin& bin = bins[std::llround(position / bin_m)];
+    bin.area += area;
+    bin.moment += area * position;
   }
-  std::vector<std::pair<double, double>> faces;
-  for (const auto& [position, area] : area_at) faces.emplace_back(-area, position);
-  std::sort(faces.begin(), faces.end());
-  std::vector<double> positions{region.concavity.at_m[axis]};
-  for (std::size_t i = 0; i < faces.size() && i < kFaces; ++i) positions.push_back(faces[i].second);
+  std::vector<Candidate> faces;
+  for (const auto& [index, bin] : bins) faces.push_back({{axis, bin.moment / bin.area}, bin.area});
+  std::stable_sort(faces.begin(), faces.end(), [](const Candidate& a, const Candidate& b) {
+    return a.face_share > b.face_share;
+  });
+  if (faces.size() > kFaces) faces.resize(kFaces);
+  return faces;
+}
+
+// Faces, then even steps, then the deepest point of the concavity.
+std::vector<Candidate> Candidates(const Region& region, double bin_m) {
+  constexpr int kSteps = 7;
+  std::vector<Candidate> candidates;
+  double largest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const Candidate& face : FaceCuts(region, axis, bin_m)) {
+      candidates.push_back(face);
+      largest = std::max(largest, face.face_share);
+    }
+  }
+  for (Candidate& candidate : candidates) candidate.face_share /= largest;
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& vertex : region.hull.vertices) box.extend(vertex);
-  for (int i = 1; i <= kSteps; ++i)
-    positions.push_back(box.min()[axis] + box.sizes()[axis] * i / (kSteps + 1));
-  return positions;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int i = 1; i <= kSteps; ++i)
+      candidates.push_back({{axis, box.min()[axis] + box.sizes()[axis] * i / (kSteps + 1)}});
+    candidates.push_back({{axis, region.concavity.at_m[axis]}});
+  }
+  return candidates;
 }
 
 class Decomposition {
@@ -122,7 +162,7 @@ class Decomposition {
   }
 
   std::vector<TriangleMesh> Run() {
-    // joining frees parts for further cuts, so both alternate until nothing changes
+    // joining frees parts for further cuts
     for (int round = 0; round < 4; ++round) {
       const bool cut = CutWorst();
       const bool joined = JoinAll();
@@ -136,14 +176,15 @@ class Decomposition {
 
  private:
   // Fills in hull and concavity; false where the region holds nothing.
-  bool Enclose(Region& region) const {
-    std::vector<Eigen::Vector3d> points = PointsOf(region.surface);
+  bool Enclose(Region& region) {
+    region.id = next_id_++;
+    // kept with the surface as polygons of one point, so that later cuts and joins know them
     for (int corner = 0; corner < 8; ++corner) {
       const Eigen::Vector3d point =
           region.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
-      if (tree_.WindingNumber(point) > 0.5) points.push_back(point);
+      if (IsSolidBehind(point, region.box)) region.surface.push_back({point});
     }
-    std::optional<TriangleMesh> hull = HullOf(points);
+    std::optional<TriangleMesh> hull = HullOf(PointsOf(region.surface));
     if (!hull || !(VolumeOf(*hull) > smallest_m3_)) return false;
     region.hull = *std::move(hull);
     region.concavity = ConcavityOf(region.hull, solid_);
@@ -153,15 +194,20 @@ class Decomposition {
   bool CutWorst() {
     bool any = false;
     while (static_cast<int>(regions_.size()) < config_.max_parts) {
-      const auto worst =
-          std::max_element(regions_.begin(), regions_.end(), [](const Region& a, const Region& b) {
-            return a.concavity.depth_m < b.concavity.depth_m;
-          });
-      if (worst == regions_.end() || worst->concavity.depth_m <= allowed_m_) break;
-      if (!Split(static_cast<std::size_t>(worst - regions_.begin()))) break;
-      any = true;
+      const auto worst = std::max_element(
+          regions_.begin(), regions_.end(),
+          [](const Region& a, const Region& b) { return UrgencyOf(a) < UrgencyOf(b); });
+      if (worst == regions_.end() || UrgencyOf(*worst) <= allowed_m_) break;
+      if (Split(static_cast<std::size_t>(worst - regions_.begin())))
+        any = true;
+      else
+        worst->indivisible = true;
     }
     return any;
+  }
+
+  static double UrgencyOf(const Region& region) {
+    return region.indivisible ? 0 : region.concavity.depth_m;
   }
 
   // Replaces a region by its two sides of the best cut; false if no cut separates anything.
@@ -173,7 +219,7 @@ class Decomposition {
       Region side;
       side.box = regions_[index].box;
       (sign < 0 ? side.box.max() : side.box.min())[cut->axis] = cut->position_m;
-      side.surface = OneSide(regions_[index].surface, *cut, sign);
+      side.surface = OneSide(regions_[index], *cut, sign);
       if (Enclose(side)) sides.push_back(std::move(side));
     }
     if (sides.size() < 2) return false;
@@ -182,28 +228,87 @@ class Decomposition {
     return true;
   }
 
-  // The cut whose two hulls have the least volume, so enclose the least air.
+  // One side of a possible cut, as far as it decides between cuts.
+  struct Side {
+    double volume_m3 = 0;  // of its hull
+    double depth_m = 0;    // of its hull, where that makes a further cut necessary
+    double area_m2 = 0;    // of the surface in it
+  };
+
+  // The cut after which the least surface is left in regions that are still deep, weighed against
+  // the air in both hulls. Depth matters because an opening is rid of by cutting its walls off one
+  // by one, which gains no air before the last. Faces are preferred, since walls end there, and so
+  // are halves over slivers.
   std::optional<Cut> BestCut(const Region& region) const {
+    constexpr double kAirWeight = 0.5;
+    constexpr double kFaceBonus = 0.02;
+    constexpr double kHalfBonus = 0.05;
+    const double whole = VolumeOf(region.hull);
     std::optional<Cut> best;
-    double best_volume = VolumeOf(region.hull) * (1 - 1e-6);
-    for (int axis = 0; axis < 3; ++axis) {
-      for (const double position : CutPositions(region, axis)) {
-        const Cut cut{axis, position};
-        const double volume = HullVolume(region, cut, -1) + HullVolume(region, cut, 1);
-        if (volume >= best_volume * (1 - 1e-9)) continue;  // ties: the first
-        best_volume = volume;
-        best = cut;
-      }
+    double best_score = 1e300;
+    for (const Candidate& candidate : Candidates(region, solid_.grid().cell_m)) {
+      const std::optional<Side> below = SideOf(region, candidate.cut, -1);
+      const std::optional<Side> above = SideOf(region, candidate.cut, 1);
+      if (!below || !above) continue;
+      const double deep = (below->depth_m * below->area_m2 + above->depth_m * above->area_m2) /
+                          (region.concavity.depth_m * (below->area_m2 + above->area_m2));
+      const double score = deep + kAirWeight * (below->volume_m3 + above->volume_m3) / whole -
+                           kFaceBonus * candidate.face_share -
+                           kHalfBonus * std::min(below->volume_m3, above->volume_m3) / whole;
+      if (score >= best_score - 1e-9) continue;  // ties: the first
+      best_score = score;
+      best = candidate.cut;
     }
     return best;
   }
 
-  static double HullVolume(const Region& region, const Cut& cut, int sign) {
-    const std::optional<TriangleMesh> hull = HullOf(PointsOf(OneSide(region.surface, cut, sign)));
-    return hull ? VolumeOf(*hull) : 0;
+  // Nothing where the side is empty or flat.
+  std::optional<Side> SideOf(const Region& region, const Cut& cut, int sign) const {
+    const std::vector<Polygon> surface = OneSide(region, cut, sign);
+    const std::optional<TriangleMesh> hull = HullOf(PointsOf(surface));
+    if (!hull || !(VolumeOf(*hull) > smallest_m3_)) return std::nullopt;
+    // every third row is enough to compare
+    const double depth_m = ConcavityOf(*hull, solid_, 3).depth_m;
+    Side side{VolumeOf(*hull), depth_m > allowed_m_ ? depth_m : 0, 0};
+    for (const Polygon& polygon : surface) side.area_m2 += 0.5 * DoubledAreaOf(polygon).norm();
+    return side;
   }
 
-  // Joins the pairs whose common hull stays within the bound, the least concave first.
+  // The surface on one side of a cut, and the points in the solid that were noted for it.
+  std::vector<Polygon> OneSide(const Region& region, const Cut& cut, int sign) const {
+    std::vector<Polygon> kept;
+    for (const Polygon& polygon : region.surface) {
+      if (IsSkinOfOtherSide(polygon, cut, sign, SkinM()) && !IsNotedFor(region, polygon, cut, sign))
+        continue;
+      Polygon clipped = Clipped(polygon, cut, sign);
+      if (!clipped.empty()) kept.push_back(std::move(clipped));
+    }
+    return kept;
+  }
+
+  // Whether the solid begins at the point in the direction of the box's inside. Asked a little way
+  // inside, because the point itself often lies on a face.
+  bool IsSolidBehind(const Eigen::Vector3d& point, const Eigen::AlignedBox3d& box) const {
+    Eigen::Vector3d inside = point;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double way = box.center()[axis] - point[axis];
+      inside[axis] += std::clamp(way, -2 * SkinM(), 2 * SkinM());
+    }
+    return tree_.WindingNumber(inside) > 0.5;
+  }
+
+  // A noted point on the cut belongs to each side on which the solid goes on behind it.
+  bool IsNotedFor(const Region& region, const Polygon& polygon, const Cut& cut, int sign) const {
+    if (polygon.size() != 1 || sign * (polygon[0][cut.axis] - cut.position_m) < 0) return false;
+    Eigen::AlignedBox3d side = region.box;
+    (sign < 0 ? side.max() : side.min())[cut.axis] = cut.position_m;
+    return IsSolidBehind(polygon[0], side);
+  }
+
+  // What a part may lack of the solid near a cut.
+  double SkinM() const { return 0.1 * allowed_m_; }
+
+  // Joins pairs whose common hull stays within the bound, the one that encloses least air first.
   bool JoinAll() {
     bool any = false;
     while (JoinBestPair()) any = true;
@@ -211,37 +316,43 @@ class Decomposition {
   }
 
   bool JoinBestPair() {
-    std::optional<Region> best;
-    std::pair<std::size_t, std::size_t> best_pair;
+    double least_air = 1e300;
+    std::pair<std::size_t, std::size_t> best;
     for (std::size_t a = 0; a < regions_.size(); ++a) {
       for (std::size_t b = a + 1; b < regions_.size(); ++b) {
-        std::optional<Region> joined = JoinedWithinBound(regions_[a], regions_[b]);
-        if (!joined || (best && joined->concavity.depth_m >= best->concavity.depth_m)) continue;
-        best = std::move(joined);
-        best_pair = {a, b};
+        const double air = AirBetween(regions_[a], regions_[b]);
+        if (air >= least_air) continue;
+        least_air = air;
+        best = {a, b};
       }
     }
-    if (!best) return false;
-    best->surface = regions_[best_pair.first].surface;
-    const std::vector<Polygon>& more = regions_[best_pair.second].surface;
-    best->surface.insert(best->surface.end(), more.begin(), more.end());
-    regions_[best_pair.first] = *std::move(best);
-    regions_.erase(regions_.begin() + static_cast<std::ptrdiff_t>(best_pair.second));
+    if (least_air == 1e300) return false;
+    Region joined = std::move(regions_[best.first]);
+    const Region& other = regions_[best.second];
+    joined.id = next_id_++;
+    joined.box.extend(other.box);
+    joined.surface.insert(joined.surface.end(), other.surface.begin(), other.surface.end());
+    joined.hull = *CommonHull(joined, other);
+    joined.concavity = ConcavityOf(joined.hull, solid_);
+    regions_[best.first] = std::move(joined);
+    regions_.erase(regions_.begin() + static_cast<std::ptrdiff_t>(best.second));
     return true;
   }
 
-  std::optional<Region> JoinedWithinBound(const Region& a, const Region& b) const {
-    if (a.box.exteriorDistance(b.box) > solid_.grid().cell_m) return std::nullopt;
+  static std::optional<TriangleMesh> CommonHull(const Region& a, const Region& b) {
     std::vector<Eigen::Vector3d> points = a.hull.vertices;
     points.insert(points.end(), b.hull.vertices.begin(), b.hull.vertices.end());
-    std::optional<TriangleMesh> hull = HullOf(points);
-    if (!hull) return std::nullopt;
-    Region joined;
-    joined.box = a.box.merged(b.box);
-    joined.hull = *std::move(hull);
-    joined.concavity = ConcavityOf(joined.hull, solid_);
-    if (joined.concavity.depth_m > allowed_m_) return std::nullopt;
-    return joined;
+    return HullOf(points);
+  }
+
+  // Volume of the common hull beyond the two hulls; 1e300 where it protrudes too far.
+  double AirBetween(const Region& a, const Region& b) {
+    const auto [entry, is_new] = air_between_.try_emplace({a.id, b.id}, 1e300);
+    if (!is_new || a.box.exteriorDistance(b.box) > solid_.grid().cell_m) return entry->second;
+    const std::optional<TriangleMesh> hull = CommonHull(a, b);
+    if (hull && StaysWithin(*hull, solid_, allowed_m_))
+      entry->second = VolumeOf(*hull) - VolumeOf(a.hull) - VolumeOf(b.hull);
+    return entry->second;
   }
 
   ConvexPartsConfig config_;
@@ -250,6 +361,8 @@ class Decomposition {
   double allowed_m_;
   double smallest_m3_ = 0;
   std::vector<Region> regions_;
+  int next_id_ = 0;
+  std::map<std::pair<int, int>, double> air_between_;
 };
 
 void CheckConfig(const ConvexPartsConfig& config) {

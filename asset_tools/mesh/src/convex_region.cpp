@@ -126,7 +126,10 @@ double VolumeOf(const TriangleMesh& mesh) {
   return volume;
 }
 
-Concavity ConcavityOf(const TriangleMesh& hull, const DistanceGrid& solid) {
+namespace {
+
+// Visits every `stride`-th row of cells inside the hull; stops where the depth exceeds `stop_m`.
+Concavity Deepest(const TriangleMesh& hull, const DistanceGrid& solid, int stride, double stop_m) {
   const Grid& grid = solid.grid();
   const std::vector<HalfSpace> faces = HalfSpacesOf(hull);
   Eigen::AlignedBox3d box;
@@ -134,8 +137,8 @@ Concavity ConcavityOf(const TriangleMesh& hull, const DistanceGrid& solid) {
   const auto [low_j, high_j] = CellsWithin(grid, 1, box.min().y(), box.max().y());
   const auto [low_k, high_k] = CellsWithin(grid, 2, box.min().z(), box.max().z());
   Concavity deepest;
-  for (int k = low_k; k <= high_k; ++k) {
-    for (int j = low_j; j <= high_j; ++j) {
+  for (int k = low_k; k <= high_k; k += stride) {
+    for (int j = low_j; j <= high_j; j += stride) {
       const Eigen::Vector3d center = grid.CenterOf(0, j, k);
       const Range range = InsideAlongX(faces, center.y(), center.z());
       if (range.low > range.high) continue;
@@ -144,9 +147,22 @@ Concavity ConcavityOf(const TriangleMesh& hull, const DistanceGrid& solid) {
         const double depth = solid.DistanceAt(i, j, k);
         if (depth > deepest.depth_m) deepest = {depth, grid.CenterOf(i, j, k)};
       }
+      if (deepest.depth_m > stop_m) return deepest;
     }
   }
   return deepest;
+}
+
+}  // namespace
+
+Concavity ConcavityOf(const TriangleMesh& hull, const DistanceGrid& solid, int stride) {
+  return Deepest(hull, solid, stride, 1e300);
+}
+
+bool StaysWithin(const TriangleMesh& hull, const DistanceGrid& solid, double allowed_m) {
+  // most hulls that protrude do so in many rows, so a few rows settle it
+  return Deepest(hull, solid, 8, allowed_m).depth_m <= allowed_m &&
+         Deepest(hull, solid, 1, allowed_m).depth_m <= allowed_m;
 }
 
 }  // namespace doorforge

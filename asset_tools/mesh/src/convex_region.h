@@ -37,6 +37,10 @@ struct Concavity {
   double depth_m = 0;
   Eigen::Vector3d at_m = Eigen::Vector3d::Zero();  ///< Centre of that cell; meaningless at depth 0.
 };
-Concavity ConcavityOf(const TriangleMesh& hull, const DistanceGrid& solid);
+/// Looks at every `stride`-th row of cells along both axes across the rows.
+Concavity ConcavityOf(const TriangleMesh& hull, const DistanceGrid& solid, int stride = 1);
+
+/// Whether no cell inside the hull is farther from the solid than `allowed_m`.
+bool StaysWithin(const TriangleMesh& hull, const DistanceGrid& solid, double allowed_m);
 
 }  // namespace doorforge

@@ -20,6 +20,7 @@ namespace {
 
 constexpr double kWeldFraction = 1e-6;  // of D: what exporters round away
 constexpr double kFlatFraction = 1e-6;  // of D: thinner closed pieces have no inside to speak of
+constexpr double kFlatHoleSize = 0.35;  // of D: larger flat holes are openings that someone meant
 constexpr double kFlatHoleFraction = 1e-4;  // of D: how far a flat hole may leave its plane
 constexpr double kFlatAreaShare = 0.01;  // of all area: less than this may be lost with flat pieces
 constexpr double kFreeErrorShare = 0.25;  // of the offset: error of a wrap that costs nothing
@@ -65,6 +66,7 @@ class Repair {
       Did("welded " + std::to_string(input_->vertices.size()) + " vertices to " +
           std::to_string(soup_.vertices.size()));
     if (!(report_.before.area_m2 > 0)) return Failed("no triangle has an area");
+    surface_ = soup_;
     try {
       TriangleMesh mesh = config_.wrap == "always" ? TriangleMesh{} : KeptExactly();
       if (config_.wrap == "always") report_.reason = "a wrap was asked for";
@@ -92,7 +94,8 @@ class Repair {
     const bool is_closed =
         report_.before.non_manifold_vertices == 0 && ClosedMesh::From(soup_).has_value();
     report_.outcome = is_closed ? RepairOutcome::kAlreadyClosed : RepairOutcome::kRepaired;
-    std::vector<TriangleMesh> pieces = PiecesOf(is_closed ? soup_ : Closed());
+    if (!is_closed) surface_ = Closed();
+    std::vector<TriangleMesh> pieces = PiecesOf(surface_);
     if (!DropFlat(pieces)) return {};
     if (is_closed) {
       OrientKeepingCavities(pieces);
@@ -108,6 +111,7 @@ class Repair {
 
   TriangleMesh Closed() {
     ClosedSoup closed = CloseSoup(soup_, {.max_size_m = config_.max_hole_fraction * diagonal_m_,
+                                          .max_flat_size_m = kFlatHoleSize * diagonal_m_,
                                           .max_flat_area_share = config_.max_flat_hole_share,
                                           .flatness_m = kFlatHoleFraction * diagonal_m_});
     if (closed.degenerate_triangles > 0)
@@ -219,12 +223,11 @@ class Repair {
   TriangleMesh Wrapped() {
     const double alpha_m = config_.alpha_fraction * diagonal_m_;
     const double offset_m = config_.offset_fraction * diagonal_m_;
-    TriangleMesh wrap = AlphaWrap(soup_, alpha_m, offset_m);
+    TriangleMesh wrap = AlphaWrap(surface_, alpha_m, offset_m);
     Did("wrapped with alpha " + std::to_string(1000 * alpha_m) + " mm and offset " +
         std::to_string(1000 * offset_m) + " mm to " +
         Count(static_cast<int>(wrap.triangles.size()), "triangle"));
     report_.outcome = RepairOutcome::kWrapped;
-    report_.holes_filled = 0;
     report_.components_dropped = 0;
     report_.overlap_fraction = 0;
     report_.components_kept = MeasureTopology(wrap).components;
@@ -264,7 +267,8 @@ class Repair {
   const TriangleMesh* input_;
   RepairConfig config_;
   RepairReport report_;
-  TriangleMesh soup_;
+  TriangleMesh soup_;     // the input, welded
+  TriangleMesh surface_;  // the same, oriented and with small holes filled where that was tried
   double diagonal_m_ = 0;
 };
 

@@ -10,9 +10,11 @@
 
 namespace doorforge {
 
-/// A hole is filled if it is small, or flat and closed by little beside the area of its piece.
+/// A hole is filled if it is small, or flat, not large, and closed by little beside the area of its
+/// piece.
 struct HoleLimits {
   double max_size_m = 0;           ///< Diagonal of the bounding box.
+  double max_flat_size_m = 0;      ///< The same for a flat hole.
   double max_flat_area_share = 0;  ///< Of the piece's area.
   double flatness_m = 0;           ///< How far a flat hole's border may leave its plane.
 };

@@ -20,7 +20,7 @@ struct RepairConfig {
   double alpha_fraction = 0.01;  ///< The wrap enters openings wider than this times D.
   double offset_fraction = 1.0 / 1200;  ///< The wrap lies this times D outside the input.
   double max_hole_fraction = 0.05;      ///< Holes up to this times D across are filled.
-  double max_flat_hole_share = 0.08;   ///< So are flat holes up to this part of their piece's area.
+  double max_flat_hole_share = 0.15;   ///< So are flat holes up to this part of their piece's area.
   double max_overlap_fraction = 0.02;  ///< Closed pieces may share this part of their volume.
   int max_triangles = 6000;            ///< Of the output; 0: any number.
 

@@ -15,6 +15,9 @@
 #include "compose_verb.h"
 #include "import_verb.h"
 #include "validate_verb.h"
+#ifdef DOORFORGE_WITH_PREVIEW
+#include "preview_verb.h"
+#endif
 
 namespace doorforge {
 namespace {
@@ -28,6 +31,9 @@ constexpr Verb kVerbs[] = {
     {"catalog", RunCatalogVerb},
     {"compose", RunComposeVerb},
     {"import", RunImportVerb},
+#ifdef DOORFORGE_WITH_PREVIEW
+    {"preview", RunPreviewVerb},
+#endif
     {"validate", RunValidateVerb},
 };
 

@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "preview_verb.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "doorforge/core/parallel_for.h"
+#include "doorforge/core/program.h"
+#include "doorforge/core/progress.h"
+#include "doorforge/door/validate_door.h"
+#include "doorforge/schemas/door_asset.h"
+#include "doorforge/schemas/part.h"
+#include "doorforge/sensor/scene_picture.h"
+
+#include "verb_options.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::vector<std::string> paths;
+  std::string out;
+  double hinge_deg = 0;
+  double handle_deg = 0;
+  double azimuth_deg = -34;
+  int columns = 6;
+  int width = 0;
+  int threads = 0;
+  bool collision = false;
+};
+
+Options Parse(int argc, char** argv) {
+  Options options;
+  CLI::App app("Pictures of doors and parts; a contact sheet where there are several.",
+               "doorforge preview");
+  app.add_option("PATH", options.paths, "folders of doors or parts, or folders that hold some")
+      ->required();
+  app.add_option("--out", options.out, "PNG file")->required();
+  app.add_option("--hinge-deg", options.hinge_deg, "open doors by this angle, within their limits")
+      ->check(CLI::Range(0.0, 180.0));
+  app.add_option("--handle-deg", options.handle_deg,
+                 "turn handles by this angle, within their limits")
+      ->check(CLI::Range(-90.0, 90.0));
+  app.add_option("--azimuth-deg", options.azimuth_deg,
+                 "where to stand: 0 in front, positive towards the free edge")
+      ->check(CLI::Range(-180.0, 180.0));
+  app.add_option("--columns", options.columns, "of a contact sheet")->check(CLI::Range(1, 24));
+  app.add_option("--width", options.width, "of each picture in pixels; 960, or 320 on a sheet")
+      ->check(CLI::Range(32, 4096));
+  app.add_option("--threads", options.threads, "0: all processors");
+  app.add_flag("--collision", options.collision, "draw the collision shapes instead");
+  app.footer(
+      "examples:\n"
+      "  doorforge preview parts --out parts.png\n"
+      "  doorforge preview doors/mine --hinge-deg 40 --handle-deg 30 --out mine.png");
+  ParseVerb(app, argc, argv);
+  return options;
+}
+
+struct Model {
+  std::vector<VisibleMesh> meshes;
+  std::vector<RigidTransform> poses;
+  bool stands = true;  // on the floor
+};
+
+// one colour a collision shape, so that its pieces can be told apart
+Eigen::Vector3d PieceColor(std::size_t index) {
+  static const Eigen::Vector3d kColors[] = {{0.86, 0.37, 0.34}, {0.36, 0.68, 0.41},
+                                            {0.33, 0.52, 0.80}, {0.88, 0.74, 0.30},
+                                            {0.62, 0.43, 0.73}, {0.34, 0.71, 0.73}};
+  return kColors[index % std::size(kColors)];
+}
+
+struct Shape {
+  const TriangleMesh& mesh;
+  const std::vector<TriangleMesh>& hulls;
+  const Eigen::Vector4d& color_rgba;
+};
+
+void AddShape(const Shape& shape, int link, bool collision, Model& model) {
+  if (!collision) {
+    model.meshes.push_back({shape.mesh, link, PointLabel::kOther, shape.color_rgba.head<3>()});
+    return;
+  }
+  for (const TriangleMesh& hull : shape.hulls)
+    model.meshes.push_back({hull, link, PointLabel::kOther, PieceColor(model.meshes.size())});
+}
+
+double WithinLimits(double degrees, const DoorJoint& joint) {
+  return std::clamp(degrees * std::numbers::pi / 180, joint.lower_rad, joint.upper_rad);
+}
+
+Model LoadModel(const fs::path& folder, const Options& options) {
+  Model model;
+  if (fs::exists(folder / "door.json")) {
+    const DoorAsset door = ReadDoor(folder);
+    for (std::size_t i = 0; i < door.links.size(); ++i) {
+      for (const DoorGeometry& geometry : door.links[i].geometry)
+        AddShape({geometry.mesh, geometry.hulls, geometry.color_rgba}, static_cast<int>(i),
+                 options.collision, model);
+    }
+    for (const RigidTransform& pose :
+         DoorFromLinks(door, WithinLimits(options.hinge_deg, door.hinge),
+                       WithinLimits(options.handle_deg, door.handle_joint)))
+      model.poses.push_back(pose);
+    return model;
+  }
+  const Part part = ReadPart(folder);
+  for (const PartPiece& piece : part.pieces)
+    AddShape({piece.mesh, piece.hulls, piece.color_rgba}, 0, options.collision, model);
+  model.poses = {RigidTransform::Identity()};
+  model.stands = part.role == PartRole::kBody;
+  return model;
+}
+
+Picture Draw(const fs::path& folder, const Options& options, int width) {
+  Model model = LoadModel(folder, options);
+  SceneGeometry scene(std::move(model.meshes));
+  scene.MoveLinks(model.poses);
+  ViewConfig view;
+  view.width = width;
+  view.height = width * 3 / 4;
+  view.azimuth_rad = options.azimuth_deg * std::numbers::pi / 180;
+  ScenePictureConfig config;
+  config.floor = model.stands;
+  return RenderPicture(scene, FramingCamera(scene, view), config);
+}
+
+}  // namespace
+
+int RunPreviewVerb(int argc, char** argv) {
+  const Options options = Parse(argc, argv);
+  std::vector<fs::path> folders;
+  for (const std::string& path : options.paths) {
+    for (fs::path& folder : FindRecords(path)) folders.push_back(std::move(folder));
+  }
+  const bool sheet = folders.size() > 1;
+  const int width = options.width > 0 ? options.width : (sheet ? 320 : 960);
+  std::vector<Picture> pictures(folders.size());
+  std::vector<std::string> captions;
+  for (const fs::path& folder : folders)
+    captions.push_back(fs::absolute(folder).lexically_normal().filename().string());
+  Progress progress("drawing", folders.size());
+  ParallelFor(folders.size(), options.threads, [&](std::size_t i) {
+    pictures[i] = Draw(folders[i], options, width);
+    progress.Advance();
+  });
+  if (!sheet) {
+    WritePng(options.out, pictures[0]);
+  } else {
+    ContactSheetConfig config;
+    config.columns = options.columns;
+    config.tile_width = width;
+    config.tile_height = width * 3 / 4;
+    WritePng(options.out, ContactSheet(pictures, captions, config));
+  }
+  std::printf("%s: %zu pictured\n", options.out.c_str(), folders.size());
+  return 0;
+}
+
+}  // namespace doorforge

@@ -8,6 +8,7 @@
 #include "doorforge/core/closed_mesh.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/nearest_name.h"
+#include "doorforge/mesh/convex_parts.h"
 
 #include "finish.h"
 #include "placed_mesh.h"
@@ -43,7 +44,9 @@ PartPiece MakePiece(const std::string& name, const Solid& solid, const std::stri
   piece.name = name;
   // as the canonical files hold them, so that a part read back equals the part in memory
   piece.mesh = RoundedToFloat(solid.mesh);
-  for (const TriangleMesh& hull : solid.hulls) piece.hulls.push_back(RoundedToFloat(hull));
+  // a hull whose corners were rounded may have a dent of that size: it is found again from them
+  for (const TriangleMesh& hull : solid.hulls)
+    piece.hulls.push_back(ConvexHull(RoundedToFloat(hull).vertices));
   const std::optional<ClosedMesh> closed = ClosedMesh::From(piece.mesh);
   Require(closed.has_value(), ErrorCode::kInvalidArgument, path + ": the mesh is not closed");
   piece.color_rgba << finish.color_rgb, 1.0;

@@ -1,0 +1,370 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/door/catalogue.h"
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "doorforge/core/closed_mesh.h"
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/config_file.h"
+#include "doorforge/core/error.h"
+#include "doorforge/core/parallel_for.h"
+#include "doorforge/door/compose.h"
+#include "doorforge/door/export_urdf.h"
+#include "doorforge/door/grasp.h"
+#include "doorforge/door/validate_door.h"
+#include "doorforge/mesh/convex_parts.h"
+
+#include "scratch_folder.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path DataOfSource() { return fs::path(DOORFORGE_SOURCE_DIR) / "data"; }
+
+const std::vector<Part>& AllParts() {
+  static const std::vector<Part> kParts = [] {
+    std::vector<Part> parts;
+    for (const CatalogueEntry& entry : ListCatalogue(DataOfSource()))
+      parts.push_back(BuildCataloguePart(entry));
+    return parts;
+  }();
+  return kParts;
+}
+
+const Part& PartNamed(const std::string& id) {
+  for (const Part& part : AllParts()) {
+    if (part.id == id) return part;
+  }
+  throw Error(ErrorCode::kMissing, id);
+}
+
+Eigen::AlignedBox3d BoundsOfPiece(const PartPiece& piece) {
+  return MeasureTopology(piece.mesh).bounds;
+}
+
+Eigen::AlignedBox3d BoundsOfPart(const Part& part) {
+  Eigen::AlignedBox3d bounds;
+  for (const PartPiece& piece : part.pieces) bounds.extend(BoundsOfPiece(piece));
+  return bounds;
+}
+
+// Number of triangles that the line along x through (y, z) crosses.
+int CrossingsAlongX(const TriangleMesh& mesh, double y, double z) {
+  int crossings = 0;
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    double area[3];
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d& a = mesh.vertices[static_cast<std::size_t>(t[k])];
+      const Eigen::Vector3d& b = mesh.vertices[static_cast<std::size_t>(t[(k + 1) % 3])];
+      area[k] = (a.y() - y) * (b.z() - z) - (a.z() - z) * (b.y() - y);
+    }
+    crossings +=
+        (area[0] > 0 && area[1] > 0 && area[2] > 0) || (area[0] < 0 && area[1] < 0 && area[2] < 0);
+  }
+  return crossings;
+}
+
+bool Inside(const TriangleMesh& hull, const Eigen::Vector3d& point, double margin_m) {
+  for (const Eigen::Vector3i& t : hull.triangles) {
+    const Eigen::Vector3d& a = hull.vertices[static_cast<std::size_t>(t[0])];
+    const Eigen::Vector3d& b = hull.vertices[static_cast<std::size_t>(t[1])];
+    const Eigen::Vector3d& c = hull.vertices[static_cast<std::size_t>(t[2])];
+    if ((point - a).dot((b - a).cross(c - a).normalized()) > margin_m) return false;
+  }
+  return true;
+}
+
+// A folder with one recipe in the place of a body or handle.
+fs::path WithRecipe(const std::string& name, const std::string& place, const std::string& text) {
+  const fs::path data = ScratchFolder("catalogue") / name;
+  fs::remove_all(data);
+  CommitFile(data / "catalog" / place, text);
+  return data;
+}
+
+std::string Head(const std::string& id, const std::string& family) {
+  return "schema: doorforge.recipe\nschema_version: 1\nid: " + id + "\nfamily: " + family +
+         "\nlicense: CC0-1.0\nparameters:\n";
+}
+
+std::string MessageOf(const std::function<void()>& call, ErrorCode expected) {
+  try {
+    call();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), expected) << error.what();
+    return error.what();
+  }
+  ADD_FAILURE() << "expected an Error";
+  return {};
+}
+
+TEST(Catalogue, HasAtLeastThreeBodiesAndFourHandlesOfEachKind) {
+  std::map<std::string, int> count;
+  for (const CatalogueEntry& entry : ListCatalogue(DataOfSource()))
+    ++count[std::string(NameOf(entry.category)) + " " + std::string(NameOf(entry.role)) + " " +
+            std::string(NameOf(entry.mechanism))];
+  EXPECT_GE(count["interior body none"], 3);
+  EXPECT_GE(count["interior handle lever"], 4);
+  EXPECT_GE(count["interior handle round"], 4);
+  EXPECT_GE(count["storagefurniture body none"], 3);
+  EXPECT_GE(count["storagefurniture handle round"], 4);
+  EXPECT_GE(count["storagefurniture handle none"], 4);
+}
+
+TEST(Catalogue, BuildsTheSameBytesTwiceAndInAnyNumberOfThreads) {
+  const std::vector<CatalogueEntry> entries = ListCatalogue(DataOfSource());
+  for (const int threads : {1, 3}) {
+    std::vector<std::string> hashes(entries.size());
+    ParallelFor(entries.size(), threads,
+                [&](std::size_t i) { hashes[i] = ContentHash(BuildCataloguePart(entries[i])); });
+    for (std::size_t i = 0; i < entries.size(); ++i)
+      EXPECT_EQ(hashes[i], ContentHash(AllParts()[i])) << entries[i].id;
+  }
+}
+
+TEST(Catalogue, PartsReadBackEqualAndBreakNoRule) {
+  for (const Part& part : AllParts()) {
+    const fs::path folder = ScratchFolder("catalogue") / part.id;
+    StagedFolder staged(folder, Existing::kReplace);
+    WritePart(part, staged.path());
+    staged.Commit();
+    EXPECT_EQ(ContentHash(ReadPart(folder)), ContentHash(part)) << part.id;
+    const ValidationReport report = ValidatePart(folder);
+    EXPECT_TRUE(report.findings.empty()) << ToJson(std::span(&report, 1)).dump(2);
+  }
+}
+
+TEST(Catalogue, EveryPartGoesIntoADoorThatBreaksNoRule) {
+  // each body with one handle and each handle with one body of its category
+  std::map<Category, std::vector<const Part*>> bodies;
+  std::map<Category, std::vector<const Part*>> handles;
+  for (const Part& part : AllParts())
+    (part.role == PartRole::kBody ? bodies : handles)[part.category].push_back(&part);
+  for (const auto& [category, some_handles] : handles) {
+    for (std::size_t i = 0; i < some_handles.size(); ++i) {
+      const Part& body = *bodies[category][i % bodies[category].size()];
+      const DoorAsset door = ComposeDoor(body, *some_handles[i], {});
+      const fs::path folder = ScratchFolder("catalogue") / door.id;
+      WriteDoorFolder(door, folder, Existing::kReplace);
+      const ValidationReport report = ValidateDoor(folder);
+      EXPECT_TRUE(report.findings.empty()) << ToJson(std::span(&report, 1)).dump(2);
+    }
+  }
+}
+
+// UniDoorManip's measured ranges, see the table in docs/catalogue.md.
+TEST(Catalogue, SizesLieWithinTheMeasuredRangesOfTheReleasedObjects) {
+  for (const Part& part : AllParts()) {
+    SCOPED_TRACE(part.id);
+    const Eigen::Vector3d size = BoundsOfPart(part).sizes();
+    if (part.role == PartRole::kHandle) {
+      EXPECT_LE(size.x(), 0.103);
+      EXPECT_LE(part.mechanism == Mechanism::kRound ? size.y() : 0, 0.068);
+      if (part.mechanism == Mechanism::kLever) {
+        EXPECT_GE(size.y(), 0.13);
+        EXPECT_LE(size.y(), 0.17);
+      }
+      continue;
+    }
+    const double reach = part.part_from_mount.translation().y() - part.joint.origin_m.y();
+    const bool interior = part.category == Category::kInterior;
+    EXPECT_GE(size.z(), interior ? 1.70 : 0.594);
+    EXPECT_LE(size.z(), interior ? 1.90 : 1.3);
+    EXPECT_GE(reach, interior ? 0.510 : 0.474);
+    EXPECT_LE(reach, interior ? 0.889 : 1.299);
+    const double leaf_kg = FindPiece(part, "leaf")->mass.mass_kg;
+    EXPECT_GE(leaf_kg, interior ? 8 : 2);
+    EXPECT_LE(leaf_kg, 25);
+    if (!interior) continue;
+    const Eigen::AlignedBox3d leaf = BoundsOfPiece(*FindPiece(part, "leaf"));
+    EXPECT_NEAR(leaf.max().y() - part.part_from_mount.translation().y(), 0.08, 1e-6);
+    EXPECT_NEAR(part.part_from_mount.translation().z() - leaf.min().z(), 0.8, 1e-6);
+  }
+}
+
+TEST(Catalogue, PositiveAnglesOpenTowardsTheHandleSideAndLowerTheLeversTip) {
+  for (const Part& part : AllParts()) {
+    SCOPED_TRACE(part.id);
+    const Eigen::AngleAxisd turn(0.1, part.joint.axis);
+    if (part.role == PartRole::kBody) {
+      const Eigen::Vector3d arm(0, 0.5, 0);
+      EXPECT_GT((turn * arm).x(), 0.04);
+    } else if (part.mechanism == Mechanism::kLever) {
+      const Eigen::AlignedBox3d grip = BoundsOfPiece(*FindPiece(part, "grip"));
+      const Eigen::Vector3d tip(0, grip.min().y(), 0);
+      EXPECT_LT(tip.y(), -0.09) << "a lever points towards the hinge";
+      EXPECT_LT((turn * tip).z(), -0.008);
+    }
+    if (part.role == PartRole::kHandle) {
+      EXPECT_NEAR(part.joint.upper_rad,
+                  part.mechanism == Mechanism::kNone ? 0 : std::numbers::pi / 4, 1e-12);
+    }
+  }
+}
+
+TEST(Catalogue, AParallelGripperHoldsEveryHandleAtItsGraspFrame) {
+  for (const Part& part : AllParts()) {
+    if (part.role == PartRole::kBody) continue;
+    TriangleMesh handle;
+    for (const PartPiece& piece : part.pieces) {
+      const int offset = static_cast<int>(handle.vertices.size());
+      handle.vertices.insert(handle.vertices.end(), piece.mesh.vertices.begin(),
+                             piece.mesh.vertices.end());
+      for (const Eigen::Vector3i& t : piece.mesh.triangles)
+        handle.triangles.emplace_back(t.array() + offset);
+    }
+    const GraspFit fit = MeasureGrasp(FindPiece(part, "grip")->mesh, handle, part.part_from_grasp);
+    EXPECT_TRUE(fit.holds) << part.id << ": contact " << fit.contact << ", width " << fit.width_m
+                           << ", free " << fit.fingers_free;
+    EXPECT_LT(std::abs(fit.off_center_m), 0.002) << part.id;
+    // fingers close along z on what turns, along y on an upright pull
+    const Eigen::Vector3d closing = part.part_from_grasp.linear().col(1);
+    EXPECT_GT(part.mechanism == Mechanism::kNone ? closing.y() : closing.z(), 0.999) << part.id;
+  }
+}
+
+TEST(Catalogue, CollisionShapesCoverTheMeshAndProtrudeLittle) {
+  for (const Part& part : AllParts()) {
+    for (const PartPiece& piece : part.pieces) {
+      SCOPED_TRACE(part.id + " " + piece.name);
+      EXPECT_LE(piece.hulls.size(), 32u);
+      for (const TriangleMesh& hull : piece.hulls) EXPECT_LE(hull.vertices.size(), 64u);
+      const ConvexPartsFit fit = MeasureConvexParts(*ClosedMesh::From(piece.mesh), piece.hulls);
+      EXPECT_LE(fit.uncovered_m, 0.001);
+      EXPECT_LE(fit.protrusion_m, part.role == PartRole::kHandle ? 0.003 : 0.0155);
+    }
+  }
+}
+
+TEST(Catalogue, CollisionShapesKeepTheFingersGapFree) {
+  for (const Part& part : AllParts()) {
+    if (part.role == PartRole::kBody) continue;
+    // behind the bar of a lever or a pull, half way to the leaf; beside a knob's neck
+    Eigen::Vector3d gap = part.part_from_grasp.translation();
+    gap.x() *= 0.5;
+    if (part.mechanism == Mechanism::kRound) gap.z() += 0.03;
+    for (const PartPiece& piece : part.pieces) {
+      for (const TriangleMesh& hull : piece.hulls)
+        EXPECT_FALSE(Inside(hull, gap, 0.004)) << part.id << " " << piece.name;
+    }
+  }
+}
+
+TEST(Catalogue, GlazedLeavesHaveRealOpenings) {
+  const Part& part = PartNamed("interior_half_glass_01");
+  const TriangleMesh& leaf = FindPiece(part, "leaf")->mesh;
+  EXPECT_EQ(CrossingsAlongX(leaf, 0.25, 1.2), 0);  // through an opening
+  EXPECT_EQ(CrossingsAlongX(leaf, 0.25, 0.4), 2);  // through the lower panel
+  for (const TriangleMesh& hull : FindPiece(part, "leaf")->hulls)
+    EXPECT_FALSE(Inside(hull, {-0.02, 0.25, 1.2}, 0));
+}
+
+// The leaf never reaches into the frame on its way: no vertex of the open leaf lies in a hull of
+// the frame.
+TEST(Catalogue, LeavesSwingFreeOfTheirFrames) {
+  for (const Part& part : AllParts()) {
+    if (part.role != PartRole::kBody) continue;
+    for (const double angle : {0.0, 0.02, 0.1, 0.5, 1.5}) {
+      const RigidTransform swing = Translation(part.joint.origin_m) *
+                                   RotationAbout(part.joint.axis, angle) *
+                                   Translation(-part.joint.origin_m);
+      int inside = 0;
+      for (const Eigen::Vector3d& vertex : FindPiece(part, "leaf")->mesh.vertices) {
+        for (const TriangleMesh& hull : FindPiece(part, "frame")->hulls)
+          inside += Inside(hull, swing * vertex, -0.0005);
+      }
+      EXPECT_EQ(inside, 0) << part.id << " at " << angle << " rad";
+    }
+  }
+}
+
+TEST(Catalogue, AFlushLeafWeighsWhatItsBoxWeighs) {
+  const Part& part = PartNamed("interior_flush_01");
+  // 0.76 x 1.74 x 0.04 m of oak veneer at 340 kg/m3; rounding the edges takes 3 mm corners off
+  const double box_kg = 0.76 * 1.74 * 0.04 * 340;
+  const double mass_kg = FindPiece(part, "leaf")->mass.mass_kg;
+  EXPECT_LT(mass_kg, box_kg);
+  EXPECT_GT(mass_kg, box_kg * 0.9985);
+}
+
+TEST(Catalogue, ABarPullWeighsWhatItsRodWeighs) {
+  const Part& part = PartNamed("storage_pull_bar_01");
+  // a 12 mm rod of 6600 kg/m3: two legs of 44 mm and 192 mm between them, less the rounded corners
+  const double corner = 2 * (2 - std::numbers::pi / 2) * 0.014;
+  const double length = 2 * 0.044 + 0.192 - corner;
+  const double rod_kg = std::numbers::pi * 0.006 * 0.006 * length * 6600;
+  EXPECT_NEAR(FindPiece(part, "grip")->mass.mass_kg, rod_kg, 0.03 * rod_kg);
+}
+
+TEST(Catalogue, RefusesAnUnknownKeyAndNamesIt) {
+  const fs::path data = WithRecipe("unknown_key", "interior/handles/a.yaml",
+                                   Head("a", "lever_straight") + "  lenght_m: 0.12\n");
+  const std::string message =
+      MessageOf([&] { BuildCataloguePart(data, "a"); }, ErrorCode::kInvalidConfig);
+  EXPECT_NE(message.find("lenght_m"), std::string::npos) << message;
+  EXPECT_NE(message.find("length_m"), std::string::npos) << message;
+}
+
+TEST(Catalogue, RefusesAValueOutOfRangeWithFoundAndAllowed) {
+  const fs::path data = WithRecipe("range", "interior/handles/a.yaml",
+                                   Head("a", "knob_ball") + "  diameter_m: 0.09\n");
+  const std::string message =
+      MessageOf([&] { BuildCataloguePart(data, "a"); }, ErrorCode::kInvalidConfig);
+  for (const char* words : {"a.yaml", "diameter_m", "found 0.09", "0.03 to 0.066"})
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+}
+
+TEST(Catalogue, RefusesUnknownFamiliesFinishesAndMisplacedRecipes) {
+  const auto list = [](const fs::path& data) { return [data] { ListCatalogue(data); }; };
+  std::string message = MessageOf(
+      list(WithRecipe("family", "interior/handles/a.yaml", Head("a", "lever_strait") + "  {}\n")),
+      ErrorCode::kInvalidConfig);
+  EXPECT_NE(message.find("did you mean \"lever_straight\""), std::string::npos) << message;
+  message = MessageOf(
+      list(WithRecipe("role", "interior/bodies/a.yaml", Head("a", "knob_ball") + "  {}\n")),
+      ErrorCode::kInvalidConfig);
+  EXPECT_NE(message.find("the folder is for a body"), std::string::npos) << message;
+  message = MessageOf(
+      list(WithRecipe("id", "interior/handles/b.yaml", Head("a", "knob_ball") + "  {}\n")),
+      ErrorCode::kInvalidConfig);
+  EXPECT_NE(message.find("named for \"b\""), std::string::npos) << message;
+  const fs::path data = WithRecipe("finish", "interior/handles/a.yaml",
+                                   Head("a", "knob_ball") + "  finish: polished_bras\n");
+  message = MessageOf([&] { BuildCataloguePart(data, "a"); }, ErrorCode::kInvalidConfig);
+  EXPECT_NE(message.find("did you mean \"polished_brass\""), std::string::npos) << message;
+}
+
+TEST(Catalogue, SuggestsTheNearestIdForAnUnknownOne) {
+  const std::string message = MessageOf(
+      [] { BuildCataloguePart(DataOfSource(), "interior_flush_1"); }, ErrorCode::kMissing);
+  EXPECT_NE(message.find("interior_flush_01"), std::string::npos) << message;
+}
+
+TEST(QuickstartSplit, PutsEveryPartOnExactlyOneSide) {
+  const fs::path path = DataOfSource() / "splits" / "quickstart.yaml";
+  const auto split = ParseYaml(ReadFile(path), path.string());
+  std::set<std::string> listed;
+  std::map<std::string, std::set<std::string>> kinds;  // side -> "category role mechanism"
+  for (const char* side : {"train", "test"}) {
+    for (const auto& id : split.at(side)) {
+      EXPECT_TRUE(listed.insert(id.get<std::string>()).second) << id << " is on both sides";
+      const Part& part = PartNamed(id.get<std::string>());
+      kinds[side].insert(std::string(NameOf(part.category)) + " " + std::string(NameOf(part.role)) +
+                         " " + std::string(NameOf(part.mechanism)));
+    }
+  }
+  EXPECT_EQ(listed.size(), AllParts().size());
+  EXPECT_EQ(kinds["train"], kinds["test"]) << "every kind is trained on and tested";
+}
+
+}  // namespace
+}  // namespace doorforge

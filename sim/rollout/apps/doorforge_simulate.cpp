@@ -11,6 +11,11 @@ namespace doorforge {
 namespace {
 
 int Main(int argc, char** argv) {
+  // the front program passes its verb on
+  if (argc > 1 && std::string(argv[1]) == "simulate") {
+    --argc;
+    ++argv;
+  }
   CLI::App app("Lets the rule-based expert open doors in the physics and says what came of it.");
   app.name("doorforge simulate");
   app.footer(

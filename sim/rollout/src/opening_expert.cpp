@@ -30,12 +30,14 @@ Action OpeningExpert::Act(const Observation& observation) {
   if (now.hinge_rad > config_.ajar_rad)
     handle_target_rad_ = std::max(0.0, handle_target_rad_ - config_.relax_rad_per_action);
 
+  const double reach = std::max(DistanceToAxis(now.world_from_hand.translation(),
+                                               now.hinge_origin_in_world, now.hinge_axis_in_world),
+                                0.1);
   const double ramp = std::min(1.0, actions_ / 4.0);
-  const double arc = config_.first_step_m + ramp * (config_.step_m - config_.first_step_m);
-  const double reach = DistanceToAxis(now.world_from_hand.translation(), now.hinge_origin_in_world,
-                                      now.hinge_axis_in_world);
+  const double full = std::max(config_.step_m, config_.least_turn_rad * reach);
+  const double arc = config_.first_step_m + ramp * (full - config_.first_step_m);
   const RigidTransform open =
-      TurnAbout(now.hinge_origin_in_world, now.hinge_axis_in_world, arc / std::max(reach, 0.1));
+      TurnAbout(now.hinge_origin_in_world, now.hinge_axis_in_world, arc / reach);
   const RigidTransform turn = TurnAbout(now.handle_origin_in_world, now.handle_axis_in_world,
                                         handle_target_rad_ - now.handle_rad);
   const RigidTransform target = open * turn * now.world_from_handle * handle_from_hand_;

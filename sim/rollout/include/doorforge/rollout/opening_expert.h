@@ -7,8 +7,9 @@
 namespace doorforge {
 
 struct OpeningExpertConfig {
-  double step_m = 0.055;       ///< Arc that the hand is led ahead by one action.
-  double first_step_m = 0.02;  ///< Of the first action; grows to step_m over four.
+  double step_m = 0.055;         ///< Arc that the hand is led ahead by one action.
+  double least_turn_rad = 0.05;  ///< Wide doors get a longer arc, so that 25 actions are enough.
+  double first_step_m = 0.02;    ///< Of the first action; grows to step_m over four.
   /// The handle stays turned, pressed this much beyond its angle, until the door is ajar.
   double press_rad = 0.25;
   double ajar_rad = 0.0873;             ///< 5 degrees.
@@ -17,6 +18,7 @@ struct OpeningExpertConfig {
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
     visit("step_m", self.step_m);
+    visit("least_turn_rad", self.least_turn_rad);
     visit("first_step_m", self.first_step_m);
     visit("press_rad", self.press_rad);
     visit("ajar_rad", self.ajar_rad);

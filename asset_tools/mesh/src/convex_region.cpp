@@ -129,7 +129,8 @@ double VolumeOf(const TriangleMesh& mesh) {
 namespace {
 
 // Visits every `stride`-th row of cells inside the hull; stops where the depth exceeds `stop_m`.
-Concavity Deepest(const TriangleMesh& hull, const DistanceGrid& solid, int stride, double stop_m) {
+Concavity DeepestInside(const TriangleMesh& hull, const DistanceGrid& solid, int stride,
+                        double stop_m) {
   const Grid& grid = solid.grid();
   const std::vector<HalfSpace> faces = HalfSpacesOf(hull);
   Eigen::AlignedBox3d box;
@@ -151,6 +152,47 @@ Concavity Deepest(const TriangleMesh& hull, const DistanceGrid& solid, int strid
     }
   }
   return deepest;
+}
+
+// The same along the hull's own triangles: a hull thinner than a cell may miss every centre.
+Concavity DeepestOnSurface(const TriangleMesh& hull, const DistanceGrid& solid, double step_m) {
+  const Grid& grid = solid.grid();
+  Concavity deepest;
+  for (const Eigen::Vector3i& t : hull.triangles) {
+    const Eigen::Vector3d& a = hull.vertices[static_cast<std::size_t>(t[0])];
+    const Eigen::Vector3d ab = hull.vertices[static_cast<std::size_t>(t[1])] - a;
+    const Eigen::Vector3d ac = hull.vertices[static_cast<std::size_t>(t[2])] - a;
+    const int across = 1 + static_cast<int>(ab.norm() / step_m);
+    const int along = 1 + static_cast<int>(ac.norm() / step_m);
+    for (int u = 0; u <= across; ++u) {
+      for (int v = 0; v * across <= along * (across - u); ++v) {
+        const Eigen::Vector3d point = a + ab * u / across + ac * v / along;
+        const Eigen::Vector3i cell = grid.CellAt(point);
+        const double depth = solid.DistanceAt(cell.x(), cell.y(), cell.z());
+        if (depth > deepest.depth_m) deepest = {depth, point};
+      }
+    }
+  }
+  return deepest;
+}
+
+bool IsThin(const TriangleMesh& hull, double cell_m) {
+  double area = 0;
+  for (const Eigen::Vector3i& t : hull.triangles) {
+    const Eigen::Vector3d& a = hull.vertices[static_cast<std::size_t>(t[0])];
+    area += 0.5 * (hull.vertices[static_cast<std::size_t>(t[1])] - a)
+                      .cross(hull.vertices[static_cast<std::size_t>(t[2])] - a)
+                      .norm();
+  }
+  return 2 * VolumeOf(hull) < 2 * cell_m * area;
+}
+
+Concavity Deepest(const TriangleMesh& hull, const DistanceGrid& solid, int stride, double stop_m) {
+  const Concavity inside = DeepestInside(hull, solid, stride, stop_m);
+  const double cell_m = solid.grid().cell_m;
+  if (inside.depth_m > stop_m || !IsThin(hull, cell_m)) return inside;
+  const Concavity surface = DeepestOnSurface(hull, solid, stride * cell_m);
+  return surface.depth_m > inside.depth_m ? surface : inside;
 }
 
 }  // namespace

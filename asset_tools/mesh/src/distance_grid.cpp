@@ -96,10 +96,7 @@ void DistanceGrid::MarkSurface(const TriangleMesh& mesh) {
     const int steps = 1 + static_cast<int>(longest / (0.5 * grid_.cell_m));
     for (int u = 0; u <= steps; ++u) {
       for (int v = 0; u + v <= steps; ++v) {
-        const Eigen::Vector3d cell =
-            (a + ab * u / steps + ac * v / steps - grid_.origin_m) / grid_.cell_m;
-        const Eigen::Vector3i index =
-            cell.array().floor().cast<int>().max(0).min(grid_.size.array() - 1);
+        const Eigen::Vector3i index = grid_.CellAt(a + ab * u / steps + ac * v / steps);
         distance_m_[grid_.IndexOf(index.x(), index.y(), index.z())] = 0;
       }
     }

@@ -24,6 +24,11 @@ struct Grid {
            static_cast<std::size_t>(i);
   }
   std::size_t count() const { return IndexOf(0, 0, size.z()); }
+  /// The cell that holds the point, or the nearest one.
+  Eigen::Vector3i CellAt(const Eigen::Vector3d& point) const {
+    const Eigen::Array3d cell = ((point - origin_m) / cell_m).array().floor();
+    return cell.max(0.0).min((size.array() - 1).cast<double>()).cast<int>();
+  }
   Eigen::Vector3d CenterOf(int i, int j, int k) const {
     return origin_m + cell_m * (Eigen::Vector3d(i, j, k) + Eigen::Vector3d::Constant(0.5));
   }
@@ -47,7 +52,7 @@ struct SolidVolumes {
 };
 SolidVolumes VolumesOf(const TriangleMesh& mesh, const Grid& grid);
 
-/// The mesh's bounds with about `max_cells` cells and `margin` empty cells around.
+/// The mesh's bounds with `margin` empty cells around.
 Grid GridOver(const TriangleMesh& mesh, double cell_m, int margin);
 
 /// The smallest cell with which GridOver() keeps to `max_cells`, but at least `cell_m`.

@@ -17,6 +17,10 @@ namespace {
 
 constexpr std::size_t kMaxSamples = 20000;
 
+// Coordinates are floats: the plane of a sliver, lower than this share of the piece's diagonal, says
+// nothing about points far from it, and is implied by its neighbours.
+constexpr double kSliver = 5e-4;
+
 /// A convex piece as half spaces.
 struct HalfSpaces {
   Eigen::AlignedBox3d bounds;
@@ -27,15 +31,20 @@ struct HalfSpaces {
       : bounds(BoundsOf(hull)),
         normals(3, static_cast<Eigen::Index>(hull.triangles.size())),
         offsets(static_cast<Eigen::Index>(hull.triangles.size())) {
-    for (std::size_t i = 0; i < hull.triangles.size(); ++i) {
-      const Eigen::Vector3i& t = hull.triangles[i];
+    Eigen::Index count = 0;
+    for (const Eigen::Vector3i& t : hull.triangles) {
       const Eigen::Vector3d& a = hull.vertices[static_cast<std::size_t>(t[0])];
       const Eigen::Vector3d& b = hull.vertices[static_cast<std::size_t>(t[1])];
       const Eigen::Vector3d& c = hull.vertices[static_cast<std::size_t>(t[2])];
-      const auto column = static_cast<Eigen::Index>(i);
-      normals.col(column) = (b - a).cross(c - a).normalized();
-      offsets[column] = normals.col(column).dot(a);
+      const Eigen::Vector3d normal = (b - a).cross(c - a);
+      const double longest = std::max({(b - a).norm(), (c - a).norm(), (c - b).norm()});
+      if (!(normal.norm() > kSliver * bounds.diagonal().norm() * longest)) continue;
+      normals.col(count) = normal.normalized();
+      offsets[count] = normals.col(count).dot(a);
+      ++count;
     }
+    normals.conservativeResize(3, count);
+    offsets.conservativeResize(count);
   }
 
   // How far the point lies outside, by the farthest face plane; negative inside.
@@ -76,6 +85,7 @@ double Uncovered(const TriangleMesh& mesh, const std::vector<HalfSpaces>& hulls)
 double Bulge(const TriangleMesh& hull) {
   if (!ClosedMesh::From(hull)) return std::numeric_limits<double>::infinity();
   const HalfSpaces faces(hull);
+  if (faces.offsets.size() == 0) return std::numeric_limits<double>::infinity();
   double bulge = 0;
   for (const Eigen::Vector3d& vertex : hull.vertices)
     bulge = std::max(bulge, faces.Outside(vertex));

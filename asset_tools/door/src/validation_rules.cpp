@@ -34,7 +34,7 @@ constexpr ValidationRule kRules[] = {
 
     {"COL001", kError, "Every visual piece has collision shapes", 1, "at least {}",
      "import or build the part again"},
-    {"COL002", kError, "Collision shapes are closed and convex", 1e-4,
+    {"COL002", kError, "Collision shapes are closed and convex", 5e-4,
      "no vertex more than {} m outside a face", "import or build the part again"},
     {"COL003", kError, "Collision shapes cover a handle's visual mesh", 0.003,
      "at most {} m of it outside", "import the handle with finer convex parts"},

@@ -35,6 +35,16 @@ struct Matrix {
   }
 };
 
+// Adds columns that were summed as rows (n x outputs) to the weight's columns from `column` on.
+void AddTransposed(const Floats& rows, const PackedLayer& layer, int column, float* weight) {
+  const int count = static_cast<int>(rows.size()) / layer.outputs;
+  for (int o = 0; o < layer.outputs; ++o) {
+    for (int i = 0; i < count; ++i)
+      weight[o * layer.inputs + column + i] +=
+          rows[static_cast<std::size_t>(i * layer.outputs + o)];
+  }
+}
+
 // Adds the gradient of a layer's weight and bias, given that of its output before the ReLU.
 void AddLayerGradient(const Kernels& kernels, const PackedLayer& layer, const Matrix& input,
                       const Matrix& output_gradient, std::span<float> gradient) {
@@ -46,15 +56,15 @@ void AddLayerGradient(const Kernels& kernels, const PackedLayer& layer, const Ma
     columns.columns -= tail;
     kernels.add_outer(output_gradient.Part(row, count).View(), columns, {weight, layer.inputs});
   });
-  for (int row = 0; row < input.rows; ++row) {
-    const float* from = output_gradient.data + static_cast<std::ptrdiff_t>(row) * layer.outputs;
+  Floats tail_weight(static_cast<std::size_t>(tail * layer.outputs));  // transposed
+  for (std::ptrdiff_t row = 0; row < input.rows; ++row) {
+    const float* from = output_gradient.data + row * layer.outputs;
     kernels.add_scaled(1.0F, from, layer.outputs, bias);
-    for (int i = layer.inputs - tail; i < layer.inputs; ++i) {
-      const float x = input.data[static_cast<std::ptrdiff_t>(row) * input.columns + i];
-      for (int o = 0; o < layer.outputs; ++o)
-        weight[static_cast<std::ptrdiff_t>(o) * layer.inputs + i] += x * from[o];
-    }
+    const float* values = input.data + (row + 1) * input.columns - tail;
+    for (int i = 0; i < tail; ++i)
+      kernels.add_scaled(values[i], from, layer.outputs, tail_weight.data() + i * layer.outputs);
   }
+  AddTransposed(tail_weight, layer, layer.inputs - tail, weight);
 }
 
 // Gradient of a layer's input, given that of its output before the ReLU.
@@ -196,18 +206,15 @@ class SetGradient {
     const PackedLayer& layer = layers_[0];
     const int row_width = LevelWidth(l_);
     const float* points = trace_.level[l_].data();
-    Floats position(std::size_t{6} * widths_[0]);  // position columns of the weight, transposed
-    const int by_hand = l_ == 0 ? 6 : 3;
+    const int by_hand = l_ == 0 ? 6 : 3;  // position columns of the weight
+    Floats position(static_cast<std::size_t>(by_hand * widths_[0]));
     for (int k = 0; k < below_; ++k)
       AddPosition(source_.data() + static_cast<std::ptrdiff_t>(k) * widths_[0],
                   points + static_cast<std::ptrdiff_t>(k) * row_width, by_hand, position);
     for (std::size_t s = 0; s < level_.size(); ++s)
       AddPosition(centre_.data() + s * widths_[0], level_.centre_xyz.data() + 3 * s, 3, position);
     float* weight = gradient.data() + layer.weight_offset;
-    for (int o = 0; o < widths_[0]; ++o) {
-      for (int i = 0; i < by_hand; ++i)
-        weight[o * layer.inputs + i] += position[static_cast<std::size_t>(i * widths_[0] + o)];
-    }
+    AddTransposed(position, layer, 0, weight);
     float* bias = gradient.data() + layer.bias_offset;
     for (int k = 0; k < below_; ++k)
       kernels_.add_scaled(1.0F, source_.data() + static_cast<std::ptrdiff_t>(k) * widths_[0],

@@ -29,7 +29,7 @@ struct Options {
   std::string assets;
   std::string out = "run/quickstart";
   int episodes = 220;
-  int epochs = 10;
+  int epochs = 4;
   int threads = 0;
   std::uint64_t seed = 7;
   bool overwrite = false;

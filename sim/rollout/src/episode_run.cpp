@@ -47,7 +47,9 @@ EpisodeRun::EpisodeRun(const Scene& scene, const DoorAsset& door, const RobotMod
       observer_(observer),
       plan_(PlanGrasp(scene, door, robot)),
       world_(scene, door, robot, robot.InitialPosition()),
-      controller_(robot, scene.world_from_robot_base, robot.InitialPosition()) {
+      controller_(robot, scene.world_from_robot_base, robot.InitialPosition()),
+      action_noise_(scene.seed,
+                    "episode/" + scene.door_id + "/" + std::to_string(scene.episode) + "/actions") {
   episode_.scene = scene;
   controller_.SetPosture(plan_.grasp);
 }
@@ -188,9 +190,9 @@ void EpisodeRun::NoteContacts() {
   if (contacts.AnyPad() || contacts.arm_points > 0) last_touch_step_ = step_;
   const bool beyond = world_.state().hinge_rad > kOpenAngle;
   if (!beyond || opened_ || coasted_) return;
-  opened_ = last_touch_step_ >= 0 && step_ - last_touch_step_ <= per_action;
-  coasted_ = !opened_;
   const bool pads = last_pad_step_ >= 0 && step_ - last_pad_step_ <= per_action;
+  opened_ = pads;
+  coasted_ = !opened_;
   touched_at_opening_ = Format("%s at 45 deg, finger to handle %.1f mm",
                                contacts.BothPads() ? "both pads"
                                : pads              ? "one pad or just before"
@@ -226,15 +228,34 @@ void EpisodeRun::Decide(Policy& opening) {
   decision.hinge_rad = state.hinge_rad;
   decision.handle_rad = state.handle_rad;
 
-  RigidTransform target = RigidTransform::Identity();
-  target.linear() = action.world_from_hand_rotation;
-  target.translation() =
-      observation.privileged.world_from_hand.translation() + action.position_delta_m;
   const PhysicsConfig& physics = episode_.scene.physics;
-  controller_.MoveHandTo(target, physics.steps_per_action * physics.time_step_s);
+  controller_.MoveHandTo(ExecutedTarget(action, observation.privileged.world_from_hand),
+                         physics.steps_per_action * physics.time_step_s);
   HoldAction();
   decision.hinge_gain_rad = world_.state().hinge_rad - decision.hinge_rad;
   episode_.decisions.push_back(std::move(decision));
+}
+
+// Half of the noise is a bias that stays for the episode: a trained policy errs that way.
+RigidTransform EpisodeRun::ExecutedTarget(const Action& action,
+                                          const RigidTransform& world_from_hand) {
+  RigidTransform target = RigidTransform::Identity();
+  target.linear() = action.world_from_hand_rotation;
+  target.translation() = world_from_hand.translation() + action.position_delta_m;
+  const PhysicsConfig& physics = episode_.scene.physics;
+  if (physics.action_noise_m == 0 && physics.action_noise_rad == 0) return target;
+  if (episode_.decisions.empty()) {
+    for (double& bias : action_bias_) bias = action_noise_.Normal();
+  }
+  std::array<double, 6> noise{};
+  for (std::size_t i = 0; i < noise.size(); ++i)
+    noise[i] = std::sqrt(0.5) * (action_bias_[i] + action_noise_.Normal());
+  const Eigen::Vector3d turn =
+      physics.action_noise_rad * Eigen::Vector3d(noise[3], noise[4], noise[5]);
+  target.translation() += physics.action_noise_m * Eigen::Vector3d(noise[0], noise[1], noise[2]);
+  if (turn.norm() > 0)
+    target.linear() = RotationAbout(turn.normalized(), turn.norm()).linear() * target.linear();
+  return target;
 }
 
 EpisodeRun::Failure EpisodeRun::Open(Policy& opening) {
@@ -243,7 +264,8 @@ EpisodeRun::Failure EpisodeRun::Open(Policy& opening) {
   const int given_up = 6 * physics.steps_per_action;
   opening.Reset();
   last_touch_step_ = step_;
-  for (int i = 0; i < physics.max_opening_actions && !opened_ && !coasted_ && !diverged_; ++i) {
+  for (int i = 0; i < physics.max_opening_actions && !coasted_ && !diverged_; ++i) {
+    if (opened_ && world_.state().hinge_rad > physics.finish_hinge_rad) break;
     Decide(opening);
     if (step_ - last_touch_step_ > given_up) break;
   }

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 
+#include "doorforge/core/rng.h"
 #include "doorforge/physics/hand_controller.h"
 #include "doorforge/rollout/grasp_plan.h"
 #include "doorforge/rollout/run_episode.h"
@@ -41,6 +43,7 @@ class EpisodeRun {
   SceneSnapshot Snapshot(std::string_view stage) const;
   void Watch(std::string_view stage);
   void Decide(Policy& opening);
+  RigidTransform ExecutedTarget(const Action& action, const RigidTransform& world_from_hand);
   void HoldAction();
   void NoteContacts();
   std::string Detail(Failure failure) const;
@@ -53,6 +56,9 @@ class EpisodeRun {
   HandController controller_;
   Episode episode_;
   RigidTransform handle_from_hand_at_grasp_ = RigidTransform::Identity();
+
+  Rng action_noise_;
+  std::array<double, 6> action_bias_{};
 
   // bookkeeping of contacts, in steps
   long step_ = 0;

@@ -23,6 +23,12 @@ struct PhysicsConfig {
   double handle_friction = 1.0;
   double finger_force_n = 80;
   int max_opening_actions = 25;  ///< UniDoorManip's evaluation budget.
+  /// The episode goes on until the hinge has passed this angle; success is 45 degrees all the same.
+  double finish_hinge_rad = 0.7853981633974483;
+  /// Spread of the noise added to each executed action (the record keeps what the policy asked
+  /// for), so that data show how to come back: Laskey et al., DART, CoRL 2017.
+  double action_noise_m = 0;
+  double action_noise_rad = 0;
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -33,6 +39,9 @@ struct PhysicsConfig {
     visit("handle_friction", self.handle_friction);
     visit("finger_force_n", self.finger_force_n);
     visit("max_opening_actions", self.max_opening_actions);
+    visit("finish_hinge_rad", self.finish_hinge_rad);
+    visit("action_noise_m", self.action_noise_m);
+    visit("action_noise_rad", self.action_noise_rad);
   }
 };
 

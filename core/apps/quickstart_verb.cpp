@@ -69,28 +69,38 @@ void ParseOptions(int argc, char** argv, Options& options) {
 
 std::string Program(const char* name) { return (ProgramFolder() / name).string(); }
 
-// Runs one step as its own program and reports how long it took. A step that found faulty items
-// (exit code 1) has still done its work on the others when `findings_are_fine`.
+struct Step {
+  std::string title;
+  std::vector<std::string> argv;
+  std::string when_resumed = {};   // flag that lets the verb go on with what an earlier try left
+  bool findings_are_fine = false;  // exit code 1 means faulty items; the others are done
+};
+
+// Runs each step as its own program and leaves a marker once it is done.
 class Steps {
  public:
   explicit Steps(const Options& options) : options_(options), start_(Clock::now()) {}
 
-  void Run(const std::string& title, const fs::path& result, const std::vector<std::string>& argv,
-           bool findings_are_fine = false) {
-    Announce(title);
-    if (options_.resume && fs::exists(result)) {
-      std::fprintf(stderr, "   kept: %s\n", result.c_str());
+  void Run(const Step& step) {
+    Announce(step.title);
+    const fs::path marker =
+        fs::path(options_.out) / "steps" / (std::to_string(count_) + "-" + step.argv[1] + ".done");
+    if (options_.resume && fs::exists(marker)) {
+      std::fprintf(stderr, "   done before\n");
       return;
     }
+    std::vector<std::string> argv = step.argv;
+    if (options_.resume && !step.when_resumed.empty()) argv.push_back(step.when_resumed);
     std::string line = "doorforge";
     for (std::size_t i = 1; i < argv.size(); ++i) line += " " + argv[i];
     std::fprintf(stderr, "   $ %s\n", line.c_str());
     const int code = RunChild(argv);
     if (code == 130 || code == 143) throw Stopped{code};
-    if (code != 0 && !(code == 1 && findings_are_fine))
-      throw Error(ErrorCode::kIncomplete, "step \"" + title + "\" ended with exit code " +
+    if (code != 0 && !(code == 1 && step.findings_are_fine))
+      throw Error(ErrorCode::kIncomplete, "step \"" + step.title + "\" ended with exit code " +
                                               std::to_string(code) +
                                               "; repair its cause and run again with --resume");
+    CommitFile(marker, line + "\n");
   }
 
   void Announce(const std::string& title) {
@@ -149,35 +159,42 @@ void RunChain(const Options& options) {
   const fs::path out = options.out;
   const std::string threads = std::to_string(options.threads);
   const std::string seed = std::to_string(options.seed);
+  const std::string parts = out / "parts";
+  const std::string train_doors = out / "doors/train";
+  const std::string test_doors = out / "doors/test";
+  const std::string shards = out / "data";
+  const std::string policy = out / "policy";
   Steps steps(options);
   if (options.assets.empty()) {
-    steps.Run("Parts of the embedded catalogue", out / "parts",
-              {Program("doorforge-assets"), "catalog", "build", "--out", out / "parts"});
+    steps.Run({"Parts of the embedded catalogue",
+               {Program("doorforge-assets"), "catalog", "build", "--out", parts},
+               "--overwrite"});
   } else {
-    steps.Run("Parts from real objects", out / "parts",
-              {Program("doorforge-assets"), "import", options.assets, "--out", out / "parts"},
-              true);
+    steps.Run({"Parts from real objects",
+               {Program("doorforge-assets"), "import", options.assets, "--out", parts, "--threads",
+                threads},
+               "--overwrite",
+               true});
   }
   steps.Announce("Doors: training and held-out parts never meet");
-  const std::vector<DoorPair> pairs = SplitIntoDoors(out / "parts", options.seed);
-  ComposeDoors(pairs, out / "doors", options);
-  steps.Run("Validation", out / "validation.done",
-            {Program("doorforge-assets"), "validate", out / "doors/train", out / "doors/test"},
-            true);
-  steps.Run("Shards: the expert opens the training doors", out / "data",
-            {Program("doorforge-datagen"), "datagen", "open", "--doors", out / "doors/train",
-             "--out", out / "data", "--episodes", std::to_string(options.episodes), "--seed", seed,
-             "--threads", threads});
-  steps.Run("Checksums", out / "verify.done",
-            {Program("doorforge-datagen"), "dataset", "verify", out / "data"});
+  ComposeDoors(SplitIntoDoors(parts, options.seed), out / "doors", options);
   steps.Run(
-      "Training", out / "policy/policy.safetensors",
-      {Program("doorforge-train"), "train", "open", "--data", out / "data", "--out", out / "policy",
-       "--epochs", std::to_string(options.epochs), "--seed", seed, "--threads", threads});
+      {"Validation", {Program("doorforge-assets"), "validate", train_doors, test_doors}, {}, true});
   steps.Run(
-      "Evaluation on doors whose parts were never seen", out / "report",
-      {Program("doorforge-eval"), "eval", "--policy", out / "policy", "--doors", out / "doors/test",
-       "--data", out / "data", "--out", out / "report", "--seeds", "3", "--threads", threads});
+      {"Shards: the expert opens the training doors",
+       {Program("doorforge-datagen"), "datagen", "open", "--doors", train_doors, "--out", shards,
+        "--episodes", std::to_string(options.episodes), "--seed", seed, "--threads", threads},
+       "--resume"});
+  steps.Run({"Checksums", {Program("doorforge-datagen"), "dataset", "verify", shards}});
+  steps.Run({"Training",
+             {Program("doorforge-train"), "train", "open", "--data", shards, "--out", policy,
+              "--epochs", std::to_string(options.epochs), "--seed", seed, "--threads", threads},
+             "--resume"});
+  steps.Run({"Evaluation on doors whose parts were never seen",
+             {Program("doorforge-eval"), "eval", "--policy", policy, "--doors", test_doors,
+              "--data", shards, "--out", out / "report", "--seeds", "3", "--episodes-per-door", "2",
+              "--threads", threads},
+             "--overwrite"});
 }
 
 }  // namespace

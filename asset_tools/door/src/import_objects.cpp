@@ -16,6 +16,7 @@
 #include "doorforge/core/progress.h"
 #include "doorforge/door/import_unidoormanip.h"
 
+#include "placed_mesh.h"
 #include "subtask.h"
 
 namespace doorforge {
@@ -107,6 +108,7 @@ class Import {
     if (!there || existing_ == Existing::kReplace) return job;
     job.present = SameSettings(out_ / id);
     job.done = true;
+    if (job.present) RecallReport(job);
     if (job.present) return job;
     job.outcome = ImportOutcome::kExists;
     job.problem =
@@ -127,6 +129,15 @@ class Import {
     return MemberOf(ReadJsonFile(path), "settings", path.string()) == settings_;
   }
 
+  // what an earlier run measured
+  void RecallReport(PartJob& job) const {
+    const std::string path = (out_ / job.id / "repair.json").string();
+    const Json json = ReadJsonFile(path);
+    job.box_deviation_m = ValueOf<double>(json, "box_deviation_m", path);
+    if (job.role == PartRole::kHandle)
+      job.grasp.fit.holds = ValueOf<bool>(MemberOf(json, "grasp", path), "holds", path);
+  }
+
   void MakeAll() {
     std::vector<std::size_t> open;
     for (std::size_t j = 0; j < jobs_.size(); ++j) {
@@ -134,7 +145,7 @@ class Import {
     }
     Progress progress("importing parts", open.size());
     ParallelFor(open.size(), config_.threads, [&](std::size_t k) {
-      if (StopRequested() == 0) Make(jobs_[open[k]]);
+      Make(jobs_[open[k]]);
       const std::lock_guard lock(mutex_);
       jobs_[open[k]].done = true;
       WriteCompleteObjects();
@@ -143,6 +154,11 @@ class Import {
   }
 
   void Make(PartJob& job) const {
+    if (StopRequested() != 0) {
+      job.outcome = ImportOutcome::kStopped;
+      job.problem = "stopped before its turn; run the same command again to go on";
+      return;
+    }
     const UniDoorManipObject& object = *objects_[job.object];
     try {
       PartDraft draft = job.role == PartRole::kBody ? LoadBody(object) : LoadHandle(object);
@@ -162,16 +178,10 @@ class Import {
 
   static void SetGrasp(PartJob& job) {
     Part& part = *job.made.part;
-    TriangleMesh all;
-    for (const PartPiece& piece : part.pieces) {
-      const Eigen::Vector3i first =
-          Eigen::Vector3i::Constant(static_cast<int>(all.vertices.size()));
-      all.vertices.insert(all.vertices.end(), piece.mesh.vertices.begin(),
-                          piece.mesh.vertices.end());
-      for (const Eigen::Vector3i& triangle : piece.mesh.triangles)
-        all.triangles.push_back(triangle + first);
-    }
-    job.grasp = RefineGrasp(FindPiece(part, "grip")->mesh, all, part.part_from_grasp);
+    std::vector<TriangleMesh> pieces;
+    for (const PartPiece& piece : part.pieces) pieces.push_back(piece.mesh);
+    job.grasp = RefineGrasp(FindPiece(part, "grip")->mesh, internal::JoinedMeshes(pieces),
+                            part.part_from_grasp);
     part.part_from_grasp = job.grasp.part_from_grasp;
     part.grasp_half_extent_m = job.grasp.half_extent_m;
   }
@@ -248,8 +258,8 @@ class Import {
 }  // namespace
 
 std::string_view NameOf(ImportOutcome outcome) {
-  static constexpr std::array<std::string_view, 5> kNames = {"imported", "incomplete", "invalid",
-                                                             "not_closed", "exists"};
+  static constexpr std::array<std::string_view, 6> kNames = {"imported",   "incomplete", "invalid",
+                                                             "not_closed", "exists",     "stopped"};
   return kNames.at(static_cast<std::size_t>(outcome));
 }
 

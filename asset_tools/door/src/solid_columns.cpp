@@ -3,6 +3,7 @@
 #include "solid_columns.h"
 
 #include <array>
+#include <optional>
 
 #include "placed_mesh.h"
 
@@ -35,6 +36,20 @@ std::vector<SolidInterval> IntervalsOf(std::vector<Crossing>& crossings) {
   return intervals;
 }
 
+// where the triangle meets the column at (x, z), if it does
+std::optional<Crossing> CrossingOf(const Corners& c, double x, double z) {
+  const double weight_0 = Cross(c, 1, 2, x, z);
+  const double weight_1 = Cross(c, 2, 0, x, z);
+  const double weight_2 = Cross(c, 0, 1, x, z);
+  const bool positive = weight_0 > 0 && weight_1 > 0 && weight_2 > 0;
+  const bool negative = weight_0 < 0 && weight_1 < 0 && weight_2 < 0;
+  if (!positive && !negative) return std::nullopt;
+  const double y = (weight_0 * c[0].y() + weight_1 * c[1].y() + weight_2 * c[2].y()) /
+                   (weight_0 + weight_1 + weight_2);
+  // seen with x to the right and z up, y points away: a positive turn faces the start
+  return Crossing{y, positive ? 1 : -1};
+}
+
 }  // namespace
 
 SolidColumns::SolidColumns(const TriangleMesh& mesh, const RigidTransform& frame_from_mesh,
@@ -47,35 +62,18 @@ SolidColumns::SolidColumns(const TriangleMesh& mesh, const RigidTransform& frame
   first_z_ = CellAtOrAbove(bounds.min().z());
   size_x_ = std::max(0, CellAtOrAbove(bounds.max().x()) - first_x_);
   size_z_ = std::max(0, CellAtOrAbove(bounds.max().z()) - first_z_);
-  std::vector<std::vector<Crossing>> crossings(static_cast<std::size_t>(size_x_ * size_z_));
   // Columns stand a hair beside the grid, so that they miss vertices and edges of tidy models.
   const double aside = 1e-7 + cell_ * 1e-5;
+  std::vector<std::vector<Crossing>> crossings(static_cast<std::size_t>(size_x_ * size_z_));
   for (const Eigen::Vector3i& triangle : placed.triangles) {
-    Corners c;
-    Eigen::AlignedBox3d box;
-    for (int i = 0; i < 3; ++i) {
-      c[static_cast<std::size_t>(i)] = placed.vertices[static_cast<std::size_t>(triangle[i])];
-      box.extend(c[static_cast<std::size_t>(i)]);
-    }
-    for (int i = std::max(CellAtOrAbove(box.min().x()) - 1, first_x_);
-         i < std::min(CellAtOrAbove(box.max().x()), first_x_ + size_x_); ++i) {
-      for (int k = std::max(CellAtOrAbove(box.min().z()) - 1, first_z_);
-           k < std::min(CellAtOrAbove(box.max().z()), first_z_ + size_z_); ++k) {
-        const double x = i * cell_ + aside;
-        const double z = k * cell_ + 0.7 * aside;
-        const double weight_0 = Cross(c, 1, 2, x, z);
-        const double weight_1 = Cross(c, 2, 0, x, z);
-        const double weight_2 = Cross(c, 0, 1, x, z);
-        const bool positive = weight_0 > 0 && weight_1 > 0 && weight_2 > 0;
-        const bool negative = weight_0 < 0 && weight_1 < 0 && weight_2 < 0;
-        if (!positive && !negative) continue;
-        const double y = (weight_0 * c[0].y() + weight_1 * c[1].y() + weight_2 * c[2].y()) /
-                         (weight_0 + weight_1 + weight_2);
-        // seen with x to the right and z up, y points away: a positive turn faces the start
-        crossings[static_cast<std::size_t>((i - first_x_) * size_z_ + (k - first_z_))].push_back(
-            {y, positive ? 1 : -1});
-      }
-    }
+    const Corners c = {placed.vertices[static_cast<std::size_t>(triangle[0])],
+                       placed.vertices[static_cast<std::size_t>(triangle[1])],
+                       placed.vertices[static_cast<std::size_t>(triangle[2])]};
+    ForEachCellOf(c[0].cwiseMin(c[1]).cwiseMin(c[2]), c[0].cwiseMax(c[1]).cwiseMax(c[2]),
+                  [&](int i, int k, std::size_t column) {
+                    const auto crossing = CrossingOf(c, i * cell_ + aside, k * cell_ + 0.7 * aside);
+                    if (crossing) crossings[column].push_back(*crossing);
+                  });
   }
   columns_.reserve(crossings.size());
   for (std::vector<Crossing>& column : crossings) columns_.push_back(IntervalsOf(column));

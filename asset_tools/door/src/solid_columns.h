@@ -32,6 +32,11 @@ class SolidColumns {
  private:
   int CellAtOrAbove(double coordinate) const;
 
+  /// Calls visit(i, k, column) for the grid cells around a box.
+  template <class Visitor>
+  void ForEachCellOf(const Eigen::Vector3d& low, const Eigen::Vector3d& high,
+                     Visitor&& visit) const;
+
   double cell_;
   int first_x_ = 0;
   int first_z_ = 0;
@@ -42,6 +47,17 @@ class SolidColumns {
 
 inline int SolidColumns::CellAtOrAbove(double coordinate) const {
   return static_cast<int>(std::ceil(coordinate / cell_));
+}
+
+template <class Visitor>
+void SolidColumns::ForEachCellOf(const Eigen::Vector3d& low, const Eigen::Vector3d& high,
+                                 Visitor&& visit) const {
+  const int end_x = std::min(CellAtOrAbove(high.x()), first_x_ + size_x_);
+  const int end_z = std::min(CellAtOrAbove(high.z()), first_z_ + size_z_);
+  for (int i = std::max(CellAtOrAbove(low.x()) - 1, first_x_); i < end_x; ++i) {
+    for (int k = std::max(CellAtOrAbove(low.z()) - 1, first_z_); k < end_z; ++k)
+      visit(i, k, static_cast<std::size_t>((i - first_x_) * size_z_ + (k - first_z_)));
+  }
 }
 
 template <class Visitor>

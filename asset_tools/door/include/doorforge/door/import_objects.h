@@ -34,9 +34,10 @@ enum class ImportOutcome {
   kInvalid,     ///< A file does not follow its format, or the object is no door.
   kNotClosed,   ///< A mesh could not be closed.
   kExists,      ///< A part of that id was made with other settings; --overwrite replaces it.
+  kStopped,     ///< A signal ended the run before its turn; parts made so far are kept.
 };
 
-/// "imported", "incomplete", "invalid", "not_closed", "exists".
+/// "imported", "incomplete", "invalid", "not_closed", "exists", "stopped".
 std::string_view NameOf(ImportOutcome outcome);
 
 struct ImportedObject {

@@ -5,9 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include <unistd.h>
-
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 namespace doorforge {
 

@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::size_t kMaxSamples = 20000;
 
-// Coordinates are floats: the plane of a sliver, lower than this share of the piece's diagonal, says
-// nothing about points far from it, and is implied by its neighbours.
+// Coordinates are floats: the plane of a sliver, lower than this share of the piece's diagonal,
+// says nothing about points far from it, and is implied by its neighbours.
 constexpr double kSliver = 5e-4;
 
 /// A convex piece as half spaces.

@@ -20,8 +20,8 @@ std::string ToObj(const TriangleMesh& mesh);
 /// file and line, on anything that ToObj() would not write.
 TriangleMesh ReadObj(const std::filesystem::path& path);
 
-/// Gives the mesh that a record names by its path relative to the record's folder and the SHA-256 of
-/// its canonical text. ReadPart() and ReadDoor() take one from whoever wants to count the meshes
+/// Gives the mesh that a record names by its path relative to the record's folder and the SHA-256
+/// of its canonical text. ReadPart() and ReadDoor() take one from whoever wants to count the meshes
 /// that cannot be read and go on.
 using MeshReader =
     std::function<TriangleMesh(const std::string& relative_path, const std::string& sha256)>;

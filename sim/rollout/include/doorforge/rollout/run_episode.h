@@ -20,10 +20,10 @@ Proprioception ProprioceptionOf(const RobotModel& robot, const WorldState& state
 /// (a door without a latch needs no turn); then `opening` decides every steps_per_action steps, at
 /// most max_opening_actions times. These decisions are recorded.
 ///
-/// kOpened means that the hinge passed 45 degrees while a finger's pad touched the handle within the
-/// last action; a door that coasts on by itself, or that the arm has pushed on, is not opened. The
-/// episode ends after the action in which the hinge passes finish_hinge_rad. `detail` has the numbers: angles, grasp slip, what
-/// was touched, distance of finger and handle.
+/// kOpened means that the hinge passed 45 degrees while a finger's pad touched the handle within
+/// the last action; a door that coasts on by itself, or that the arm has pushed on, is not opened.
+/// The episode ends after the action in which the hinge passes finish_hinge_rad. `detail` has the
+/// numbers: angles, grasp slip, what was touched, distance of finger and handle.
 ///
 /// @param scene Its door_id must be `door`'s.
 /// @param observer May be null: policies then see an empty cloud.

@@ -191,24 +191,33 @@ template <int kLanes>
   vector = *reinterpret_cast<const typename Vector<kLanes>::Float*>(from);
 }
 
-// Largest value over the lanes, then the smallest `key` among the lanes that hold it, in halving
-// steps; both are the same in all lanes afterwards.
-template <int kLanes, int kStep = kLanes / 2>
-[[gnu::always_inline]] inline void ReduceMax(typename Vector<kLanes>::Float& value) {
+// Moves the value of lane i ^ kStep into lane i.
+template <int kLanes, int kStep, class Any>
+[[gnu::always_inline]] inline void SwapLanes(Any& to, const Any& from) {
+#if defined(__clang__)
+  for (int lane = 0; lane < kLanes; ++lane) to[lane] = from[lane ^ kStep];
+#else
   typename Vector<kLanes>::Int partner;
   for (int lane = 0; lane < kLanes; ++lane) partner[lane] = lane ^ kStep;
-  const typename Vector<kLanes>::Float other = __builtin_shuffle(value, partner);
+  to = __builtin_shuffle(from, partner);
+#endif
+}
+
+// Puts the largest (smallest) value into all lanes, in halving steps.
+template <int kLanes, int kStep = kLanes / 2>
+[[gnu::always_inline]] inline void ReduceMax(typename Vector<kLanes>::Float& value) {
+  typename Vector<kLanes>::Float other;
+  SwapLanes<kLanes, kStep>(other, value);
   value = value > other ? value : other;
   if constexpr (kStep > 1) ReduceMax<kLanes, kStep / 2>(value);
 }
 
 template <int kLanes, int kStep = kLanes / 2>
-[[gnu::always_inline]] inline void ReduceMin(typename Vector<kLanes>::Int& key) {
-  typename Vector<kLanes>::Int partner;
-  for (int lane = 0; lane < kLanes; ++lane) partner[lane] = lane ^ kStep;
-  const typename Vector<kLanes>::Int other = __builtin_shuffle(key, partner);
-  key = key < other ? key : other;
-  if constexpr (kStep > 1) ReduceMin<kLanes, kStep / 2>(key);
+[[gnu::always_inline]] inline void ReduceMin(typename Vector<kLanes>::Int& value) {
+  typename Vector<kLanes>::Int other;
+  SwapLanes<kLanes, kStep>(other, value);
+  value = value < other ? value : other;
+  if constexpr (kStep > 1) ReduceMin<kLanes, kStep / 2>(value);
 }
 
 struct Point {
@@ -273,9 +282,8 @@ template <int kLanes>
   Load<kLanes>(farthest, &boxes.farthest[first]);
   const Byte near = __builtin_convertvector(bound < farthest, Byte);
   for (int chunk = 0; chunk < kLanes; chunk += 8) {
-    constexpr std::size_t kBytes = kLanes < 8 ? kLanes : 8;
     std::uint64_t bits = 0;
-    std::memcpy(&bits, reinterpret_cast<const char*>(&near) + chunk, kBytes);
+    std::memcpy(&bits, reinterpret_cast<const char*>(&near) + chunk, std::min(kLanes, 8));
     while (bits != 0) {
       const int lane = std::countr_zero(bits) / 8;
       bits &= ~(0xFFULL << (8 * lane));
@@ -332,8 +340,8 @@ __attribute__((target("avx2"))) void SampleAvx2(Boxes& boxes, std::vector<std::i
   SampleBoxes<8>(boxes, taken);
 }
 
-__attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,prefer-vector-width=512"))) void
-SampleAvx512(Boxes& boxes, std::vector<std::int32_t>& taken) {
+__attribute__((target("avx512f,avx512bw,avx512dq,avx512vl"))) void SampleAvx512(
+    Boxes& boxes, std::vector<std::int32_t>& taken) {
   SampleBoxes<16>(boxes, taken);
 }
 #endif

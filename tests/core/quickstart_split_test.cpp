@@ -17,7 +17,9 @@ namespace fs = std::filesystem;
 class QuickstartSplit : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / "quickstart_split_test";
+    folder_ = fs::path(testing::TempDir()) /
+              (std::string("quickstart_split_") +
+               testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::remove_all(folder_);
   }
   void TearDown() override { fs::remove_all(folder_); }

@@ -152,7 +152,7 @@ EpisodeRun::Failure EpisodeRun::Grasp() {
 }
 
 EpisodeRun::Failure EpisodeRun::Unlock() {
-  if (world_.state().handle_done) return std::nullopt;
+  if (episode_.scene.latch.type == LatchType::kNone) return std::nullopt;
   const double dt = episode_.scene.physics.time_step_s;
   const double goal = std::min(episode_.scene.latch.handle_done_angle_rad + kTurnBeyond,
                                door_.handle_joint.upper_rad);
@@ -161,7 +161,8 @@ EpisodeRun::Failure EpisodeRun::Unlock() {
   double commanded = world_.state().handle_rad;
   for (int i = 0; i < budget && !diverged_; ++i) {
     const WorldState& state = world_.state();
-    if (state.handle_done && !state.locked) {
+    // the flag alone would not do: closing fingers may have knocked the handle down for a moment
+    if (!state.locked && state.handle_rad >= episode_.scene.latch.handle_done_angle_rad) {
       Watch("unlock");
       return std::nullopt;
     }

@@ -31,7 +31,7 @@ struct Disc {
 std::vector<Disc> Project(const LabelledCloud& cloud, const CameraModel& camera) {
   const RigidTransform camera_from_world = WorldFromCamera(camera).inverse();
   const Eigen::Matrix3d intrinsics = IntrinsicMatrix(camera);
-  constexpr double kUnit = 1 << kFractionBits;
+  const double unit = 1 << kFractionBits;
   std::vector<Disc> discs;
   for (std::size_t i = 0; i < cloud.label.size(); ++i) {
     const Eigen::Vector3d point(cloud.xyz[3 * i], cloud.xyz[3 * i + 1], cloud.xyz[3 * i + 2]);
@@ -39,11 +39,11 @@ std::vector<Disc> Project(const LabelledCloud& cloud, const CameraModel& camera)
     if (in_camera.z() < 0.05) continue;
     const Eigen::Vector3d pixel = intrinsics * in_camera / in_camera.z();
     // OpenCV's pixel centres lie on whole numbers
-    const cv::Point center(static_cast<int>(std::lround((pixel.x() - 0.5) * kUnit)),
-                           static_cast<int>(std::lround((pixel.y() - 0.5) * kUnit)));
+    const cv::Point center(static_cast<int>(std::lround((pixel.x() - 0.5) * unit)),
+                           static_cast<int>(std::lround((pixel.y() - 0.5) * unit)));
     const double radius = std::max(1.4, intrinsics(0, 0) * kPointRadius / in_camera.z());
     discs.push_back(
-        {in_camera.z(), center, static_cast<int>(std::lround(radius * kUnit)), cloud.label[i]});
+        {in_camera.z(), center, static_cast<int>(std::lround(radius * unit)), cloud.label[i]});
   }
   std::stable_sort(discs.begin(), discs.end(),
                    [](const Disc& a, const Disc& b) { return a.depth > b.depth; });

@@ -23,8 +23,8 @@ CameraModel ViewOf(const Scene& scene, const DoorAsset& door) {
   CameraModel view;
   view.width = kTileWidth;
   view.height = kTileHeight;
-  view.horizontal_fov_rad = 0.72;
-  view.target_m = grasp + Eigen::Vector3d(0.28, -0.1, -0.1);
+  view.horizontal_fov_rad = 0.78;
+  view.target_m = grasp + Eigen::Vector3d(0.38, -0.1, -0.15);
   view.position_m = view.target_m + Eigen::Vector3d(1.25, -1.9, 0.95);
   return view;
 }

@@ -105,10 +105,13 @@ void AddSight(const FinishedTrials& finished, std::size_t index, const SceneSnap
                         ": near is yellow, far violet; the robot hides part of the door."};
   const SampledCloud sampled =
       ObserveCloud(depth, scene.camera, snapshot.robot.world_from_tcp.translation());
-  pictures.cloud = {EncodePng(CloudPicture(sampled.cloud, large)),
+  CameraModel close = large;  // from the same place, nearer to the gripper
+  close.target_m = snapshot.robot.world_from_tcp.translation();
+  close.horizontal_fov_rad = 0.9;
+  pictures.cloud = {EncodePng(CloudPicture(sampled.cloud, close)),
                     "What the policy gets: " + std::to_string(sampled.cloud.label.size()) +
-                        " points by farthest point sampling. Colours are the labels, which it is "
-                        "not given."};
+                        " points by farthest point sampling, here enlarged. Its labels, which the "
+                        "policy is not given: leaf blue, handle orange, frame grey, robot green."};
 }
 
 void TakeDoorPictures(const FinishedTrials& finished, int threads, ReportPictures& pictures) {

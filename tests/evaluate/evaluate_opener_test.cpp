@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/evaluate/evaluate_opener.h"
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
+#include "doorforge/evaluate/run_trials.h"
+#include "doorforge/learn/checkpoint.h"
+#include "doorforge/learn/opening_dataset.h"
+#include "doorforge/physics/scene_sampling.h"
+#include "doorforge/rollout/camera_observer.h"
+#include "doorforge/rollout/opening_expert.h"
+#include "doorforge/rollout/run_episode.h"
+#include "doorforge/schemas/dataset.h"
+#include "doorforge/schemas/episode_arrays.h"
+
+#include "../physics/primitive_door.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+
+DoorAsset DoorNamed(const std::string& body, const std::string& handle) {
+  DoorAsset door = MakePrimitiveDoor({});
+  door.id = body + "__" + handle;
+  door.body_id = body;
+  door.body_sha256 = "hash of " + body;
+  door.handle_id = handle;
+  door.handle_sha256 = "hash of " + handle;
+  return door;
+}
+
+void WriteDoorFolder(const DoorAsset& door, const fs::path& folder) {
+  fs::create_directories(folder / door.id);
+  WriteDoor(door, folder / door.id);
+}
+
+void WriteDataset(const DoorAsset& door, const fs::path& folder) {
+  const RobotModel robot = LoadMobileFranka();
+  const Scene scene = SampleScene(door, 7, 0);
+  CameraObserver camera(scene, door, robot);
+  OpeningExpert expert;
+  const Episode episode = RunEpisode(scene, door, robot, expert, &camera);
+  ShardWriter shard(folder / "open/train", {0, "open", "train", "config"});
+  shard.Add("ep000000", episode.decisions.size(),
+            EncodeEpisode(episode, EpisodeMetaToJson(episode), "a preview's bytes"));
+  shard.Commit();
+  DatasetProvenance provenance;
+  provenance.doors.push_back({door.id, ContentHash(door), "interior", "lever", door.body_id,
+                              door.body_sha256, door.handle_id, door.handle_sha256, "CC0-1.0",
+                              "train"});
+  WriteJsonFile(folder / "provenance.json", ProvenanceToJson(provenance));
+}
+
+// networks as they are before training: whatever they do, they do it reproducibly
+void WriteUntrainedPolicy(const fs::path& data, const fs::path& folder) {
+  const OpeningDataset dataset = ReadOpeningDataset(data, 0);
+  PolicyProvenance provenance;
+  provenance.dataset_sha256 = dataset.content_sha256;
+  WritePolicy(folder, InitialNetworks(MeasureNormalisation(dataset.train), false, 3), provenance);
+}
+
+class EvaluateOpenerTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = fs::temp_directory_path() / ("evaluate_opener_test_" + std::to_string(::getpid()));
+    const DoorAsset trained_on = DoorNamed("body_a", "handle_a");
+    WriteDoorFolder(trained_on, folder_ / "seen");
+    WriteDoorFolder(DoorNamed("body_b", "handle_a"), folder_ / "half_seen");
+    WriteDoorFolder(DoorNamed("body_b", "handle_b"), folder_ / "held_out");
+    WriteDataset(trained_on, folder_ / "data");
+    WriteUntrainedPolicy(folder_ / "data", folder_ / "policy");
+  }
+  static void TearDownTestSuite() { fs::remove_all(folder_); }
+
+  static EvaluationRequest RequestFor(const std::string& doors) {
+    EvaluationRequest request;
+    request.policy = folder_ / "policy";
+    request.doors = {(folder_ / doors).string()};
+    request.data = folder_ / "data";
+    request.config.seeds = 1;
+    request.config.scene.physics.max_opening_actions = 4;
+    request.threads = 1;
+    return request;
+  }
+
+  static std::string RefusalOf(const EvaluationRequest& request) {
+    try {
+      EvaluateOpener(request);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kInvalidArgument);
+      return error.what();
+    }
+    return "";
+  }
+
+  static fs::path folder_;
+};
+fs::path EvaluateOpenerTest::folder_;
+
+TEST_F(EvaluateOpenerTest, RunsTheNetworksInClosedLoopBesideTheExpert) {
+  const EvaluationRequest request = RequestFor("held_out");
+  const Evaluation evaluation = EvaluateOpener(request);
+  const EvaluationReport& report = evaluation.report;
+  ASSERT_EQ(report.episodes.size(), 1U);
+  ASSERT_EQ(report.reference.size(), 1U);
+  EXPECT_EQ(report.provenance.policy, "policy");
+  EXPECT_EQ(report.provenance.policy_sha256, ReadPolicy(request.policy).weights_sha256);
+  EXPECT_EQ(report.training_doors.size(), 1U);
+  EXPECT_EQ(evaluation.pictures.doors.size(), 2U) << "the held-out door and a preview from a shard";
+  EXPECT_EQ(evaluation.pictures.doors.at("body_a__handle_a"), "a preview's bytes");
+  EXPECT_NE(report.episodes[0].state_sha256, report.reference[0].state_sha256);
+
+  EvaluationRequest again = request;
+  again.threads = 2;
+  const Evaluation second = EvaluateOpener(again);
+  EXPECT_EQ(ReportToJson(second.report).dump(), ReportToJson(report).dump());
+  EXPECT_EQ(ReportPage(second.report, second.pictures), ReportPage(report, evaluation.pictures));
+}
+
+TEST_F(EvaluateOpenerTest, DoorsWithSeenPartsAreRefusedByName) {
+  EXPECT_NE(RefusalOf(RequestFor("seen")).find("body_a__handle_a"), std::string::npos);
+  EXPECT_NE(RefusalOf(RequestFor("half_seen")).find("body_b__handle_a"), std::string::npos);
+  EvaluationRequest allowed = RequestFor("half_seen");
+  allowed.allow_seen = true;
+  allowed.config.expert_reference = false;
+  EXPECT_EQ(EvaluateOpener(allowed).report.episodes.size(), 1U);
+}
+
+TEST_F(EvaluateOpenerTest, ItMustBeKnownWhatWasSeen) {
+  EvaluationRequest unknown = RequestFor("held_out");
+  unknown.data.clear();
+  EXPECT_NE(RefusalOf(unknown).find("--data"), std::string::npos);
+
+  WriteDataset(DoorNamed("body_c", "handle_c"), folder_ / "other_data");
+  EvaluationRequest wrong = RequestFor("held_out");
+  wrong.data = folder_ / "other_data";
+  EXPECT_NE(RefusalOf(wrong).find("trained from"), std::string::npos);
+}
+
+TEST_F(EvaluateOpenerTest, TheExpertNeedsNeitherPolicyNorData) {
+  EvaluationRequest request = RequestFor("seen");
+  request.policy = "expert";
+  request.data.clear();
+  request.config.scene.physics.max_opening_actions = 25;
+  const Evaluation evaluation = EvaluateOpener(request);
+  EXPECT_EQ(evaluation.report.provenance.policy, "expert");
+  EXPECT_TRUE(evaluation.report.reference.empty());
+  EXPECT_EQ(evaluation.report.episodes[0].outcome, EpisodeOutcome::kOpened);
+}
+
+}  // namespace
+}  // namespace doorforge

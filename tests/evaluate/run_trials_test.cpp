@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/evaluate/run_trials.h"
+
+#include <mutex>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "doorforge/core/error.h"
+#include "doorforge/evaluate/success_statistics.h"
+#include "doorforge/evaluate/take_pictures.h"
+#include "doorforge/rollout/opening_expert.h"
+
+#include "../physics/primitive_door.h"
+
+namespace doorforge {
+namespace {
+
+// Opens by the expert's rules, but stops after some actions; how many it has taken must be
+// forgotten at Reset().
+class TiringPolicy : public Policy {
+ public:
+  void Reset() override {
+    expert_.Reset();
+    actions_ = 0;
+  }
+  Action Act(const Observation& observation) override {
+    Action action = expert_.Act(observation);
+    if (++actions_ > 4) action.position_delta_m.setZero();
+    return action;
+  }
+
+ private:
+  OpeningExpert expert_;
+  int actions_ = 0;
+};
+
+std::vector<DoorAsset> Doors() {
+  std::vector<DoorAsset> doors;
+  for (const Mechanism mechanism : {Mechanism::kLever, Mechanism::kRound, Mechanism::kNone}) {
+    PrimitiveDoor door;
+    door.mechanism = mechanism;
+    doors.push_back(MakePrimitiveDoor(door));
+    doors.back().id = std::string(NameOf(mechanism));
+  }
+  return doors;
+}
+
+Contender Tiring() {
+  return {[] { return std::make_unique<TiringPolicy>(); }, nullptr};
+}
+
+TEST(RunTrials, EveryDoorIsTriedInEverySeed) {
+  EvaluationConfig config;
+  config.seeds = 2;
+  config.first_seed = 40;
+  config.episodes_per_door = 3;
+  const auto doors = Doors();
+  const std::vector<Trial> trials = PlanTrials(doors, config);
+  ASSERT_EQ(trials.size(), doors.size() * 2 * 3);
+  std::set<std::tuple<std::string, std::uint64_t, std::uint64_t>> different;
+  for (const Trial& trial : trials) {
+    EXPECT_EQ(trial.scene.door_id, doors[trial.door].id);
+    EXPECT_TRUE(trial.scene.seed == 40 || trial.scene.seed == 41);
+    different.insert({trial.scene.door_id, trial.scene.seed, trial.scene.episode});
+  }
+  EXPECT_EQ(different.size(), trials.size());
+}
+
+TEST(RunTrials, SettingsOutOfRangeAreRefused) {
+  EvaluationConfig config;
+  config.seeds = 0;
+  EXPECT_THROW(PlanTrials(Doors(), config), Error);
+  config.seeds = 1;
+  config.episodes_per_door = -1;
+  EXPECT_THROW(PlanTrials(Doors(), config), Error);
+}
+
+TEST(RunTrials, RowsDoNotDependOnTheNumberOfThreads) {
+  EvaluationConfig config;
+  config.seeds = 2;
+  const auto doors = Doors();
+  const auto trials = PlanTrials(doors, config);
+  const auto one = RunTrials(doors, trials, Tiring(), {.threads = 1, .done = nullptr});
+  std::mutex mutex;
+  std::size_t told = 0;
+  const auto three =
+      RunTrials(doors, trials, Tiring(), {.threads = 3, .done = [&](const EvaluatedEpisode&) {
+                                            const std::scoped_lock lock(mutex);
+                                            ++told;
+                                          }});
+  EXPECT_EQ(told, trials.size());
+  ASSERT_EQ(one.size(), three.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].state_sha256, three[i].state_sha256) << one[i].door_id;
+    EXPECT_EQ(one[i].detail, three[i].detail);
+    EXPECT_EQ(one[i].door_id, doors[trials[i].door].id) << "rows are in the trials' order";
+  }
+}
+
+TEST(RunTrials, TheExpertOpensWhatAPolicyThatStopsDoesNot) {
+  EvaluationConfig config;
+  config.seeds = 1;
+  const auto doors = Doors();
+  const auto trials = PlanTrials(doors, config);
+  const Contender expert{[] { return std::make_unique<OpeningExpert>(); }, nullptr};
+  const auto good = Summarise(RunTrials(doors, trials, expert));
+  const auto bad = Summarise(RunTrials(doors, trials, Tiring()));
+  EXPECT_EQ(good.opened.successes, 3);
+  EXPECT_EQ(bad.opened.successes, 0);
+  EXPECT_EQ(bad.outcomes[static_cast<int>(EpisodeOutcome::kDoorStuck)], 3);
+}
+
+TEST(TakePictures, GivesEveryDoorAFilmOfEachOutcomeAndTheCamerasView) {
+  EvaluationConfig config;
+  config.seeds = 1;
+  const std::vector<DoorAsset> doors = {Doors().front()};
+  const auto trials = PlanTrials(doors, config);
+  const auto rows = RunTrials(doors, trials, Tiring());
+  const ReportPictures pictures = TakePictures({doors, trials, rows}, Tiring(), 2);
+  EXPECT_EQ(pictures.doors.size(), doors.size());
+  std::set<EpisodeOutcome> outcomes;
+  for (const EvaluatedEpisode& row : rows) outcomes.insert(row.outcome);
+  ASSERT_EQ(pictures.episodes.size(), outcomes.size());
+  for (const auto& [outcome, film] : pictures.episodes) {
+    EXPECT_TRUE(outcomes.contains(outcome));
+    EXPECT_GE(film.frames.size(), 4U) << "start, grasped, (unlocked), opening, end";
+    EXPECT_NE(film.frames.front().png, film.frames.back().png) << "something moved";
+  }
+  for (const ReportPicture* picture : {&pictures.scene, &pictures.depth, &pictures.cloud})
+    EXPECT_EQ(picture->png.substr(1, 3), "PNG");
+}
+
+TEST(TakePictures, RefusesRowsOfAnotherPolicy) {
+  EvaluationConfig config;
+  config.seeds = 1;
+  const std::vector<DoorAsset> doors = {Doors().front()};
+  const auto trials = PlanTrials(doors, config);
+  const auto rows = RunTrials(doors, trials, Tiring());
+  const Contender expert{[] { return std::make_unique<OpeningExpert>(); }, nullptr};
+  EXPECT_THROW(TakePictures({doors, trials, rows}, expert), Error);
+}
+
+}  // namespace
+}  // namespace doorforge

@@ -116,19 +116,23 @@ TEST_F(RealAssets, AxesOfAllLeverDoorsAndCabinetsAreThoseOfTheirUrdf) {
 }
 
 TEST_F(RealAssets, MeshesFillTheBoxesThatTheObjectsState) {
-  int count = 0;
+  int complete = 0;
+  std::vector<std::string> contradict;
   for (const fs::path& folder : FindObjects(objects_)) {
     SCOPED_TRACE(folder.string());
     try {
       const UniDoorManipObject object = ReadUniDoorManip(folder, "");
-      EXPECT_LT(BoxDeviation(object, LoadHandle(object)), 1e-4);
-      EXPECT_LT(BoxDeviation(object, LoadBody(object)), 5e-3);
-      ++count;
+      ++complete;
+      if (BoxDeviation(object, LoadHandle(object)) > 1e-4 ||
+          BoxDeviation(object, LoadBody(object)) > 5e-3)
+        contradict.push_back(object.name);
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ErrorCode::kMissing) << error.what();
     }
   }
-  EXPECT_EQ(count, 83);
+  EXPECT_EQ(complete, 83);
+  // its boxes were written for scales 1 and 0.9, its URDF has 0.7 and 0.7
+  EXPECT_EQ(contradict, std::vector<std::string>{"Safe/99611289961230"});
 }
 
 TEST_F(RealAssets, ALeverDoorAndACabinetMakeDoorsThatMuJoCoAndUrdfdomLoad) {

@@ -63,9 +63,30 @@ std::optional<ClosedMesh> RoundedClosed(const ClosedMesh& mesh, const RepairConf
   return RepairMesh(rounded, config).mesh;
 }
 
-// rounding moves vertices across the flat faces of a hull; the hull of the rounded ones is convex
-TriangleMesh RoundedHull(const TriangleMesh& hull) {
+constexpr double kThinnestHull = 1e-4;  // [m] thinner ones are rounding, and no program takes them
+
+// Rounding moves vertices across the flat faces of a hull; the hull of the rounded ones is convex.
+// Nothing if the hull has no thickness.
+std::optional<TriangleMesh> RoundedHull(const TriangleMesh& hull) {
+  const MeshTopology before = MeasureTopology(hull);
+  // a thin plate has twice its area as surface
+  if (before.volume_m3 < kThinnestHull * before.area_m2 / 2) return std::nullopt;
   return ConvexHull(internal::RoundedToFloat(hull).vertices);
+}
+
+std::vector<TriangleMesh> HullsOf(const ClosedMesh& mesh, const ConvexPartsConfig& config) {
+  std::vector<TriangleMesh> hulls;
+  for (const TriangleMesh& hull : ConvexParts(mesh, config)) {
+    if (std::optional<TriangleMesh> rounded = RoundedHull(hull))
+      hulls.push_back(std::move(*rounded));
+  }
+  return hulls;
+}
+
+MadePiece Failed(MadePiece made, const std::string& reason) {
+  made.report.repair.outcome = RepairOutcome::kFailed;
+  made.report.repair.reason = reason;
+  return made;
 }
 
 MadePiece MakePiece(const RawPiece& raw, Category category, const MakePartConfig& config) {
@@ -75,17 +96,13 @@ MadePiece MakePiece(const RawPiece& raw, Category category, const MakePartConfig
   made.report.repair = repaired.report;
   if (!repaired.mesh) return made;
   const std::optional<ClosedMesh> closed = RoundedClosed(*repaired.mesh, config.repair);
-  if (!closed) {
-    made.report.repair.outcome = RepairOutcome::kFailed;
-    made.report.repair.reason = "no longer closed at the precision of mesh files";
-    return made;
-  }
+  if (!closed) return Failed(made, "no longer closed at the precision of mesh files");
   PartPiece piece;
   piece.name = raw.name;
   piece.mesh = closed->mesh();
   piece.color_rgba = raw.color_rgba;
-  for (const TriangleMesh& hull : ConvexParts(*closed, ConvexConfigOf(raw.name, config)))
-    piece.hulls.push_back(RoundedHull(hull));
+  piece.hulls = HullsOf(*closed, ConvexConfigOf(raw.name, config));
+  if (piece.hulls.empty()) return Failed(made, "thinner than a tenth of a millimetre");
   made.report.convex_parts = static_cast<int>(piece.hulls.size());
   made.report.convex_fit = MeasureConvexParts(*closed, piece.hulls);
   const internal::PieceDensity density = internal::DensityOf(category, raw.name);

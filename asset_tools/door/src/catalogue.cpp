@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr const char* kRecipeSchema = "doorforge.recipe";
 constexpr const char* kCatalogueLicense = "CC0-1.0";
 
-struct Recipe {
+struct Recipe {  // NOLINT(bugprone-exception-escape): nlohmann's move may check its invariant
   std::string schema;
   int schema_version = 0;
   std::string id;
@@ -89,8 +89,9 @@ void AddEntries(const fs::path& folder, Category category, PartRole role,
 }
 
 void RequireUniqueIds(const std::vector<CatalogueEntry>& entries) {
-  std::vector<std::string> ids;
-  for (const CatalogueEntry& entry : entries) ids.push_back(entry.id);
+  std::vector<std::string> ids(entries.size());
+  std::transform(entries.begin(), entries.end(), ids.begin(),
+                 [](const CatalogueEntry& entry) { return entry.id; });
   std::sort(ids.begin(), ids.end());
   const auto twice = std::adjacent_find(ids.begin(), ids.end());
   if (twice != ids.end())

@@ -55,14 +55,15 @@ class Relief {
     }
   }
 
-  TriangleMesh Mesh();
-  std::vector<TriangleMesh> Hulls(double tolerance_m) const;
-
- private:
   struct Depth {
     double front;
     double back;
   };
+
+  TriangleMesh Mesh();
+  std::vector<TriangleMesh> Hulls(double tolerance_m) const;
+
+ private:
   // A rectangle of coarse cells with one range of depth.
   struct Block {
     std::size_t y0, y1, z0, z1;
@@ -79,7 +80,8 @@ class Relief {
   void AddCell(int i, int j, bool front);
   void AddWall(int i0, int j0, int i1, int j1);
   Depth CellDepth(std::size_t i, std::size_t j) const;
-  std::vector<Block> RowsOfBlocks(double tolerance_m) const;
+  std::vector<Block> RowOfBlocks(std::size_t j, double tolerance_m) const;
+  std::vector<Block> Blocks(double tolerance_m) const;
 
   const ReliefSlab& slab_;
   ReliefProfile edge_;
@@ -241,55 +243,60 @@ Relief::Depth Relief::CellDepth(std::size_t i, std::size_t j) const {
   return depth;
 }
 
-bool Near(double a, double b, double tolerance) { return std::abs(a - b) <= tolerance; }
+// Whether two ranges of depth may become one.
+bool Near(const Relief::Depth& a, const Relief::Depth& b, double tolerance_m) {
+  return std::abs(a.front - b.front) <= tolerance_m && std::abs(a.back - b.back) <= tolerance_m;
+}
 
-// Cells of one depth joined along y.
-std::vector<Relief::Block> Relief::RowsOfBlocks(double tolerance_m) const {
+Relief::Depth Union(const Relief::Depth& a, const Relief::Depth& b) {
+  return {std::max(a.front, b.front), std::min(a.back, b.back)};
+}
+
+// The cells of row j, those of one depth joined along y.
+std::vector<Relief::Block> Relief::RowOfBlocks(std::size_t j, double tolerance_m) const {
   std::vector<Block> blocks;
-  for (std::size_t j = 0; j + 1 < coarse_[1].size(); ++j) {
-    bool open = false;
-    for (std::size_t i = 0; i + 1 < coarse_[0].size(); ++i) {
-      if (!Filled(coarse_[0], coarse_[1], static_cast<int>(i), static_cast<int>(j))) {
-        open = false;
-        continue;
-      }
-      const Depth depth = CellDepth(i, j);
-      if (open && Near(blocks.back().depth.front, depth.front, tolerance_m) &&
-          Near(blocks.back().depth.back, depth.back, tolerance_m)) {
-        Block& block = blocks.back();
-        block.y1 = i + 1;
-        block.depth = {std::max(block.depth.front, depth.front),
-                       std::min(block.depth.back, depth.back)};
-      } else {
-        blocks.push_back({i, i + 1, j, j + 1, depth});
-        open = true;
-      }
+  for (std::size_t i = 0; i + 1 < coarse_[0].size(); ++i) {
+    if (!Filled(coarse_[0], coarse_[1], static_cast<int>(i), static_cast<int>(j))) continue;
+    const Depth depth = CellDepth(i, j);
+    const bool joins =
+        !blocks.empty() && blocks.back().y1 == i && Near(blocks.back().depth, depth, tolerance_m);
+    if (!joins) {
+      blocks.push_back({i, i + 1, j, j + 1, depth});
+      continue;
     }
+    blocks.back().y1 = i + 1;
+    blocks.back().depth = Union(blocks.back().depth, depth);
   }
   return blocks;
 }
 
-std::vector<TriangleMesh> Relief::Hulls(double tolerance_m) const {
-  // rows of equal extent and depth are joined along z
+// Rows of equal extent and depth are joined along z.
+std::vector<Relief::Block> Relief::Blocks(double tolerance_m) const {
   std::vector<Block> joined;
-  for (const Block& row : RowsOfBlocks(tolerance_m)) {
-    const auto below = std::find_if(joined.begin(), joined.end(), [&](const Block& block) {
-      return block.z1 == row.z0 && block.y0 == row.y0 && block.y1 == row.y1 &&
-             Near(block.depth.front, row.depth.front, tolerance_m) &&
-             Near(block.depth.back, row.depth.back, tolerance_m);
-    });
-    if (below == joined.end()) {
-      joined.push_back(row);
-      continue;
+  for (std::size_t j = 0; j + 1 < coarse_[1].size(); ++j) {
+    for (const Block& row : RowOfBlocks(j, tolerance_m)) {
+      const auto below = std::find_if(joined.begin(), joined.end(), [&](const Block& block) {
+        return block.z1 == row.z0 && block.y0 == row.y0 && block.y1 == row.y1 &&
+               Near(block.depth, row.depth, tolerance_m);
+      });
+      if (below == joined.end()) {
+        joined.push_back(row);
+        continue;
+      }
+      below->z1 = row.z1;
+      below->depth = Union(below->depth, row.depth);
     }
-    below->z1 = row.z1;
-    below->depth = {std::max(below->depth.front, row.depth.front),
-                    std::min(below->depth.back, row.depth.back)};
   }
-  std::vector<TriangleMesh> hulls;
-  for (const Block& block : joined)
-    hulls.push_back(BoxMesh({block.depth.back, coarse_[0][block.y0], coarse_[1][block.z0]},
-                            {block.depth.front, coarse_[0][block.y1], coarse_[1][block.z1]}));
+  return joined;
+}
+
+std::vector<TriangleMesh> Relief::Hulls(double tolerance_m) const {
+  const std::vector<Block> blocks = Blocks(tolerance_m);
+  std::vector<TriangleMesh> hulls(blocks.size());
+  std::transform(blocks.begin(), blocks.end(), hulls.begin(), [&](const Block& block) {
+    return BoxMesh({block.depth.back, coarse_[0][block.y0], coarse_[1][block.z0]},
+                   {block.depth.front, coarse_[0][block.y1], coarse_[1][block.z1]});
+  });
   return hulls;
 }
 

@@ -14,6 +14,7 @@
 #include "catalog_verb.h"
 #include "compose_verb.h"
 #include "import_verb.h"
+#include "repair_verb.h"
 #include "validate_verb.h"
 #ifdef DOORFORGE_WITH_PREVIEW
 #include "preview_verb.h"
@@ -34,6 +35,7 @@ constexpr Verb kVerbs[] = {
 #ifdef DOORFORGE_WITH_PREVIEW
     {"preview", RunPreviewVerb},
 #endif
+    {"repair", RunRepairVerb},
     {"validate", RunValidateVerb},
 };
 

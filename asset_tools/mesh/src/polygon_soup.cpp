@@ -57,6 +57,10 @@ bool IsEar(const std::vector<Point2>& flat, const std::vector<int>& ring, std::s
   return true;
 }
 
+bool ComesBefore(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+}
+
 std::array<int, 3> SortedCorners(const Eigen::Vector3i& t) {
   std::array<int, 3> corners{t[0], t[1], t[2]};
   std::sort(corners.begin(), corners.end());
@@ -101,9 +105,13 @@ void PolygonSoup::AddPolygon(std::span<const Eigen::Vector3d> corners) {
     throw Error(ErrorCode::kFormat,
                 "more than the " + std::to_string(max_triangles_) + " triangles allowed");
   if (pieces_.empty()) BeginPiece("", ImportedPiece{}.color_rgba);
-  for (const Eigen::Vector3i& t : Triangulated(corners)) {
+  // from a corner that does not depend on where the file begins, so that a repeated face is split
+  // along the same diagonal
+  std::vector<Eigen::Vector3d> ring(corners.begin(), corners.end());
+  std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end(), ComesBefore), ring.end());
+  for (const Eigen::Vector3i& t : Triangulated(ring)) {
     Eigen::Matrix3d& triangle = pieces_.back().triangles.emplace_back();
-    for (int k = 0; k < 3; ++k) triangle.col(k) = corners[static_cast<std::size_t>(t[k])];
+    for (int k = 0; k < 3; ++k) triangle.col(k) = ring[static_cast<std::size_t>(t[k])];
   }
 }
 

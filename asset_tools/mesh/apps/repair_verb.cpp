@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "repair_verb.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/config_file.h"
+#include "doorforge/core/error.h"
+#include "doorforge/core/hash.h"
+#include "doorforge/core/json_file.h"
+#include "doorforge/core/program.h"
+#include "doorforge/mesh/import_mesh.h"
+#include "doorforge/mesh/repair_mesh.h"
+
+#include "mesh_writer.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string input;
+  std::string output;
+  std::string report;
+  std::string config;
+  std::vector<std::string> settings;
+  std::string wrap;
+  bool json = false;
+  bool overwrite = false;
+};
+
+void Parse(CLI::App& app, int argc, char** argv) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& help) {
+    std::exit(app.exit(help));
+  } catch (const CLI::ParseError& error) {
+    throw Error(ErrorCode::kInvalidArgument,
+                std::string(error.what()) + "; see `doorforge repair --help`");
+  }
+}
+
+Options OptionsOf(int argc, char** argv) {
+  Options options;
+  CLI::App app("Turns any mesh into a closed, oriented one and measures what that changed.",
+               "doorforge repair");
+  app.add_option("IN", options.input, "mesh: .obj .stl .ply .dae .gltf .glb .fbx .3ds .off")
+      ->required();
+  app.add_option("OUT", options.output, "closed mesh: .obj .stl .ply")->required();
+  app.add_flag("--json", options.json, "print the report as one JSON document");
+  app.add_option("--report", options.report, "where to write the report (OUT.report.json)");
+  app.add_flag("--overwrite", options.overwrite, "replace OUT and its report");
+  app.add_option("--config", options.config, "YAML file with settings of the repair");
+  app.add_option("--set", options.settings, "one setting, such as max_triangles=2000; repeatable")
+      ->allow_extra_args(false);
+  app.add_option("--wrap", options.wrap,
+                 "alpha wrap: never, auto (where exact repair fails) or always")
+      ->check(CLI::IsMember({"never", "auto", "always"}));
+  app.footer(
+      "settings and defaults: alpha_fraction 0.01, offset_fraction 0.000833, max_hole_fraction\n"
+      "0.05, max_flat_hole_share 0.15, max_overlap_fraction 0.02, max_triangles 6000 (0: any)\n"
+      "exit code: 0 closed, 1 the mesh cannot be closed, 2 wrong use, 3 IN cannot be read\n"
+      "example:\n"
+      "  doorforge repair handle.stl handle.obj --set max_triangles=2000");
+  Parse(app, argc, argv);
+  if (options.report.empty()) options.report = options.output + ".report.json";
+  return options;
+}
+
+RepairConfig ConfigOf(const Options& options) {
+  std::vector<std::string> settings = options.settings;
+  if (!options.wrap.empty()) settings.push_back("wrap=" + options.wrap);
+  return LoadConfig<RepairConfig>(options.config, settings);
+}
+
+// Refuses before the work starts what would be refused after it.
+void CheckOutputs(const Options& options) {
+  WriterFor(options.output);
+  for (const std::string& path : {options.output, options.report}) {
+    if (!options.overwrite && fs::exists(fs::symlink_status(path)))
+      throw Error(ErrorCode::kInvalidArgument,
+                  path + ": already exists; pass --overwrite to replace it");
+  }
+}
+
+Json RecordOf(const Options& options, const RepairConfig& config, const RepairReport& report) {
+  Json record = ToJson(report);
+  record["input"] = {{"path", options.input}, {"sha256", Sha256OfFile(options.input)}};
+  record["config"] = ToJson(config);
+  record["config_sha256"] = Sha256Hex(record["config"].dump());
+  record["code_version"] = CodeVersion();
+  return record;
+}
+
+void Print(const Options& options, const RepairReport& report) {
+  const auto millimetres = [](double metres) { return 1000 * metres; };
+  std::printf("%s: %s", options.input.c_str(), std::string(NameOf(report.outcome)).c_str());
+  std::printf(report.reason.empty() ? "\n" : " (%s)\n", report.reason.c_str());
+  for (const std::string& step : report.steps) std::printf("  %s\n", step.c_str());
+  if (report.outcome == RepairOutcome::kFailed) return;
+  std::printf("  volume %.6g m3, area %.6g m2, %d pieces%s\n", report.after.volume_m3,
+              report.after.area_m2, report.after.components,
+              report.self_intersects ? ", which cross each other or themselves" : "");
+  std::printf("  output to input: mean %.3f mm, largest %.3f mm\n",
+              millimetres(report.output_to_input.mean_m),
+              millimetres(report.output_to_input.max_m));
+  std::printf("  visible input to output: mean %.3f mm, largest %.3f mm\n",
+              millimetres(report.visible_input_to_output.mean_m),
+              millimetres(report.visible_input_to_output.max_m));
+}
+
+}  // namespace
+
+int RunRepairVerb(int argc, char** argv) {
+  const Options options = OptionsOf(argc, argv);
+  const RepairConfig config = ConfigOf(options);
+  CheckOutputs(options);
+  const RepairResult result = RepairMesh(MergedPieces(ImportMesh(options.input)), config);
+  const Json record = RecordOf(options, config, result.report);
+  if (result.mesh) {
+    const Existing existing = options.overwrite ? Existing::kReplace : Existing::kRefuse;
+    CommitFile(options.output, WriterFor(options.output)(result.mesh->mesh()), existing);
+    CommitFile(options.report, record.dump(2) + "\n", existing);
+  }
+  if (options.json)
+    std::cout << record.dump(2) << '\n';
+  else
+    Print(options, result.report);
+  return result.mesh ? 0 : 1;
+}
+
+}  // namespace doorforge

@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/mesh/convex_parts.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "doorforge/core/error.h"
+
+#include "shapes.h"
+
+namespace doorforge {
+namespace {
+
+ClosedMesh Closed(const TriangleMesh& mesh) { return *ClosedMesh::From(mesh); }
+
+bool IsInAPart(const std::vector<TriangleMesh>& parts, const Eigen::Vector3d& point) {
+  return std::any_of(parts.begin(), parts.end(), [&](const TriangleMesh& part) {
+    return std::all_of(part.triangles.begin(), part.triangles.end(), [&](const auto& t) {
+      const Eigen::Vector3d& a = part.vertices[static_cast<std::size_t>(t[0])];
+      const Eigen::Vector3d& b = part.vertices[static_cast<std::size_t>(t[1])];
+      const Eigen::Vector3d& c = part.vertices[static_cast<std::size_t>(t[2])];
+      return (b - a).cross(c - a).dot(point - a) <= 0;
+    });
+  });
+}
+
+// A lever before a rose: neck along x, grip along y, 45 mm of air between grip and rose.
+TriangleMesh Lever() {
+  return Together(
+      Together(Box(Eigen::Vector3d(0, -0.025, -0.025), Eigen::Vector3d(0.01, 0.025, 0.025)),
+               Box(Eigen::Vector3d(0.005, -0.01, -0.01), Eigen::Vector3d(0.06, 0.01, 0.01))),
+      Box(Eigen::Vector3d(0.055, -0.01, -0.01), Eigen::Vector3d(0.07, 0.13, 0.01)));
+}
+
+TEST(ConvexParts, OfABoxAreTheBox) {
+  const auto parts = ConvexParts(Closed(UnitBox()), {});
+  ASSERT_EQ(parts.size(), 1U);
+  EXPECT_EQ(parts[0].vertices.size(), 8U);
+  EXPECT_NEAR(MeasureTopology(parts[0]).volume_m3, 1, 1e-12);
+}
+
+TEST(ConvexParts, OfADoorFrameAreItsFourBars) {
+  const ClosedMesh frame = Closed(RectangularRing(1.0, 2.1, 0.06, 0.1));
+  const auto parts = ConvexParts(frame, {.max_concavity_m = 0.01});
+  EXPECT_EQ(parts.size(), 4U);
+  EXPECT_FALSE(IsInAPart(parts, {0.5, 0.05, 1.0}));
+  const ConvexPartsFit fit = MeasureConvexParts(frame, parts);
+  EXPECT_LT(fit.protrusion_m, 1e-9);
+  EXPECT_LT(fit.uncovered_m, 1e-9);
+}
+
+TEST(ConvexParts, OfALeverLeaveTheFingerGapFree) {
+  const ClosedMesh lever = Closed(Lever());
+  const auto parts = ConvexParts(lever, {.max_concavity_m = 0.003});
+  EXPECT_LE(parts.size(), 4U);
+  const ConvexPartsFit fit = MeasureConvexParts(lever, parts);
+  EXPECT_LE(fit.protrusion_m, 0.003);
+  EXPECT_LE(fit.uncovered_m, 0.0003);
+  for (double y = 0.03; y < 0.13; y += 0.01) {
+    for (double x = 0.014; x < 0.051; x += 0.004) EXPECT_FALSE(IsInAPart(parts, {x, y, 0}));
+  }
+  EXPECT_TRUE(IsInAPart(parts, {0.06, 0.12, 0}));
+}
+
+TEST(ConvexParts, OfATorusStayWithinTheConcavityAndCoverIt) {
+  const ClosedMesh torus = Closed(Torus(0.05, 0.01, 48, 16));
+  const auto parts = ConvexParts(torus, {.max_parts = 32, .max_concavity_m = 0.003});
+  const ConvexPartsFit fit = MeasureConvexParts(torus, parts);
+  EXPECT_LE(fit.protrusion_m, 0.003);
+  EXPECT_LE(fit.uncovered_m, 0.001);
+  EXPECT_FALSE(IsInAPart(parts, Eigen::Vector3d::Zero()));
+}
+
+TEST(ConvexParts, OfAHollowBoxAreItsWalls) {
+  const ClosedMesh hollow = Closed(Together(
+      UnitBox(),
+      InsideOut(Box(Eigen::Vector3d(0.05, 0.05, 0.05), Eigen::Vector3d(0.95, 0.95, 0.95)))));
+  const auto parts = ConvexParts(hollow, {.max_concavity_m = 0.02});
+  EXPECT_EQ(parts.size(), 6U);
+  EXPECT_LE(MeasureConvexParts(hollow, parts).protrusion_m, 0.02);
+  EXPECT_FALSE(IsInAPart(parts, {0.5, 0.5, 0.5}));
+}
+
+TEST(ConvexParts, KeepToTheirNumberAndVertices) {
+  const ClosedMesh torus = Closed(Torus(0.05, 0.01, 48, 16));
+  const auto parts =
+      ConvexParts(torus, {.max_parts = 5, .max_concavity_m = 0.002, .max_vertices = 20});
+  EXPECT_LE(parts.size(), 5U);
+  for (const TriangleMesh& part : parts) {
+    EXPECT_LE(part.vertices.size(), 20U);
+    EXPECT_TRUE(ClosedMesh::From(part));
+  }
+}
+
+TEST(ConvexParts, AreTheSameTwice) {
+  const ClosedMesh lever = Closed(Lever());
+  const auto a = ConvexParts(lever, {});
+  const auto b = ConvexParts(lever, {});
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].vertices, b[i].vertices);
+    EXPECT_EQ(a[i].triangles, b[i].triangles);
+  }
+}
+
+TEST(ConvexParts, RefuseSettingsOutOfRange) {
+  EXPECT_THROW(ConvexParts(Closed(UnitBox()), {.max_parts = 0}), Error);
+  EXPECT_THROW(ConvexParts(Closed(UnitBox()), {.max_concavity_m = 0}), Error);
+  EXPECT_THROW(ConvexParts(Closed(UnitBox()), {.max_vertices = 3}), Error);
+}
+
+TEST(ConvexPartsFit, MeasuresWhatProtrudesAndWhatIsLeftOut) {
+  const std::vector<TriangleMesh> shifted{
+      Box(Eigen::Vector3d(0.25, 0, 0), Eigen::Vector3d(1.125, 1, 1))};
+  const ConvexPartsFit fit = MeasureConvexParts(Closed(UnitBox()), shifted);
+  EXPECT_NEAR(fit.protrusion_m, 0.125, 1e-12);
+  EXPECT_NEAR(fit.uncovered_m, 0.25, 1e-12);
+}
+
+TEST(ConvexPartsFit, RefusesAPartThatIsNotConvex) {
+  const std::vector<TriangleMesh> parts{RectangularRing(1, 2, 0.1, 0.1)};
+  EXPECT_THROW(MeasureConvexParts(Closed(UnitBox()), parts), Error);
+  EXPECT_THROW(MeasureConvexParts(Closed(UnitBox()), {}), Error);
+}
+
+TEST(ConvexHull, OfAGridHasTheEightCorners) {
+  std::vector<Eigen::Vector3d> grid;
+  for (int i = 0; i < 64; ++i) grid.emplace_back(i % 4, i / 4 % 4, i / 16);
+  const TriangleMesh hull = ConvexHull(grid);
+  EXPECT_EQ(hull.vertices.size(), 8U);
+  EXPECT_NEAR(MeasureTopology(hull).volume_m3, 27, 1e-12);
+}
+
+TEST(ConvexHull, OfPointsInAPlaneIsRefused) {
+  const std::vector<Eigen::Vector3d> flat{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 2, 0}};
+  EXPECT_THROW(ConvexHull(flat), Error);
+  EXPECT_THROW(ConvexHull({}), Error);
+}
+
+}  // namespace
+}  // namespace doorforge

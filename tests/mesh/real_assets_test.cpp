@@ -81,8 +81,9 @@ TEST_F(RealMeshes, KeepTheRawFrameInWhichTheirAuthorsMeasuredThem) {
     const Eigen::Vector3d high = Vector3FromJson(json["max"], stated);
     // the boxes are scaled, uniformly
     const double scale = (high - low).z() / box.sizes().z();
-    EXPECT_LT((scale * box.min() - low).norm(), 2e-3) << object.path();
-    EXPECT_LT((scale * box.max() - high).norm(), 2e-3) << object.path();
+    // the stated boxes are off by up to 2.1 mm themselves; a wrong frame is off by decimetres
+    EXPECT_LT((scale * box.min() - low).norm(), 3e-3) << object.path();
+    EXPECT_LT((scale * box.max() - high).norm(), 3e-3) << object.path();
     ++measured;
   }
   EXPECT_GT(measured, 15);

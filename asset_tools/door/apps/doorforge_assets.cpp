@@ -29,14 +29,11 @@ struct Verb {
 };
 
 constexpr Verb kVerbs[] = {
-    {"catalog", RunCatalogVerb},
-    {"compose", RunComposeVerb},
-    {"import", RunImportVerb},
+    {"catalog", RunCatalogVerb}, {"compose", RunComposeVerb},   {"import", RunImportVerb},
 #ifdef DOORFORGE_WITH_PREVIEW
     {"preview", RunPreviewVerb},
 #endif
-    {"repair", RunRepairVerb},
-    {"validate", RunValidateVerb},
+    {"repair", RunRepairVerb},   {"validate", RunValidateVerb},
 };
 
 int Run(int argc, char** argv) {

@@ -36,7 +36,8 @@ std::string Obj(const TriangleMesh& mesh) {
       char* const end = std::to_chars(digits.data(), digits.data() + digits.size(),
                                       static_cast<float>(coordinate) + 0.0F)
                             .ptr;
-      content.append(" ").append(static_cast<const char*>(digits.data()), static_cast<const char*>(end));
+      content.append(" ").append(static_cast<const char*>(digits.data()),
+                                 static_cast<const char*>(end));
     }
     content += '\n';
   }

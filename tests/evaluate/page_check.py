@@ -11,7 +11,7 @@ import sys
 import xml.etree.ElementTree
 import zlib
 
-VOID = {"br", "img", "input", "meta", "link", "hr"}
+VOID = {"br", "wbr", "img", "input", "meta", "link", "hr"}
 ADDRESSES = {"src", "href", "action", "data", "poster", "srcset", "xlink:href"}
 
 

@@ -153,8 +153,8 @@ std::string AngleChart(Episodes episodes, Episodes reference) {
 std::string LossChart(const LossCurve& loss) {
   if (loss.epoch.empty()) return {};
   SvgPlot plot;
-  plot.width = 340;
-  plot.height = 220;
+  plot.width = 460;
+  plot.height = 230;
   plot.x_range = {loss.epoch.front(), loss.epoch.back()};
   plot.y_range = {Smallest(loss), Largest(loss) * 1.05};
   std::string svg = HorizontalGrid(plot, RoundTicks(plot.y_range.first, plot.y_range.second, 4)) +

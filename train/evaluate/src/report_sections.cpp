@@ -127,6 +127,13 @@ std::string Dots(const ReportDoor& door, Episodes episodes) {
               {{"dots", dots}, {"opened", std::to_string(opened)}, {"all", std::to_string(all)}});
 }
 
+// an id that may be broken behind its underscores
+std::string BreakableId(const std::string& id) {
+  std::string html;
+  for (const char c : Escape(id)) html += c == '_' ? std::string("_<wbr/>") : std::string(1, c);
+  return html;
+}
+
 std::string DoorTile(const ReportDoor& door, const ReportPictures& pictures, Episodes episodes) {
   const auto picture = pictures.doors.find(door.id);
   const std::string image = picture == pictures.doors.end()
@@ -136,8 +143,8 @@ std::string DoorTile(const ReportDoor& door, const ReportPictures& pictures, Epi
   return Fill(
       R"(<figure>{image}<figcaption><b>{body}</b> with <b>{handle}</b><br/>{category}, {mechanism}{dots}</figcaption></figure>)",
       {{"image", image},
-       {"body", Escape(door.body_id)},
-       {"handle", Escape(door.handle_id)},
+       {"body", BreakableId(door.body_id)},
+       {"handle", BreakableId(door.handle_id)},
        {"category", TitleOf(door.category)},
        {"mechanism",
         door.mechanism == Mechanism::kNone ? "no latch" : std::string(NameOf(door.mechanism))},
@@ -165,8 +172,10 @@ std::string TrainingGallery(const EvaluationReport& report, const ReportPictures
   std::string tiles;
   for (const ReportDoor* door : shown) tiles += DoorTile(*door, pictures, {});
   return Fill(
-      R"(<h3>Trained on</h3><p class="soft">{count}</p><div class="tiles small">{tiles}</div>)",
-      {{"count", CountText(shown.size(), report.training_doors.size())}, {"tiles", tiles}});
+      R"(<h3>Trained on</h3><p class="soft">{count}{note}</p><div class="tiles small">{tiles}</div>)",
+      {{"count", CountText(shown.size(), report.training_doors.size())},
+       {"note", shown.empty() ? "" : " Pictures: depth in a training episode, from the shards."},
+       {"tiles", tiles}});
 }
 
 std::string EpisodeRow(const EvaluatedEpisode& episode) {
@@ -303,7 +312,7 @@ std::string AngleSection(const EvaluationReport& report) {
           ? ""
           : R"(<span><svg viewBox="0 0 34 12"><path class="line reference" d="M1 6H33"/></svg>expert on the same scenes</span>)";
   return Fill(
-      R"(<section id="angle"><h2>Success over the door angle</h2><p class="soft">Share of episodes whose door passed an angle at any time. Dotted lines and dots: the paper's thresholds of 0.1 rad, 15°, 30° and 45°.</p>)"
+      R"(<section id="angle"><h2>Success over the door angle</h2><p class="soft">Share of episodes whose door passed an angle at any time, whether or not the gripper still held the handle. Dotted lines and dots: the paper's thresholds of 0.1 rad, 15°, 30° and 45°.</p>)"
       R"(<div class="legend"><span><svg viewBox="0 0 34 12"><path class="line policy" d="M1 6H33"/></svg>{policy}</span>{expert_legend}</div>)"
       R"(<div class="card">{chart}</div><div class="scroll"><table><thead><tr><th>category</th><th class="number">beyond 0.1 rad</th><th class="number">15°</th>)"
       R"(<th class="number">30°</th><th class="number">45°</th></tr></thead><tbody>{rows}</tbody></table></div></section>)",

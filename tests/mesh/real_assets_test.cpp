@@ -79,7 +79,8 @@ TEST_F(RealMeshes, KeepTheRawFrameInWhichTheirAuthorsMeasuredThem) {
     const auto json = ReadJsonFile(stated);
     const Eigen::Vector3d low = Vector3FromJson(json["min"], stated);
     const Eigen::Vector3d high = Vector3FromJson(json["max"], stated);
-    // the boxes are scaled, uniformly
+    // The boxes are scaled, uniformly. One of the objects is stated 2 mm off its own meshes; a
+    // wrong axis or unit would show as decimetres.
     const double scale = (high - low).z() / box.sizes().z();
     // the stated boxes are off by up to 2.1 mm themselves; a wrong frame is off by decimetres
     EXPECT_LT((scale * box.min() - low).norm(), 3e-3) << object.path();

@@ -55,6 +55,8 @@ void FillBalls(const PointColumns& below, const PointColumns& centres, const Ind
                std::size_t level, CloudGeometry& geometry, InstructionSet set) {
   const SetAbstractionShape& shape = kSetAbstractions[level];
   CloudGeometry::Level& out = geometry.levels[level];
+  out.centre_xyz.reserve(3 * kept.size());
+  out.ball_begin.reserve(kept.size() + 1);
   out.ball_begin.push_back(0);
   for (const std::uint16_t index : kept) {
     const std::array<float, 3> centre = centres[index];
@@ -63,6 +65,7 @@ void FillBalls(const PointColumns& below, const PointColumns& centres, const Ind
     out.member.insert(out.member.end(), ball.begin(), ball.end());
     out.ball_begin.push_back(static_cast<std::uint32_t>(out.member.size()));
   }
+  out.member.shrink_to_fit();  // geometries are kept by the thousand
 }
 
 }  // namespace
@@ -81,6 +84,7 @@ CloudGeometry BuildGeometry(std::span<const float> xyz, const std::array<float, 
   }
 
   CloudGeometry geometry;
+  geometry.xyz.reserve(xyz.size());
   for (std::size_t i = 0; i < points[0].size(); ++i) {
     const std::array<float, 3> point = points[0][i];
     geometry.xyz.insert(geometry.xyz.end(), point.begin(), point.end());

@@ -1,0 +1,110 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The doorforge authors
+# SPDX-License-Identifier: Apache-2.0
+"""Draws the catalogue's recipes from the ranges of its families.
+
+    scripts/draw_recipes.py            writes the recipes that are missing
+    scripts/draw_recipes.py --redraw   writes all anew
+    scripts/draw_recipes.py --check    writes nothing; exit code 1 if a recipe is missing or would differ
+
+data/families/CATEGORY_ROLE.yaml (ROLE: bodies or handles) is a list of entries:
+
+    - family: lever_straight
+      stem: interior_lever_tube    # ids are interior_lever_tube_01, _02, ...
+      count: 12
+      kept: 1                      # optional: the first so many are written by hand and stay
+      parameters:
+        length_m: {uniform: [0.11, 0.14]}      # rounded to 0.1 mm
+        columns: {integer: [1, 3]}
+        finish: {choice: [brushed_steel, brass]}
+        squareness: 4                          # any other value is fixed
+
+Every parameter has a stream of its own, from the recipe's id and the parameter's place: adding a
+parameter or an entry leaves the other values as they are.
+"""
+import argparse
+import hashlib
+import pathlib
+import sys
+
+import yaml
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+HEADER = ("# SPDX-FileCopyrightText: 2026 The doorforge authors\n"
+          "# SPDX-License-Identifier: CC0-1.0\n")
+ENTRY_KEYS = {"family", "stem", "count", "kept", "parameters"}
+
+
+def unit(stream):
+    """A number in [0, 1) that depends on the stream's name alone."""
+    return int.from_bytes(hashlib.sha256(stream.encode()).digest()[:6], "big") / 2**48
+
+
+def draw(value, stream):
+    if isinstance(value, list):
+        return [draw(item, f"{stream}/{i}") for i, item in enumerate(value)]
+    if not isinstance(value, dict):
+        return value
+    if set(value) == {"uniform"}:
+        low, high = value["uniform"]
+        return round(low + (high - low) * unit(stream), 4)
+    if set(value) == {"integer"}:
+        low, high = value["integer"]
+        return low + int(unit(stream) * (high - low + 1))
+    if set(value) == {"choice"}:
+        chosen = value["choice"][int(unit(stream) * len(value["choice"]))]
+        return draw(chosen, stream + "/chosen")
+    return {key: draw(item, f"{stream}/{key}") for key, item in value.items()}
+
+
+def recipe_text(entry, recipe_id):
+    recipe = {"schema": "doorforge.recipe", "schema_version": 1, "id": recipe_id,
+              "family": entry["family"], "license": "CC0-1.0",
+              "parameters": draw(entry.get("parameters", {}), recipe_id)}
+    return HEADER + yaml.safe_dump(recipe, sort_keys=False, default_flow_style=None, width=100)
+
+
+def recipes(families_file):
+    """Path and text of each recipe; the text is None for those written by hand."""
+    category, role = families_file.stem.rsplit("_", 1)
+    if role not in ("bodies", "handles"):
+        sys.exit(f"{families_file}: expected a name like window_bodies.yaml")
+    for entry in yaml.safe_load(families_file.read_text()):
+        unknown = set(entry) - ENTRY_KEYS
+        if unknown:
+            sys.exit(f"{families_file}: unknown key {sorted(unknown)[0]!r}; allowed: {sorted(ENTRY_KEYS)}")
+        for number in range(1, entry["count"] + 1):
+            recipe_id = f"{entry['stem']}_{number:02d}"
+            path = ROOT / "data/catalog" / category / role / f"{recipe_id}.yaml"
+            yield path, None if number <= entry.get("kept", 0) else recipe_text(entry, recipe_id)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    mode = parser.add_mutually_exclusive_group()
+    mode.add_argument("--redraw", action="store_true")
+    mode.add_argument("--check", action="store_true")
+    parser.add_argument("--category", help="only this one, such as window")
+    args = parser.parse_args()
+    problems = written = total = 0
+    for families_file in sorted((ROOT / "data/families").glob(f"{args.category or '*'}_*.yaml")):
+        for path, text in recipes(families_file):
+            total += 1
+            there = path.read_text() if path.exists() else None
+            if text is None or there == text:
+                if there is None:
+                    print(f"{path}: is to be written by hand", file=sys.stderr)
+                    problems += 1
+            elif args.check:
+                print(f"{path}: {'missing' if there is None else 'differs from what is drawn'}", file=sys.stderr)
+                problems += 1
+            elif there is None or args.redraw:
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(text)
+                written += 1
+    print(f"{total} recipes, {written} written, {problems} problems")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

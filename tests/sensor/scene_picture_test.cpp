@@ -74,6 +74,15 @@ TEST(RenderPicture, IsTheSameTwice) {
   EXPECT_EQ(RenderPicture(scene, camera).rgb, RenderPicture(scene, camera).rgb);
 }
 
+// Packets of rays of which some meet nothing; the dev preset fills their memory with huge numbers.
+TEST(RenderPicture, DrawsTheBorderBetweenMeshAndBackdrop) {
+  SceneGeometry scene = RedBox();
+  const CameraModel camera = FramingCamera(scene, {.width = 40, .height = 30, .margin = 2});
+  const Picture picture = RenderPicture(scene, camera, {.sky_rays = 1, .floor = false});
+  EXPECT_GT(PixelAt(picture, 0, 0)[2], 150);
+  EXPECT_LT(PixelAt(picture, 15, 20)[2], 100);
+}
+
 TEST(RenderPicture, ShowsTheBackdropWhereThereIsNothing) {
   SceneGeometry scene({});
   const Picture picture = RenderPicture(scene, FramingCamera(scene, {.width = 8, .height = 8}));

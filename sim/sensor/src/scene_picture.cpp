@@ -221,14 +221,16 @@ class Painter {
     return surface;
   }
 
-  // Which of the rays from the lit surfaces reach `reach` without meeting a mesh.
+  // Which of the rays from the lit surfaces reach `reach` without meeting a mesh; `directions` of
+  // the others may be anything.
   std::array<bool, kRays> Unobstructed(const Surfaces& surfaces, const Directions& directions,
                                        float reach) {
-    RTCRay16 packet{};
+    RTCRay16 packet{};  // zeros where no ray is wanted: Embree checks those lanes, too
     alignas(64) std::array<int, kRays> valid{};
     for (std::size_t lane = 0; lane < kRays; ++lane) {
       const Surface& surface = surfaces[lane];
-      valid[lane] = surface.IsLit() ? -1 : 0;
+      if (!surface.IsLit()) continue;
+      valid[lane] = -1;
       SetRay(packet, lane, surface.position + 4e-4F * surface.face_normal, directions[lane]);
       packet.tfar[lane] = reach;
     }

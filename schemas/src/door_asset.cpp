@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/schemas/door_asset.h"
 
+#include <memory>
+#include <optional>
+
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/schemas/mesh_file.h"
+#include "doorforge/schemas/mesh_pool.h"
 
 #include "latch_json.h"
 #include "record_json.h"
@@ -37,30 +41,97 @@ Json GeometryToJson(const DoorGeometry& geometry) {
           {"hulls", hulls}};
 }
 
-DoorGeometry GeometryFromJson(const Json& json, const MeshReader& read_mesh,
-                              const std::string& path) {
+Json PooledGeometryToJson(const DoorGeometry& geometry, const GeometryFiles& files,
+                          const std::string& shape) {
+  Json json = {{"name", geometry.name},
+               {"label", kLabelNames.at(static_cast<std::size_t>(geometry.label))},
+               {"color_rgba", internal::ColorToJson(geometry.color_rgba)},
+               {"shape", shape}};
+  if (!files.link_from_files.isApprox(RigidTransform::Identity(), 0))
+    json["link_from_shape"] = TransformToJson(files.link_from_files);
+  return json;
+}
+
+Json LinkToJson(const DoorLink& link, const Json& geometry) {
+  return {{"name", link.name}, {"mass", internal::MassToJson(link.mass)}, {"geometry", geometry}};
+}
+
+/// Where a door's meshes come from: its own files, or the pool that the record names.
+class DoorSource {
+ public:
+  DoorSource(const Json& record, const std::filesystem::path& folder, const std::string& path) {
+    const auto entry = record.find("mesh_pool");
+    if (entry == record.end()) return;
+    if (*entry != kMeshPoolPath)
+      throw Error(ErrorCode::kFormat, path + ".mesh_pool: found " + entry->dump() +
+                                          "; the only pool a door may share is \"../pool\"");
+    pool_.emplace(folder, path);
+  }
+
+  /// The meshes of a geometry as its record names them.
+  struct Names {
+    struct Mesh {
+      std::string path;
+      std::string sha256;
+    };
+    Mesh mesh;
+    std::vector<Mesh> hulls;
+    RigidTransform link_from_files = RigidTransform::Identity();
+  };
+
+  Names NamesOf(const Json& geometry, const std::string& path) const {
+    return geometry.contains("shape") ? Pooled(geometry, path) : Own(geometry, path);
+  }
+
+ private:
+  static Names::Mesh Reference(const Json& json, const std::string& path) {
+    return {ValueOf<std::string>(json, "path", path), ValueOf<std::string>(json, "sha256", path)};
+  }
+
+  static Names Own(const Json& geometry, const std::string& path) {
+    Names names{Reference(MemberOf(geometry, "mesh", path), path), {}};
+    for (const Json& hull : MemberOf(geometry, "hulls", path))
+      names.hulls.push_back(Reference(hull, path));
+    return names;
+  }
+
+  Names Pooled(const Json& geometry, const std::string& path) const {
+    if (!pool_)
+      throw Error(ErrorCode::kFormat, path + ": names a shape, but the record has no mesh_pool");
+    const PooledShape shape = pool_->ReadShape(ValueOf<std::string>(geometry, "shape", path));
+    Names names{{PooledMeshPath(shape.mesh), shape.mesh}, {}};
+    for (const std::string& hull : shape.hulls) names.hulls.push_back({PooledMeshPath(hull), hull});
+    if (geometry.contains("link_from_shape"))
+      names.link_from_files =
+          TransformFromJson(geometry["link_from_shape"], path + ".link_from_shape");
+    return names;
+  }
+
+  std::optional<MeshPool> pool_;
+};
+
+DoorGeometry GeometryFromJson(const Json& json, const DoorSource& source,
+                              const MeshReader& read_mesh, const std::string& path) {
   DoorGeometry geometry;
   geometry.name = ValueOf<std::string>(json, "name", path);
   geometry.label = LabelNamed(ValueOf<std::string>(json, "label", path), path);
   geometry.color_rgba = internal::ColorFromJson(MemberOf(json, "color_rgba", path), path);
-  geometry.mesh = internal::ReadReferencedMesh(MemberOf(json, "mesh", path), read_mesh, path);
-  for (const Json& hull : MemberOf(json, "hulls", path))
-    geometry.hulls.push_back(internal::ReadReferencedMesh(hull, read_mesh, path));
+  const DoorSource::Names names = source.NamesOf(json, path);
+  const auto read = [&](const DoorSource::Names::Mesh& mesh) {
+    return PlacedAsFiled(read_mesh(mesh.path, mesh.sha256), names.link_from_files);
+  };
+  geometry.mesh = read(names.mesh);
+  for (const auto& hull : names.hulls) geometry.hulls.push_back(read(hull));
   return geometry;
 }
 
-Json LinkToJson(const DoorLink& link) {
-  Json geometry = Json::array();
-  for (const DoorGeometry& piece : link.geometry) geometry.push_back(GeometryToJson(piece));
-  return {{"name", link.name}, {"mass", internal::MassToJson(link.mass)}, {"geometry", geometry}};
-}
-
-DoorLink LinkFromJson(const Json& json, const MeshReader& read_mesh, const std::string& path) {
+DoorLink LinkFromJson(const Json& json, const DoorSource& source, const MeshReader& read_mesh,
+                      const std::string& path) {
   DoorLink link;
   link.name = ValueOf<std::string>(json, "name", path);
   link.mass = internal::MassFromJson(MemberOf(json, "mass", path), path);
   for (const Json& piece : MemberOf(json, "geometry", path))
-    link.geometry.push_back(GeometryFromJson(piece, read_mesh, path));
+    link.geometry.push_back(GeometryFromJson(piece, source, read_mesh, path));
   return link;
 }
 
@@ -89,7 +160,8 @@ DoorJoint JointFromJson(const Json& json, const std::string& path) {
   return joint;
 }
 
-Json DoorToJson(const DoorAsset& door) {
+// All but the links.
+Json HeadToJson(const DoorAsset& door) {
   Json json = {{"schema", "doorforge.door"},
                {"schema_version", kDoorSchemaVersion},
                {"id", door.id},
@@ -99,13 +171,35 @@ Json DoorToJson(const DoorAsset& door) {
                {"body", {{"id", door.body_id}, {"sha256", door.body_sha256}}},
                {"handle", {{"id", door.handle_id}, {"sha256", door.handle_sha256}}},
                {"latch", internal::LatchToJson(door.latch)},
+               {"hinge_side", NameOf(door.hinge_side)},
+               {"opening", NameOf(door.opening)},
                {"hinge", JointToJson(door.hinge)},
                {"handle_joint", JointToJson(door.handle_joint)},
                {"handle_from_grasp", TransformToJson(door.handle_from_grasp)},
-               {"grasp_half_extent_m", Vector3ToJson(door.grasp_half_extent_m)},
-               {"links", Json::array()}};
-  for (const DoorLink& link : door.links) json["links"].push_back(LinkToJson(link));
+               {"grasp_half_extent_m", Vector3ToJson(door.grasp_half_extent_m)}};
+  if (!door.physics_source.empty()) json["physics_source"] = door.physics_source;
   return json;
+}
+
+Json DoorToJson(const DoorAsset& door) {
+  Json json = HeadToJson(door);
+  json["links"] = Json::array();
+  for (const DoorLink& link : door.links) {
+    Json geometry = Json::array();
+    for (const DoorGeometry& piece : link.geometry) geometry.push_back(GeometryToJson(piece));
+    json["links"].push_back(LinkToJson(link, geometry));
+  }
+  return json;
+}
+
+template <class Enum>
+Enum NamedOr(std::optional<Enum> (*find)(std::string_view), const Json& json, const char* key,
+             const std::string& path) {
+  if (!json.contains(key)) return Enum{};  // version 1 had left and pull alone
+  const auto name = ValueOf<std::string>(json, key, path);
+  const std::optional<Enum> found = find(name);
+  if (!found) throw Error(ErrorCode::kFormat, path + "." + key + ": unknown name \"" + name + '"');
+  return *found;
 }
 
 void ReadIdentity(const Json& json, const std::string& path, DoorAsset& door) {
@@ -117,6 +211,10 @@ void ReadIdentity(const Json& json, const std::string& path, DoorAsset& door) {
   door.category = *category;
   door.mechanism = *mechanism;
   door.license = ValueOf<std::string>(json, "license", path);
+  door.hinge_side = NamedOr(HingeSideNamed, json, "hinge_side", path);
+  door.opening = NamedOr(OpeningNamed, json, "opening", path);
+  if (json.contains("physics_source"))
+    door.physics_source = ValueOf<std::string>(json, "physics_source", path);
   const Json& body = MemberOf(json, "body", path);
   const Json& handle = MemberOf(json, "handle", path);
   door.body_id = ValueOf<std::string>(body, "id", path);
@@ -155,14 +253,39 @@ void WriteDoor(const DoorAsset& door, const std::filesystem::path& folder) {
   WriteJsonFile(folder / "door.json", DoorToJson(door));
 }
 
+namespace {
+
+Json ReadRecord(const std::filesystem::path& folder, const std::string& path) {
+  Json json = ReadJsonFile(folder / "door.json");
+  RequireSchema(json, "doorforge.door", kDoorSchemaVersion, path);
+  const Json& links = MemberOf(json, "links", path);
+  if (!links.is_array() || links.size() != std::tuple_size_v<decltype(DoorAsset::links)>)
+    throw Error(ErrorCode::kFormat, path + ".links: expected base, leaf and handle");
+  return json;
+}
+
+// Own files by path below the folder, pooled ones by hash.
+MeshReader ReaderOf(const std::filesystem::path& folder, const std::string& path) {
+  const MeshReader own = internal::ReaderBelow(folder, path);
+  const auto pool = std::make_shared<std::optional<MeshPool>>();
+  return [folder, path, own, pool](const std::string& relative, const std::string& sha256) {
+    const bool pooled = relative.starts_with(std::string(kMeshPoolPath) + "/") &&
+                        relative == PooledMeshPath(sha256);
+    if (!pooled) return own(relative, sha256);
+    if (!*pool) pool->emplace(folder, path);
+    return (*pool)->ReadMesh(sha256);
+  };
+}
+
+}  // namespace
+
 DoorAsset ReadDoor(const std::filesystem::path& folder) {
-  return ReadDoor(folder, internal::ReaderBelow(folder, (folder / "door.json").string()));
+  return ReadDoor(folder, ReaderOf(folder, (folder / "door.json").string()));
 }
 
 DoorAsset ReadDoor(const std::filesystem::path& folder, const MeshReader& read_mesh) {
   const std::string path = (folder / "door.json").string();
-  const Json json = ReadJsonFile(path);
-  RequireSchema(json, "doorforge.door", kDoorSchemaVersion, path);
+  const Json json = ReadRecord(folder, path);
   DoorAsset door;
   ReadIdentity(json, path, door);
   door.latch = internal::LatchFromJson(MemberOf(json, "latch", path), path + ".latch");
@@ -170,12 +293,69 @@ DoorAsset ReadDoor(const std::filesystem::path& folder, const MeshReader& read_m
   door.handle_joint = JointFromJson(MemberOf(json, "handle_joint", path), path + ".handle_joint");
   door.handle_from_grasp = TransformFromJson(MemberOf(json, "handle_from_grasp", path), path);
   door.grasp_half_extent_m = Vector3FromJson(MemberOf(json, "grasp_half_extent_m", path), path);
-  const Json& links = MemberOf(json, "links", path);
-  if (!links.is_array() || links.size() != door.links.size())
-    throw Error(ErrorCode::kFormat, path + ".links: expected base, leaf and handle");
+  const DoorSource source(json, folder, path);
   for (std::size_t i = 0; i < door.links.size(); ++i)
-    door.links[i] = LinkFromJson(links[i], read_mesh, path + ".links");
+    door.links[i] = LinkFromJson(json["links"][i], source, read_mesh, path + ".links");
   return door;
+}
+
+DoorFiles OwnFilesOf(const DoorAsset& door) {
+  DoorFiles files;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    for (const DoorGeometry& geometry : door.links[i].geometry) {
+      GeometryFiles own{VisualMeshPath(geometry), {}};
+      for (std::size_t hull = 0; hull < geometry.hulls.size(); ++hull)
+        own.hulls.push_back(CollisionMeshPath(geometry, hull));
+      files[i].push_back(std::move(own));
+    }
+  }
+  return files;
+}
+
+DoorFiles ReadDoorFiles(const std::filesystem::path& folder) {
+  const std::string path = (folder / "door.json").string();
+  const Json json = ReadRecord(folder, path);
+  const DoorSource source(json, folder, path);
+  DoorFiles files;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    for (const Json& geometry : MemberOf(json["links"][i], "geometry", path + ".links")) {
+      const DoorSource::Names names = source.NamesOf(geometry, path + ".links");
+      GeometryFiles named{names.mesh.path, {}, names.link_from_files};
+      for (const auto& hull : names.hulls) named.hulls.push_back(hull.path);
+      files[i].push_back(std::move(named));
+    }
+  }
+  return files;
+}
+
+std::string PooledDoorText(const DoorAsset& door, const DoorFiles& files,
+                           const std::array<std::vector<std::string>, 3>& shapes) {
+  Json json = HeadToJson(door);
+  json["mesh_pool"] = kMeshPoolPath;
+  json["links"] = Json::array();
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    Json geometry = Json::array();
+    for (std::size_t k = 0; k < door.links[i].geometry.size(); ++k)
+      geometry.push_back(
+          PooledGeometryToJson(door.links[i].geometry[k], files[i].at(k), shapes[i].at(k)));
+    json["links"].push_back(LinkToJson(door.links[i], geometry));
+  }
+  return json.dump() + "\n";
+}
+
+void RequireSimulatable(const DoorAsset& door, std::string_view user) {
+  const auto refuse = [&](const std::string& what, const std::string& instead) {
+    throw Error(ErrorCode::kInvalidArgument, std::string(user) + ": door \"" + door.id + "\" " +
+                                                 what +
+                                                 "; only doors hinged left and pulled, with "
+                                                 "latch none or effort, are simulated yet: " +
+                                                 instead);
+  };
+  if (door.hinge_side != HingeSide::kLeft)
+    refuse("is hinged right", "compose it with hinge_side: left");
+  if (door.opening != Opening::kPull) refuse("is pushed open", "compose it with opening: pull");
+  if (door.latch.type == LatchType::kBolt)
+    refuse("has a bolt", "compose it with latch: effort, or export it");
 }
 
 std::string ContentHash(const DoorAsset& door) { return Sha256Hex(DoorToJson(door).dump()); }

@@ -8,13 +8,15 @@
 namespace doorforge::internal {
 
 nlohmann::ordered_json LatchToJson(const Latch& latch) {
-  return {{"type", NameOf(latch.type)},
-          {"unlock_angle_rad", latch.unlock_angle_rad},
-          {"handle_done_angle_rad", latch.handle_done_angle_rad},
-          {"lock_effort_nm", latch.lock_effort_nm},
-          {"hinge_spring_nm_per_rad", latch.hinge_spring_nm_per_rad},
-          {"handle_spring_nm_per_rad", latch.handle_spring_nm_per_rad},
-          {"relatch", latch.relatch}};
+  nlohmann::ordered_json json = {{"type", NameOf(latch.type)},
+                                 {"unlock_angle_rad", latch.unlock_angle_rad},
+                                 {"handle_done_angle_rad", latch.handle_done_angle_rad},
+                                 {"lock_effort_nm", latch.lock_effort_nm},
+                                 {"hinge_spring_nm_per_rad", latch.hinge_spring_nm_per_rad},
+                                 {"handle_spring_nm_per_rad", latch.handle_spring_nm_per_rad},
+                                 {"relatch", latch.relatch}};
+  if (latch.type == LatchType::kBolt) json["bolt_throw_m"] = latch.bolt_throw_m;
+  return json;
 }
 
 Latch LatchFromJson(const nlohmann::ordered_json& json, const std::string& path) {
@@ -28,6 +30,8 @@ Latch LatchFromJson(const nlohmann::ordered_json& json, const std::string& path)
   latch.hinge_spring_nm_per_rad = ValueOf<double>(json, "hinge_spring_nm_per_rad", path);
   latch.handle_spring_nm_per_rad = ValueOf<double>(json, "handle_spring_nm_per_rad", path);
   latch.relatch = ValueOf<bool>(json, "relatch", path);
+  if (latch.type == LatchType::kBolt)
+    latch.bolt_throw_m = ValueOf<double>(json, "bolt_throw_m", path);
   return latch;
 }
 

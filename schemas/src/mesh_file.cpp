@@ -89,14 +89,23 @@ std::string ToObj(const TriangleMesh& mesh) {
   return text;
 }
 
+TriangleMesh PlacedAsFiled(TriangleMesh mesh, const RigidTransform& a_from_mesh) {
+  for (Eigen::Vector3d& vertex : mesh.vertices)
+    vertex = (a_from_mesh * vertex).cast<float>().cast<double>();
+  return mesh;
+}
+
 TriangleMesh ReadObj(const std::filesystem::path& path) {
-  const std::string text = ReadFile(path, 1ULL << 30);
+  return ParseObj(ReadFile(path, 1ULL << 30), path.string());
+}
+
+TriangleMesh ParseObj(std::string_view text, const std::string& name) {
   TriangleMesh mesh;
   std::string_view rest = text;
   for (int number = 1; !rest.empty(); ++number) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
     if (!ReadLine(rest.substr(0, end), mesh))
-      throw Error(ErrorCode::kFormat, path.string() + ":" + std::to_string(number) +
+      throw Error(ErrorCode::kFormat, name + ":" + std::to_string(number) +
                                           ": not a line of a canonical mesh; run `doorforge "
                                           "repair` on meshes from elsewhere");
     rest.remove_prefix(std::min(end + 1, rest.size()));

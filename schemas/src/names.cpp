@@ -12,7 +12,9 @@ constexpr std::array<std::string_view, 6> kCategories = {
 constexpr std::array<std::string_view, 2> kRoles = {"body", "handle"};
 constexpr std::array<std::string_view, 6> kMechanisms = {"none", "lever", "round",
                                                          "key",  "valve", "flap"};
-constexpr std::array<std::string_view, 2> kLatchTypes = {"none", "effort"};
+constexpr std::array<std::string_view, 3> kLatchTypes = {"none", "effort", "bolt"};
+constexpr std::array<std::string_view, 2> kHingeSides = {"left", "right"};
+constexpr std::array<std::string_view, 2> kOpenings = {"pull", "push"};
 
 template <class Enum, class Names>
 std::optional<Enum> Find(const Names& names, std::string_view name) {
@@ -32,6 +34,8 @@ std::string_view NameOf(Mechanism mechanism) {
   return kMechanisms.at(static_cast<std::size_t>(mechanism));
 }
 std::string_view NameOf(LatchType type) { return kLatchTypes.at(static_cast<std::size_t>(type)); }
+std::string_view NameOf(HingeSide side) { return kHingeSides.at(static_cast<std::size_t>(side)); }
+std::string_view NameOf(Opening opening) { return kOpenings.at(static_cast<std::size_t>(opening)); }
 
 std::optional<Category> CategoryNamed(std::string_view name) {
   return Find<Category>(kCategories, name);
@@ -44,6 +48,12 @@ std::optional<Mechanism> MechanismNamed(std::string_view name) {
 }
 std::optional<LatchType> LatchTypeNamed(std::string_view name) {
   return Find<LatchType>(kLatchTypes, name);
+}
+std::optional<HingeSide> HingeSideNamed(std::string_view name) {
+  return Find<HingeSide>(kHingeSides, name);
+}
+std::optional<Opening> OpeningNamed(std::string_view name) {
+  return Find<Opening>(kOpenings, name);
 }
 
 }  // namespace doorforge

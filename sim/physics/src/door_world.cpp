@@ -408,7 +408,9 @@ bool DoorWorld::Runtime::Healthy() const {
 
 DoorWorld::DoorWorld(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
                      const JointVector& start)
-    : runtime_(std::make_unique<Runtime>(scene, door, robot, start)) {}
+    : runtime_(std::make_unique<Runtime>(scene, door, robot, start)) {
+  RequireSimulatable(door, "simulated world");
+}
 DoorWorld::~DoorWorld() = default;
 DoorWorld::DoorWorld(DoorWorld&&) noexcept = default;
 DoorWorld& DoorWorld::operator=(DoorWorld&&) noexcept = default;

@@ -78,6 +78,7 @@ RigidTransform GraspNoise(const DoorAsset& door, double scale, Rng rng) {
 
 Scene SampleScene(const DoorAsset& door, std::uint64_t seed, std::uint64_t episode,
                   const SceneConfig& config) {
+  RequireSimulatable(door, "scene");
   const std::string stream = "scene/" + door.id + "/" + std::to_string(episode) + "/";
   const Placement placement = PlacementOf(door.category);
   Scene scene;

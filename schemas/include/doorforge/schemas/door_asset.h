@@ -17,7 +17,7 @@
 
 namespace doorforge {
 
-inline constexpr int kDoorSchemaVersion = 1;
+inline constexpr int kDoorSchemaVersion = 2;
 
 /// A mesh fixed to a link, in the link's frame.
 struct DoorGeometry {
@@ -49,6 +49,10 @@ struct DoorJoint {
 /// The latch as data. kEffort is the paper's law (Section 3.3): while locked the hinge feels
 /// -lock_effort against opening, afterwards -hinge_spring * door angle; the handle feels
 /// -handle_spring * handle angle throughout. Locked means handle angle <= unlock_angle.
+///
+/// kBolt is a bolt that reaches bolt_throw_m into the strike of the frame and is drawn back by
+/// bolt_throw_m * min(1, handle angle / unlock_angle): it holds whatever the effort, and catches
+/// again as the leaf closes. lock_effort_nm and relatch say nothing then; the springs do.
 struct Latch {
   LatchType type = LatchType::kNone;
   double unlock_angle_rad = 0;
@@ -60,16 +64,22 @@ struct Latch {
   /// False: once the door is ajar by more than 0.01 rad it stays unlocked (the released code);
   /// true: it locks again whenever the handle returns (the paper's formula).
   bool relatch = false;
+  double bolt_throw_m = 0;  ///< Of kBolt.
 };
 
 enum DoorLinkIndex : int { kBaseLink = 0, kLeafLink = 1, kHandleLink = 2 };
 
 /// A composed door: base (frame), leaf, handle; two joints.
 ///
-/// Door frame = base link's frame: x out of the door towards who opens it, y from the hinge to the
-/// free edge, z up, z = 0 the lowest point. All link frames are parallel to it at zero angles; the
-/// leaf's origin lies on the hinge line, the handle's on the handle's axis at the mount.
-/// Positive hinge angles open towards x > 0 ("pull"); positive handle angles unlock.
+/// Door frame = base link's frame: x out of the leaf towards who stands in front of the handle, z
+/// up, z = 0 the lowest point, y to that person's right. All link frames are parallel to it at zero
+/// angles; the leaf's origin lies on the hinge line, the handle's on the handle's axis at the
+/// mount. Positive hinge angles open, positive handle angles unlock; directions are in the joints'
+/// axes.
+///
+/// The canonical door, which the paper's objects and the catalogue's parts are, is hinged left and
+/// pulled: the hinge is at small y and the leaf opens towards x > 0. Hinged right, the hinge is at
+/// large y; pushed, the leaf opens towards x < 0. See RequireSimulatable().
 struct DoorAsset {
   std::string id;  ///< "<body id>__<handle id>" unless the author names it.
   Category category = Category::kInterior;
@@ -78,6 +88,8 @@ struct DoorAsset {
   DoorJoint hinge;                ///< Base to leaf.
   DoorJoint handle_joint;         ///< Leaf to handle.
   Latch latch;
+  HingeSide hinge_side = HingeSide::kLeft;
+  Opening opening = Opening::kPull;
   RigidTransform handle_from_grasp = RigidTransform::Identity();  ///< See Part::part_from_grasp.
   Eigen::Vector3d grasp_half_extent_m = Eigen::Vector3d::Zero();
   std::string body_id;
@@ -85,7 +97,15 @@ struct DoorAsset {
   std::string handle_id;
   std::string handle_sha256;
   std::string license;  ///< SPDX expression of both parts.
+  /// Where masses, springs and dampings come from, for people; empty where nobody said.
+  std::string physics_source = {};
 };
+
+/// Throws Error(kInvalidArgument) unless the door is canonical (hinged left, pulled) and its latch
+/// is none or the effort law: what scenes, the simulated world and the experts are made for.
+/// `user` begins the message, such as "simulate". Whoever places robots or cameras by the door
+/// frame calls this first.
+void RequireSimulatable(const DoorAsset& door, std::string_view user);
 
 /// Poses of base, leaf and handle in the door frame at the given joint angles.
 std::array<RigidTransform, 3> DoorFromLinks(const DoorAsset& door, double hinge_rad,
@@ -96,7 +116,7 @@ std::array<RigidTransform, 3> DoorFromLinks(const DoorAsset& door, double hinge_
 void WriteDoor(const DoorAsset& door, const std::filesystem::path& folder);
 
 /// Reads a door's folder. Throws Error(kMissing) or Error(kFormat); mesh paths that leave the
-/// folder are refused.
+/// folder are refused. The one way out of it is the mesh pool beside it, see mesh_pool.h.
 DoorAsset ReadDoor(const std::filesystem::path& folder);
 /// The same with meshes from `read_mesh`, which also decides which paths it accepts.
 DoorAsset ReadDoor(const std::filesystem::path& folder, const MeshReader& read_mesh);
@@ -106,7 +126,29 @@ DoorAsset ReadDoor(const std::filesystem::path& folder, const MeshReader& read_m
 std::string VisualMeshPath(const DoorGeometry& geometry);
 std::string CollisionMeshPath(const DoorGeometry& geometry, std::size_t hull_index);
 
-/// SHA-256 of door.json's text with all mesh bytes: the door's identity in later records.
+/// Where the files of one geometry lie, relative to the door's folder.
+struct GeometryFiles {
+  std::string mesh;
+  std::vector<std::string> hulls;
+  /// What the files hold is in a frame of its own where doors share them.
+  RigidTransform link_from_files = RigidTransform::Identity();
+};
+/// Indexed as DoorAsset::links and the geometry of each.
+using DoorFiles = std::array<std::vector<GeometryFiles>, 3>;
+
+/// The files that WriteDoor() writes.
+DoorFiles OwnFilesOf(const DoorAsset& door);
+/// The files that the record in `folder` names, in the pool or in the folder. Reads no mesh. Throws
+/// as ReadDoor().
+DoorFiles ReadDoorFiles(const std::filesystem::path& folder);
+
+/// Text of a door.json whose geometries are shapes of a mesh pool: `shapes` holds their names as
+/// `files` its transforms. Meshes of `door` are not looked at.
+std::string PooledDoorText(const DoorAsset& door, const DoorFiles& files,
+                           const std::array<std::vector<std::string>, 3>& shapes);
+
+/// SHA-256 of door.json's text with all mesh bytes: the door's identity in later records. The same
+/// whether the door has its own meshes or shares them.
 std::string ContentHash(const DoorAsset& door);
 
 }  // namespace doorforge

@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 
+#include "doorforge/core/rigid_transform.h"
 #include "doorforge/core/triangle_mesh.h"
 
 namespace doorforge {
@@ -19,6 +21,11 @@ std::string ToObj(const TriangleMesh& mesh);
 /// Reads a canonical file. Throws Error(kMissing) if it does not exist and Error(kFormat), naming
 /// file and line, on anything that ToObj() would not write.
 TriangleMesh ReadObj(const std::filesystem::path& path);
+/// The same from a text; `name` stands for the file in messages.
+TriangleMesh ParseObj(std::string_view text, const std::string& name);
+
+/// The mesh seen from frame a, with coordinates as canonical files hold them.
+TriangleMesh PlacedAsFiled(TriangleMesh mesh, const RigidTransform& a_from_mesh);
 
 /// Gives the mesh that a record names by its path relative to the record's folder and the SHA-256
 /// of its canonical text. ReadPart() and ReadDoor() take one from whoever wants to count the meshes

@@ -17,7 +17,13 @@ enum class PartRole { kBody, kHandle };
 enum class Mechanism { kNone, kLever, kRound, kKey, kValve, kFlap };
 
 /// How the latch holds the leaf, see Latch in door_asset.h.
-enum class LatchType { kNone, kEffort };
+enum class LatchType { kNone, kEffort, kBolt };
+
+/// Where the hinge is for who stands in front of the handle and looks at the leaf.
+enum class HingeSide { kLeft, kRight };
+
+/// Whether the leaf comes towards who stands in front of the handle, or goes away.
+enum class Opening { kPull, kPush };
 
 /// Names in files: "interior", "window", "car", "safe", "storagefurniture", "refrigerator".
 std::string_view NameOf(Category category);
@@ -25,13 +31,19 @@ std::string_view NameOf(Category category);
 std::string_view NameOf(PartRole role);
 /// "none", "lever", "round", "key", "valve", "flap".
 std::string_view NameOf(Mechanism mechanism);
-/// "none", "effort".
+/// "none", "effort", "bolt".
 std::string_view NameOf(LatchType type);
+/// "left", "right".
+std::string_view NameOf(HingeSide side);
+/// "pull", "push".
+std::string_view NameOf(Opening opening);
 
 /// Inverse of NameOf; nothing if the name is unknown.
 std::optional<Category> CategoryNamed(std::string_view name);
 std::optional<PartRole> PartRoleNamed(std::string_view name);
 std::optional<Mechanism> MechanismNamed(std::string_view name);
 std::optional<LatchType> LatchTypeNamed(std::string_view name);
+std::optional<HingeSide> HingeSideNamed(std::string_view name);
+std::optional<Opening> OpeningNamed(std::string_view name);
 
 }  // namespace doorforge

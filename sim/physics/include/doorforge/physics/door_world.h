@@ -58,7 +58,7 @@ class DoorWorld {
   /// The robot starts in `start` (fingers open), the door closed, everything at rest.
   ///
   /// @throws Error(kInvalidArgument) if a setting of the scene's physics is out of range, or if a
-  ///     link of the door has no mass or a hull of fewer than four points.
+  ///     link of the door has no mass or a hull of fewer than four points; as RequireSimulatable().
   DoorWorld(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
             const JointVector& start);
   ~DoorWorld();

@@ -31,7 +31,7 @@ struct SceneConfig {
 /// at height 0.1 m is not moved. Robot: facing the door at the category's distance, x and y
 /// jittered independently by clip(N(0, 0.5), -1, 1) times 0.08 to 0.15 m. Grasp: turned about the
 /// approach by the same kind of number times 10 degrees; on levers and flaps also shifted along the
-/// handle by up to grasp_half_extent_m.
+/// handle by up to grasp_half_extent_m. Throws as RequireSimulatable().
 Scene SampleScene(const DoorAsset& door, std::uint64_t seed, std::uint64_t episode,
                   const SceneConfig& config = {});
 

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/schemas/mesh_pool.h"
+
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/error.h"
+#include "doorforge/core/hash.h"
+#include "doorforge/core/json_file.h"
+#include "doorforge/schemas/mesh_file.h"
+
+#include "record_json.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+using internal::Json;
+
+constexpr const char* kPoolSchema = "doorforge.mesh_pool";
+constexpr const char* kShapeSchema = "doorforge.shape";
+constexpr std::size_t kDigitsInName = 20;
+constexpr std::uint64_t kMaxFileBytes = 1ULL << 30;
+
+bool IsHash(const std::string& text) {
+  return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+}  // namespace
+
+std::string PooledFileName(const std::string& sha256, const std::string& extension) {
+  if (!IsHash(sha256))
+    throw Error(ErrorCode::kFormat, "\"" + sha256 +
+                                        "\" is no SHA-256; a file of the mesh pool is named by 64 "
+                                        "lower-case hexadecimal digits, never by a path");
+  return sha256.substr(0, kDigitsInName) + extension;
+}
+
+std::string PooledMeshPath(const std::string& sha256) {
+  return std::string(kMeshPoolPath) + "/" + PooledFileName(sha256, ".obj");
+}
+
+std::string ShapeText(const PooledShape& shape) {
+  const Json json = {{"schema", kShapeSchema},
+                     {"schema_version", kMeshPoolSchemaVersion},
+                     {"mesh", shape.mesh},
+                     {"hulls", shape.hulls}};
+  return json.dump() + "\n";
+}
+
+std::string MeshPoolText() {
+  return Json{{"schema", kPoolSchema}, {"schema_version", kMeshPoolSchemaVersion}}.dump() + "\n";
+}
+
+MeshPool::MeshPool(const fs::path& door_folder, std::string record) : record_(std::move(record)) {
+  pool_ = fs::canonical(door_folder).parent_path() / fs::path(kMeshPoolPath).filename();
+  if (!fs::is_directory(pool_))
+    throw Error(ErrorCode::kMissing, record_ + ": shares meshes with its neighbours, but " +
+                                         pool_.string() +
+                                         " is missing; move doors together with their pool, or "
+                                         "compose with --standalone");
+  if (fs::is_symlink(pool_))
+    throw Error(ErrorCode::kFormat, pool_.string() + ": is a link; a mesh pool is a real folder");
+  const fs::path marker = pool_ / "pool.json";
+  RequireSchema(ReadJsonFile(marker), kPoolSchema, kMeshPoolSchemaVersion, marker.string());
+}
+
+fs::path MeshPool::FileOf(const std::string& sha256, const std::string& extension) const {
+  fs::path file = pool_ / PooledFileName(sha256, extension);
+  if (fs::is_symlink(fs::symlink_status(file)))
+    throw Error(ErrorCode::kFormat, file.string() + ": is a link; pools hold real files only");
+  if (!fs::is_regular_file(file))
+    throw Error(ErrorCode::kMissing, file.string() + ": missing; " + record_ + " names it");
+  return file;
+}
+
+fs::path MeshPool::MeshFile(const std::string& sha256) const { return FileOf(sha256, ".obj"); }
+
+std::string MeshPool::Read(const std::string& sha256, const std::string& extension) const {
+  const fs::path file = FileOf(sha256, extension);
+  std::string text = ReadFile(file, kMaxFileBytes);
+  const std::string found = Sha256Hex(text);
+  if (found != sha256)
+    throw Error(ErrorCode::kFormat, file.string() + ": SHA-256 " + found.substr(0, 12) +
+                                        "..., recorded " + sha256.substr(0, 12) +
+                                        "...; compose the doors again");
+  return text;
+}
+
+PooledShape MeshPool::ReadShape(const std::string& sha256) const {
+  const std::string text = Read(sha256, ".json");
+  const std::string path = (pool_ / PooledFileName(sha256, ".json")).string();
+  const Json json = Json::parse(text, nullptr, false);
+  if (json.is_discarded()) throw Error(ErrorCode::kFormat, path + ": is not JSON");
+  RequireSchema(json, kShapeSchema, kMeshPoolSchemaVersion, path);
+  PooledShape shape{ValueOf<std::string>(json, "mesh", path), {}};
+  for (const Json& hull : MemberOf(json, "hulls", path)) {
+    if (!hull.is_string()) throw Error(ErrorCode::kFormat, path + ".hulls: expected strings");
+    shape.hulls.push_back(hull.get<std::string>());
+  }
+  return shape;
+}
+
+TriangleMesh MeshPool::ReadMesh(const std::string& sha256) const {
+  return ParseObj(Read(sha256, ".obj"), (pool_ / PooledFileName(sha256, ".obj")).string());
+}
+
+}  // namespace doorforge

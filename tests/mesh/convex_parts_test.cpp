@@ -83,6 +83,19 @@ TEST(ConvexParts, OfAHollowBoxAreItsWalls) {
   EXPECT_FALSE(IsInAPart(parts, {0.5, 0.5, 0.5}));
 }
 
+// Walls thinner than the search's grid and than the skin that a cut may shave off.
+TEST(ConvexParts, KeepWallsThatAreThinnerThanTheConcavity) {
+  const Eigen::Vector3d wall = Eigen::Vector3d::Constant(0.003);
+  const Eigen::Vector3d size(0.6, 0.5, 0.8);
+  const ClosedMesh hollow =
+      Closed(Together(Box(Eigen::Vector3d::Zero(), size), InsideOut(Box(wall, size - wall))));
+  const auto parts = ConvexParts(hollow, {.max_concavity_m = 0.02});
+  const ConvexPartsFit fit = MeasureConvexParts(hollow, parts);
+  EXPECT_LE(fit.uncovered_m, 0.002);
+  EXPECT_LE(fit.protrusion_m, 0.02);
+  EXPECT_FALSE(IsInAPart(parts, size / 2));
+}
+
 TEST(ConvexParts, KeepToTheirNumberAndVertices) {
   const ClosedMesh torus = Closed(Torus(0.05, 0.01, 48, 16));
   const auto parts =

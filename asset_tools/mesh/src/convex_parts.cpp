@@ -16,7 +16,13 @@
 namespace doorforge {
 namespace {
 
-using Polygon = std::vector<Eigen::Vector3d>;
+// A piece of the surface, or a point that was noted for a region.
+struct Polygon {
+  std::vector<Eigen::Vector3d> corners;
+  double wall_m = 0;  // how far the solid reaches behind it
+
+  bool IsNotedPoint() const { return corners.size() == 1; }
+};
 
 // A plane across one axis.
 struct Cut {
@@ -26,17 +32,18 @@ struct Cut {
 
 // What lies on one side of the cut: below it for sign -1, above for +1 (Sutherland and Hodgman).
 Polygon Clipped(const Polygon& polygon, const Cut& cut, int sign) {
-  Polygon clipped;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Eigen::Vector3d& a = polygon[i];
-    const Eigen::Vector3d& b = polygon[(i + 1) % polygon.size()];
+  Polygon clipped{{}, polygon.wall_m};
+  const std::vector<Eigen::Vector3d>& corners = polygon.corners;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Eigen::Vector3d& a = corners[i];
+    const Eigen::Vector3d& b = corners[(i + 1) % corners.size()];
     const double da = sign * (a[cut.axis] - cut.position_m);
     const double db = sign * (b[cut.axis] - cut.position_m);
-    if (da >= 0) clipped.push_back(a);
+    if (da >= 0) clipped.corners.push_back(a);
     if ((da > 0 && db < 0) || (da < 0 && db > 0)) {
       Eigen::Vector3d crossing = a + da / (da - db) * (b - a);
       crossing[cut.axis] = cut.position_m;
-      clipped.push_back(crossing);
+      clipped.corners.push_back(crossing);
     }
   }
   return clipped;
@@ -56,7 +63,7 @@ struct Region {
 std::vector<Eigen::Vector3d> PointsOf(const std::vector<Polygon>& polygons) {
   std::vector<Eigen::Vector3d> points;
   for (const Polygon& polygon : polygons)
-    points.insert(points.end(), polygon.begin(), polygon.end());
+    points.insert(points.end(), polygon.corners.begin(), polygon.corners.end());
   const auto less = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
   };
@@ -67,19 +74,21 @@ std::vector<Eigen::Vector3d> PointsOf(const std::vector<Polygon>& polygons) {
 
 Eigen::Vector3d DoubledAreaOf(const Polygon& polygon) {
   Eigen::Vector3d doubled = Eigen::Vector3d::Zero();
-  for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
-    doubled += (polygon[i] - polygon[0]).cross(polygon[i + 1] - polygon[0]);
+  const std::vector<Eigen::Vector3d>& p = polygon.corners;
+  for (std::size_t i = 1; i + 1 < p.size(); ++i) doubled += (p[i] - p[0]).cross(p[i + 1] - p[0]);
   return doubled;
 }
 
 // Whether the polygon only ends what lies on the other side: it reaches no more than `skin_m` into
-// this side and is no face of a solid on this side. Kept here, the ends of opposite walls would
-// span the air between them.
+// this side, less than the wall behind it reaches into the other, and is no face of a solid on this
+// side. Kept here, the ends of opposite walls would span the air between them; a thin wall that is
+// cut along its middle must keep both its faces.
 bool IsSkinOfOtherSide(const Polygon& polygon, const Cut& cut, int sign, double skin_m) {
   const Eigen::Vector3d doubled = DoubledAreaOf(polygon);
   if (sign * doubled[cut.axis] < -0.5 * doubled.norm()) return false;
-  return std::all_of(polygon.begin(), polygon.end(), [&](const Eigen::Vector3d& p) {
-    return sign * (p[cut.axis] - cut.position_m) <= skin_m;
+  const double reach_m = std::min(skin_m, 0.5 * polygon.wall_m);
+  return std::all_of(polygon.corners.begin(), polygon.corners.end(), [&](const Eigen::Vector3d& p) {
+    return sign * (p[cut.axis] - cut.position_m) <= reach_m;
   });
 }
 
@@ -90,7 +99,7 @@ struct Candidate {
 };
 
 // Planes across `axis` in which much of the surface lies, the largest first. Faces within `bin_m`
-// of each other count as one, since a wrap's faces are only nearly flat.
+// of each other that look the same way count as one, since a wrap's faces are only nearly flat.
 std::vector<Candidate> FaceCuts(const Region& region, int axis, double bin_m) {
   struct Bin {
     double area = 0;
@@ -98,15 +107,15 @@ std::vector<Candidate> FaceCuts(const Region& region, int axis, double bin_m) {
   };
   constexpr std::size_t kFaces = 6;
   constexpr double kAcross = 0.98;  // cosine of the angle between a face's normal and the axis
-  std::map<std::int64_t, Bin> bins;
+  std::map<std::pair<std::int64_t, bool>, Bin> bins;
   for (const Polygon& polygon : region.surface) {
     const Eigen::Vector3d doubled = DoubledAreaOf(polygon);
     const double area = doubled.norm();
     if (!(area > 0) || std::abs(doubled[axis]) < kAcross * area) continue;
     double position = 0;
-    for (const Eigen::Vector3d& p : polygon)
-      position += p[axis] / static_cast<double>(polygon.size());
-    Bin& bin = bins[std::llround(position / bin_m)];
+    for (const Eigen::Vector3d& p : polygon.corners)
+      position += p[axis] / static_cast<double>(polygon.corners.size());
+    Bin& bin = bins[{std::llround(position / bin_m), doubled[axis] > 0}];
     bin.area += area;
     bin.moment += area * position;
   }
@@ -155,7 +164,8 @@ class Decomposition {
     for (const Eigen::Vector3i& t : mesh.mesh().triangles) {
       Polygon& polygon = whole.surface.emplace_back();
       for (const int index : t)
-        polygon.push_back(mesh.mesh().vertices[static_cast<std::size_t>(index)]);
+        polygon.corners.push_back(mesh.mesh().vertices[static_cast<std::size_t>(index)]);
+      polygon.wall_m = WallBehind(polygon);
     }
     smallest_m3_ = 1e-9 * whole.box.volume();
     if (Enclose(whole)) regions_.push_back(std::move(whole));
@@ -175,6 +185,12 @@ class Decomposition {
   }
 
  private:
+  double WallBehind(const Polygon& triangle) const {
+    const std::vector<Eigen::Vector3d>& p = triangle.corners;
+    const Eigen::Vector3d inwards = -DoubledAreaOf(triangle).normalized();
+    return tree_.FirstHit((p[0] + p[1] + p[2]) / 3, inwards, 1e-3 * SkinM());
+  }
+
   // Fills in hull and concavity; false where the region holds nothing.
   bool Enclose(Region& region) {
     region.id = next_id_++;
@@ -182,7 +198,7 @@ class Decomposition {
     for (int corner = 0; corner < 8; ++corner) {
       const Eigen::Vector3d point =
           region.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
-      if (IsSolidBehind(point, region.box)) region.surface.push_back({point});
+      if (IsSolidBehind(point, region.box)) region.surface.push_back({{point}});
     }
     std::optional<TriangleMesh> hull = HullOf(PointsOf(region.surface));
     if (!hull || !(VolumeOf(*hull) > smallest_m3_)) return false;
@@ -281,7 +297,7 @@ class Decomposition {
       if (IsSkinOfOtherSide(polygon, cut, sign, SkinM()) && !IsNotedFor(region, polygon, cut, sign))
         continue;
       Polygon clipped = Clipped(polygon, cut, sign);
-      if (!clipped.empty()) kept.push_back(std::move(clipped));
+      if (!clipped.corners.empty()) kept.push_back(std::move(clipped));
     }
     return kept;
   }
@@ -299,10 +315,12 @@ class Decomposition {
 
   // A noted point on the cut belongs to each side on which the solid goes on behind it.
   bool IsNotedFor(const Region& region, const Polygon& polygon, const Cut& cut, int sign) const {
-    if (polygon.size() != 1 || sign * (polygon[0][cut.axis] - cut.position_m) < 0) return false;
+    if (!polygon.IsNotedPoint()) return false;
+    const Eigen::Vector3d& point = polygon.corners[0];
+    if (sign * (point[cut.axis] - cut.position_m) < 0) return false;
     Eigen::AlignedBox3d side = region.box;
     (sign < 0 ? side.max() : side.min())[cut.axis] = cut.position_m;
-    return IsSolidBehind(polygon[0], side);
+    return IsSolidBehind(point, side);
   }
 
   // What a part may lack of the solid near a cut.

@@ -40,25 +40,28 @@ Vector3d NearestPoint(const Vector3d& p, const Vector3d& a, const Vector3d& b, c
   return a + vb / sum * ab + vc / sum * ac;
 }
 
-// Moller and Trumbore (1997), both sides.
-bool RayHits(const Vector3d& origin, const Vector3d& direction, double from_m,
-             const std::array<const Vector3d*, 3>& corner) {
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Where the ray meets the triangle from either side, or infinity: Moller and Trumbore (1997).
+double RayHit(const Vector3d& origin, const Vector3d& direction,
+              const std::array<const Vector3d*, 3>& corner) {
   const Vector3d ab = *corner[1] - *corner[0];
   const Vector3d ac = *corner[2] - *corner[0];
   const Vector3d p = direction.cross(ac);
   const double determinant = ab.dot(p);
-  if (determinant == 0) return false;
+  if (determinant == 0) return kInfinity;
   const Vector3d from_a = origin - *corner[0];
   const double u = from_a.dot(p) / determinant;
-  if (!(u >= 0 && u <= 1)) return false;
+  if (!(u >= 0 && u <= 1)) return kInfinity;
   const Vector3d q = from_a.cross(ab);
   const double v = direction.dot(q) / determinant;
-  return v >= 0 && u + v <= 1 && ac.dot(q) / determinant > from_m;
+  return v >= 0 && u + v <= 1 ? ac.dot(q) / determinant : kInfinity;
 }
 
-bool RayMeetsBox(const Vector3d& origin, const Vector3d& inverse, const Eigen::AlignedBox3d& box) {
+// Where the ray enters the box, or infinity.
+double BoxEntry(const Vector3d& origin, const Vector3d& inverse, const Eigen::AlignedBox3d& box) {
   double near = 0;
-  double far = std::numeric_limits<double>::infinity();
+  double far = kInfinity;
   for (int k = 0; k < 3; ++k) {
     const double t0 = (box.min()[k] - origin[k]) * inverse[k];
     const double t1 = (box.max()[k] - origin[k]) * inverse[k];
@@ -66,7 +69,7 @@ bool RayMeetsBox(const Vector3d& origin, const Vector3d& inverse, const Eigen::A
     near = std::max(near, std::min(t0, t1));
     far = std::min(far, std::max(t0, t1));
   }
-  return near <= far * (1 + 1e-12);
+  return near <= far * (1 + 1e-12) ? near : kInfinity;
 }
 
 }  // namespace
@@ -136,22 +139,35 @@ double TriangleTree::Distance(const Vector3d& point, double at_most) const {
 }
 
 bool TriangleTree::Hits(const Vector3d& origin, const Vector3d& direction, double from_m) const {
-  if (triangles_.empty()) return false;
+  return Nearest(origin, direction, from_m, true) < kInfinity;
+}
+
+double TriangleTree::FirstHit(const Vector3d& origin, const Vector3d& direction,
+                              double from_m) const {
+  return Nearest(origin, direction, from_m, false);
+}
+
+double TriangleTree::Nearest(const Vector3d& origin, const Vector3d& direction, double from_m,
+                             bool any) const {
+  double best = kInfinity;
+  if (triangles_.empty()) return best;
   const Vector3d inverse = direction.cwiseInverse();
   std::vector<int> pending{0};
   while (!pending.empty()) {
     const Node& node = nodes_[static_cast<std::size_t>(pending.back())];
     pending.pop_back();
-    if (!RayMeetsBox(origin, inverse, node.box)) continue;
+    if (!(BoxEntry(origin, inverse, node.box) < best)) continue;
     for (int i = node.first; i < node.first + node.count; ++i) {
       const Triangle& t = triangles_[static_cast<std::size_t>(i)];
-      if (RayHits(origin, direction, from_m, {&t.a, &t.b, &t.c})) return true;
+      const double hit = RayHit(origin, direction, {&t.a, &t.b, &t.c});
+      if (hit > from_m) best = std::min(best, hit);
+      if (any && best < kInfinity) return best;
     }
     if (node.count > 0) continue;
     pending.push_back(node.first);
     pending.push_back(node.first + 1);
   }
-  return false;
+  return best;
 }
 
 double TriangleTree::WindingNumber(const Vector3d& point) const {

@@ -23,6 +23,11 @@ class TriangleTree {
   /// Whether the ray meets a triangle, of either side, farther than `from_m` from its origin.
   bool Hits(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double from_m) const;
 
+  /// Distance along the ray of unit direction to the nearest triangle, of either side, farther than
+  /// `from_m`; infinity where there is none.
+  double FirstHit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                  double from_m) const;
+
   /// How often the mesh winds around the point (Jacobson et al. 2013), summed exactly over all
   /// triangles: about 1 inside a closed mesh, 0 outside.
   double WindingNumber(const Eigen::Vector3d& point) const;
@@ -40,6 +45,9 @@ class TriangleTree {
   };
 
   void Build(int node, int first, int count);
+  /// FirstHit(), or any hit where that is enough.
+  double Nearest(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double from_m,
+                 bool any) const;
 
   std::vector<Triangle> triangles_;
   std::vector<Node> nodes_;

@@ -16,7 +16,7 @@ namespace doorforge {
 
 struct MakePartConfig {
   RepairConfig repair = {};
-  ConvexPartsConfig frame_convex{.max_parts = 24, .max_concavity_m = 0.02};
+  ConvexPartsConfig frame_convex{.max_parts = 32, .max_concavity_m = 0.02};
   ConvexPartsConfig leaf_convex{.max_parts = 16, .max_concavity_m = 0.01};
   /// Finer: what the fingers grasp must not be thicker in collisions than in the picture.
   ConvexPartsConfig handle_convex{.max_parts = 32, .max_concavity_m = 0.002};

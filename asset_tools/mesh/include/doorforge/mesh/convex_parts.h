@@ -12,7 +12,7 @@ namespace doorforge {
 struct ConvexPartsConfig {
   int max_parts = 24;
   double max_concavity_m = 0.005;  ///< How far a part may protrude beyond the mesh.
-  int max_vertices = 48;           ///< Of a part; at least 4.
+  int max_vertices = 64;           ///< Of a part; at least 4.
   int max_grid_cells = 4'000'000;  ///< Cells of the grid that the search works on.
 
   template <class Self, class Visitor>

@@ -166,9 +166,10 @@ void RunChain(const Options& options) {
   const std::string policy = out / "policy";
   Steps steps(options);
   if (options.assets.empty()) {
-    steps.Run({"Parts of the embedded catalogue",
-               {Program("doorforge-assets"), "catalog", "build", "--out", parts},
-               "--overwrite"});
+    steps.Run(
+        {"Parts of the embedded catalogue",
+         {Program("doorforge-assets"), "catalog", "build", "--split", "quickstart", "--out", parts},
+         "--overwrite"});
   } else {
     steps.Run({"Parts from real objects",
                {Program("doorforge-assets"), "import", options.assets, "--out", parts, "--threads",

@@ -16,6 +16,7 @@
 #include "doorforge/core/progress.h"
 #include "doorforge/core/rigid_transform.h"
 #include "doorforge/door/catalogue.h"
+#include "doorforge/schemas/split.h"
 
 #include "verb_options.h"
 
@@ -27,6 +28,7 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
   std::string category;
+  std::string split;
   std::string id;
   std::string out;
   int threads = 0;
@@ -39,14 +41,21 @@ std::vector<CatalogueEntry> Chosen(const Options& options) {
     throw Error(ErrorCode::kInvalidArgument,
                 "--category: unknown category \"" + options.category +
                     "\"; allowed are interior, window, car, safe, storagefurniture, refrigerator");
+  const std::vector<CatalogueEntry> catalogue = ListCatalogue(DataFolder());
   std::vector<CatalogueEntry> chosen;
-  for (CatalogueEntry& entry : ListCatalogue(DataFolder())) {
-    if (options.category.empty() || NameOf(entry.category) == options.category)
-      chosen.push_back(std::move(entry));
+  if (options.split.empty()) {
+    chosen = catalogue;
+  } else {
+    const fs::path path = DataFolder() / "splits" / (options.split + ".yaml");
+    for (const std::string& id : PartsOf(ReadSplit(fs::exists(path) ? path : options.split)))
+      chosen.push_back(FindCatalogueEntry(catalogue, id));
   }
+  std::erase_if(chosen, [&](const CatalogueEntry& entry) {
+    return !options.category.empty() && NameOf(entry.category) != options.category;
+  });
   if (chosen.empty())
     throw Error(ErrorCode::kMissing,
-                "catalog: there are no parts of category \"" + options.category + "\" yet");
+                "catalog: there are no parts of category \"" + options.category + "\" here");
   return chosen;
 }
 
@@ -164,15 +173,18 @@ int RunCatalogVerb(int argc, char** argv) {
   build->add_option("--out", options.out, "folder of the parts")->required();
   build->add_option("--threads", options.threads, "0: all processors");
   build->add_flag("--overwrite", options.overwrite, "replace parts that are there already");
-  for (CLI::App* verb : {list, build})
+  for (CLI::App* verb : {list, build}) {
     verb->add_option("--category", options.category, "only this category");
+    verb->add_option("--split", options.split,
+                     "only parts of this split: a name in data/splits or a file");
+  }
   for (CLI::App* verb : {list, show, build})
     verb->add_flag("--json", options.json, "print one JSON document");
   app.footer(
       "examples:\n"
       "  doorforge catalog list --category interior\n"
       "  doorforge catalog show interior_lever_tube_01\n"
-      "  doorforge catalog build --out parts");
+      "  doorforge catalog build --split quickstart --out parts");
   ParseVerb(app, argc, argv);
   if (list->parsed()) return List(options);
   if (show->parsed()) return Show(options);

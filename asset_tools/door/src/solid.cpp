@@ -148,6 +148,20 @@ TriangleMesh Loft(const std::vector<Ring>& rings) {
   return mesh;
 }
 
+TriangleMesh LoftLoop(const std::vector<Ring>& rings) {
+  std::vector<Ring> around = rings;
+  around.push_back(rings.front());
+  TriangleMesh mesh = Tube(around);
+  // the repeated ring is the first one
+  const int count = static_cast<int>(rings[0].size());
+  const int end = static_cast<int>(mesh.vertices.size()) - count;
+  mesh.vertices.resize(static_cast<std::size_t>(end));
+  for (Eigen::Vector3i& t : mesh.triangles) {
+    for (int& index : t) index = index >= end ? index - end : index;
+  }
+  return mesh;
+}
+
 TriangleMesh LoftProfile(const std::vector<Ring>& rings,
                          const std::vector<Eigen::Vector2d>& profile) {
   TriangleMesh mesh = Tube(rings);

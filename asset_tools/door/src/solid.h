@@ -28,6 +28,10 @@ using Ring = std::vector<Eigen::Vector3d>;
 /// its centre. Volume is positive.
 TriangleMesh Loft(const std::vector<Ring>& rings);
 
+/// Loft() that goes on from the last ring to the first: a hoop without caps. Volume is positive if
+/// the rings run around their common axis in the sense that Loft() asks of each.
+TriangleMesh LoftLoop(const std::vector<Ring>& rings);
+
 /// Loft() of rings whose end caps are not star-shaped: all rings are copies of one flat polygon
 /// with these plane coordinates, counter-clockwise, and the caps are cut by ear clipping.
 TriangleMesh LoftProfile(const std::vector<Ring>& rings,

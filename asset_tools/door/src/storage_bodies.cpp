@@ -2,43 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/core/error.h"
 
+#include "carcass.h"
 #include "family.h"
 #include "leaf_layout.h"
-#include "relief.h"
+#include "leaf_styles.h"
 
 namespace doorforge::internal {
 namespace {
 
-constexpr double kMarginM = 0.003;         // the carcass reaches this far beyond the leaf
-constexpr double kLeafToCarcassM = 0.003;  // behind the leaf
-constexpr double kLeafToFrontM = 0.006;    // between the leaf and a fixed front beside it
 constexpr double kHullToleranceM = 0.006;
-
-/// The box that carries the leaf; stands still.
-struct Carcass {
-  double depth_m = 0.5;
-  double board_m = 0.018;
-  int shelves = 1;
-  std::string base = "plinth";  ///< "plinth", "legs" or "none".
-  double base_height_m = 0.09;
-  std::string top = "flush";  ///< "flush", "board" or "cornice".
-  double side_width_m = 0;    ///< Width of a bay beside the leaf; 0 for none.
-  int side_fronts = 3;        ///< Fixed drawer fronts in that bay.
-  std::string finish = "chipboard_white";
-
-  template <class Self, class Visitor>
-  static void VisitFields(Self& self, Visitor&& visit) {
-    visit("depth_m", self.depth_m);
-    visit("board_m", self.board_m);
-    visit("shelves", self.shelves);
-    visit("base", self.base);
-    visit("base_height_m", self.base_height_m);
-    visit("top", self.top);
-    visit("side_width_m", self.side_width_m);
-    visit("side_fronts", self.side_fronts);
-    visit("finish", self.finish);
-  }
-};
 
 /// What all cabinets share.
 struct StorageBody {
@@ -88,143 +60,134 @@ struct PlankedStorage : StorageBody {
   }
 };
 
+/// Leaves with a plain border.
+struct BorderedStorage : StorageBody {
+  double border_m = 0.09;
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    StorageBody::VisitFields(self, visit);
+    visit("border_m", self.border_m);
+  }
+};
+
+struct LouvredStorage : BorderedStorage {
+  int slats = 14;
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    BorderedStorage::VisitFields(self, visit);
+    visit("slats", self.slats);
+  }
+};
+
+struct BracedStorage : BorderedStorage {
+  int panels = 1;
+  bool crossed = false;
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    BorderedStorage::VisitFields(self, visit);
+    visit("panels", self.panels);
+    visit("crossed", self.crossed);
+  }
+};
+
+struct LatticedStorage : BorderedStorage {
+  int bars = 7;
+  double bar_width_m = 0.014;
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    BorderedStorage::VisitFields(self, visit);
+    visit("bars", self.bars);
+    visit("bar_width_m", self.bar_width_m);
+  }
+};
+
+struct ArchedStorage : BorderedStorage {
+  double rise_m = 0.08;
+  bool open = false;  ///< Without the panel behind the arch.
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    BorderedStorage::VisitFields(self, visit);
+    visit("rise_m", self.rise_m);
+    visit("open", self.open);
+  }
+};
+
+struct BowedStorage : BorderedStorage {
+  double bow_m = 0.03;
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    BorderedStorage::VisitFields(self, visit);
+    visit("bow_m", self.bow_m);
+  }
+};
+
+struct ReededStorage : BorderedStorage {
+  int reeds = 10;
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    BorderedStorage::VisitFields(self, visit);
+    visit("reeds", self.reeds);
+  }
+};
+
+struct LockerStorage : StorageBody {
+  int slots = 4;  ///< Pressed vents, near the top and near the bottom.
+  double slot_width_m = 0.2;
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    StorageBody::VisitFields(self, visit);
+    visit("slots", self.slots);
+    visit("slot_width_m", self.slot_width_m);
+  }
+};
+
 void Check(const StorageBody& body, const std::string& path) {
-  RequireRange(path, "leaf_width_m", body.leaf_width_m, 0.5, 1.3);
-  RequireRange(path, "leaf_height_m", body.leaf_height_m, 0.45, 1.24);
-  RequireRange(path, "thickness_m", body.thickness_m, 0.015, 0.035);
+  RequireRange(path, "leaf_width_m", body.leaf_width_m, 0.5, 1.35);
+  RequireRange(path, "leaf_height_m", body.leaf_height_m, 0.4, 1.24);
+  RequireRange(path, "thickness_m", body.thickness_m, 0.015, 0.04);
   RequireRange(path, "edge_radius_m", body.edge_radius_m, 0.0005, 0.006);
   RequireRange(path, "mount_height_m", body.mount_height_m, 0.15, body.leaf_height_m - 0.15);
   RequireRange(path, "mount_to_edge_m", body.mount_to_edge_m, 0.038, 0.1);
-  const std::string carcass = path + ".carcass";
-  RequireRange(carcass, "depth_m", body.carcass.depth_m, 0.28, 0.9);
-  RequireRange(carcass, "board_m", body.carcass.board_m, 0.012, 0.035);
-  RequireRange(carcass, "shelves", body.carcass.shelves, 0, 4);
-  RequireRange(carcass, "base_height_m", body.carcass.base_height_m, 0.03, 0.25);
-  if (body.carcass.side_width_m > 0) {
-    RequireRange(carcass, "side_width_m", body.carcass.side_width_m, 0.2, 0.8);
-    RequireRange(carcass, "side_fronts", body.carcass.side_fronts, 1, 5);
-  }
+  CheckCarcass(body.carcass, path + ".carcass");
 }
 
-double BaseHeight(const Carcass& carcass) {
-  return carcass.base == "none" ? 0 : carcass.base_height_m;
+void CheckBorder(const BorderedStorage& body, const std::string& path) {
+  Check(body, path);
+  RequireRange(path, "border_m", body.border_m, 0.084, 0.16);
 }
 
-Rectangle LeafOutline(const StorageBody& body) {
-  const double z = BaseHeight(body.carcass) + kMarginM;
-  return {{0, z}, {body.leaf_width_m, z + body.leaf_height_m}};
+CarcassLeaf InCarcass(const StorageBody& body) {
+  return {body.leaf_width_m, body.leaf_height_m, 0, body.thickness_m};
 }
 
-// Outline of the whole front.
-Rectangle FrontOutline(const StorageBody& body) {
-  const Rectangle leaf = LeafOutline(body);
-  const double side = body.carcass.side_width_m;
-  const double right = leaf.max_m.x() + (side > 0 ? side + kLeafToFrontM : 0);
-  return {leaf.min_m.array() - kMarginM, Eigen::Vector2d(right, leaf.max_m.y()).array() + kMarginM};
+LeafShape ShapeOf(const BorderedStorage& body) {
+  return {LeafOutline(body.carcass, InCarcass(body)), body.thickness_m, body.edge_radius_m,
+          body.border_m};
 }
 
-// The box with its shelves: pockets sunk into a block.
-Solid CarcassBox(const StorageBody& body) {
-  const Carcass& carcass = body.carcass;
-  ReliefSlab slab;
-  slab.outline = FrontOutline(body);
-  slab.thickness_m = carcass.depth_m;
-  slab.edge_radius_m = 0.001;
-  FieldGrid bays{carcass.board_m, carcass.board_m, carcass.board_m, carcass.board_m, 1, {}};
-  bays.rows.assign(static_cast<std::size_t>(carcass.shelves) + 1, 1.0);
-  // a shallow draft instead of upright walls keeps the pocket a height field
-  const ReliefProfile pocket = SunkPanel(carcass.depth_m - carcass.board_m, 0.0005);
-  Rectangle behind_leaf = slab.outline;
-  behind_leaf.max_m.x() = body.leaf_width_m + kMarginM;
-  for (const Rectangle& bay : FieldsOf(bays, behind_leaf, "carcass"))
-    slab.fields.push_back({bay, pocket, ReliefSide::kFront});
-  return Moved(ReliefSolid(slab, kHullToleranceM), {-body.thickness_m - kLeafToCarcassM, 0, 0});
-}
-
-void AddBase(const StorageBody& body, const std::string& path, std::vector<Solid>& solids) {
-  const Carcass& carcass = body.carcass;
-  if (carcass.base == "none") return;
-  const Rectangle front = FrontOutline(body);
-  const double x1 = -body.thickness_m - kLeafToCarcassM;
-  const double x0 = x1 - carcass.depth_m;
-  const double z = carcass.base_height_m;
-  const double y0 = front.min_m.x();
-  const double y1 = front.max_m.x();
-  if (carcass.base == "plinth") {
-    solids.push_back(ChamferedBox({x0 + 0.01, y0 + 0.01, 0}, {x1 - 0.05, y1 - 0.01, z}, 0.002));
-    return;
-  }
-  if (carcass.base != "legs")
-    throw Error(ErrorCode::kInvalidConfig,
-                path + ".base: found \"" + carcass.base + "\", allowed plinth, legs, none");
-  constexpr double kLegM = 0.045;
-  for (const double x : {x0 + 0.02, x1 - 0.02 - kLegM}) {
-    for (const double y : {y0 + 0.02, y1 - 0.02 - kLegM})
-      solids.push_back(ChamferedBox({x, y, 0}, {x + kLegM, y + kLegM, z}, 0.006));
-  }
-}
-
-void AddTop(const StorageBody& body, const std::string& path, std::vector<Solid>& solids) {
-  const std::string& top = body.carcass.top;
-  if (top == "flush") return;
-  const Rectangle front = FrontOutline(body);
-  const double x1 = -body.thickness_m - kLeafToCarcassM;
-  const double x0 = x1 - body.carcass.depth_m;
-  const double z = front.max_m.y();
-  const auto board = [&](double overhang, double from_z, double to_z) {
-    solids.push_back(ChamferedBox({x0, front.min_m.x() - overhang, from_z},
-                                  {x1 + overhang, front.max_m.x() + overhang, to_z}, 0.004));
-  };
-  if (top == "board") {
-    board(0.015, z, z + 0.026);
-  } else if (top == "cornice") {
-    board(0.012, z, z + 0.02);
-    board(0.03, z + 0.02, z + 0.045);
-  } else {
-    throw Error(ErrorCode::kInvalidConfig,
-                path + ".top: found \"" + top + "\", allowed flush, board, cornice");
-  }
-}
-
-// Drawer fronts that do not move, beside the leaf.
-void AddSideFronts(const StorageBody& body, std::vector<Solid>& solids) {
-  if (body.carcass.side_width_m <= 0) return;
-  const Rectangle leaf = LeafOutline(body);
-  const int count = body.carcass.side_fronts;
-  const double gap = 0.004;
-  const double height = (body.leaf_height_m - gap * (count - 1)) / count;
-  for (int i = 0; i < count; ++i) {
-    const double y = leaf.max_m.x() + kLeafToFrontM;
-    const double z = leaf.min_m.y() + i * (height + gap);
-    ReliefSlab slab;
-    slab.outline = {{y, z}, {y + body.carcass.side_width_m, z + height}};
-    slab.thickness_m = body.thickness_m;
-    slab.edge_radius_m = body.edge_radius_m;
-    const Rectangle field{slab.outline.min_m.array() + 0.045, slab.outline.max_m.array() - 0.045};
-    slab.fields = {{field, SunkPanel(0.005, 0.003), ReliefSide::kFront}};
-    solids.push_back(ReliefSolid(slab, kHullToleranceM));
-  }
-}
-
-Part BodyPart(const StorageBody& body, const std::string& path, const ReliefSlab& leaf) {
+Part BodyPart(const StorageBody& body, const std::string& path, const Solid& leaf) {
   Part part;
   part.joint = BodyHinge(0);
-  std::vector<Solid> solids = {CarcassBox(body)};
-  AddBase(body, path + ".carcass", solids);
-  AddTop(body, path + ".carcass", solids);
-  AddSideFronts(body, solids);
-  part.pieces.push_back(
-      MakePiece("frame", Joined(solids), body.carcass.finish, path + ".carcass.finish"));
-  part.pieces.push_back(
-      MakePiece("leaf", ReliefSolid(leaf, kHullToleranceM), body.finish, path + ".finish"));
-  part.part_from_mount = Translation(
-      {0, body.leaf_width_m - body.mount_to_edge_m, leaf.outline.min_m.y() + body.mount_height_m});
+  part.pieces.push_back(MakePiece("frame", CarcassSolid(body.carcass, InCarcass(body)),
+                                  body.carcass.finish, path + ".carcass.finish"));
+  part.pieces.push_back(MakePiece("leaf", leaf, body.finish, path + ".finish"));
+  const double lower_edge = LeafOutline(body.carcass, InCarcass(body)).min_m.y();
+  part.part_from_mount =
+      Translation({0, body.leaf_width_m - body.mount_to_edge_m, lower_edge + body.mount_height_m});
   return part;
 }
 
 ReliefSlab SlabOf(const StorageBody& body) {
   ReliefSlab slab;
-  slab.outline = LeafOutline(body);
+  slab.outline = LeafOutline(body.carcass, InCarcass(body));
   slab.thickness_m = body.thickness_m;
   slab.edge_radius_m = body.edge_radius_m;
   return slab;
@@ -233,7 +196,7 @@ ReliefSlab SlabOf(const StorageBody& body) {
 Part BuildSlab(const nlohmann::ordered_json& json, const std::string& path) {
   const auto body = ReadParameters<StorageBody>(json, path);
   Check(body, path);
-  return BodyPart(body, path, SlabOf(body));
+  return BodyPart(body, path, ReliefSolid(SlabOf(body), kHullToleranceM));
 }
 
 Part BuildFramed(const nlohmann::ordered_json& json, const std::string& path) {
@@ -254,7 +217,7 @@ Part BuildFramed(const nlohmann::ordered_json& json, const std::string& path) {
     throw Error(ErrorCode::kInvalidConfig,
                 path + ".field: found \"" + body.field + "\", allowed sunk, raised, open");
   }
-  return BodyPart(body, path, slab);
+  return BodyPart(body, path, ReliefSolid(slab, kHullToleranceM));
 }
 
 Part BuildPlanked(const nlohmann::ordered_json& json, const std::string& path) {
@@ -263,7 +226,68 @@ Part BuildPlanked(const nlohmann::ordered_json& json, const std::string& path) {
   RequireRange(path, "planks", body.planks, 2, 10);
   ReliefSlab slab = SlabOf(body);
   slab.fields = PlankGrooves(slab.outline, body.planks, ReliefSide::kFront);
-  return BodyPart(body, path, slab);
+  return BodyPart(body, path, ReliefSolid(slab, kHullToleranceM));
+}
+
+Part BuildLouvred(const nlohmann::ordered_json& json, const std::string& path) {
+  const auto body = ReadParameters<LouvredStorage>(json, path);
+  CheckBorder(body, path);
+  RequireRange(path, "slats", body.slats, 4, 24);
+  return BodyPart(body, path, LouvredLeaf(ShapeOf(body), body.slats));
+}
+
+Part BuildBraced(const nlohmann::ordered_json& json, const std::string& path) {
+  const auto body = ReadParameters<BracedStorage>(json, path);
+  CheckBorder(body, path);
+  RequireRange(path, "panels", body.panels, 1, 2);
+  return BodyPart(body, path, BracedLeaf(ShapeOf(body), body.panels, body.crossed));
+}
+
+Part BuildLatticed(const nlohmann::ordered_json& json, const std::string& path) {
+  const auto body = ReadParameters<LatticedStorage>(json, path);
+  CheckBorder(body, path);
+  RequireRange(path, "bars", body.bars, 3, 12);
+  RequireRange(path, "bar_width_m", body.bar_width_m, 0.006, 0.03);
+  return BodyPart(body, path, LatticedLeaf(ShapeOf(body), body.bars, body.bar_width_m));
+}
+
+Part BuildArched(const nlohmann::ordered_json& json, const std::string& path) {
+  const auto body = ReadParameters<ArchedStorage>(json, path);
+  CheckBorder(body, path);
+  RequireRange(path, "rise_m", body.rise_m, 0.02, 0.2);
+  return BodyPart(body, path, ArchedLeaf(ShapeOf(body), body.rise_m, body.open));
+}
+
+Part BuildBowed(const nlohmann::ordered_json& json, const std::string& path) {
+  const auto body = ReadParameters<BowedStorage>(json, path);
+  CheckBorder(body, path);
+  RequireRange(path, "bow_m", body.bow_m, 0.01, 0.07);
+  return BodyPart(body, path, BowedLeaf(ShapeOf(body), body.bow_m));
+}
+
+Part BuildReeded(const nlohmann::ordered_json& json, const std::string& path) {
+  const auto body = ReadParameters<ReededStorage>(json, path);
+  CheckBorder(body, path);
+  RequireRange(path, "reeds", body.reeds, 3, 20);
+  return BodyPart(body, path, ReededLeaf(ShapeOf(body), body.reeds));
+}
+
+Part BuildLocker(const nlohmann::ordered_json& json, const std::string& path) {
+  const auto body = ReadParameters<LockerStorage>(json, path);
+  Check(body, path);
+  RequireRange(path, "slots", body.slots, 1, 6);
+  RequireRange(path, "slot_width_m", body.slot_width_m, 0.08, body.leaf_width_m - 0.2);
+  ReliefSlab slab = SlabOf(body);
+  const double middle = body.leaf_width_m / 2;
+  for (int i = 0; i < body.slots; ++i) {
+    for (const double z :
+         {slab.outline.min_m.y() + 0.06 + 0.024 * i, slab.outline.max_m.y() - 0.06 - 0.024 * i}) {
+      const Rectangle slot{{middle - body.slot_width_m / 2, z - 0.006},
+                           {middle + body.slot_width_m / 2, z + 0.006}};
+      slab.fields.push_back({slot, SunkPanel(0.005, 0.003), ReliefSide::kFront});
+    }
+  }
+  return BodyPart(body, path, ReliefSolid(slab, kHullToleranceM));
 }
 
 }  // namespace
@@ -273,6 +297,13 @@ std::span<const Family> StorageBodyFamilies() {
       {"storage_slab", PartRole::kBody, Mechanism::kNone, BuildSlab},
       {"storage_framed", PartRole::kBody, Mechanism::kNone, BuildFramed},
       {"storage_planked", PartRole::kBody, Mechanism::kNone, BuildPlanked},
+      {"storage_louvred", PartRole::kBody, Mechanism::kNone, BuildLouvred},
+      {"storage_braced", PartRole::kBody, Mechanism::kNone, BuildBraced},
+      {"storage_latticed", PartRole::kBody, Mechanism::kNone, BuildLatticed},
+      {"storage_arched", PartRole::kBody, Mechanism::kNone, BuildArched},
+      {"storage_bowed", PartRole::kBody, Mechanism::kNone, BuildBowed},
+      {"storage_reeded", PartRole::kBody, Mechanism::kNone, BuildReeded},
+      {"storage_locker", PartRole::kBody, Mechanism::kNone, BuildLocker},
   };
   return kFamilies;
 }

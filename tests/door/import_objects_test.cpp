@@ -79,7 +79,7 @@ TEST(ImportObjects, NothingIsWrittenWhenNothingImports) {
   ImportAll(root / "LeverDoor", root / "out");
   EXPECT_FALSE(fs::exists(root / "out"));
   EXPECT_THROW(FindObjects(root / "out"), Error);
-  EXPECT_THROW(FindObjects(root / "LeverDoor/99650069960003/mobility.urdf"), Error);
+  EXPECT_THROW(FindObjects(root / "LeverDoor/99650069960003/bounding_box.json"), Error);
 }
 
 TEST(ImportObjects, SharedPartsAreMadeOnceAndOtherScalesGetANumber) {

@@ -104,7 +104,7 @@ void ExpectAxesOfTheSource(const fs::path& folder) {
 TEST_F(RealAssets, AxesOfAllLeverDoorsAndCabinetsAreThoseOfTheirUrdf) {
   int count = 0;
   for (const char* subtask : {"LeverDoor", "RoundDoor", "Cabinet", "Fridge"}) {
-    for (const fs::path& folder : FindObjects(objects_ / subtask)) {
+    for (const auto& [folder, format] : FindObjects(objects_ / subtask)) {
       SCOPED_TRACE(folder.string());
       if (std::string(subtask) == "Fridge" && !fs::exists(folder / "texture_dae/frame.dae"))
         continue;
@@ -118,7 +118,7 @@ TEST_F(RealAssets, AxesOfAllLeverDoorsAndCabinetsAreThoseOfTheirUrdf) {
 TEST_F(RealAssets, MeshesFillTheBoxesThatTheObjectsState) {
   int complete = 0;
   std::vector<std::string> contradict;
-  for (const fs::path& folder : FindObjects(objects_)) {
+  for (const auto& [folder, format] : FindObjects(objects_)) {
     SCOPED_TRACE(folder.string());
     try {
       const UniDoorManipObject object = ReadUniDoorManip(folder, "");
@@ -139,7 +139,7 @@ TEST_F(RealAssets, ALeverDoorAndACabinetMakeDoorsThatMuJoCoAndUrdfdomLoad) {
   const fs::path root = TestFolder("real_doors");
   const auto import = [&](const fs::path& object) {
     const ImportReport report =
-        ImportObjects({objects_ / object}, root / "parts", {}, Existing::kRefuse);
+        ImportObjects(FindObjects(objects_ / object), root / "parts", {}, Existing::kRefuse);
     EXPECT_EQ(report.objects[0].outcome, ImportOutcome::kImported) << report.objects[0].message;
     const DoorAsset door = ComposeDoor(ReadPart(root / "parts" / report.objects[0].body_id),
                                        ReadPart(root / "parts" / report.objects[0].handle_id), {});

@@ -22,46 +22,107 @@ struct Options {
   std::string source;
   std::string out;
   std::string format = "auto";
-  std::string category;
   std::string config;
   std::vector<std::string> settings;
+  ReadConfig read;  // what the flags say; an empty field leaves the config's
   int threads = 0;
   bool overwrite = false;
   bool json = false;
 };
 
-Options Parse(int argc, char** argv) {
-  Options options;
-  CLI::App app("Imports composed door objects: each gives a body part and a handle part.",
-               "doorforge import");
-  app.add_option("SRC", options.source,
-                 "one object (a folder with mobility.urdf) or a folder of them")
-      ->required();
-  app.add_option("--out", options.out, "folder for the parts")->required();
-  app.add_option("--format", options.format, "auto or unidoormanip")
-      ->check(CLI::IsMember({"auto", "unidoormanip"}));
-  app.add_option("--category", options.category,
+void AddReadOptions(CLI::App& app, ReadConfig& read) {
+  app.add_option("--category", read.category,
                  "interior, window, car, safe, storagefurniture or refrigerator; told by the "
                  "object's folder or content if left out");
+  app.add_option("--allow-missing", read.allow_missing,
+                 "frame: objects that lack only the mesh of their frame are imported without");
+  app.add_option("--height", read.height_m,
+                 "height of the whole object in m, for data sets without a unit");
+  LooseMeshConfig& mesh = read.mesh;
+  mesh = {.role = "", .mechanism = "", .unit = "", .hinge = "", .license = ""};
+  app.add_option("--role", mesh.role, "of loose meshes: body (a leaf) or handle");
+  app.add_option("--mechanism", mesh.mechanism,
+                 "of loose handles: none, lever, round, key, valve or flap");
+  app.add_option("--unit", mesh.unit, "of loose meshes: m, cm, mm, in or ft");
+  app.add_option("--scale", mesh.scale,
+                 "of loose meshes: one factor, or three along the file's axes")
+      ->expected(1, 3);
+  app.add_option("--up", mesh.up, "axis of the file that points up: x, y, z, -x, -y or -z");
+  app.add_option("--front", mesh.front, "axis of a loose mesh that points out of the door");
+  app.add_option("--hinge", mesh.hinge, "of loose leaves, as seen from the front: left or right");
+  app.add_option("--frame", mesh.frame, "mesh of a loose leaf's frame");
+  app.add_option("--rose", mesh.rose, "mesh of what stays fixed around a loose handle");
+  app.add_option("--mount", mesh.mount,
+                 "x y z in a loose mesh: where the handle goes, or the point on its axis that lies "
+                 "on the leaf")
+      ->expected(3);
+  app.add_option("--license", mesh.license, "SPDX expression, of loose meshes and URDF");
+}
+
+Options Parse(int argc, char** argv) {
+  Options options;
+  CLI::App app("Imports foreign door objects: each gives a body part and a handle part.",
+               "doorforge import");
+  app.add_option("SRC", options.source, "one object, or a folder of them up to three levels deep")
+      ->required();
+  app.add_option("--out", options.out, "folder for the parts")->required();
+  std::vector<std::string> formats = ImportFormatNames();
+  formats.insert(formats.begin(), "auto");
+  app.add_option("--format", options.format, "auto, or the data set or kind of file")
+      ->check(CLI::IsMember(formats));
+  AddReadOptions(app, options.read);
   app.add_option("--config", options.config, "YAML file with the settings of import");
   app.add_option("--set", options.settings, "a.b=c overrides one setting");
   app.add_option("--threads", options.threads, "0: all processors");
   app.add_flag("--overwrite", options.overwrite, "replace parts that are there already");
   app.add_flag("--json", options.json, "print one JSON document");
-  app.footer("example:\n  doorforge import shared/unidoormanip_objects/LeverDoor --out parts");
+  app.footer(
+      "examples:\n"
+      "  doorforge import unidoormanip_objects/LeverDoor --out parts\n"
+      "  doorforge import partnet_mobility/101593 --out parts --height 0.7\n"
+      "  doorforge import my_lever.stl --role handle --category interior --mechanism lever "
+      "--unit mm --front z --up y --out parts");
   ParseVerb(app, argc, argv);
   return options;
 }
 
-std::string GraspNote(const ImportedObject& object) {
-  return object.grasp_holds ? "" : "  (no grasp that holds was found)";
+template <class T>
+void Override(T& value, const T& flag) {
+  if (flag != T()) value = flag;
 }
+
+void OverrideRead(ReadConfig& config, const ReadConfig& flags) {
+  Override(config.category, flags.category);
+  Override(config.allow_missing, flags.allow_missing);
+  Override(config.height_m, flags.height_m);
+  LooseMeshConfig& mesh = config.mesh;
+  Override(mesh.role, flags.mesh.role);
+  Override(mesh.mechanism, flags.mesh.mechanism);
+  Override(mesh.unit, flags.mesh.unit);
+  Override(mesh.scale, flags.mesh.scale);
+  Override(mesh.up, flags.mesh.up);
+  Override(mesh.front, flags.mesh.front);
+  Override(mesh.hinge, flags.mesh.hinge);
+  Override(mesh.frame, flags.mesh.frame);
+  Override(mesh.rose, flags.mesh.rose);
+  Override(mesh.mount, flags.mesh.mount);
+  Override(mesh.license, flags.mesh.license);
+}
+
+std::string NotesOf(const ImportedObject& object) {
+  std::string notes;
+  if (!object.handle_id.empty() && !object.grasp_holds) notes = "no grasp that holds was found";
+  for (const std::string& note : object.notes) notes += (notes.empty() ? "" : "; ") + note;
+  return notes.empty() ? "" : "  (" + notes + ")";
+}
+
+const char* OrDash(const std::string& id) { return id.empty() ? "-" : id.c_str(); }
 
 void PrintTable(const ImportReport& report) {
   for (const ImportedObject& object : report.objects) {
     if (object.outcome == ImportOutcome::kImported) {
       std::printf("%-26s %-16s %-14s %s%s\n", object.name.c_str(), object.category.c_str(),
-                  object.body_id.c_str(), object.handle_id.c_str(), GraspNote(object).c_str());
+                  OrDash(object.body_id), OrDash(object.handle_id), NotesOf(object).c_str());
     } else {
       std::fprintf(stderr, "doorforge: %s: %s: %s\n", object.name.c_str(),
                    std::string(NameOf(object.outcome)).c_str(), object.message.c_str());
@@ -90,14 +151,15 @@ int ExitCodeFor(const ImportReport& report) {
 int RunImportVerb(int argc, char** argv) {
   const Options options = Parse(argc, argv);
   auto config = LoadConfig<ImportConfig>(options.config, options.settings);
-  if (!options.category.empty()) config.category = options.category;
+  OverrideRead(config.read, options.read);
   if (options.threads != 0) config.threads = options.threads;
-  if (!config.category.empty() && !CategoryNamed(config.category))
+  const std::string& category = config.read.category;
+  if (!category.empty() && !CategoryNamed(category))
     throw Error(ErrorCode::kInvalidArgument,
-                "--category: unknown category \"" + config.category +
+                "--category: unknown category \"" + category +
                     "\"; allowed are interior, window, car, safe, storagefurniture, refrigerator");
   const ImportReport report =
-      ImportObjects(FindObjects(options.source), options.out, config,
+      ImportObjects(FindObjects(options.source, options.format), options.out, config,
                     options.overwrite ? Existing::kReplace : Existing::kRefuse);
   if (options.json)
     std::cout << ToJson(report).dump(2) << '\n';

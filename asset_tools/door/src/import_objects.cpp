@@ -14,7 +14,6 @@
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
-#include "doorforge/door/import_unidoormanip.h"
 
 #include "placed_mesh.h"
 #include "subtask.h"
@@ -25,11 +24,13 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+constexpr const char* kStoppedMessage =
+    "stopped before its turn; run the same command again to go on";
+
 // A part to make, and what came of it.
 struct PartJob {
   std::string id;
-  std::size_t object;  // the first one that has it; its files are read
-  PartRole role;
+  ForeignPart part;      // of the first object that has it
   bool present = false;  // made by an earlier run
   bool written = false;
   MadePart made;
@@ -42,18 +43,15 @@ struct PartJob {
 
 class Import {
  public:
-  Import(const std::vector<fs::path>& folders, fs::path out, const ImportConfig& config,
+  Import(const std::vector<ForeignSource>& sources, fs::path out, const ImportConfig& config,
          Existing existing)
-      : folders_(folders), out_(std::move(out)), config_(config), existing_(existing) {
+      : sources_(sources), out_(std::move(out)), config_(config), existing_(existing) {
     settings_ = ToJson(config_.make);
     settings_.erase("threads");
-    report_.objects.resize(folders.size());
-    objects_.resize(folders.size());
-    jobs_of_.resize(folders.size());
   }
 
   ImportReport Run() {
-    for (std::size_t i = 0; i < folders_.size(); ++i) Plan(i);
+    ReadAll();
     MakeAll();
     Summarize();
     WriteRecord();
@@ -61,50 +59,91 @@ class Import {
   }
 
  private:
-  // reads the small files of one object and finds out which parts it needs
-  void Plan(std::size_t i) {
-    ImportedObject& entry = report_.objects[i];
-    entry.folder = folders_[i];
-    entry.name = internal::ObjectNameOf(folders_[i]);
-    try {
-      objects_[i] = ReadUniDoorManip(folders_[i], config_.category);
-      const UniDoorManipObject& object = *objects_[i];
-      entry.name = object.name;
-      entry.category = NameOf(object.category);
-      entry.mechanism = NameOf(object.mechanism);
-      jobs_of_[i] = {
-          JobFor(i, PartRole::kBody, "udm-" + object.body_name, BodySourceHash(object)),
-          JobFor(i, PartRole::kHandle, "udm-" + object.handle_name, HandleSourceHash(object))};
-      entry.body_id = jobs_[jobs_of_[i]->at(0)].id;
-      entry.handle_id = jobs_[jobs_of_[i]->at(1)].id;
-    } catch (const Error& error) {
-      entry.outcome = error.code() == ErrorCode::kMissing ? ImportOutcome::kIncomplete
-                                                          : ImportOutcome::kInvalid;
-      entry.message = error.what();
+  // reads the sources side by side and finds out, in their order, which parts are needed
+  void ReadAll() {
+    std::vector<std::vector<ImportedObject>> entries(sources_.size());
+    std::vector<std::vector<ForeignObject>> objects(sources_.size());
+    Progress progress("reading objects", sources_.size());
+    ParallelFor(sources_.size(), config_.threads, [&](std::size_t i) {
+      ReadOne(sources_[i], objects[i], entries[i]);
+      const std::lock_guard lock(mutex_);
+      progress.Advance(1, entries[i].front().name);
+    });
+    for (std::size_t i = 0; i < sources_.size(); ++i) {
+      for (std::size_t k = 0; k < entries[i].size(); ++k) {
+        report_.objects.push_back(std::move(entries[i][k]));
+        jobs_of_.emplace_back();
+        if (k < objects[i].size()) Plan(objects[i][k]);
+      }
     }
   }
 
-  std::size_t JobFor(std::size_t object, PartRole role, const std::string& stem,
-                     const std::string& source_hash) {
+  // one entry an object, or one for a source that cannot be read
+  void ReadOne(const ForeignSource& source, std::vector<ForeignObject>& objects,
+               std::vector<ImportedObject>& entries) const {
+    ImportedObject failed;
+    failed.source = source;
+    failed.name = internal::ObjectNameOf(source.path);
+    try {
+      if (StopRequested() == 0) {
+        objects = ReadObjects(source, config_.read);
+      } else {
+        failed.outcome = ImportOutcome::kStopped;
+        failed.message = kStoppedMessage;
+      }
+    } catch (const Error& error) {
+      failed.outcome = error.code() == ErrorCode::kMissing ? ImportOutcome::kIncomplete
+                                                           : ImportOutcome::kInvalid;
+      failed.message = error.what();
+    }
+    for (const ForeignObject& object : objects) entries.push_back(EntryFor(source, object));
+    if (objects.empty()) entries.push_back(std::move(failed));
+  }
+
+  static ImportedObject EntryFor(const ForeignSource& source, const ForeignObject& object) {
+    ImportedObject entry;
+    entry.source = source;
+    entry.name = object.name;
+    entry.category = object.category;
+    entry.mechanism = object.mechanism;
+    entry.notes = object.notes;
+    entry.scale = object.scale;
+    entry.mirrored = object.mirrored;
+    entry.outcome = object.refusal.empty() ? ImportOutcome::kImported : ImportOutcome::kRefused;
+    entry.message = object.refusal;
+    return entry;
+  }
+
+  // of the object last entered
+  void Plan(const ForeignObject& object) {
+    ImportedObject& entry = report_.objects.back();
+    for (const ForeignPart& part : object.parts) {
+      const std::size_t job = JobFor(part);
+      jobs_of_.back().push_back(job);
+      (part.role == PartRole::kBody ? entry.body_id : entry.handle_id) = jobs_[job].id;
+    }
+  }
+
+  std::size_t JobFor(const ForeignPart& part) {
+    const std::string& source_hash = part.source_sha256;
     const auto known = job_by_hash_.find(source_hash);
     if (known != job_by_hash_.end()) return known->second;
     for (int count = 1;; ++count) {
-      const std::string id = count == 1 ? stem : stem + "-" + std::to_string(count);
+      const std::string id = count == 1 ? part.id : part.id + "-" + std::to_string(count);
       if (taken_.contains(id)) continue;
       const std::optional<std::string> there = SourceHashOf(out_ / id);
       if (there && *there != source_hash) continue;
       taken_[id] = true;
       job_by_hash_[source_hash] = jobs_.size();
-      jobs_.push_back(NewJob(object, role, id, there.has_value()));
+      jobs_.push_back(NewJob(part, id, there.has_value()));
       return jobs_.size() - 1;
     }
   }
 
-  PartJob NewJob(std::size_t object, PartRole role, const std::string& id, bool there) const {
+  PartJob NewJob(const ForeignPart& part, const std::string& id, bool there) const {
     PartJob job;
     job.id = id;
-    job.object = object;
-    job.role = role;
+    job.part = part;
     if (!there || existing_ == Existing::kReplace) return job;
     job.present = SameSettings(out_ / id);
     job.done = true;
@@ -134,7 +173,7 @@ class Import {
     const std::string path = (out_ / job.id / "repair.json").string();
     const Json json = ReadJsonFile(path);
     job.box_deviation_m = ValueOf<double>(json, "box_deviation_m", path);
-    if (job.role == PartRole::kHandle)
+    if (job.part.role == PartRole::kHandle)
       job.grasp.fit.holds = ValueOf<bool>(MemberOf(json, "grasp", path), "holds", path);
   }
 
@@ -156,20 +195,20 @@ class Import {
   void Make(PartJob& job) const {
     if (StopRequested() != 0) {
       job.outcome = ImportOutcome::kStopped;
-      job.problem = "stopped before its turn; run the same command again to go on";
+      job.problem = kStoppedMessage;
       return;
     }
-    const UniDoorManipObject& object = *objects_[job.object];
     try {
-      PartDraft draft = job.role == PartRole::kBody ? LoadBody(object) : LoadHandle(object);
+      LoadedPart loaded = job.part.load();
+      PartDraft& draft = loaded.draft;
       draft.facts.id = job.id;
-      job.box_deviation_m = BoxDeviation(object, draft);
+      job.box_deviation_m = loaded.box_deviation_m;
       MakePartConfig make = config_.make;
       make.threads = 1;  // parts already run side by side
       job.made = MakePart(draft, make);
       job.problem = ProblemOf(job.made);
       if (!job.made.part) job.outcome = ImportOutcome::kNotClosed;
-      if (job.made.part && job.role == PartRole::kHandle) SetGrasp(job);
+      if (job.made.part && job.part.role == PartRole::kHandle) SetGrasp(job);
     } catch (const Error& error) {
       job.outcome = ImportOutcome::kInvalid;
       job.problem = error.what();
@@ -186,15 +225,14 @@ class Import {
     part.grasp_half_extent_m = job.grasp.half_extent_m;
   }
 
-  // under the lock: a half is kept only if the other half came out too
+  // under the lock: a part is kept only if all of its object's came out
   void WriteCompleteObjects() {
-    for (std::size_t i = 0; i < objects_.size(); ++i) {
-      if (!jobs_of_[i]) continue;
-      const bool complete = std::all_of(
-          jobs_of_[i]->begin(), jobs_of_[i]->end(),
-          [&](std::size_t j) { return jobs_[j].done && (jobs_[j].present || jobs_[j].made.part); });
+    for (const std::vector<std::size_t>& jobs : jobs_of_) {
+      const bool complete = std::all_of(jobs.begin(), jobs.end(), [&](std::size_t j) {
+        return jobs_[j].done && (jobs_[j].present || jobs_[j].made.part);
+      });
       if (!complete) continue;
-      for (const std::size_t j : *jobs_of_[i]) Write(jobs_[j]);
+      for (const std::size_t j : jobs) Write(jobs_[j]);
     }
   }
 
@@ -205,7 +243,7 @@ class Import {
     Json json = doorforge::ToJson(job.made);
     json["settings"] = settings_;
     json["box_deviation_m"] = job.box_deviation_m;
-    if (job.role == PartRole::kHandle) json["grasp"] = GraspToJson(job.grasp);
+    if (job.part.role == PartRole::kHandle) json["grasp"] = GraspToJson(job.grasp);
     WriteJsonFile(staged.path() / "repair.json", json);
     staged.Commit();
     job.written = true;
@@ -218,20 +256,18 @@ class Import {
   }
 
   void Summarize() {
-    for (std::size_t i = 0; i < objects_.size(); ++i) {
-      if (!jobs_of_[i]) continue;
-      ImportedObject& entry = report_.objects[i];
-      entry.outcome = ImportOutcome::kImported;
-      for (const std::size_t j : *jobs_of_[i]) {
-        const PartJob& job = jobs_[j];
-        if (job.outcome == ImportOutcome::kImported) continue;
-        entry.outcome = job.outcome;
-        entry.message += (entry.message.empty() ? "" : "; ") + job.id + ": " + job.problem;
-      }
-      entry.body_box_deviation_m = jobs_[jobs_of_[i]->at(0)].box_deviation_m;
-      entry.handle_box_deviation_m = jobs_[jobs_of_[i]->at(1)].box_deviation_m;
-      entry.grasp_holds = jobs_[jobs_of_[i]->at(1)].grasp.fit.holds;
+    for (std::size_t i = 0; i < jobs_of_.size(); ++i) {
+      for (const std::size_t j : jobs_of_[i]) Summarize(jobs_[j], report_.objects[i]);
     }
+  }
+
+  static void Summarize(const PartJob& job, ImportedObject& entry) {
+    const bool is_body = job.part.role == PartRole::kBody;
+    (is_body ? entry.body_box_deviation_m : entry.handle_box_deviation_m) = job.box_deviation_m;
+    if (!is_body) entry.grasp_holds = job.grasp.fit.holds;
+    if (job.outcome == ImportOutcome::kImported) return;
+    entry.outcome = job.outcome;
+    entry.message += (entry.message.empty() ? "" : "; ") + job.id + ": " + job.problem;
   }
 
   void WriteRecord() const {
@@ -241,14 +277,13 @@ class Import {
     if (any) WriteJsonFile(out_ / "import.json", doorforge::ToJson(report_));
   }
 
-  const std::vector<fs::path>& folders_;
+  const std::vector<ForeignSource>& sources_;
   fs::path out_;
   const ImportConfig& config_;
   Existing existing_;
   Json settings_;
   ImportReport report_;
-  std::vector<std::optional<UniDoorManipObject>> objects_;
-  std::vector<std::optional<std::array<std::size_t, 2>>> jobs_of_;  // body, handle
+  std::vector<std::vector<std::size_t>> jobs_of_;  // of each object in the report
   std::vector<PartJob> jobs_;
   std::map<std::string, std::size_t> job_by_hash_;
   std::map<std::string, bool> taken_;
@@ -258,50 +293,30 @@ class Import {
 }  // namespace
 
 std::string_view NameOf(ImportOutcome outcome) {
-  static constexpr std::array<std::string_view, 6> kNames = {"imported",   "incomplete", "invalid",
-                                                             "not_closed", "exists",     "stopped"};
+  static constexpr std::array<std::string_view, 7> kNames = {
+      "imported", "incomplete", "invalid", "refused", "not_closed", "exists", "stopped"};
   return kNames.at(static_cast<std::size_t>(outcome));
 }
 
-std::vector<fs::path> FindObjects(const fs::path& source) {
-  if (IsUniDoorManipObject(source)) return {source};
-  std::error_code error;
-  if (!fs::is_directory(source, error))
-    throw Error(ErrorCode::kMissing, source.string() +
-                                         ": no such folder; give one object (a folder "
-                                         "with mobility.urdf) or a folder of them");
-  std::vector<fs::path> found;
-  auto entry = fs::recursive_directory_iterator(
-      source, fs::directory_options::skip_permission_denied, error);
-  for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
-    if (!entry->is_directory(error)) continue;
-    const bool is_object = IsUniDoorManipObject(entry->path());
-    if (is_object) found.push_back(entry->path());
-    if (is_object || entry.depth() >= 2) entry.disable_recursion_pending();
-  }
-  if (found.empty())
-    throw Error(ErrorCode::kMissing, source.string() +
-                                         ": holds no object; an object is a folder "
-                                         "with mobility.urdf");
-  std::sort(found.begin(), found.end());
-  return found;
-}
-
-ImportReport ImportObjects(const std::vector<fs::path>& folders, const fs::path& out,
+ImportReport ImportObjects(const std::vector<ForeignSource>& sources, const fs::path& out,
                            const ImportConfig& config, Existing existing) {
-  return Import(folders, out, config, existing).Run();
+  return Import(sources, out, config, existing).Run();
 }
 
 nlohmann::ordered_json ToJson(const ImportReport& report) {
   Json objects = Json::array();
   for (const ImportedObject& object : report.objects) {
     objects.push_back({{"object", object.name},
+                       {"format", object.source.format},
                        {"outcome", NameOf(object.outcome)},
                        {"message", object.message},
                        {"category", object.category},
                        {"mechanism", object.mechanism},
                        {"body", object.body_id},
                        {"handle", object.handle_id},
+                       {"scale", object.scale},
+                       {"mirrored", object.mirrored},
+                       {"notes", object.notes},
                        {"body_box_deviation_m", object.body_box_deviation_m},
                        {"handle_box_deviation_m", object.handle_box_deviation_m},
                        {"grasp_holds", object.grasp_holds}});

@@ -10,9 +10,9 @@
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/door/mechanism.h"
-#include "doorforge/mesh/import_mesh.h"
 #include "doorforge/schemas/urdf.h"
 
+#include "import/source_mesh.h"
 #include "inside_folder.h"
 #include "placed_mesh.h"
 #include "subtask.h"
@@ -77,14 +77,18 @@ class MeshCollector {
     return meshes;
   }
 
-  void RequireComplete() const {
-    if (missing_.empty()) return;
+  void RequireComplete(bool frame_may_miss) const {
+    const bool only_frame = missing_.empty();
+    if (only_frame && (missing_of_frame_.empty() || frame_may_miss)) return;
     std::string message = folder_.string() + ": incomplete, missing";
+    for (const std::string& name : missing_of_frame_) message += ' ' + name;
     for (const std::string& name : missing_) message += ' ' + name;
-    throw Error(ErrorCode::kMissing, message +
-                                         "; mobility.urdf names it. Add the file, or leave "
-                                         "the object out");
+    message += "; mobility.urdf names it. Add the file, or leave the object out";
+    if (only_frame) message += ", or pass --allow-missing frame to import it without";
+    throw Error(ErrorCode::kMissing, message);
   }
+
+  const std::vector<std::string>& missing_of_frame() const { return missing_of_frame_; }
 
  private:
   void AddMesh(const UrdfShape& shape, const RigidTransform& base_from_link,
@@ -105,8 +109,10 @@ class MeshCollector {
       found.sha256 = Sha256OfFile(found.file);
     } catch (const Error& error) {
       if (error.code() != ErrorCode::kMissing) throw;
-      if (std::find(missing_.begin(), missing_.end(), mesh->filename) == missing_.end())
-        missing_.push_back(mesh->filename);
+      std::vector<std::string>& list = piece == "frame" ? missing_of_frame_ : missing_;
+      if (std::find(list.begin(), list.end(), mesh->filename) == list.end())
+        list.push_back(mesh->filename);
+      return;
     }
     meshes.push_back(found);
   }
@@ -115,7 +121,8 @@ class MeshCollector {
   const UrdfModel& model_;
   std::string where_;
   std::size_t count_ = 0;
-  std::vector<std::string> missing_;
+  std::vector<std::string> missing_of_frame_;
+  std::vector<std::string> missing_;  // of all else
 };
 
 PartJoint ObjectJoint(const UrdfJoint& joint, const RigidTransform& base_from_joint) {
@@ -204,57 +211,22 @@ std::string HashOf(const std::vector<UniDoorManipObject::Mesh>& meshes, const Pa
   return Sha256Hex(json.dump());
 }
 
-// area of the triangles, which weighs their colour
-double AreaOf(const TriangleMesh& mesh) {
-  double area = 0;
-  for (const Eigen::Vector3i& t : mesh.triangles) {
-    const Eigen::Vector3d& a = mesh.vertices[static_cast<std::size_t>(t[0])];
-    area += (mesh.vertices[static_cast<std::size_t>(t[1])] - a)
-                .cross(mesh.vertices[static_cast<std::size_t>(t[2])] - a)
-                .norm() /
-            2;
-  }
-  return area;
-}
-
-struct ColoredMesh {
-  std::vector<TriangleMesh> meshes;
-  Eigen::Vector4d color_area = Eigen::Vector4d::Zero();
-  double area = 0;
-};
-
-void AddMesh(const UniDoorManipObject::Mesh& mesh, ColoredMesh& into) {
-  const ImportedMesh imported = ImportMesh(mesh.file);
-  for (const ImportedPiece& piece : imported.pieces) {
-    const double area = AreaOf(piece.mesh);
-    into.color_area += area * piece.color_rgba;
-    into.area += area;
-  }
-  TriangleMesh merged = MergedPieces(imported);
-  for (Eigen::Vector3d& vertex : merged.vertices) vertex = mesh.object_from_raw * vertex;
-  into.meshes.push_back(std::move(merged));
-}
-
-RawPiece LoadPiece(const std::vector<UniDoorManipObject::Mesh>& meshes, const std::string& name) {
-  ColoredMesh colored;
+std::vector<internal::SourceMesh> SourcesOf(const std::vector<UniDoorManipObject::Mesh>& meshes) {
+  std::vector<internal::SourceMesh> sources;
   for (const UniDoorManipObject::Mesh& mesh : meshes) {
-    if (mesh.piece == name) AddMesh(mesh, colored);
+    internal::SourceMesh source;
+    source.piece = mesh.piece;
+    source.file = mesh.file;
+    source.sha256 = mesh.sha256;
+    source.part_from_raw = mesh.object_from_raw;
+    sources.push_back(std::move(source));
   }
-  RawPiece piece;
-  piece.name = name;
-  piece.mesh = internal::JoinedMeshes(colored.meshes);
-  if (colored.area > 0) piece.color_rgba = colored.color_area / colored.area;
-  piece.color_rgba[3] = 1;  // the sensor sees glass, as depth cameras would like to
-  return piece;
+  return sources;
 }
 
 PartDraft LoadHalf(const std::vector<UniDoorManipObject::Mesh>& meshes) {
   PartDraft draft;
-  for (const UniDoorManipObject::Mesh& mesh : meshes) {
-    const auto known = std::find_if(draft.pieces.begin(), draft.pieces.end(),
-                                    [&](const RawPiece& p) { return p.name == mesh.piece; });
-    if (known == draft.pieces.end()) draft.pieces.push_back(LoadPiece(meshes, mesh.piece));
-  }
+  draft.pieces = internal::LoadPieces(SourcesOf(meshes));
   draft.facts.license = "NOASSERTION";
   return draft;
 }
@@ -278,7 +250,8 @@ bool IsUniDoorManipObject(const fs::path& folder) {
   return fs::is_regular_file(folder / "mobility.urdf", error);
 }
 
-UniDoorManipObject ReadUniDoorManip(const fs::path& folder, const std::string& category) {
+UniDoorManipObject ReadUniDoorManip(const fs::path& folder, const std::string& category,
+                                    bool frame_may_miss) {
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored))
     throw Error(ErrorCode::kMissing, folder.string() + ": no such folder");
@@ -301,7 +274,8 @@ UniDoorManipObject ReadUniDoorManip(const fs::path& folder, const std::string& c
   for (auto& mesh : collector.Collect(chain.leaf, "leaf")) object.body_meshes.push_back(mesh);
   object.handle_meshes = collector.Collect(chain.rose, "rose");
   for (auto& mesh : collector.Collect(chain.grip, "grip")) object.handle_meshes.push_back(mesh);
-  collector.RequireComplete();
+  collector.RequireComplete(frame_may_miss);
+  object.left_out = collector.missing_of_frame();
 
   object.hinge = ObjectJoint(model.joints[chain.hinge], chain.base_from_hinge);
   object.handle_joint = ObjectJoint(model.joints[chain.handle], chain.base_from_handle);
@@ -366,7 +340,8 @@ PartDraft LoadHandle(const UniDoorManipObject& object) {
 double BoxDeviation(const UniDoorManipObject& object, const PartDraft& half) {
   const bool is_body = half.facts.role == PartRole::kBody;
   const Eigen::AlignedBox3d& stated = is_body ? object.body_box : object.handle_box;
-  if (stated.isEmpty()) return 0;
+  // the body's box is that of its frame
+  if (stated.isEmpty() || (is_body && !object.left_out.empty())) return 0;
   const bool has_frame = is_body && half.pieces.size() > 1;
   Eigen::AlignedBox3d loaded;
   for (const RawPiece& piece : half.pieces) {

@@ -10,19 +10,20 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "doorforge/core/committed_file.h"
+#include "doorforge/door/foreign_object.h"
 #include "doorforge/door/grasp.h"
 #include "doorforge/door/make_part.h"
 
 namespace doorforge {
 
 struct ImportConfig {
-  std::string category = {};  ///< Empty: told by each object's folder, else its content.
+  ReadConfig read = {};
   MakePartConfig make = {};
   int threads = 0;  ///< 0: all processors. Does not change the result.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
-    visit("category", self.category);
+    visit("read", self.read);
     visit("make", self.make);
     visit("threads", self.threads);
   }
@@ -31,48 +32,47 @@ struct ImportConfig {
 enum class ImportOutcome {
   kImported,
   kIncomplete,  ///< A file that the object names is not there.
-  kInvalid,     ///< A file does not follow its format, or the object is no door.
+  kInvalid,     ///< A file does not follow its format, or the user has to say more.
+  kRefused,     ///< It is in order, but cannot be a door.
   kNotClosed,   ///< A mesh could not be closed.
   kExists,      ///< A part of that id was made with other settings; --overwrite replaces it.
   kStopped,     ///< A signal ended the run before its turn; parts made so far are kept.
 };
 
-/// "imported", "incomplete", "invalid", "not_closed", "exists", "stopped".
+/// "imported", "incomplete", "invalid", "refused", "not_closed", "exists", "stopped".
 std::string_view NameOf(ImportOutcome outcome);
 
 struct ImportedObject {
-  std::filesystem::path folder;
-  std::string name;  ///< Sub-task and object, or the folder's name where it cannot be read.
+  ForeignSource source;
+  std::string name;  ///< Of the format and object, or the folder's where it cannot be read.
   ImportOutcome outcome = ImportOutcome::kInvalid;
   std::string message;   ///< What, where and what to do; empty if imported.
   std::string category;  ///< Empty where it is not known.
   std::string mechanism;
-  std::string body_id;  ///< Folder of the part below the output.
+  std::string body_id;  ///< Folder of the part below the output; empty if it has none.
   std::string handle_id;
-  double body_box_deviation_m = 0;  ///< See BoxDeviation().
+  std::vector<std::string> notes;   ///< What was left out or assumed.
+  double scale = 1;                 ///< Metres a unit of the source.
+  bool mirrored = false;            ///< See ForeignObject::mirrored.
+  double body_box_deviation_m = 0;  ///< See LoadedPart.
   double handle_box_deviation_m = 0;
-  bool grasp_holds = false;  ///< See RefineGrasp().
+  bool grasp_holds = false;  ///< See RefineGrasp(); false without a handle.
 };
 
-/// One entry for each object, in the order of the input.
+/// One entry for each object, in the order of the input; a source can hold several.
 struct ImportReport {
   std::vector<ImportedObject> objects;
 };
 
-/// The objects below `source`: itself if it is one, else all folders up to three levels down that
-/// are, by path. Throws Error(kMissing) if there is none.
-std::vector<std::filesystem::path> FindObjects(const std::filesystem::path& source);
-
-/// Imports composed objects of UniDoorManip into `out`/<part id>/ and writes `out`/import.json.
+/// Imports what FindObjects() found into `out`/<part id>/ and writes `out`/import.json.
 ///
-/// Parts are named "udm-<7 digits>". A part that several objects share is made once; another part
-/// of the same digits (the release draws a scale per object) gets "-2", "-3", ... in the order of
-/// `folders`. A part that is there already, from the same source and settings, is kept. Each part's
-/// folder appears complete or not at all, and only if its object's other half could be made too.
-/// An object's failure is an outcome, never an Error; the rest goes on. Grasps are refined, see
-/// RefineGrasp(). Progress goes to standard error. The parts do not depend on the number of
-/// threads.
-ImportReport ImportObjects(const std::vector<std::filesystem::path>& folders,
+/// Parts that several objects share are made once; another part that wants the same id gets "-2",
+/// "-3", ... in the order of `sources`. A part that is there already, from the same source and
+/// settings, is kept. Each part's folder appears complete or not at all, and only if all parts of
+/// its object could be made. An object's failure is an outcome, never an Error; the rest goes on.
+/// Grasps are refined, see RefineGrasp(). Progress goes to standard error. The parts do not depend
+/// on the number of threads.
+ImportReport ImportObjects(const std::vector<ForeignSource>& sources,
                            const std::filesystem::path& out, const ImportConfig& config,
                            Existing existing);
 

@@ -39,8 +39,9 @@ struct UniDoorManipObject {
   PartJoint hinge;
   PartJoint handle_joint;
   RigidTransform object_from_grasp = RigidTransform::Identity();
-  Eigen::AlignedBox3d body_box;    ///< From bounding_box.json; empty if the file is absent.
-  Eigen::AlignedBox3d handle_box;  ///< From handle_bounding.json, about the handle's mount.
+  Eigen::AlignedBox3d body_box;       ///< From bounding_box.json; empty if the file is absent.
+  Eigen::AlignedBox3d handle_box;     ///< From handle_bounding.json, about the handle's mount.
+  std::vector<std::string> left_out;  ///< Meshes of the frame that are absent and may be.
 };
 
 /// True if `folder` looks like one object: it holds a mobility.urdf.
@@ -55,12 +56,13 @@ bool IsUniDoorManipObject(const std::filesystem::path& folder);
 /// handle's range is HandleRange(), not the file's. Numbers of frames are in docs/import.md.
 ///
 /// @param category Name as in names.h, or empty.
+/// @param frame_may_miss An object whose frame's (or car's) mesh is absent is read without it.
 /// @throws Error(kMissing) if a file that the object needs is absent: all absent ones are named;
 ///     Error(kFormat) if a file does not follow its format, the joints are not a hinge and a
 ///     handle, or a mesh path leaves the folder; Error(kInvalidArgument) if the category cannot be
 ///     told.
 UniDoorManipObject ReadUniDoorManip(const std::filesystem::path& folder,
-                                    const std::string& category);
+                                    const std::string& category, bool frame_may_miss = false);
 
 /// Loads the meshes of one half of the object into that half's part frame. The facts carry licence
 /// "NOASSERTION", the source, and as `source_sha256` a hash of everything the part is made of:

@@ -120,6 +120,7 @@ std::vector<Candidate> FaceCuts(const Region& region, int axis, double bin_m) {
     bin.moment += area * position;
   }
   std::vector<Candidate> faces;
+  faces.reserve(bins.size());
   for (const auto& [index, bin] : bins) faces.push_back({{axis, bin.moment / bin.area}, bin.area});
   std::stable_sort(faces.begin(), faces.end(), [](const Candidate& a, const Candidate& b) {
     return a.face_share > b.face_share;

@@ -23,7 +23,8 @@ double Outside(const std::vector<HalfSpace>& faces, const Eigen::Vector3d& point
 std::vector<Eigen::Vector3d> Extremes(const std::vector<Eigen::Vector3d>& vertices) {
   std::vector<Eigen::Vector3d> chosen;
   for (int code = 0; code < 27; ++code) {
-    const Eigen::Vector3d direction(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1);
+    const Eigen::Vector3d direction =
+        Eigen::Vector3i(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1).cast<double>();
     if (direction.isZero()) continue;
     const auto farthest = std::max_element(vertices.begin(), vertices.end(),
                                            [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -188,10 +189,10 @@ bool IsThin(const TriangleMesh& hull, double cell_m) {
 }
 
 Concavity Deepest(const TriangleMesh& hull, const DistanceGrid& solid, int stride, double stop_m) {
-  const Concavity inside = DeepestInside(hull, solid, stride, stop_m);
+  Concavity inside = DeepestInside(hull, solid, stride, stop_m);
   const double cell_m = solid.grid().cell_m;
   if (inside.depth_m > stop_m || !IsThin(hull, cell_m)) return inside;
-  const Concavity surface = DeepestOnSurface(hull, solid, stride * cell_m);
+  Concavity surface = DeepestOnSurface(hull, solid, stride * cell_m);
   return surface.depth_m > inside.depth_m ? surface : inside;
 }
 

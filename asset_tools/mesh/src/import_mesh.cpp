@@ -96,6 +96,7 @@ class Reader {
  private:
   int Spawn(std::vector<std::string>& arguments, int write_end) {
     std::vector<char*> argv;
+    argv.reserve(arguments.size() + 1);
     for (std::string& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);
     posix_spawn_file_actions_t actions;

@@ -75,8 +75,7 @@ std::vector<Eigen::Vector3i> Triangulated(std::span<const Eigen::Vector3d> corne
   for (std::size_t i = 0; i < corners.size(); ++i) ring.push_back(static_cast<int>(i));
   if (ring.size() < 3) return triangles;
   const std::vector<Point2> flat = Flattened(corners);
-  while (ring.size() > 3) {
-    const std::size_t n = ring.size();
+  for (std::size_t n = ring.size(); n > 3; --n) {
     std::size_t ear = 1;  // the fan's choice, where no corner is an ear
     for (std::size_t i = 1; i <= n; ++i) {
       if (!IsEar(flat, ring, i % n)) continue;

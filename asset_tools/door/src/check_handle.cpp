@@ -126,10 +126,11 @@ Findings CheckGrasp(const CheckedGrasp& checked) {
     findings.push_back(Found("HND004", checked.where, "nothing between the fingers"));
     return findings;
   }
-  const double width = material->last - material->first;
+  const GraspFit fit = MeasureGrasp(checked.grip, checked.handle, checked.frame_from_grasp);
+  // what lies beyond the fingers, such as the far side of a wheel, is not between them
+  const double width = fit.width_m > 0 ? fit.width_m : material->last - material->first;
   if (width > LimitOf("HND007"))
     findings.push_back(Found("HND007", checked.where, Number(width) + " m"));
-  const GraspFit fit = MeasureGrasp(checked.grip, checked.handle, checked.frame_from_grasp);
   if (!fit.holds)
     findings.push_back(Found("HND008", checked.where,
                              std::string(fit.fingers_free ? "way free" : "way not free") +

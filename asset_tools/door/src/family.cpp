@@ -17,8 +17,10 @@ namespace doorforge::internal {
 
 const Family& FamilyNamed(std::string_view name, const std::string& path) {
   std::vector<std::string> known;
-  for (const auto& families : {InteriorBodyFamilies(), StorageBodyFamilies(), LeverFamilies(),
-                               KnobFamilies(), PullFamilies()}) {
+  for (const auto& families :
+       {InteriorBodyFamilies(), StorageBodyFamilies(), SafeBodyFamilies(), SafeHandleFamilies(),
+        RefrigeratorBodyFamilies(), LatchLeverFamilies(), LeverFamilies(), KnobFamilies(),
+        PullFamilies()}) {
     for (const Family& family : families) {
       if (family.name == name) return family;
       known.emplace_back(family.name);

@@ -21,17 +21,19 @@ void ParallelFor(std::size_t count, int threads, const std::function<void(std::s
   std::mutex mutex;
   std::size_t failed_index = count;
   std::exception_ptr failure;
+  const auto keep_first_failure = [&](std::size_t index) {
+    const std::lock_guard lock(mutex);
+    next = count;
+    if (index >= failed_index) return;
+    failed_index = index;
+    failure = std::current_exception();
+  };
   const auto work = [&] {
     for (std::size_t i = next++; i < count; i = next++) {
       try {
         body(i);
       } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (i < failed_index) {
-          failed_index = i;
-          failure = std::current_exception();
-        }
-        next = count;
+        keep_first_failure(i);
       }
     }
   };

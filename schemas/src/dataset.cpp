@@ -88,7 +88,8 @@ class FeatureSums {
       minimum_[component] = std::min(minimum_[component], value);
       maximum_[component] = std::max(maximum_[component], value);
     }
-    count_ += static_cast<double>(rows.size() / width);
+    const std::size_t row_count = rows.size() / width;
+    count_ += static_cast<double>(row_count);
   }
 
   FeatureStatistics Finish() const {
@@ -114,7 +115,8 @@ class FeatureSums {
 double RadiusOf(std::span<const float> xyz) {
   double center[3] = {0, 0, 0};
   for (std::size_t i = 0; i < xyz.size(); ++i) center[i % 3] += xyz[i];
-  for (double& c : center) c /= static_cast<double>(xyz.size() / 3);
+  const std::size_t points = xyz.size() / 3;
+  for (double& c : center) c /= static_cast<double>(points);
   double largest = 0;
   for (std::size_t i = 0; i < xyz.size(); i += 3) {
     const double x = xyz[i] - center[0];

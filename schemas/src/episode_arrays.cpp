@@ -73,7 +73,7 @@ std::span<const T> ViewArray(const ShardReader& reader, std::size_t episode,
 }  // namespace
 
 const std::vector<EpisodeFeature>& EpisodeFeatures() {
-  static const std::vector<EpisodeFeature> features = {
+  static const std::vector<EpisodeFeature> kFeatures = {
       {"action",
        "<f4",
        {9},
@@ -95,7 +95,7 @@ const std::vector<EpisodeFeature>& EpisodeFeatures() {
        "world",
        "11 joint positions in [-1, 1], 11 velocities, base xyz, hand xyz, hand quaternion xyzw"},
       {"score", "<f4", {1}, "rad", "", "hinge angle gained by the action"}};
-  return features;
+  return kFeatures;
 }
 
 std::vector<MemberBytes> EncodeEpisode(const Episode& episode, const nlohmann::ordered_json& meta,

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 fs::path PathInside(const std::string& relative, const fs::path& folder, const std::string& path) {
   const fs::path root = fs::weakly_canonical(folder);
-  const fs::path full = fs::weakly_canonical(root / relative);
+  fs::path full = fs::weakly_canonical(root / relative);
   const fs::path inside = full.lexically_relative(root);
   if (fs::path(relative).is_absolute() || inside.empty() || *inside.begin() == "..")
     throw Error(ErrorCode::kFormat, path + ": mesh path \"" + relative +

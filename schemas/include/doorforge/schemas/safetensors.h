@@ -86,7 +86,9 @@ void CopyBytes(std::string_view from, void* to);
 }  // namespace internal
 
 template <class T>
-Tensor MakeTensor(std::span<const T> values, std::vector<std::uint64_t> shape) {
+Tensor MakeTensor(
+    std::span<const T> values,
+    std::vector<std::uint64_t> shape) {  // NOLINT(performance-unnecessary-value-param): is moved
   return internal::MakeTensor(TensorTypeOf<T>(), std::as_bytes(values), std::move(shape));
 }
 

@@ -3,6 +3,7 @@
 #include "import/leaf_motion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -17,21 +18,25 @@ constexpr double kUnlimited = std::numbers::pi / 2;
 const double kUpright = std::cos(20 * std::numbers::pi / 180);
 const double kLevel = std::sin(20 * std::numbers::pi / 180);
 
-// bounds of the leaf turned by `angle`, in a frame whose third axis is the hinge's
-Eigen::Vector3d SizeAt(const AuthoredLeaf& leaf, double angle) {
+// area that a box takes across the hinge
+double Across(const PartJoint& hinge, const Eigen::AlignedBox3d& box) {
+  int along = 0;
+  hinge.axis.cwiseAbs().maxCoeff(&along);
+  return box.sizes()[(along + 1) % 3] * box.sizes()[(along + 2) % 3];
+}
+
+// what the leaf takes across its hinge, alone and with what is around it
+struct Outline {
+  double leaf;
+  double whole;
+};
+
+Outline OutlineAt(const AuthoredLeaf& leaf, double angle) {
   const Eigen::Matrix3d turn = RotationAbout(leaf.hinge.axis, angle).linear();
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& vertex : leaf.mesh.vertices)
-    box.extend(Eigen::Vector3d(turn * (vertex - leaf.hinge.origin_m)));
-  return box.sizes();
-}
-
-// area that the leaf takes across its hinge
-double OutlineAt(const AuthoredLeaf& leaf, double angle) {
-  const Eigen::Vector3d size = SizeAt(leaf, angle);
-  int along = 0;
-  leaf.hinge.axis.cwiseAbs().maxCoeff(&along);
-  return size[(along + 1) % 3] * size[(along + 2) % 3];
+    box.extend(Eigen::Vector3d(turn * (vertex - leaf.hinge.origin_m) + leaf.hinge.origin_m));
+  return {Across(leaf.hinge, box), Across(leaf.hinge, leaf.around.merged(box))};
 }
 
 // the angle at which the leaf is shut
@@ -39,9 +44,12 @@ double ClosedAngle(const AuthoredLeaf& leaf) {
   if (!leaf.limited) return 0;
   std::array<double, 2> limits = {leaf.hinge.lower_rad, leaf.hinge.upper_rad};
   if (std::abs(limits[1]) < std::abs(limits[0])) std::swap(limits[0], limits[1]);
-  const double rest = OutlineAt(leaf, 0);
+  const Outline rest = OutlineAt(leaf, 0);
   for (const double limit : limits) {
-    if (std::abs(limit) > kAjar && OutlineAt(leaf, limit) < kSmallerOutline * rest) return limit;
+    if (std::abs(limit) <= kAjar) continue;
+    const Outline there = OutlineAt(leaf, limit);
+    if (there.leaf < kSmallerOutline * rest.leaf || there.whole < kSmallerOutline * rest.whole)
+      return limit;
   }
   return 0;
 }

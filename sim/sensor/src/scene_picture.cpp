@@ -161,8 +161,10 @@ class Painter {
     const Eigen::Vector3f origin = rays_.origin().cast<float>();
     Directions directions;
     for (std::size_t lane = 0; lane < kRays; ++lane) {
-      directions[lane] = rays_.Direction(left_ + (static_cast<double>(lane % 4) + 0.5) / 2,
-                                         top_ + (static_cast<double>(lane / 4) + 0.5) / 2);
+      const std::size_t column = lane % 4;  // of the samples, two to a pixel
+      const std::size_t row = lane / 4;
+      directions[lane] = rays_.Direction(left_ + (static_cast<double>(column) + 0.5) / 2,
+                                         top_ + (static_cast<double>(row) + 0.5) / 2);
       SetRay(packet.ray, lane, origin, directions[lane]);
       packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
       packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;

@@ -240,5 +240,46 @@ TEST_F(ForeignAssets, ObjectsOfTheReleaseThatLackOnlyTheirFrameImportWithoutIt) 
   EXPECT_EQ(without_frame, 13);
 }
 
+// link axes -> ours
+Eigen::Vector3d FromLink(const Eigen::Vector3d& v) { return {v.z(), v.x(), v.y()}; }
+
+void ExpectPartsPutTheHandleWhereTheUrdfDoes(const ForeignSource& source) {
+  const ForeignObject object = ReadObjects(source, {.allow_missing = "frame"}).at(0);
+  const Part body = object.parts[0].load().draft.facts;
+  const Part handle = object.parts[1].load().draft.facts;
+  const auto joints = JointsOf(source.path / "mobility.urdf");
+  const TextJoint& hinge = joints.at("link_1");
+  const Eigen::Vector3d up(0, 0, body.joint.origin_m.z() - FromLink(hinge.origin).z());
+  // what lies below the leaf: one joint that turns, and maybe a fixed one
+  Eigen::Vector3d mount = hinge.origin;
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();
+  for (const char* link : {"link_2", "link_3"}) {
+    const auto joint = joints.find(link);
+    if (joint == joints.end()) continue;
+    mount += joint->second.origin;
+    if (joint->second.axis.norm() > 0) axis = joint->second.axis;
+  }
+  EXPECT_LT(Distance({FromLink(hinge.origin) + up, FromLink(hinge.axis)}, body.joint.origin_m),
+            1e-4);
+  EXPECT_LT(Distance({FromLink(mount) + up, FromLink(axis).normalized()},
+                     body.part_from_mount * handle.joint.origin_m),
+            1e-4);
+  EXPECT_LT(Angle(body.joint.axis, FromLink(hinge.axis)), 1e-4);
+  EXPECT_LT(Angle(body.part_from_mount.linear() * handle.joint.axis, FromLink(axis)), 1e-4);
+}
+
+TEST_F(ForeignAssets, PartsOfWindowsSafesAndCarsHaveTheAxesOfTheirUrdf) {
+  int count = 0;
+  for (const char* subtask : {"Window", "Safe", "Car"}) {
+    for (const ForeignSource& source : FindObjects(root_ / "unidoormanip_objects" / subtask)) {
+      SCOPED_TRACE(source.path.string());
+      if (source.path.filename() == "99690189969517") continue;  // lacks all its meshes
+      ExpectPartsPutTheHandleWhereTheUrdfDoes(source);
+      ++count;
+    }
+  }
+  EXPECT_EQ(count, 18 + 15 + 8);
+}
+
 }  // namespace
 }  // namespace doorforge

@@ -51,10 +51,10 @@ std::array<Indices, 5> PlanUpsampling(const std::array<PointColumns, 5>& points,
 }
 
 // Balls of the centres `kept`, with indices into the whole level below.
-void FillBalls(const PointColumns& below, const PointColumns& centres, const Indices& kept,
-               std::size_t level, CloudGeometry& geometry, InstructionSet set) {
-  const SetAbstractionShape& shape = kSetAbstractions[level];
-  CloudGeometry::Level& out = geometry.levels[level];
+CloudGeometry::Level BallsOf(const PointColumns& below, const PointColumns& centres,
+                             const Indices& kept, const SetAbstractionShape& shape,
+                             InstructionSet set) {
+  CloudGeometry::Level out;
   out.centre_xyz.reserve(3 * kept.size());
   out.ball_begin.reserve(kept.size() + 1);
   out.ball_begin.push_back(0);
@@ -66,6 +66,7 @@ void FillBalls(const PointColumns& below, const PointColumns& centres, const Ind
     out.ball_begin.push_back(static_cast<std::uint32_t>(out.member.size()));
   }
   out.member.shrink_to_fit();  // geometries are kept by the thousand
+  return out;
 }
 
 }  // namespace
@@ -92,7 +93,8 @@ CloudGeometry BuildGeometry(std::span<const float> xyz, const std::array<float, 
   // from the coarsest level down: a level keeps what the one above and the upsampling read
   std::array<Indices, 5> kept = PlanUpsampling(points, outputs, geometry);
   for (std::size_t level = 4; level-- > 0;) {
-    FillBalls(points[level], points[level + 1], kept[level + 1], level, geometry, set);
+    geometry.levels[level] =
+        BallsOf(points[level], points[level + 1], kept[level + 1], kSetAbstractions[level], set);
     if (level == 0) break;
     Indices& members = geometry.levels[level].member;
     kept[level].insert(kept[level].end(), members.begin(), members.end());

@@ -26,7 +26,7 @@ std::string MappedBlas() {
   for (std::string line; std::getline(maps, line);) {
     const std::size_t slash = line.find('/');
     if (slash == std::string::npos) continue;
-    const std::string file = line.substr(slash);
+    std::string file = line.substr(slash);
     const std::string name = file.substr(file.rfind('/') + 1);
     if (name.find("openblas") != std::string::npos) return file;
     if (name.rfind("libblas", 0) == 0 || name.rfind("libmkl", 0) == 0) first = file;

@@ -92,7 +92,8 @@ std::array<float, 3> MeanPoint(std::span<const TrainingSample> samples) {
   double count = 0;
   for (const TrainingSample& sample : samples) {
     for (std::size_t i = 0; i < sample.cloud.size(); ++i) sum[i % 3] += sample.cloud[i];
-    count += static_cast<double>(sample.cloud.size() / 3);
+    const std::size_t points = sample.cloud.size() / 3;
+    count += static_cast<double>(points);
   }
   std::array<float, 3> mean{};
   for (std::size_t i = 0; i < 3; ++i) mean[i] = static_cast<float>(sum[i] / count);
@@ -181,13 +182,13 @@ OpeningNormalisation NormalisationFromJson(const Json& json, const std::string& 
 }
 
 const ParameterLayout& ActorLayout() {
-  static const ParameterLayout layout = MakeActorLayout();
-  return layout;
+  static const ParameterLayout kLayout = MakeActorLayout();
+  return kLayout;
 }
 
 const ParameterLayout& CriticLayout() {
-  static const ParameterLayout layout = MakeCriticLayout();
-  return layout;
+  static const ParameterLayout kLayout = MakeCriticLayout();
+  return kLayout;
 }
 
 OpeningNetworks InitialNetworks(const OpeningNormalisation& normalisation, bool linear_branches,

@@ -104,6 +104,7 @@ class Packer {
 };
 
 // Max-pools each ball of a block and writes the rectified result into the level's rows.
+// NOLINTNEXTLINE(readability-function-size): the operands of a kernel
 void PoolBlock(const Kernels& kernels, const CloudGeometry::Level& level, const CentreBlock& block,
                const float* rows, PointEncoder::Trace& trace, std::size_t l) {
   const int width = LevelWidth(l + 1);

@@ -178,6 +178,7 @@ class Trainer {
     ParallelFor(networks.size(), threads_,
                 [&](std::size_t n) { packed[n].emplace(EncoderOf(*networks[n])); });
     std::vector<PointEncoder> encoders;
+    encoders.reserve(packed.size());
     for (auto& encoder : packed) encoders.push_back(std::move(*encoder));
     for (Network* network : networks) network->encoded.Resize(geometries.size());
     ParallelFor(networks.size() * geometries.size(), threads_, [&](std::size_t task) {

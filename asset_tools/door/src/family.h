@@ -28,12 +28,14 @@ struct Family {
 
 /// The families of each source file, in the order in which errors list them.
 std::span<const Family> InteriorBodyFamilies();
+std::span<const Family> InteriorShapedBodyFamilies();
 std::span<const Family> StorageBodyFamilies();
 std::span<const Family> SafeBodyFamilies();
 std::span<const Family> SafeHandleFamilies();
 std::span<const Family> RefrigeratorBodyFamilies();
 std::span<const Family> LatchLeverFamilies();
 std::span<const Family> LeverFamilies();
+std::span<const Family> ShapedLeverFamilies();
 std::span<const Family> KnobFamilies();
 std::span<const Family> PullFamilies();
 

@@ -10,11 +10,18 @@ namespace doorforge::internal {
 
 /// What is fixed to the leaf under a lever or a knob.
 struct RoseParameters {
-  std::string shape = "round";  ///< "round", "square", "plate" (a long plate) or "none".
-  double width_m = 0.052;       ///< Along y.
-  double height_m = 0.22;       ///< Of a plate only, along z.
+  /// "round", "square", "octagon", "oval", "plate" (a long plate), "stadium" (its ends are half
+  /// circles), "tablet" (its corners are cut), "lens" (an ellipse) or "none".
+  std::string shape = "round";
+  double width_m = 0.052;     ///< Along y.
+  double height_m = 0.22;     ///< Of a plate, stadium, tablet or lens only, along z.
+  double center = -0.14;      ///< Of those: their middle above the axis, relative to the height.
+  std::string face = "flat";  ///< "flat", "domed" or "stepped".
   double thickness_m = 0.009;
   bool keyhole = false;  ///< A plate's cylinder boss below the handle.
+  /// "none", "cylinder" or "thumb_turn": on the plate, or on an escutcheon of its own.
+  std::string lock = "none";
+  double lock_drop_m = 0.075;  ///< From the handle's axis down to the lock.
   std::string finish = "brushed_steel";
 
   template <class Self, class Visitor>
@@ -22,8 +29,12 @@ struct RoseParameters {
     visit("shape", self.shape);
     visit("width_m", self.width_m);
     visit("height_m", self.height_m);
+    visit("center", self.center);
+    visit("face", self.face);
     visit("thickness_m", self.thickness_m);
     visit("keyhole", self.keyhole);
+    visit("lock", self.lock);
+    visit("lock_drop_m", self.lock_drop_m);
     visit("finish", self.finish);
   }
 };

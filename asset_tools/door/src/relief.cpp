@@ -121,6 +121,7 @@ Lines Relief::FineLines(int axis) const {
   for (const ReliefField& field : slab_.fields)
     AddLines(field.area, field.profile, axis, true, lines);
   for (const Rectangle& opening : slab_.openings) AddLines(opening, edge_, axis, false, lines);
+  lines.insert(lines.end(), slab_.extra_cuts_m[axis].begin(), slab_.extra_cuts_m[axis].end());
   return Sorted(lines, slab_.outline.min_m[axis], slab_.outline.max_m[axis]);
 }
 

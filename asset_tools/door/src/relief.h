@@ -41,6 +41,8 @@ struct ReliefSlab {
   double edge_radius_m = 0.003;     ///< Rounds the outline's edges on both faces; may be 0.
   std::vector<ReliefField> fields;  ///< Must not overlap each other or the openings.
   std::vector<Rectangle> openings;  ///< Right through; their edges are rounded too.
+  /// Places along y and z where the mesh is cut beside those it needs: for what is bent later.
+  std::vector<double> extra_cuts_m[2] = {};
 };
 
 /// Hulls are boxes: fields, openings and the ground between them cut the slab into rectangles, and

@@ -54,13 +54,31 @@ Ring SectionRing(const PathPoint& at, const Eigen::Vector3d& up, const Section& 
   return ring;
 }
 
+// A rounded end beyond the last ring.
+void AddDome(const PathPoint& last, const Eigen::Vector3d& up, const Section& end, double dome_m,
+             std::vector<Ring>& rings) {
+  if (dome_m <= 0) return;
+  for (const double degrees : {25.0, 50.0, 72.0}) {
+    const double angle = degrees * kPi / 180;
+    PathPoint beyond = last;
+    beyond.position_m += beyond.tangent * (dome_m * std::sin(angle));
+    rings.push_back(SectionRing(
+        beyond, up,
+        {end.half_width_m * std::cos(angle), end.half_height_m * std::cos(angle), end.exponent}));
+  }
+}
+
 Ring LatheRing(const LathePoint& at, const LatheShape& shape, double largest_radius_m) {
   Ring ring;
   for (int k = 0; k < shape.sides; ++k) {
     const double angle = 2 * kPi * (k + 0.5) / shape.sides;
     const double depth = shape.flute_depth_m * at.radius_m / largest_radius_m;
     const double radius = at.radius_m - depth * (0.5 - 0.5 * std::cos(shape.flutes * angle));
-    ring.emplace_back(at.x_m, radius * std::cos(angle), radius * std::sin(angle));
+    const double power = 2 / shape.squareness;
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    ring.emplace_back(at.x_m, radius * std::copysign(std::pow(std::abs(c), power), c),
+                      shape.aspect * radius * std::copysign(std::pow(std::abs(s), power), s));
   }
   return ring;
 }
@@ -87,7 +105,8 @@ void Thin(const std::vector<LathePoint>& profile, std::size_t first, std::size_t
   Thin(profile, split, last, keep);
 }
 
-std::vector<TriangleMesh> LatheHulls(const std::vector<LathePoint>& profile, int sides) {
+std::vector<TriangleMesh> LatheHulls(const std::vector<LathePoint>& profile,
+                                     const LatheShape& shape, int sides) {
   std::vector<bool> keep(profile.size(), false);
   keep.front() = keep.back() = true;
   Thin(profile, 0, profile.size() - 1, keep);
@@ -96,7 +115,8 @@ std::vector<TriangleMesh> LatheHulls(const std::vector<LathePoint>& profile, int
   for (std::size_t i = 0; i < profile.size(); ++i) {
     if (!keep[i]) continue;
     const LathePoint around{profile[i].x_m, (profile[i].radius_m + 4e-4) * outside};
-    rings.push_back(LatheRing(around, {sides, 0, 0}, around.radius_m));
+    rings.push_back(
+        LatheRing(around, {sides, 0, 0, shape.squareness, shape.aspect}, around.radius_m));
   }
   return LoftHulls(rings, 0.0012);
 }
@@ -143,16 +163,22 @@ std::vector<Ring> SweepRings(const std::vector<PathPoint>& path, const Eigen::Ve
   std::vector<Ring> rings;
   for (const PathPoint& point : path)
     rings.push_back(SectionRing(point, up, section(point.length_m / total)));
-  if (dome_m <= 0) return rings;
-  const Section end = section(1);
-  for (const double degrees : {25.0, 50.0, 72.0}) {
-    const double angle = degrees * kPi / 180;
-    PathPoint beyond = path.back();
-    beyond.position_m += beyond.tangent * (dome_m * std::sin(angle));
-    rings.push_back(SectionRing(
-        beyond, up,
-        {end.half_width_m * std::cos(angle), end.half_height_m * std::cos(angle), end.exponent}));
+  AddDome(path.back(), up, section(1), dome_m, rings);
+  return rings;
+}
+
+std::vector<Ring> TransportedSweepRings(const std::vector<PathPoint>& path,
+                                        const Eigen::Vector3d& up,
+                                        const std::function<Section(double)>& section,
+                                        double dome_m) {
+  const double total = path.back().length_m;
+  Eigen::Vector3d carried = up;
+  std::vector<Ring> rings;
+  for (const PathPoint& point : path) {
+    carried = (carried - point.tangent * point.tangent.dot(carried)).normalized();
+    rings.push_back(SectionRing(point, carried, section(point.length_m / total)));
   }
+  AddDome(path.back(), carried, section(1), dome_m, rings);
   return rings;
 }
 
@@ -162,7 +188,8 @@ Solid LatheSolid(const std::vector<LathePoint>& profile, const LatheShape& shape
   std::vector<Ring> rings;
   for (const LathePoint& point : profile) rings.push_back(LatheRing(point, shape, largest));
   const bool faceted = shape.sides <= 12;
-  return {Loft(rings), faceted ? LoftHulls(rings, 0.0012) : LatheHulls(profile, 12)};
+  return {Loft(rings), faceted ? LoftHulls(rings, 0.0012)
+                               : LatheHulls(profile, shape, shape.squareness > 2 ? 20 : 12)};
 }
 
 }  // namespace doorforge::internal

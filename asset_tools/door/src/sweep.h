@@ -44,6 +44,13 @@ struct Section {
 std::vector<Ring> SweepRings(const std::vector<PathPoint>& path, const Eigen::Vector3d& up,
                              const std::function<Section(double)>& section, double dome_m);
 
+/// SweepRings() with `up` carried along the path, so that a tangent may turn into it: for paths
+/// that leave a plane.
+std::vector<Ring> TransportedSweepRings(const std::vector<PathPoint>& path,
+                                        const Eigen::Vector3d& up,
+                                        const std::function<Section(double)>& section,
+                                        double dome_m);
+
 /// A solid of revolution about the x axis.
 struct LathePoint {
   double x_m;
@@ -55,6 +62,8 @@ struct LatheShape {
   int sides = 32;            ///< 6 to 12 gives a faceted body.
   double flute_depth_m = 0;  ///< Depth of flutes along the axis, where the radius is largest.
   int flutes = 0;            ///< Around the circumference.
+  double squareness = 2;     ///< Exponent of the cross-section: 2 round, 4 a rounded square.
+  double aspect = 1;         ///< Extent along z relative to that along y.
 };
 
 /// Profile points in order of the sweep from the leaf outwards (x mostly rising), radii > 0. Hulls

@@ -36,6 +36,7 @@ constexpr std::array kVerbs = {
     Verb{"repair", "doorforge-assets", "any mesh -> a closed mesh with a measured report"},
     Verb{"compose", "doorforge-assets", "a body and a handle -> a door (door.json, URDF, meshes)"},
     Verb{"validate", "doorforge-assets", "every fault of parts and doors, with its measure"},
+    Verb{"export", "doorforge-assets", "doors for other simulators: MJCF, SDF, GLB, USDA, URDF"},
     Verb{"preview", "doorforge-assets", "pictures of parts and doors"},
     Verb{"simulate", "doorforge-simulate", "the rule-based expert on doors, with film strips"},
     Verb{"datagen", "doorforge-datagen", "collect a stage's dataset shards"},

@@ -4,10 +4,12 @@
 
 #include <atomic>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 
 #include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <unistd.h>
 
@@ -132,6 +134,68 @@ void StagedFolder::Commit() {
   }
   committed_ = true;
   SyncFolder(FolderOf(target_));
+}
+
+namespace {
+
+constexpr const char* kBatchPrefix = ".batch.tmp-";
+
+// Batches of processes that are gone: what they left was never committed.
+void RemoveDeadBatches(const fs::path& folder) {
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(kBatchPrefix)) continue;
+    const int process = std::atoi(name.c_str() + std::strlen(kBatchPrefix));
+    std::error_code ignored;
+    if (process > 0 && ::kill(process, 0) != 0 && errno == ESRCH)
+      fs::remove_all(entry.path(), ignored);
+  }
+}
+
+void RenameInto(const fs::path& from, const fs::path& to) {
+  if (::rename(from.c_str(), to.c_str()) == 0) return;
+  // a folder cannot be renamed onto a full one: swap, and let the batch drop the old content
+  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_EXCHANGE) != 0)
+    ThrowIo(to, "cannot be put in place");
+}
+
+}  // namespace
+
+StagedBatch::StagedBatch(fs::path folder) : folder_(std::move(folder)) {
+  static std::atomic<int> count{0};
+  CreateFolder(folder_);
+  RemoveDeadBatches(folder_);
+  staging_ = folder_ / (kBatchPrefix + std::to_string(::getpid()) + "-" + std::to_string(count++));
+  CreateFolder(staging_);
+}
+
+StagedBatch::~StagedBatch() {
+  std::error_code ignored;
+  fs::remove_all(staging_, ignored);
+}
+
+void StagedBatch::Commit() {
+  const int fd = ::open(staging_.c_str(), O_RDONLY | O_DIRECTORY);
+  if (fd < 0) ThrowIo(staging_, "cannot be opened");
+  const int flushed = ::syncfs(fd);
+  ::close(fd);
+  if (flushed != 0) ThrowIo(staging_, "cannot be flushed");
+  for (const auto& entry : fs::directory_iterator(staging_))
+    RenameInto(entry.path(), folder_ / entry.path().filename());
+  SyncFolder(folder_);
+}
+
+void WriteStaged(const fs::path& path, std::string_view content) {
+  CreateFolder(FolderOf(path));
+  const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  if (fd < 0) ThrowIo(path, "cannot be created");
+  try {
+    WriteAll(fd, content, path);
+  } catch (...) {
+    ::close(fd);
+    throw;
+  }
+  ::close(fd);
 }
 
 }  // namespace doorforge

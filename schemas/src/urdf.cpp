@@ -432,7 +432,9 @@ UrdfModel ParseUrdf(const std::string& text, const std::string& name) {
   return model;
 }
 
-std::string ToUrdf(const UrdfModel& model) {
+namespace {
+
+std::string Printed(const UrdfModel& model, bool compact) {
   tinyxml2::XMLDocument document;
   document.InsertEndChild(document.NewDeclaration());
   XMLElement* robot = document.NewElement("robot");
@@ -444,10 +446,16 @@ std::string ToUrdf(const UrdfModel& model) {
   Set(compiler, "discardvisual", "false");
   for (const UrdfLink& link : model.links) AddLink(*robot, link);
   for (const UrdfJoint& joint : model.joints) AddJoint(*robot, joint);
-  tinyxml2::XMLPrinter printer;
+  tinyxml2::XMLPrinter printer(nullptr, compact);
   document.Print(&printer);
   return printer.CStr();
 }
+
+}  // namespace
+
+std::string ToUrdf(const UrdfModel& model) { return Printed(model, false); }
+
+std::string ToCompactUrdf(const UrdfModel& model) { return Printed(model, true); }
 
 std::string RootLinkOf(const UrdfModel& model) {
   const auto fail = [&](const std::string& problem) {

@@ -2,13 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compose_verb.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <map>
+#include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <fnmatch.h>
 
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/json_file.h"
@@ -18,6 +24,7 @@
 #include "doorforge/door/catalogue.h"
 #include "doorforge/door/compose.h"
 #include "doorforge/door/export_urdf.h"
+#include "doorforge/door/shared_doors.h"
 
 #include "verb_options.h"
 
@@ -25,6 +32,20 @@ namespace doorforge {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// What --config and --set hold: everything that decides the doors.
+struct ComposeRequest {
+  std::string body = {};    ///< Id, folder or glob.
+  std::string handle = {};  ///< The same.
+  ComposeConfig door = {};
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    visit("body", self.body);
+    visit("handle", self.handle);
+    ComposeConfig::VisitFields(self.door, visit);
+  }
+};
 
 struct Options {
   std::string body;
@@ -37,135 +58,187 @@ struct Options {
   int threads = 0;
   bool all = false;
   bool as_imported = false;
+  bool standalone = false;
   bool overwrite = false;
   bool json = false;
   bool quiet = false;
+  bool rules = false;
 };
+
+void AddOptions(CLI::App& app, Options& options) {
+  app.add_option("--body", options.body,
+                 "id in the catalogue or in --parts, a part's folder, or a "
+                 "glob of either");
+  app.add_option("--handle", options.handle, "the same");
+  app.add_option("--out", options.out, "folder of the door; of the doors where there may be many");
+  app.add_flag("--all", options.all, "every body with every handle of its category");
+  app.add_flag("--as-imported", options.as_imported,
+               "with --parts: the pairs that the imported objects were composed of");
+  app.add_option("--parts", options.parts, "folder of parts; the catalogue if left out");
+  app.add_option("--category", options.category, "with many doors: only this category");
+  app.add_option("--config", options.config, "YAML file with body, handle and all settings");
+  app.add_option("--set", options.settings, "key=value overrides one setting");
+  app.add_flag("--standalone", options.standalone,
+               "many doors: each with its own copy of the meshes");
+  app.add_option("--threads", options.threads, "0: all processors; no byte depends on it");
+  app.add_flag("--overwrite", options.overwrite, "replace doors that are there already");
+  app.add_flag("--json", options.json, "print one JSON document");
+  app.add_flag("--quiet", options.quiet, "print nothing but errors");
+  app.add_flag("--rules", options.rules, "list the rules of pairs and the presets, and end");
+  app.footer(
+      "Many doors share the meshes of their parts in OUT/pool; a door alone, or --standalone, has\n"
+      "its own. A run that was ended goes on where it was when it is given again.\n"
+      "examples:\n"
+      "  doorforge compose --body interior_flush_01 --handle interior_lever_tube_01 --out doors/a\n"
+      "  doorforge compose --body 'interior_panel*' --handle 'interior_lever*' --out doors \\\n"
+      "      --set hinge_side=right\n"
+      "  doorforge compose --all --category interior --out doors");
+}
+
+void CheckOptions(const Options& options) {
+  const auto fail = [](const std::string& why) {
+    throw Error(ErrorCode::kInvalidArgument, why + "; see `doorforge compose --help`");
+  };
+  if (options.out.empty()) fail("--out is required");
+  if (options.all && options.as_imported) fail("--all and --as-imported exclude each other");
+  if ((options.all || options.as_imported) && !(options.body.empty() && options.handle.empty()))
+    fail("--all and --as-imported take no --body and --handle");
+  if (options.as_imported && options.parts.empty()) fail("--as-imported needs --parts");
+  if (!options.category.empty() && !CategoryNamed(options.category))
+    fail("--category: unknown category \"" + options.category +
+         "\"; allowed are interior, window, car, safe, storagefurniture, refrigerator");
+}
 
 Options Parse(int argc, char** argv) {
   Options options;
   CLI::App app("Composes doors: a body and a handle of one category.", "doorforge compose");
-  auto* body = app.add_option("--body", options.body, "id in the catalogue, or a part's folder");
-  auto* handle =
-      app.add_option("--handle", options.handle, "id in the catalogue, or a part's folder");
-  body->needs(handle);
-  handle->needs(body);
-  app.add_option("--out", options.out, "folder of the door; of many doors with --all")->required();
-  auto* all = app.add_flag("--all", options.all, "every body with every handle of its category");
-  app.add_flag("--as-imported", options.as_imported,
-               "with --parts: the pairs that the imported objects were composed of")
-      ->excludes(all)
-      ->excludes(body);
-  all->excludes(body);
-  app.add_option("--parts", options.parts, "folder of parts; the catalogue if left out");
-  app.add_option("--category", options.category, "with --all: only this category");
-  app.add_option("--config", options.config, "YAML file with the settings of compose");
-  app.add_option("--set", options.settings, "a.b=c overrides one setting");
-  app.add_option("--threads", options.threads, "0: all processors");
-  app.add_flag("--overwrite", options.overwrite, "replace doors that are there already");
-  app.add_flag("--json", options.json, "print one JSON document");
-  app.add_flag("--quiet", options.quiet, "print nothing but errors");
-  app.footer(
-      "examples:\n"
-      "  doorforge compose --body parts/udm-9965008 --handle parts/udm-9960001 --out doors/mine\n"
-      "  doorforge compose --all --category interior --out doors");
+  AddOptions(app, options);
   ParseVerb(app, argc, argv);
-  if (options.body.empty() && !options.all && !options.as_imported)
-    throw Error(ErrorCode::kInvalidArgument,
-                "--body and --handle, --all or --as-imported is required; see `doorforge compose "
-                "--help`");
-  if (options.as_imported && options.parts.empty())
-    throw Error(ErrorCode::kInvalidArgument, "--as-imported needs --parts");
-  if (!options.category.empty() && !CategoryNamed(options.category))
-    throw Error(ErrorCode::kInvalidArgument,
-                "--category: unknown category \"" + options.category +
-                    "\"; allowed are interior, window, car, safe, storagefurniture, refrigerator");
+  if (!options.rules) CheckOptions(options);
   return options;
 }
 
-// an id of the catalogue, or a folder with part.json
-Part LoadPart(const std::string& name) {
-  if (fs::exists(fs::path(name) / "part.json")) return ReadPart(name);
-  if (name.find('/') != std::string::npos || fs::exists(name))
-    throw Error(ErrorCode::kMissing, name +
-                                         ": no part.json there; `doorforge import` and "
-                                         "`doorforge catalog build` write parts");
-  return BuildCataloguePart(DataFolder(), name);
+ComposeRequest RequestOf(const Options& options) {
+  auto request = LoadConfig<ComposeRequest>(options.config, options.settings);
+  if (!options.body.empty()) request.body = options.body;
+  if (!options.handle.empty()) request.handle = options.handle;
+  if (options.all || options.as_imported) return request;
+  if (request.body.empty() || request.handle.empty())
+    throw Error(ErrorCode::kInvalidArgument,
+                "--body and --handle (or both in --config), --all or --as-imported is required; "
+                "see `doorforge compose --help`");
+  return request;
 }
 
-using Pair = std::pair<std::string, std::string>;
+bool IsGlob(const std::string& name) { return name.find_first_of("*?[") != std::string::npos; }
 
-std::vector<Part> AllParts(const Options& options) {
-  std::vector<Part> parts;
-  if (options.parts.empty()) {
-    for (const CatalogueEntry& entry : ListCatalogue(DataFolder()))
-      parts.push_back(BuildCataloguePart(entry));
-    return parts;
-  }
-  std::set<fs::path> folders;
-  for (const auto& entry : fs::directory_iterator(options.parts)) {
-    if (fs::exists(entry.path() / "part.json")) folders.insert(entry.path());
-  }
-  for (const fs::path& folder : folders) parts.push_back(ReadPart(folder));
-  return parts;
-}
+bool IsPartFolder(const fs::path& folder) { return fs::exists(folder / "part.json"); }
 
-std::vector<Pair> ImportedPairs(const fs::path& folder) {
-  const fs::path file = folder / "import.json";
-  const auto json = ReadJsonFile(file);
-  RequireSchema(json, "doorforge.import", 1, file.string());
-  std::vector<Pair> pairs;
-  for (const auto& object : MemberOf(json, "objects", file.string())) {
-    if (ValueOf<std::string>(object, "outcome", file.string()) != "imported") continue;
-    pairs.emplace_back(ValueOf<std::string>(object, "body", file.string()),
-                       ValueOf<std::string>(object, "handle", file.string()));
-  }
-  return pairs;
-}
-
-std::vector<Pair> MatchingPairs(const std::vector<Part>& parts) {
-  std::vector<Pair> pairs;
-  for (const Part& body : parts) {
-    for (const Part& handle : parts) {
-      if (body.role == PartRole::kBody && handle.role == PartRole::kHandle &&
-          body.category == handle.category)
-        pairs.emplace_back(body.id, handle.id);
+/// Where parts come from: the catalogue, or a folder of parts.
+class PartStore {
+ public:
+  explicit PartStore(const std::string& folder) : folder_(folder) {
+    if (folder.empty()) {
+      catalogue_ = ListCatalogue(DataFolder());
+      return;
+    }
+    if (!fs::is_directory(folder))
+      throw Error(ErrorCode::kMissing, folder + ": no such folder of parts");
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (IsPartFolder(entry.path())) folders_.insert(entry.path());
     }
   }
-  return pairs;
-}
 
-const Part& PartNamed(const std::vector<Part>& parts, const std::string& id) {
-  for (const Part& part : parts) {
-    if (part.id == id) return part;
+  /// Names of all parts, in order.
+  std::vector<std::string> All() const {
+    std::vector<std::string> names;
+    for (const CatalogueEntry& entry : catalogue_) names.push_back(entry.id);
+    for (const fs::path& folder : folders_) names.push_back(folder.string());
+    return names;
   }
-  throw Error(ErrorCode::kMissing, "part \"" + id + "\" of import.json is not among --parts");
-}
+
+  /// Names that an id, a folder or a glob stands for; at least one.
+  std::vector<std::string> Matching(const std::string& wanted, PartRole role) const {
+    if (!IsGlob(wanted)) return {wanted};
+    std::vector<std::string> names;
+    for (const CatalogueEntry& entry : catalogue_) {
+      if (entry.role == role && Matches(wanted, entry.id)) names.push_back(entry.id);
+    }
+    for (const fs::path& folder : folders_) {
+      if (Matches(wanted, folder.filename().string())) names.push_back(folder.string());
+    }
+    for (const fs::path& folder : FoldersLike(wanted)) names.push_back(folder.string());
+    if (names.empty())
+      throw Error(ErrorCode::kMissing, "no part is called like \"" + wanted +
+                                           "\"; `doorforge catalog list` shows the catalogue");
+    return names;
+  }
+
+  Part Load(const std::string& name) const {
+    if (IsPartFolder(name)) return ReadPart(name);
+    if (!folder_.empty() && name.find('/') == std::string::npos && IsPartFolder(folder_ / name))
+      return ReadPart(folder_ / name);
+    if (name.find('/') != std::string::npos || fs::exists(name))
+      throw Error(ErrorCode::kMissing, name +
+                                           ": no part.json there; `doorforge import` and "
+                                           "`doorforge catalog build` write parts");
+    return catalogue_.empty() ? BuildCataloguePart(DataFolder(), name)
+                              : BuildCataloguePart(FindCatalogueEntry(catalogue_, name));
+  }
+
+ private:
+  static bool Matches(const std::string& glob, const std::string& name) {
+    return ::fnmatch(glob.c_str(), name.c_str(), 0) == 0;
+  }
+
+  // folders of parts whose path is like the glob; only its last component may hold wildcards
+  static std::set<fs::path> FoldersLike(const std::string& glob) {
+    std::set<fs::path> folders;
+    const fs::path path(glob);
+    if (!path.has_parent_path() || !fs::is_directory(path.parent_path())) return folders;
+    for (const auto& entry : fs::directory_iterator(path.parent_path())) {
+      if (Matches(path.filename().string(), entry.path().filename().string()) &&
+          IsPartFolder(entry.path()))
+        folders.insert(entry.path());
+    }
+    return folders;
+  }
+
+  fs::path folder_;
+  std::vector<CatalogueEntry> catalogue_;
+  std::set<fs::path> folders_;
+};
 
 struct Door {
   std::string id;
   std::string problem;
+  bool kept = false;
 };
 
-nlohmann::ordered_json ToJson(const std::vector<Door>& doors) {
+nlohmann::ordered_json ReportOf(const std::vector<Door>& doors) {
   auto list = nlohmann::ordered_json::array();
   for (const Door& door : doors)
-    list.push_back(
-        {{"id", door.id}, {"composed", door.problem.empty()}, {"message", door.problem}});
+    list.push_back({{"id", door.id},
+                    {"composed", door.problem.empty()},
+                    {"kept", door.kept},
+                    {"message", door.problem}});
   return {{"schema", "doorforge.compose"}, {"schema_version", 1}, {"doors", list}};
 }
 
 int Finish(const std::vector<Door>& doors, const Options& options) {
   std::size_t failed = 0;
+  std::size_t kept = 0;
   for (const Door& door : doors) {
+    kept += door.kept ? 1 : 0;
     if (door.problem.empty()) continue;
     ++failed;
     std::fprintf(stderr, "doorforge: %s: %s\n", door.id.c_str(), door.problem.c_str());
   }
   if (options.json)
-    std::cout << ToJson(doors).dump(2) << '\n';
+    std::cout << ReportOf(doors).dump(2) << '\n';
   else if (!options.quiet)
-    std::printf("%zu doors composed in %s%s\n", doors.size() - failed, options.out.c_str(),
+    std::printf("%zu doors composed in %s%s%s\n", doors.size() - failed, options.out.c_str(),
+                kept == 0 ? "" : (", " + std::to_string(kept) + " of them there already").c_str(),
                 failed == 0 ? "" : (", " + std::to_string(failed) + " not").c_str());
   if (const int signal = StopRequested()) return 128 + signal;
   return failed == 0 ? 0 : 1;
@@ -175,42 +248,178 @@ Existing OnExisting(const Options& options) {
   return options.overwrite ? Existing::kReplace : Existing::kRefuse;
 }
 
-int ComposeMany(const Options& options, const ComposeConfig& config) {
-  const std::vector<Part> parts = AllParts(options);
-  std::vector<Pair> pairs =
-      options.as_imported ? ImportedPairs(options.parts) : MatchingPairs(parts);
-  if (!options.category.empty())
-    std::erase_if(pairs, [&](const Pair& pair) {
-      return NameOf(PartNamed(parts, pair.first).category) != options.category;
-    });
-  if (pairs.empty())
-    throw Error(ErrorCode::kMissing, "compose: no body and handle of one category among the parts");
-  std::vector<Door> doors(pairs.size());
-  Progress progress("composing", pairs.size());
-  ParallelFor(pairs.size(), options.threads, [&](std::size_t i) {
-    doors[i].id = pairs[i].first + "__" + pairs[i].second;
+// the settings that made the doors, in a form that --config reads
+void WriteRequest(const ComposeRequest& request, const fs::path& folder) {
+  WriteJsonFile(folder / "compose.json", ToJson(request));
+}
+
+std::vector<PreparedPart> PrepareParts(const PartStore& store,
+                                       const std::vector<std::string>& names,
+                                       const ComposeRequest& request, int threads) {
+  std::vector<std::optional<PreparedPart>> prepared(names.size());
+  std::vector<std::string> problems(names.size());
+  Progress progress("preparing parts", names.size());
+  ParallelFor(names.size(), threads, [&](std::size_t i) {
+    try {
+      prepared[i].emplace(store.Load(names[i]), request.door);
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::kInvalidArgument) throw;
+      problems[i] = error.what();  // a rule: no door has this part, the others go on
+    }
+    progress.Advance();
+  });
+  std::vector<PreparedPart> parts;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (prepared[i])
+      parts.push_back(std::move(*prepared[i]));
+    else
+      std::fprintf(stderr, "doorforge: %s: left out: %s\n", names[i].c_str(), problems[i].c_str());
+  }
+  return parts;
+}
+
+std::map<std::string, std::size_t> PlacesById(const std::vector<PreparedPart>& parts) {
+  std::map<std::string, std::size_t> places;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (!places.emplace(parts[i].id(), i).second)
+      throw Error(ErrorCode::kInvalidArgument,
+                  "two parts have the id \"" + parts[i].id() + "\"; rename one");
+  }
+  return places;
+}
+
+std::vector<PartPair> ImportedPairs(const fs::path& folder,
+                                    const std::vector<PreparedPart>& parts) {
+  const std::map<std::string, std::size_t> places = PlacesById(parts);
+  const std::string file = (folder / "import.json").string();
+  const auto json = ReadJsonFile(file);
+  RequireSchema(json, "doorforge.import", 1, file);
+  const auto place = [&](const nlohmann::ordered_json& object, const char* role) {
+    const auto id = ValueOf<std::string>(object, role, file);
+    const auto found = places.find(id);
+    if (found == places.end())
+      throw Error(ErrorCode::kMissing, "part \"" + id + "\" of import.json is not among --parts");
+    return found->second;
+  };
+  std::vector<PartPair> pairs;
+  for (const auto& object : MemberOf(json, "objects", file)) {
+    // what came without a handle, or without a leaf, is half a door
+    const bool whole = !ValueOf<std::string>(object, "body", file).empty() &&
+                       !ValueOf<std::string>(object, "handle", file).empty();
+    if (whole && ValueOf<std::string>(object, "outcome", file) == "imported")
+      pairs.push_back({place(object, "body"), place(object, "handle")});
+  }
+  return pairs;
+}
+
+std::vector<PartPair> MatchingPairs(const std::vector<PreparedPart>& parts) {
+  PlacesById(parts);
+  std::vector<PartPair> pairs;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      if (parts[i].role() == PartRole::kBody && parts[k].role() == PartRole::kHandle &&
+          parts[i].category() == parts[k].category())
+        pairs.push_back({i, k});
+    }
+  }
+  return pairs;
+}
+
+std::vector<Door> WriteStandalone(const SharedDoorPlan& plan, const PartStore& store,
+                                  const std::vector<std::string>& names, const fs::path& out) {
+  // the parts as they were made; prepared ones are changed already
+  std::map<std::string, Part> made;
+  for (const std::string& name : names) {
+    Part part = store.Load(name);
+    made.emplace(part.id, std::move(part));
+  }
+  std::vector<Door> doors(plan.pairs.size());
+  Progress progress("composing", plan.pairs.size());
+  ParallelFor(plan.pairs.size(), plan.threads, [&](std::size_t i) {
+    const Part& body = made.at(plan.parts[plan.pairs[i].body].id());
+    const Part& handle = made.at(plan.parts[plan.pairs[i].handle].id());
+    doors[i].id = body.id + "__" + handle.id;
     try {
       if (StopRequested() != 0) throw Error(ErrorCode::kIncomplete, "stopped before its turn");
-      const DoorAsset door =
-          ComposeDoor(PartNamed(parts, pairs[i].first), PartNamed(parts, pairs[i].second), config);
-      WriteDoorFolder(door, fs::path(options.out) / doors[i].id, OnExisting(options));
+      const DoorAsset door = ComposeDoor(body, handle, plan.config);
+      doors[i].id = door.id;
+      WriteDoorFolder(door, out / door.id, plan.existing);
     } catch (const Error& error) {
       doors[i].problem = error.what();
     }
     progress.Advance();
   });
+  return doors;
+}
+
+std::vector<Door> WriteShared(const SharedDoorPlan& plan, const fs::path& out) {
+  WriteMeshPool(plan.parts, out, plan.threads);
+  Progress progress("composing", plan.pairs.size());
+  std::vector<Door> doors;
+  for (SharedDoorOutcome& outcome :
+       WriteSharedDoors(plan, out, [&](std::size_t count) { progress.Advance(count); }))
+    doors.push_back({std::move(outcome.id), std::move(outcome.problem), outcome.kept});
+  return doors;
+}
+
+int ComposeMany(const Options& options, const ComposeRequest& request) {
+  const PartStore store(options.parts);
+  std::vector<std::string> names;
+  if (request.body.empty() || options.all || options.as_imported) {
+    names = store.All();
+  } else {
+    names = store.Matching(request.body, PartRole::kBody);
+    for (std::string& name : store.Matching(request.handle, PartRole::kHandle))
+      names.push_back(std::move(name));
+  }
+  std::vector<PreparedPart> parts = PrepareParts(store, names, request, options.threads);
+  std::vector<PartPair> pairs =
+      options.as_imported ? ImportedPairs(options.parts, parts) : MatchingPairs(parts);
+  if (!options.category.empty())
+    std::erase_if(pairs, [&](const PartPair& pair) {
+      return NameOf(parts[pair.body].category()) != options.category;
+    });
+  if (pairs.empty())
+    throw Error(ErrorCode::kMissing, "compose: no body and handle of one category among the parts");
+  const SharedDoorPlan plan{parts, pairs, request.door, OnExisting(options), options.threads};
+  const std::vector<Door> doors = options.standalone
+                                      ? WriteStandalone(plan, store, names, options.out)
+                                      : WriteShared(plan, options.out);
+  WriteRequest(request, options.out);
   return Finish(doors, options);
+}
+
+int ComposeOne(const Options& options, const ComposeRequest& request) {
+  const PartStore store(options.parts);
+  const DoorAsset door =
+      ComposeDoor(store.Load(request.body), store.Load(request.handle), request.door);
+  WriteDoorFolder(door, options.out, OnExisting(options));
+  WriteRequest(request, options.out);
+  return Finish({{door.id, "", false}}, options);
+}
+
+int ListRules() {
+  for (const ComposeRule& rule : ComposeRules())
+    std::printf("%s %s\n", std::string(rule.code).c_str(), std::string(rule.text).c_str());
+  const auto list = [](const char* key, std::span<const ComposePreset> presets) {
+    for (const ComposePreset& preset : presets)
+      std::printf("%s: %s  %s\n", key, std::string(preset.name).c_str(),
+                  std::string(preset.source).c_str());
+  };
+  list("masses", MassPresets());
+  list("joints", JointPresets());
+  return 0;
 }
 
 }  // namespace
 
 int RunComposeVerb(int argc, char** argv) {
   const Options options = Parse(argc, argv);
-  const auto config = LoadConfig<ComposeConfig>(options.config, options.settings);
-  if (options.body.empty()) return ComposeMany(options, config);
-  const DoorAsset door = ComposeDoor(LoadPart(options.body), LoadPart(options.handle), config);
-  WriteDoorFolder(door, options.out, OnExisting(options));
-  return Finish({{door.id, ""}}, options);
+  if (options.rules) return ListRules();
+  const ComposeRequest request = RequestOf(options);
+  const bool many =
+      options.all || options.as_imported || IsGlob(request.body) || IsGlob(request.handle);
+  return many ? ComposeMany(options, request) : ComposeOne(options, request);
 }
 
 }  // namespace doorforge

@@ -13,6 +13,7 @@
 
 #include "catalog_verb.h"
 #include "compose_verb.h"
+#include "export_verb.h"
 #include "import_verb.h"
 #include "repair_verb.h"
 #include "validate_verb.h"
@@ -29,7 +30,7 @@ struct Verb {
 };
 
 constexpr Verb kVerbs[] = {
-    {"catalog", RunCatalogVerb}, {"compose", RunComposeVerb},   {"import", RunImportVerb},
+    {"catalog", RunCatalogVerb}, {"compose", RunComposeVerb},   {"export", RunExportVerb},   {"import", RunImportVerb},
 #ifdef DOORFORGE_WITH_PREVIEW
     {"preview", RunPreviewVerb},
 #endif

@@ -34,9 +34,10 @@ Findings CheckOpening(const JointNumbers& hinge) {
 }
 
 // Along x: how a point at `arm` from the hinge line starts to move at positive hinge rates.
-Findings CheckDirection(const JointNumbers& hinge, const Eigen::Vector3d& arm) {
+Findings CheckDirection(const JointNumbers& hinge, const Eigen::Vector3d& arm, Opening opening) {
   const Eigen::Vector3d motion = hinge.axis.cross(arm);
-  const double along_x = motion.norm() > 1e-9 ? motion.normalized().x() : 0;
+  const double sense = opening == Opening::kPull ? 1 : -1;
+  const double along_x = motion.norm() > 1e-9 ? sense * motion.normalized().x() : 0;
   if (along_x >= LimitOf("MEC004")) return {};
   return {Found("MEC004", hinge.where, Number(along_x))};
 }
@@ -64,17 +65,19 @@ Findings CheckLatch(const DoorAsset& door) {
                                  Number(latch.handle_done_angle_rad) + ", upper limit " +
                                  Number(upper) + " rad"));
   }
-  const bool numbers_hold = (locks ? latch.lock_effort_nm > 0 : latch.lock_effort_nm >= 0) &&
-                            latch.hinge_spring_nm_per_rad >= 0 &&
+  const bool holds = latch.type == LatchType::kBolt ? latch.bolt_throw_m > 0
+                     : locks                        ? latch.lock_effort_nm > 0
+                                                    : latch.lock_effort_nm >= 0;
+  const bool numbers_hold = holds && latch.hinge_spring_nm_per_rad >= 0 &&
                             latch.handle_spring_nm_per_rad >= 0 && door.hinge.damping_nm_s >= 0 &&
                             door.handle_joint.damping_nm_s >= 0;
   if (!numbers_hold)
-    findings.push_back(Found("MEC008", where,
-                             "lock effort " + Number(latch.lock_effort_nm) + ", springs " +
-                                 Number(latch.hinge_spring_nm_per_rad) + " and " +
-                                 Number(latch.handle_spring_nm_per_rad) + ", damping " +
-                                 Number(door.hinge.damping_nm_s) + " and " +
-                                 Number(door.handle_joint.damping_nm_s)));
+    findings.push_back(Found(
+        "MEC008", where,
+        "lock effort " + Number(latch.lock_effort_nm) + ", bolt throw " +
+            Number(latch.bolt_throw_m) + ", springs " + Number(latch.hinge_spring_nm_per_rad) +
+            " and " + Number(latch.handle_spring_nm_per_rad) + ", damping " +
+            Number(door.hinge.damping_nm_s) + " and " + Number(door.handle_joint.damping_nm_s)));
   return findings;
 }
 
@@ -109,7 +112,8 @@ Findings CheckMechanics(const DoorAsset& door) {
   JointNumbers in_door = hinge;
   in_door.axis = door_from_leaf * hinge.axis;
   Append(findings,
-         CheckDirection(in_door, door_from_leaf * door.links[kLeafLink].mass.center_of_mass_m));
+         CheckDirection(in_door, door_from_leaf * door.links[kLeafLink].mass.center_of_mass_m,
+                        door.opening));
   Append(findings, CheckLimits(door.hinge));
   Append(findings, CheckLimits(door.handle_joint));
   Append(findings, CheckLatch(door));
@@ -124,7 +128,8 @@ Findings CheckPartJoint(const Part& part) {
   const PartPiece* leaf = FindPiece(part, "leaf");
   if (part.role != PartRole::kBody || leaf == nullptr) return findings;
   Append(findings, CheckOpening(joint));
-  Append(findings, CheckDirection(joint, leaf->mass.center_of_mass_m - part.joint.origin_m));
+  Append(findings,
+         CheckDirection(joint, leaf->mass.center_of_mass_m - part.joint.origin_m, Opening::kPull));
   return findings;
 }
 

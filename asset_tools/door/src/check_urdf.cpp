@@ -6,6 +6,7 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/door/export_urdf.h"
+#include "doorforge/schemas/mesh_pool.h"
 #include "doorforge/schemas/urdf.h"
 
 #include "findings.h"
@@ -68,7 +69,22 @@ std::string Difference(const std::set<std::string>& has, const std::set<std::str
   return text;
 }
 
-Findings CheckMeshFiles(const UrdfLink& link, const std::filesystem::path& folder) {
+// Names of files in the pool that the record shares.
+std::set<std::string> PooledFiles(const UrdfLink& link) {
+  std::set<std::string> files;
+  for (const auto* shapes : {&link.visuals, &link.collisions}) {
+    for (const UrdfShape& shape : *shapes) {
+      const auto* mesh = std::get_if<UrdfMeshFile>(&shape.geometry);
+      if (mesh != nullptr && mesh->filename.starts_with(std::string(kMeshPoolPath) + "/"))
+        files.insert(mesh->filename);
+    }
+  }
+  return files;
+}
+
+Findings CheckMeshFiles(const UrdfLink& link, const UrdfLink& expected,
+                        const std::filesystem::path& folder) {
+  const std::set<std::string> pooled = PooledFiles(expected);
   Findings findings;
   const auto check = [&](const std::vector<UrdfShape>& shapes, const char* kind) {
     for (const UrdfShape& shape : shapes) {
@@ -76,7 +92,8 @@ Findings CheckMeshFiles(const UrdfLink& link, const std::filesystem::path& folde
       if (mesh == nullptr) continue;
       const std::string where = LinkPath(link.name) + "/" + kind + "/geometry/mesh";
       try {
-        FileInside(folder, mesh->filename, kFile);
+        // what lies in the pool is checked against the record, by URD011 and MSH
+        if (!pooled.contains(mesh->filename)) FileInside(folder, mesh->filename, kFile);
       } catch (const Error&) {
         findings.push_back(Found("URD009", where, "\"" + mesh->filename + "\""));
       }
@@ -114,7 +131,7 @@ Findings CheckInertial(const UrdfLink& link, const UrdfLink& expected) {
 Findings CheckLink(const UrdfLink& link, const UrdfLink& expected,
                    const std::filesystem::path& folder) {
   Findings findings = CheckInertial(link, expected);
-  const Findings files = CheckMeshFiles(link, folder);
+  const Findings files = CheckMeshFiles(link, expected, folder);
   findings.insert(findings.end(), files.begin(), files.end());
   const std::set<std::string> has = MeshesOf(link);
   const std::set<std::string> wants = MeshesOf(expected);
@@ -203,7 +220,12 @@ Findings CheckModel(const UrdfModel& model, const UrdfModel& expected,
 
 Findings CheckUrdf(const DoorAsset& door, const std::filesystem::path& folder) {
   try {
-    return CheckModel(ReadUrdf(folder / kFile), ToUrdfModel(door), folder);
+    const DoorFiles files = ReadDoorFiles(folder);
+    const bool shares = std::any_of(files.begin(), files.end(), [](const auto& link) {
+      return !link.empty() && link.front().mesh.starts_with(std::string(kMeshPoolPath) + "/");
+    });
+    const UrdfModel expected = shares ? ToUrdfModel(door, files) : ToUrdfModel(door);
+    return CheckModel(ReadUrdf(folder / kFile), expected, folder);
   } catch (const Error& error) {
     return {Found("URD001", kFile, error.what())};
   }

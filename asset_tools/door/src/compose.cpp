@@ -7,93 +7,148 @@
 #include <vector>
 
 #include <Eigen/Eigenvalues>
+#include <nlohmann/json.hpp>
 
 #include "doorforge/core/error.h"
+#include "doorforge/door/export_urdf.h"
 #include "doorforge/door/mechanism.h"
+#include "doorforge/schemas/mesh_file.h"
+#include "doorforge/schemas/mesh_pool.h"
 
+#include "compose_settings.h"
 #include "placed_mesh.h"
-#include "seat.h"
+#include "prepared_part.h"
 
 namespace doorforge {
 namespace {
 
-constexpr double kHingeEffort = 300;    // [N m] above the latch's 150 and a strong closer
-constexpr double kHingeVelocity = 6;    // [rad/s] a slammed door
-constexpr double kHandleEffort = 30;    // [N m] a person's strong twist
-constexpr double kHandleVelocity = 12;  // [rad/s]
+using Shape = PreparedPart::State::Shape;
+
+constexpr double kHingeEffort = 300;       // [N m] above the latch's 150 and a strong closer
+constexpr double kHingeVelocity = 6;       // [rad/s] a slammed door
+constexpr double kHandleEffort = 30;       // [N m] a person's strong twist
+constexpr double kHandleVelocity = 12;     // [rad/s]
+constexpr double kOutlineOverhang = 0.01;  // [m] as rule HND003 of validate
 // A base without a frame never moves, but programs drop links without mass.
 const MassProperties kFixedBase{1.0, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity() * 0.01};
 
+/// A door before its meshes: geometry has names, colours and labels only.
+struct Composed {
+  /// Where the meshes of one geometry come from.
+  struct Source {
+    const Shape* shape;
+    RigidTransform link_from_shape;
+  };
+  DoorAsset door;
+  std::array<std::vector<Source>, 3> sources;  ///< As door.links and the geometry of each.
+};
+
+/// One call's arguments.
+struct Pair {
+  const PreparedPart::State& body;
+  const PreparedPart::State& handle;
+  const ComposeConfig& config;
+};
+
 void CheckPair(const Part& body, const Part& handle) {
-  const auto fail = [](const std::string& why) {
-    throw Error(ErrorCode::kInvalidArgument, "compose: " + why);
-  };
-  if (body.role != PartRole::kBody) fail("\"" + body.id + "\" is not a body but a handle");
-  if (handle.role != PartRole::kHandle) fail("\"" + handle.id + "\" is not a handle but a body");
+  if (body.role != PartRole::kBody)
+    internal::RefusePair("CMP001", '"' + body.id + "\" is not a body but a handle");
+  if (handle.role != PartRole::kHandle)
+    internal::RefusePair("CMP001", '"' + handle.id + "\" is not a handle but a body");
   if (body.category != handle.category)
-    fail("body \"" + body.id + "\" is of category " + std::string(NameOf(body.category)) +
-         ", handle \"" + handle.id + "\" of " + std::string(NameOf(handle.category)) +
-         "; both must be of one category");
-  if (!FindPiece(body, "leaf")) fail("body \"" + body.id + "\" has no piece \"leaf\"");
-  if (!FindPiece(handle, "grip")) fail("handle \"" + handle.id + "\" has no piece \"grip\"");
+    internal::RefusePair("CMP002", "body \"" + body.id + "\" is of category " +
+                                       std::string(NameOf(body.category)) + ", handle \"" +
+                                       handle.id + "\" of " + std::string(NameOf(handle.category)));
 }
 
-void CheckConfig(const ComposeConfig& config) {
-  const auto check = [](const char* name, double value) {
-    if (!(value >= 0 && value <= 1000))
-      throw Error(ErrorCode::kInvalidConfig, std::string("config.") + name + ": " +
-                                                 std::to_string(value) +
-                                                 " is outside the allowed 0 to 1000");
-  };
-  check("handle_height_m", config.handle_height_m);
-  check("backset_m", config.backset_m);
-  check("lock_effort_nm", config.lock_effort_nm);
-  check("hinge_spring_nm_per_rad", config.hinge_spring_nm_per_rad);
-  check("handle_spring_nm_per_rad", config.handle_spring_nm_per_rad);
-  check("hinge_damping_nm_s", config.hinge_damping_nm_s);
-  check("handle_damping_nm_s", config.handle_damping_nm_s);
-}
-
-Eigen::Vector3d WantedMount(const Part& body, const ComposeConfig& config) {
-  Eigen::Vector3d mount = body.part_from_mount.translation();
+Eigen::Vector3d WantedMount(const Pair& pair) {
+  const ComposeConfig& config = pair.config;
+  const Eigen::AlignedBox3d& leaf = pair.body.leaf->bounds;
+  Eigen::Vector3d mount = pair.body.part.part_from_mount.translation();
+  mount.z() *= internal::DrawnFactor(
+      config, pair.body.part.id + "__" + pair.handle.part.id + "/handle_height");
   if (config.handle_height_m > 0) mount.z() = config.handle_height_m;
-  if (config.backset_m > 0) {
-    const double edge = internal::BoundsOf(FindPiece(body, "leaf")->mesh).max().y();
-    mount.y() = edge - config.backset_m;
-  }
+  if (config.backset_m > 0)
+    mount.y() = config.hinge_side == "right" ? leaf.min().y() + config.backset_m
+                                             : leaf.max().y() - config.backset_m;
+  const bool set = config.handle_height_m > 0 || config.backset_m > 0;
+  const Eigen::AlignedBox2d outline(leaf.min().tail<2>().eval(), leaf.max().tail<2>().eval());
+  if (set && !outline.contains(mount.tail<2>().eval()))
+    internal::RefusePair(
+        "CMP008", "handle_height_m or backset_m puts \"" + pair.handle.part.id +
+                      "\" beside the leaf of \"" + pair.body.part.id +
+                      "\", which reaches from z = " + std::to_string(leaf.min().z()) + " to " +
+                      std::to_string(leaf.max().z()) + " m and is " +
+                      std::to_string(leaf.sizes().y()) + " m wide");
   return mount;
 }
 
-RigidTransform SeatedMount(const Part& body, const Part& handle, const ComposeConfig& config) {
-  std::vector<TriangleMesh> pieces;
-  for (const PartPiece& piece : handle.pieces) pieces.push_back(piece.mesh);
-  RigidTransform body_from_handle = body.part_from_mount;
+void CheckOutline(const Pair& pair, const RigidTransform& body_from_handle) {
+  if (!pair.config.handle_mirrored && pair.config.handle_turn_deg == 0) return;
+  const TriangleMesh handle = internal::Placed(
+      internal::WholeMesh(pair.handle.part, Eigen::Matrix3d::Identity()), body_from_handle);
+  const Eigen::AlignedBox3d box = internal::BoundsOf(handle);
+  const Eigen::AlignedBox3d& leaf = pair.body.leaf->bounds;
+  const double beyond = std::max((leaf.min() - box.min()).tail<2>().maxCoeff(),
+                                 (box.max() - leaf.max()).tail<2>().maxCoeff());
+  if (beyond > kOutlineOverhang)
+    internal::RefusePair("CMP010", "\"" + pair.handle.part.id + "\" reaches " +
+                                       std::to_string(beyond) + " m beyond the leaf of \"" +
+                                       pair.body.part.id + "\"; set a larger backset_m");
+}
+
+RigidTransform SeatedMount(const Pair& pair) {
+  RigidTransform body_from_handle = pair.body.part.part_from_mount;
   body_from_handle.translation().setZero();
-  const internal::BackOutline back =
-      internal::BackOutlineOf(internal::Placed(internal::JoinedMeshes(pieces), body_from_handle));
+  const bool turned = body_from_handle.linear() != Eigen::Matrix3d::Identity();
+  const internal::BackOutline back = turned ? internal::BackOutlineOf(internal::WholeMesh(
+                                                  pair.handle.part, body_from_handle.linear()))
+                                            : *pair.handle.back;
+  const std::string names =
+      "leaf of \"" + pair.body.part.id + "\", handle \"" + pair.handle.part.id + "\"";
+  if (!internal::FitsOn(*pair.body.leaf, back)) internal::RefusePair("CMP004", names);
   const std::optional<Eigen::Vector3d> seat =
-      internal::SeatOn(FindPiece(body, "leaf")->mesh, back, WantedMount(body, config));
-  if (!seat)
-    throw Error(ErrorCode::kInvalidArgument,
-                "compose: the leaf of \"" + body.id + "\" has no surface for the back of \"" +
-                    handle.id + "\" at the mount; set handle_height_m or backset_m");
+      internal::SeatOn(*pair.body.leaf, back, WantedMount(pair));
+  if (!seat) internal::RefusePair("CMP005", names + "; set handle_height_m or backset_m");
   body_from_handle.translation() = *seat;
+  CheckOutline(pair, body_from_handle);
   return body_from_handle;
 }
 
-// adds `piece` of a part to a link whose frame lies at link_from_part
-void AddPiece(const PartPiece& piece, const RigidTransform& link_from_part, PointLabel label,
-              DoorLink& link) {
-  DoorGeometry geometry{
-      .name = piece.name,
-      .mesh = internal::RoundedToFloat(internal::Placed(piece.mesh, link_from_part)),
-      .hulls = {},
-      .color_rgba = piece.color_rgba,
-      .label = label};
-  for (const TriangleMesh& hull : piece.hulls)
-    geometry.hulls.push_back(internal::RoundedToFloat(internal::Placed(hull, link_from_part)));
-  link.geometry.push_back(std::move(geometry));
-  const std::array<MassProperties, 2> masses = {link.mass, Transformed(piece.mass, link_from_part)};
+const PartPiece& PieceOf(const PreparedPart::State& part, const Shape& shape) {
+  return part.part.pieces[static_cast<std::size_t>(&shape - part.shapes.data())];
+}
+
+const Shape* FindShape(const PreparedPart::State& part, std::string_view name) {
+  for (std::size_t i = 0; i < part.shapes.size(); ++i) {
+    if (part.part.pieces[i].name == name) return &part.shapes[i];
+  }
+  return nullptr;
+}
+
+/// A piece on its way to a link.
+struct Placing {
+  const PreparedPart::State& part;
+  std::string_view piece;
+  RigidTransform link_from_shape;
+  DoorLinkIndex link;
+  PointLabel label;
+};
+
+void AddPiece(const Placing& placing, Composed& composed) {
+  const Shape* shape = FindShape(placing.part, placing.piece);
+  if (shape == nullptr) return;
+  const PartPiece& piece = PieceOf(placing.part, *shape);
+  DoorLink& link = composed.door.links[static_cast<std::size_t>(placing.link)];
+  link.geometry.push_back({.name = piece.name,
+                           .mesh = {},
+                           .hulls = {},
+                           .color_rgba = piece.color_rgba,
+                           .label = placing.label});
+  composed.sources[static_cast<std::size_t>(placing.link)].push_back(
+      {shape, placing.link_from_shape});
+  const std::array<MassProperties, 2> masses = {
+      link.mass, Transformed(piece.mass, placing.link_from_shape * shape->shape_from_part)};
   link.mass = Combined(masses);
 }
 
@@ -116,50 +171,85 @@ DoorJoint MakeJoint(const std::string& name, const PartJoint& joint,
   return made;
 }
 
-void AddJoints(const Part& body, const Part& handle, const RigidTransform& body_from_handle,
-               const ComposeConfig& config, DoorAsset& door) {
-  door.hinge = MakeJoint("hinge", body.joint, body.joint.origin_m);
+void AddJoints(const Pair& pair, const RigidTransform& body_from_handle, DoorAsset& door) {
+  const PartJoint& hinge = pair.body.part.joint;
+  const PartJoint& handle = pair.handle.part.joint;
+  const internal::JointNumbers numbers =
+      internal::JointNumbersOf(pair.config, pair.body.part.id + "__" + pair.handle.part.id);
+  door.hinge = MakeJoint("hinge", hinge, hinge.origin_m);
   door.hinge.effort_limit_nm = kHingeEffort;
   door.hinge.velocity_limit_rad_s = kHingeVelocity;
-  door.hinge.damping_nm_s = config.hinge_damping_nm_s;
-  door.handle_joint = MakeJoint("handle_joint", handle.joint,
-                                body_from_handle * handle.joint.origin_m - body.joint.origin_m);
+  door.hinge.damping_nm_s = numbers.hinge_damping_nm_s;
+  door.handle_joint =
+      MakeJoint("handle_joint", handle, body_from_handle * handle.origin_m - hinge.origin_m);
   door.handle_joint.axis = body_from_handle.linear() * door.handle_joint.axis;
   door.handle_joint.effort_limit_nm = kHandleEffort;
   door.handle_joint.velocity_limit_rad_s = kHandleVelocity;
-  door.handle_joint.damping_nm_s = config.handle_damping_nm_s;
+  door.handle_joint.damping_nm_s = numbers.handle_damping_nm_s;
 }
 
-void AddLinks(const Part& body, const Part& handle, const RigidTransform& body_from_handle,
-              DoorAsset& door) {
+// Leaf and grip are shared with their origin on the axis, which is the link's; the rose's place on
+// the leaf differs from door to door.
+void AddLinks(const Pair& pair, const RigidTransform& body_from_handle, Composed& composed) {
+  DoorAsset& door = composed.door;
   door.links[kBaseLink].name = "base";
   door.links[kLeafLink].name = "leaf";
   door.links[kHandleLink].name = "handle";
+  const RigidTransform as_it_is = RigidTransform::Identity();
   const RigidTransform leaf_from_body = door.hinge.parent_from_child_at_zero.inverse();
-  const RigidTransform handle_from_leaf = door.handle_joint.parent_from_child_at_zero.inverse();
-  if (const PartPiece* frame = FindPiece(body, "frame"))
-    AddPiece(*frame, RigidTransform::Identity(), PointLabel::kFrame, door.links[kBaseLink]);
-  else
-    door.links[kBaseLink].mass = kFixedBase;
-  AddPiece(*FindPiece(body, "leaf"), leaf_from_body, PointLabel::kBody, door.links[kLeafLink]);
-  if (const PartPiece* rose = FindPiece(handle, "rose"))
-    AddPiece(*rose, leaf_from_body * body_from_handle, PointLabel::kHandle, door.links[kLeafLink]);
-  const RigidTransform link_from_handle = handle_from_leaf * leaf_from_body * body_from_handle;
-  AddPiece(*FindPiece(handle, "grip"), link_from_handle, PointLabel::kHandle,
-           door.links[kHandleLink]);
+  RigidTransform handle_turn = body_from_handle;
+  handle_turn.translation().setZero();
+  AddPiece({pair.body, "frame", as_it_is, kBaseLink, PointLabel::kFrame}, composed);
+  if (door.links[kBaseLink].geometry.empty()) door.links[kBaseLink].mass = kFixedBase;
+  AddPiece({pair.body, "leaf", as_it_is, kLeafLink, PointLabel::kBody}, composed);
+  AddPiece({pair.handle, "rose", leaf_from_body * body_from_handle, kLeafLink, PointLabel::kHandle},
+           composed);
+  AddPiece({pair.handle, "grip", handle_turn, kHandleLink, PointLabel::kHandle}, composed);
   RaiseInertia(door.links[kHandleLink].mass);
-  door.handle_from_grasp = link_from_handle * handle.part_from_grasp;
+  door.handle_from_grasp = handle_turn * Translation(-pair.handle.part.joint.origin_m) *
+                           pair.handle.part.part_from_grasp;
 }
 
-Latch MakeLatch(const DoorAsset& door, const ComposeConfig& config) {
+void SetAngles(const ComposeConfig& config, double upper_rad, Latch& latch) {
+  if (config.unlock_angle_rad > 0) latch.unlock_angle_rad = config.unlock_angle_rad;
+  if (config.handle_done_angle_rad > 0) latch.handle_done_angle_rad = config.handle_done_angle_rad;
+  if (config.unlock_angle_rad > 0 && config.handle_done_angle_rad == 0)
+    latch.handle_done_angle_rad = std::max(latch.handle_done_angle_rad, latch.unlock_angle_rad);
+  if (latch.unlock_angle_rad <= latch.handle_done_angle_rad &&
+      latch.handle_done_angle_rad <= upper_rad)
+    return;
+  throw Error(ErrorCode::kInvalidConfig,
+              "config.unlock_angle_rad: " + std::to_string(latch.unlock_angle_rad) +
+                  ", config.handle_done_angle_rad: " + std::to_string(latch.handle_done_angle_rad) +
+                  "; allowed are unlock <= done <= the handle's range of " +
+                  std::to_string(upper_rad));
+}
+
+Latch MakeLatch(const Pair& pair, const DoorAsset& door) {
+  const ComposeConfig& config = pair.config;
+  const internal::JointNumbers numbers =
+      internal::JointNumbersOf(config, pair.body.part.id + "__" + pair.handle.part.id);
   const bool turns = door.handle_joint.upper_rad > door.handle_joint.lower_rad;
-  const Mechanism mechanism = config.latch && turns ? door.mechanism : Mechanism::kNone;
-  Latch latch = LatchOf(door.category, mechanism, door.handle_joint.upper_rad);
-  latch.hinge_spring_nm_per_rad = config.hinge_spring_nm_per_rad;
-  if (turns) latch.handle_spring_nm_per_rad = config.handle_spring_nm_per_rad;
-  if (latch.type == LatchType::kNone) return latch;
+  const bool asked = config.latch == "effort" || config.latch == "bolt";
+  if (asked && !turns)
+    internal::RefusePair("CMP007",
+                         "handle \"" + door.handle_id + "\" does not turn; latch: " + config.latch);
+  const bool locks =
+      turns && (asked || (config.latch == "auto" && door.mechanism != Mechanism::kNone));
+  const Mechanism mechanism =
+      door.mechanism == Mechanism::kNone ? Mechanism::kLever : door.mechanism;
+  Latch latch =
+      LatchOf(door.category, locks ? mechanism : Mechanism::kNone, door.handle_joint.upper_rad);
+  latch.hinge_spring_nm_per_rad = numbers.hinge_spring_nm_per_rad;
+  if (turns) latch.handle_spring_nm_per_rad = numbers.handle_spring_nm_per_rad;
+  if (!locks) return latch;
   latch.lock_effort_nm = config.lock_effort_nm;
   latch.relatch = config.relatch;
+  if (config.latch == "bolt") {
+    latch.type = LatchType::kBolt;
+    latch.bolt_throw_m = config.bolt_throw_m;
+  }
+  SetAngles(config, door.handle_joint.upper_rad, latch);
   return latch;
 }
 
@@ -167,26 +257,89 @@ std::string JoinedLicense(const std::string& a, const std::string& b) {
   return a == b ? a : a + " AND " + b;
 }
 
+Composed Compose(const Pair& pair) {
+  const Part& body = pair.body.part;
+  const Part& handle = pair.handle.part;
+  CheckPair(body, handle);
+  Composed composed;
+  DoorAsset& door = composed.door;
+  door.id = internal::DoorIdOf(body.id, handle.id, pair.config);
+  door.category = body.category;
+  door.mechanism = handle.mechanism;
+  door.hinge_side = *HingeSideNamed(pair.config.hinge_side);
+  door.opening = *OpeningNamed(pair.config.opening);
+  door.body_id = body.id;
+  door.body_sha256 = pair.body.sha256;
+  door.handle_id = handle.id;
+  door.handle_sha256 = pair.handle.sha256;
+  door.license = JoinedLicense(body.license, handle.license);
+  door.physics_source = internal::PhysicsSourceOf(pair.config);
+  const RigidTransform body_from_handle = SeatedMount(pair);
+  AddJoints(pair, body_from_handle, door);
+  AddLinks(pair, body_from_handle, composed);
+  door.latch = MakeLatch(pair, door);
+  door.grasp_half_extent_m = handle.grasp_half_extent_m;
+  return composed;
+}
+
+// as it comes back from a record, so that a door that shares meshes reads back as this one
+RigidTransform AsRecorded(const RigidTransform& transform) {
+  return TransformFromJson(TransformToJson(transform), "transform");
+}
+
+void AddMeshes(Composed& composed) {
+  for (std::size_t link = 0; link < composed.sources.size(); ++link) {
+    for (std::size_t i = 0; i < composed.sources[link].size(); ++i) {
+      const Composed::Source& source = composed.sources[link][i];
+      const RigidTransform place = AsRecorded(source.link_from_shape);
+      DoorGeometry& geometry = composed.door.links[link].geometry[i];
+      geometry.mesh = PlacedAsFiled(source.shape->mesh, place);
+      for (const TriangleMesh& hull : source.shape->hulls)
+        geometry.hulls.push_back(PlacedAsFiled(hull, place));
+    }
+  }
+}
+
+DoorFiles SharedFilesOf(const Composed& composed) {
+  DoorFiles files;
+  for (std::size_t link = 0; link < files.size(); ++link) {
+    for (const Composed::Source& source : composed.sources[link]) {
+      GeometryFiles shared{PooledMeshPath(source.shape->mesh_sha256), {}, source.link_from_shape};
+      for (const std::string& hull : source.shape->hull_sha256)
+        shared.hulls.push_back(PooledMeshPath(hull));
+      files[link].push_back(std::move(shared));
+    }
+  }
+  return files;
+}
+
+std::array<std::vector<std::string>, 3> ShapeNamesOf(const Composed& composed) {
+  std::array<std::vector<std::string>, 3> names;
+  for (std::size_t link = 0; link < names.size(); ++link) {
+    for (const Composed::Source& source : composed.sources[link])
+      names[link].push_back(source.shape->sha256);
+  }
+  return names;
+}
+
 }  // namespace
 
 DoorAsset ComposeDoor(const Part& body, const Part& handle, const ComposeConfig& config) {
-  CheckConfig(config);
+  internal::CheckComposeConfig(config);
   CheckPair(body, handle);
-  DoorAsset door;
-  door.id = config.id.empty() ? body.id + "__" + handle.id : config.id;
-  door.category = body.category;
-  door.mechanism = handle.mechanism;
-  const RigidTransform body_from_handle = SeatedMount(body, handle, config);
-  AddJoints(body, handle, body_from_handle, config, door);
-  AddLinks(body, handle, body_from_handle, door);
-  door.latch = MakeLatch(door, config);
-  door.grasp_half_extent_m = handle.grasp_half_extent_m;
-  door.body_id = body.id;
-  door.body_sha256 = ContentHash(body);
-  door.handle_id = handle.id;
-  door.handle_sha256 = ContentHash(handle);
-  door.license = JoinedLicense(body.license, handle.license);
-  return door;
+  const PreparedPart prepared_body(body, config);
+  const PreparedPart prepared_handle(handle, config);
+  Composed composed = Compose({prepared_body.state(), prepared_handle.state(), config});
+  AddMeshes(composed);
+  return std::move(composed.door);
+}
+
+SharedDoor ComposeSharedDoor(const PreparedPart& body, const PreparedPart& handle,
+                             const ComposeConfig& config) {
+  const Composed composed = Compose({body.state(), handle.state(), config});
+  const DoorFiles files = SharedFilesOf(composed);
+  return {composed.door.id, PooledDoorText(composed.door, files, ShapeNamesOf(composed)),
+          ToCompactUrdf(ToUrdfModel(composed.door, files))};
 }
 
 }  // namespace doorforge

@@ -5,16 +5,18 @@
 namespace doorforge {
 namespace {
 
-void AddShapes(const DoorGeometry& geometry, UrdfLink& link) {
+void AddShapes(const DoorGeometry& geometry, const GeometryFiles& files, UrdfLink& link) {
   UrdfShape visual;
   visual.name = geometry.name;
-  visual.geometry = UrdfMeshFile{.filename = VisualMeshPath(geometry)};
+  visual.link_from_shape = files.link_from_files;
+  visual.geometry = UrdfMeshFile{.filename = files.mesh};
   visual.color_rgba = geometry.color_rgba;
   link.visuals.push_back(visual);
-  for (std::size_t i = 0; i < geometry.hulls.size(); ++i) {
+  for (std::size_t i = 0; i < files.hulls.size(); ++i) {
     UrdfShape collision;
     collision.name = geometry.name + "_" + std::to_string(i);
-    collision.geometry = UrdfMeshFile{.filename = CollisionMeshPath(geometry, i)};
+    collision.link_from_shape = files.link_from_files;
+    collision.geometry = UrdfMeshFile{.filename = files.hulls[i]};
     link.collisions.push_back(collision);
   }
 }
@@ -37,14 +39,18 @@ UrdfJoint ToUrdfJoint(const DoorJoint& joint, const std::string& parent, const s
 
 }  // namespace
 
-UrdfModel ToUrdfModel(const DoorAsset& door) {
+UrdfModel ToUrdfModel(const DoorAsset& door) { return ToUrdfModel(door, OwnFilesOf(door)); }
+
+UrdfModel ToUrdfModel(const DoorAsset& door, const DoorFiles& files) {
   UrdfModel model;
   model.name = door.id;
-  for (const DoorLink& link : door.links) {
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const DoorLink& link = door.links[i];
     UrdfLink urdf;
     urdf.name = link.name;
     urdf.inertial = link.mass;
-    for (const DoorGeometry& geometry : link.geometry) AddShapes(geometry, urdf);
+    for (std::size_t k = 0; k < link.geometry.size(); ++k)
+      AddShapes(link.geometry[k], files[i].at(k), urdf);
     model.links.push_back(std::move(urdf));
   }
   const auto& names = door.links;

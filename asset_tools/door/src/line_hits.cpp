@@ -26,21 +26,57 @@ std::optional<double> MeetsTriangle(const std::array<Eigen::Vector3d, 3>& corner
   return (a * corners[0][axis] + b * corners[1][axis] + c * corners[2][axis]) / sum;
 }
 
+std::array<Eigen::Vector3d, 3> CornersOf(const TriangleMesh& mesh,
+                                         const Eigen::Vector3i& triangle) {
+  return {mesh.vertices[static_cast<std::size_t>(triangle[0])],
+          mesh.vertices[static_cast<std::size_t>(triangle[1])],
+          mesh.vertices[static_cast<std::size_t>(triangle[2])]};
+}
+
+void AddHit(const std::optional<double>& hit, std::optional<LineHits>& hits) {
+  if (!hit) return;
+  if (!hits) hits = LineHits{*hit, *hit};
+  hits->first = std::min(hits->first, *hit);
+  hits->last = std::max(hits->last, *hit);
+}
+
 }  // namespace
 
 std::optional<LineHits> HitsAlong(const TriangleMesh& mesh, int axis, const Eigen::Vector2d& at) {
   std::optional<LineHits> hits;
+  for (const Eigen::Vector3i& triangle : mesh.triangles)
+    AddHit(MeetsTriangle(CornersOf(mesh, triangle), axis, at), hits);
+  return hits;
+}
+
+LinesAlongX::LinesAlongX(const TriangleMesh& mesh)
+    : cells_(static_cast<std::size_t>(kCells) * kCells) {
   for (const Eigen::Vector3i& triangle : mesh.triangles) {
-    const std::array<Eigen::Vector3d, 3> corners = {
-        mesh.vertices[static_cast<std::size_t>(triangle[0])],
-        mesh.vertices[static_cast<std::size_t>(triangle[1])],
-        mesh.vertices[static_cast<std::size_t>(triangle[2])]};
-    const std::optional<double> hit = MeetsTriangle(corners, axis, at);
-    if (!hit) continue;
-    if (!hits) hits = LineHits{*hit, *hit};
-    hits->first = std::min(hits->first, *hit);
-    hits->last = std::max(hits->last, *hit);
+    triangles_.push_back(CornersOf(mesh, triangle));
+    for (const Eigen::Vector3d& corner : triangles_.back()) bounds_.extend(corner.tail<2>().eval());
   }
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    Eigen::AlignedBox2d box;
+    for (const Eigen::Vector3d& corner : triangles_[i]) box.extend(corner.tail<2>().eval());
+    for (int row = CellOf(box.min().x(), 0); row <= CellOf(box.max().x(), 0); ++row) {
+      for (int column = CellOf(box.min().y(), 1); column <= CellOf(box.max().y(), 1); ++column)
+        cells_[static_cast<std::size_t>(row * kCells + column)].push_back(static_cast<int>(i));
+    }
+  }
+}
+
+int LinesAlongX::CellOf(double coordinate, int axis) const {
+  const double size = std::max(bounds_.sizes()[axis], 1e-9);
+  const double at = (coordinate - bounds_.min()[axis]) / size * kCells;
+  return std::clamp(static_cast<int>(at), 0, kCells - 1);
+}
+
+std::optional<LineHits> LinesAlongX::At(const Eigen::Vector2d& at) const {
+  if (triangles_.empty() || !bounds_.contains(at)) return std::nullopt;
+  std::optional<LineHits> hits;
+  for (const int i :
+       cells_[static_cast<std::size_t>(CellOf(at.x(), 0) * kCells + CellOf(at.y(), 1))])
+    AddHit(MeetsTriangle(triangles_[static_cast<std::size_t>(i)], 0, at), hits);
   return hits;
 }
 

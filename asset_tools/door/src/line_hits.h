@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
+#include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "doorforge/core/triangle_mesh.h"
 
@@ -19,5 +21,23 @@ struct LineHits {
 /// The line along coordinate axis `axis` (0, 1, 2) through the two remaining coordinates, in
 /// cyclic order: for axis 0 they are (y, z), for 1 (z, x), for 2 (x, y). Nothing if it misses.
 std::optional<LineHits> HitsAlong(const TriangleMesh& mesh, int axis, const Eigen::Vector2d& at);
+
+/// HitsAlong(mesh, 0, at) for many lines of one mesh: the same results, without looking at every
+/// triangle.
+class LinesAlongX {
+ public:
+  explicit LinesAlongX(const TriangleMesh& mesh);
+
+  std::optional<LineHits> At(const Eigen::Vector2d& at) const;
+
+ private:
+  static constexpr int kCells = 48;  // along y and along z
+
+  int CellOf(double coordinate, int axis) const;
+
+  std::vector<std::array<Eigen::Vector3d, 3>> triangles_;
+  Eigen::AlignedBox2d bounds_;
+  std::vector<std::vector<int>> cells_;  // triangles over each cell
+};
 
 }  // namespace doorforge::internal

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "line_hits.h"
 #include "placed_mesh.h"
 
 namespace doorforge::internal {
@@ -55,9 +54,16 @@ BackOutline BackOutlineOf(const TriangleMesh& handle) {
   return back;
 }
 
-std::optional<Eigen::Vector3d> SeatOn(const TriangleMesh& leaf, const BackOutline& back,
+LeafSurface::LeafSurface(const TriangleMesh& leaf) : bounds(BoundsOf(leaf)), lines(leaf) {}
+
+bool FitsOn(const LeafSurface& leaf, const BackOutline& back) {
+  const Eigen::Vector2d room = leaf.bounds.sizes().tail<2>();
+  return ((back.max_m - back.min_m).array() <= room.array()).all();
+}
+
+std::optional<Eigen::Vector3d> SeatOn(const LeafSurface& leaf, const BackOutline& back,
                                       const Eigen::Vector3d& mount_m) {
-  const Eigen::AlignedBox3d bounds = BoundsOf(leaf);
+  const Eigen::AlignedBox3d& bounds = leaf.bounds;
   Eigen::Vector3d seat = mount_m;
   for (int k = 0; k < 2; ++k) {
     const std::optional<double> shift =
@@ -68,7 +74,7 @@ std::optional<Eigen::Vector3d> SeatOn(const TriangleMesh& leaf, const BackOutlin
   }
   std::vector<double> surface;
   for (const Eigen::Vector2d& sample : back.samples) {
-    const auto hits = HitsAlong(leaf, 0, sample + Eigen::Vector2d(seat.y(), seat.z()));
+    const auto hits = leaf.lines.At(sample + Eigen::Vector2d(seat.y(), seat.z()));
     if (hits) surface.push_back(hits->last);
   }
   if (surface.empty()) return std::nullopt;

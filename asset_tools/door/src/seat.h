@@ -8,6 +8,8 @@
 #include "doorforge/core/rigid_transform.h"
 #include "doorforge/core/triangle_mesh.h"
 
+#include "line_hits.h"
+
 namespace doorforge::internal {
 
 /// Where a handle's back touches: the handle's points within a few millimetres of its rearmost.
@@ -21,10 +23,20 @@ struct BackOutline {
 /// `handle` in its own frame: all pieces as one mesh, not empty.
 BackOutline BackOutlineOf(const TriangleMesh& handle);
 
-/// The translation that brings the back onto the leaf, starting from `mount_m`. Both `leaf` and
-/// `mount_m` are in the body's frame. Empty, with no guess, if the leaf has no surface there or is
-/// smaller than the back.
-std::optional<Eigen::Vector3d> SeatOn(const TriangleMesh& leaf, const BackOutline& back,
+/// What a handle is seated on, in the body's frame.
+struct LeafSurface {
+  explicit LeafSurface(const TriangleMesh& leaf);
+
+  Eigen::AlignedBox3d bounds;
+  LinesAlongX lines;
+};
+
+/// Whether the back is no larger than the leaf.
+bool FitsOn(const LeafSurface& leaf, const BackOutline& back);
+
+/// The translation that brings the back onto the leaf, starting from `mount_m` in the body's frame.
+/// Empty, with no guess, if the leaf has no surface there or is smaller than the back.
+std::optional<Eigen::Vector3d> SeatOn(const LeafSurface& leaf, const BackOutline& back,
                                       const Eigen::Vector3d& mount_m);
 
 }  // namespace doorforge::internal

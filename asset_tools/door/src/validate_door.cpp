@@ -10,6 +10,7 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/schemas/mesh_file.h"
+#include "doorforge/schemas/mesh_pool.h"
 
 #include "findings.h"
 #include "inside_folder.h"
@@ -25,6 +26,11 @@ void Append(Findings& findings, const Findings& more) {
   findings.insert(findings.end(), more.begin(), more.end());
 }
 
+bool IsPooled(const std::string& relative) {
+  return relative.starts_with(std::string(kMeshPoolPath) + "/") &&
+         relative.find("..", 2) == std::string::npos;
+}
+
 /// Reads the meshes of one record. What cannot be read becomes a finding and an empty mesh, so that
 /// the rest of the record is still checked.
 class MeshFindings {
@@ -35,7 +41,7 @@ class MeshFindings {
   TriangleMesh Read(const std::string& relative, const std::string& sha256) {
     const std::string where = record_ + ": " + relative;
     try {
-      const TriangleMesh mesh = ReadObj(internal::FileInside(folder_, relative, record_));
+      const TriangleMesh mesh = ReadObj(FileOf(relative, sha256));
       const std::string found = Sha256Hex(ToObj(mesh));
       if (found != sha256)
         findings_.push_back(Found(
@@ -58,8 +64,15 @@ class MeshFindings {
   const Findings& findings() const { return findings_; }
 
  private:
+  // in the folder, or in the pool that it shares with its neighbours
+  fs::path FileOf(const std::string& relative, const std::string& sha256) const {
+    if (IsPooled(relative)) return MeshPool(folder_, record_).MeshFile(sha256);
+    return internal::FileInside(folder_, relative, record_);
+  }
+
   const char* CodeOf(const std::string& relative, const Error& error) const {
     if (error.code() == ErrorCode::kMissing) return "MSH001";
+    if (IsPooled(relative)) return "MSH002";
     std::error_code ignored;
     const bool inside = fs::is_regular_file(folder_ / relative, ignored) &&
                         relative.find("..") == std::string::npos &&

@@ -48,4 +48,33 @@ class StagedFolder {
   bool committed_ = false;
 };
 
+/// Many small files or folders that appear in one folder, each whole or not at all, with one wait for
+/// the disk for all of them: a file system flush in place of an fsync for each.
+///
+///     StagedBatch batch(folder);
+///     ... write below batch.path(), plainly ...
+///     batch.Commit();
+///
+/// The destructor removes what was not committed, and so does a later batch in the same folder for
+/// a process that was killed.
+class StagedBatch {
+ public:
+  /// Creates `folder`.
+  explicit StagedBatch(std::filesystem::path folder);
+  ~StagedBatch();
+  StagedBatch(const StagedBatch&) = delete;
+  StagedBatch& operator=(const StagedBatch&) = delete;
+
+  const std::filesystem::path& path() const { return staging_; }
+  /// Flushes, then renames every entry of path() into the folder, replacing what is there.
+  void Commit();
+
+ private:
+  std::filesystem::path folder_;
+  std::filesystem::path staging_;
+};
+
+/// Writes a file below a StagedBatch, without waiting for the disk. Creates its folder.
+void WriteStaged(const std::filesystem::path& path, std::string_view content);
+
 }  // namespace doorforge

@@ -84,6 +84,8 @@ UrdfModel ParseUrdf(const std::string& text, const std::string& name);
 /// Writes numbers with the shortest decimals that read back to the same double. The text carries
 /// the `<mujoco>` element that lets MuJoCo find meshes in subfolders.
 std::string ToUrdf(const UrdfModel& model);
+/// The same without line breaks and indentation: a third smaller.
+std::string ToCompactUrdf(const UrdfModel& model);
 
 /// The one link that is no joint's child. Throws Error(kFormat) if there is none or more than one,
 /// or if a link is reached twice.

@@ -2,38 +2,78 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <memory>
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "doorforge/schemas/door_asset.h"
 #include "doorforge/schemas/part.h"
 
 namespace doorforge {
 
+/// How a door differs from what the authors of its parts made. Where a number is "0: as ..." or
+/// "-1: by preset", any other value replaces what the parts, the category or the preset say.
 struct ComposeConfig {
-  std::string id = {};  ///< Empty: "<body id>__<handle id>".
+  std::string id = {};  ///< Empty: "<body id>__<handle id>", with what was changed behind it.
+  double leaf_width_m =
+      0;  ///< The body is stretched along y until its leaf is so wide; 0: as made.
+  double leaf_height_m = 0;  ///< The same along z.
   double handle_height_m =
-      0;                 ///< Above the body's lowest point; 0: where the body's author put it.
-  double backset_m = 0;  ///< Handle to free edge of the leaf; 0: as the body's author put it.
-  bool latch = true;     ///< False: the handle turns but nothing locks.
+      0;                    ///< Above the body's lowest point; 0: where the body's author put it.
+  double backset_m = 0;     ///< Handle to free edge of the leaf; 0: as the body's author put it.
+  double handle_scale = 1;  ///< 0.5 to 2, alike in all directions.
+  std::string hinge_side = "left";  ///< "left", "right": as seen from the handle's side.
+  std::string opening = "pull";     ///< "pull", "push": towards or away from the handle's side.
+  bool handle_mirrored = false;     ///< A lever then points the other way.
+  int handle_turn_deg = 0;          ///< 0, 90, 180, 270, about x.
+  std::string latch =
+      "auto";  ///< "auto" (effort where a mechanism turns), "none", "effort", "bolt".
+  double unlock_angle_rad = 0;       ///< 0: the category's share of the handle's range.
+  double handle_done_angle_rad = 0;  ///< 0: the same.
   double lock_effort_nm = 150;
-  double hinge_spring_nm_per_rad = 3;
-  double handle_spring_nm_per_rad = 3;
   bool relatch = false;
-  double hinge_damping_nm_s = 0.5;  ///< Not in the paper; keeps a released leaf from coasting.
-  double handle_damping_nm_s = 0.05;
+  double bolt_throw_m = 0.012;          ///< 0.002 to 0.03.
+  std::string joints = "paper";         ///< A preset of springs and damping, see JointPresets().
+  double hinge_spring_nm_per_rad = -1;  ///< -1: by preset, as the three below.
+  double handle_spring_nm_per_rad = -1;
+  double hinge_damping_nm_s = -1;
+  double handle_damping_nm_s = -1;
+  std::string masses = "part";  ///< A preset of densities, see MassPresets().
+  /// SPDX expressions that a part may have; empty: any.
+  std::vector<std::string> license_allow = {};
+  /// Not 0: leaf width and height (of each body) and handle height (of each pair) vary by +-5 %
+  /// unless set, and a preset's ranges are drawn from instead of their middles.
+  std::uint64_t seed = 0;
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
     visit("id", self.id);
+    visit("leaf_width_m", self.leaf_width_m);
+    visit("leaf_height_m", self.leaf_height_m);
     visit("handle_height_m", self.handle_height_m);
     visit("backset_m", self.backset_m);
+    visit("handle_scale", self.handle_scale);
+    visit("hinge_side", self.hinge_side);
+    visit("opening", self.opening);
+    visit("handle_mirrored", self.handle_mirrored);
+    visit("handle_turn_deg", self.handle_turn_deg);
     visit("latch", self.latch);
+    visit("unlock_angle_rad", self.unlock_angle_rad);
+    visit("handle_done_angle_rad", self.handle_done_angle_rad);
     visit("lock_effort_nm", self.lock_effort_nm);
+    visit("relatch", self.relatch);
+    visit("bolt_throw_m", self.bolt_throw_m);
+    visit("joints", self.joints);
     visit("hinge_spring_nm_per_rad", self.hinge_spring_nm_per_rad);
     visit("handle_spring_nm_per_rad", self.handle_spring_nm_per_rad);
-    visit("relatch", self.relatch);
     visit("hinge_damping_nm_s", self.hinge_damping_nm_s);
     visit("handle_damping_nm_s", self.handle_damping_nm_s);
+    visit("masses", self.masses);
+    visit("license_allow", self.license_allow);
+    visit("seed", self.seed);
   }
 };
 
@@ -41,16 +81,64 @@ struct ComposeConfig {
 /// 1/240 s unstable under a stiff grasp. The missing rest is added to the grip's inertia.
 inline constexpr double kMinimumHandleInertia = 5e-4;
 
+/// Why a body and a handle are no door. Codes are never reused; docs/compose.md lists the same.
+struct ComposeRule {
+  std::string_view code;
+  std::string_view text;  ///< What holds when the rule is met.
+};
+std::span<const ComposeRule> ComposeRules();
+
+/// A named choice with the source of its numbers.
+struct ComposePreset {
+  std::string_view name;
+  std::string_view source;
+};
+std::span<const ComposePreset> JointPresets();
+std::span<const ComposePreset> MassPresets();
+
+/// A part with everything that composing needs of it alone, worked out once: its content hash, the
+/// part as the config changes it, the leaf's surface or the handle's back, the meshes as doors
+/// share them. Copies share what they hold.
+class PreparedPart {
+ public:
+  struct State;
+
+  /// Throws Error(kInvalidConfig) on a config value out of range and Error(kInvalidArgument), with
+  /// the rule, on a part that no door can have.
+  PreparedPart(const Part& part, const ComposeConfig& config);
+
+  const std::string& id() const;
+  PartRole role() const;
+  Category category() const;
+  const State& state() const { return *state_; }
+
+ private:
+  std::shared_ptr<const State> state_;
+};
+
 /// Puts a handle on a body of the same category, whatever both come from.
 ///
 /// The handle goes to the body's mount (or to `handle_height_m` and `backset_m`). It is moved along
 /// x until its back rests on the leaf's real surface as seen from outside, so that it is neither
 /// buried nor afloat, and in the leaf's plane by as much as its back would reach beyond the leaf's
-/// outline. Latch, thresholds and range follow LatchOf(). Deterministic.
+/// outline. Latch, thresholds and range follow LatchOf(). Hinged right: both parts are mirrored
+/// across y. Pushed: the body is mirrored across x and the handle sits on the face that is in front
+/// then. Deterministic.
 ///
-/// @throws Error(kInvalidArgument) if roles or categories do not match, the leaf has no surface at
-///     the mount, or the handle's back is larger than the leaf; Error(kInvalidConfig) on a config
-///     value out of range.
+/// @throws Error(kInvalidArgument) that begins with the code of the rule if the two are no door;
+///     Error(kInvalidConfig) on a config value out of range.
 DoorAsset ComposeDoor(const Part& body, const Part& handle, const ComposeConfig& config);
+
+/// A door whose meshes lie in the pool that WriteMeshPool() writes: the texts of its two files.
+struct SharedDoor {
+  std::string id;
+  std::string door_json;
+  std::string urdf;
+};
+
+/// The same door as ComposeDoor() of the same parts and config: read back, it has the same content
+/// hash. Both parts were prepared with `config`. Throws as ComposeDoor().
+SharedDoor ComposeSharedDoor(const PreparedPart& body, const PreparedPart& handle,
+                             const ComposeConfig& config);
 
 }  // namespace doorforge

@@ -15,6 +15,8 @@ namespace doorforge {
 /// velocity limits and damping, scale baked into the meshes. A handle that does not turn is fixed.
 /// The latch has no counterpart in URDF; it stays in door.json.
 UrdfModel ToUrdfModel(const DoorAsset& door);
+/// The same with the meshes where `files` says, in the pool that doors share or elsewhere.
+UrdfModel ToUrdfModel(const DoorAsset& door, const DoorFiles& files);
 
 /// Commits `folder` with door.json, meshes/ and model.urdf, all or nothing.
 void WriteDoorFolder(const DoorAsset& door, const std::filesystem::path& folder, Existing existing);

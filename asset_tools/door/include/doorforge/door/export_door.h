@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "doorforge/core/committed_file.h"
+#include "doorforge/schemas/door_asset.h"
+
+namespace doorforge {
+
+/// Formats that a door can be handed on in. All hold the same links, joints, limits and masses;
+/// docs/export.md says what becomes of the latch in each.
+enum class DoorFormat { kUrdf, kMjcf, kSdf, kGlb, kUsda };
+
+/// "urdf", "mjcf", "sdf", "glb", "usda".
+std::string_view NameOf(DoorFormat format);
+std::optional<DoorFormat> DoorFormatNamed(std::string_view name);
+
+/// MuJoCo's model, with the meshes of WriteDoor() beside it. A latch is a bolt: a sliding body in
+/// the leaf's free edge, coupled to the handle by a joint equality, and a strike on the frame that
+/// only the bolt touches. It holds up to half the unlock angle and lets go before 1.05 times it. Gravity is the
+/// model's default; the latch's numbers are also in <custom>.
+std::string ToMjcf(const DoorAsset& door);
+
+/// SDF 1.9 (sdformat 12), with the meshes of WriteDoor() beside it. Springs are in the joints'
+/// dynamics; SDF has no word for a latch, its numbers are in the element <doorforge:latch>.
+std::string ToSdf(const DoorAsset& door);
+/// The model.config that Gazebo wants beside model.sdf.
+std::string ToSdfConfig(const DoorAsset& door);
+
+/// glTF 2.0 binary, all in one file: a node a link and a geometry by their names, visual meshes
+/// only, y up by the root node's turn. Joints and latch are in `extras` of the nodes.
+std::string ToGlb(const DoorAsset& door);
+
+/// USD as text with UsdPhysics schemas, all in one file. Not checked by USD's own tools.
+std::string ToUsda(const DoorAsset& door);
+
+/// Commits `folder` with the files of these formats and, for those that name them, `meshes/`:
+/// model.urdf, model.xml (MJCF), model.sdf and model.config, model.glb, model.usda. Throws
+/// Error(kInvalidArgument) if the folder exists and may not be replaced. Deterministic.
+void WriteExportedDoor(const DoorAsset& door, std::span<const DoorFormat> formats,
+                       const std::filesystem::path& folder, Existing existing);
+
+}  // namespace doorforge

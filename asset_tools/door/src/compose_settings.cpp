@@ -1,0 +1,213 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "compose_settings.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "doorforge/core/closed_mesh.h"
+#include "doorforge/core/error.h"
+#include "doorforge/core/nearest_name.h"
+#include "doorforge/core/rng.h"
+
+namespace doorforge {
+namespace {
+
+constexpr std::array kRules = {
+    ComposeRule{"CMP001", "a door is one body and one handle"},
+    ComposeRule{"CMP002", "both are of one category"},
+    ComposeRule{"CMP003", "the body has a leaf, the handle a grip"},
+    ComposeRule{"CMP004", "the handle's back is not larger than the leaf"},
+    ComposeRule{"CMP005", "the leaf has a surface behind the handle's back"},
+    ComposeRule{"CMP006", "only what one passes or looks through is pushed: interior, window"},
+    ComposeRule{"CMP007", "a latch needs a handle that turns"},
+    ComposeRule{"CMP008", "the wanted place of the handle is on the leaf"},
+    ComposeRule{"CMP009", "the licence of each part is one of license_allow"},
+    ComposeRule{"CMP010", "a mirrored or turned handle reaches at most 10 mm beyond the leaf"},
+};
+
+constexpr std::array kJointPresets = {
+    ComposePreset{"paper",
+                  "springs 3 and 3 N m/rad: UniDoorManip, Section 3.3; damping 0.5 and 0.05 N m s: "
+                  "doorforge, docs/design/simulation.md"},
+    ComposePreset{"unidoormanip",
+                  "springs 3 and 3 N m/rad, no damping: the released simulator of UniDoorManip"},
+    ComposePreset{
+        "doorgym",
+        "DoorGym's generator: hinge damping 1 to 2 N m s, spring 0.1 to 0.2 N m/rad; knob "
+        "damping 1 to 2, spring 1 to 1.5"},
+};
+
+constexpr std::array kMassPresets = {
+    ComposePreset{"part",
+                  "the parts' own masses: finishes of the catalogue, or densities of usual "
+                  "constructions, docs/design/door.md"},
+    ComposePreset{"unidoormanip",
+                  "1000 kg/m3 everywhere: the engine's default that UniDoorManip's released "
+                  "simulator leaves in place"},
+    ComposePreset{"doorgym",
+                  "DoorGym's generator: leaf 300 kg/m3, knob 1 kg; the frame is the "
+                  "part's own"},
+};
+
+struct Range {
+  double low;
+  double high;
+};
+
+struct JointRanges {
+  Range hinge_spring;
+  Range handle_spring;
+  Range hinge_damping;
+  Range handle_damping;
+};
+
+// in the order of kJointPresets
+constexpr std::array kJointRanges = {
+    JointRanges{{3, 3}, {3, 3}, {0.5, 0.5}, {0.05, 0.05}},
+    JointRanges{{3, 3}, {3, 3}, {0, 0}, {0, 0}},
+    JointRanges{{0.1, 0.2}, {1, 1.5}, {1, 2}, {1, 2}},
+};
+
+std::string Text(double value) { return nlohmann::json(value).dump(); }
+
+[[noreturn]] void Fail(const std::string& name, const std::string& found,
+                       const std::string& allowed) {
+  throw Error(ErrorCode::kInvalidConfig,
+              "config." + name + ": found " + found + ", allowed " + allowed);
+}
+
+void CheckRange(const char* name, double value, const Range& range) {
+  if (!(value >= range.low && value <= range.high))
+    Fail(name, Text(value), Text(range.low) + " to " + Text(range.high));
+}
+
+// 0 or -1 leave the choice to others
+void CheckUnless(const char* name, double value, double unset, const Range& range) {
+  if (value == unset) return;
+  if (!(value >= range.low && value <= range.high))
+    Fail(name, Text(value), Text(unset) + " or " + Text(range.low) + " to " + Text(range.high));
+}
+
+void CheckName(const char* name, const std::string& value, std::vector<std::string> allowed) {
+  if (std::find(allowed.begin(), allowed.end(), value) != allowed.end()) return;
+  std::string list;
+  for (const std::string& entry : allowed) list += (list.empty() ? "" : ", ") + entry;
+  Fail(name, '"' + value + '"', list + "; did you mean \"" + NearestName(value, allowed) + "\"?");
+}
+
+template <class Presets>
+std::vector<std::string> NamesOf(const Presets& presets) {
+  std::vector<std::string> names;
+  for (const ComposePreset& preset : presets) names.emplace_back(preset.name);
+  return names;
+}
+
+std::string_view SourceOf(std::span<const ComposePreset> presets, const std::string& name) {
+  const auto found = std::find_if(presets.begin(), presets.end(),
+                                  [&](const ComposePreset& preset) { return preset.name == name; });
+  return found == presets.end() ? std::string_view() : found->source;
+}
+
+MassProperties Scaled(MassProperties mass, double factor) {
+  mass.mass_kg *= factor;
+  mass.inertia_kg_m2 *= factor;
+  return mass;
+}
+
+}  // namespace
+
+std::span<const ComposeRule> ComposeRules() { return kRules; }
+std::span<const ComposePreset> JointPresets() { return kJointPresets; }
+std::span<const ComposePreset> MassPresets() { return kMassPresets; }
+
+namespace internal {
+
+void CheckComposeConfig(const ComposeConfig& config) {
+  CheckUnless("leaf_width_m", config.leaf_width_m, 0, {0.1, 4});
+  CheckUnless("leaf_height_m", config.leaf_height_m, 0, {0.1, 4});
+  CheckUnless("handle_height_m", config.handle_height_m, 0, {0.01, 4});
+  CheckUnless("backset_m", config.backset_m, 0, {0.005, 4});
+  CheckRange("handle_scale", config.handle_scale, {0.5, 2});
+  CheckName("hinge_side", config.hinge_side, {"left", "right"});
+  CheckName("opening", config.opening, {"pull", "push"});
+  const int turn = config.handle_turn_deg;
+  if (turn != 0 && turn != 90 && turn != 180 && turn != 270)
+    Fail("handle_turn_deg", std::to_string(turn), "0, 90, 180, 270");
+  CheckName("latch", config.latch, {"auto", "none", "effort", "bolt"});
+  CheckUnless("unlock_angle_rad", config.unlock_angle_rad, 0, {0.01, 6.283});
+  CheckUnless("handle_done_angle_rad", config.handle_done_angle_rad, 0, {0.01, 6.283});
+  CheckRange("lock_effort_nm", config.lock_effort_nm, {0, 1000});
+  CheckRange("bolt_throw_m", config.bolt_throw_m, {0.002, 0.03});
+  CheckName("joints", config.joints, NamesOf(kJointPresets));
+  CheckUnless("hinge_spring_nm_per_rad", config.hinge_spring_nm_per_rad, -1, {0, 1000});
+  CheckUnless("handle_spring_nm_per_rad", config.handle_spring_nm_per_rad, -1, {0, 1000});
+  CheckUnless("hinge_damping_nm_s", config.hinge_damping_nm_s, -1, {0, 1000});
+  CheckUnless("handle_damping_nm_s", config.handle_damping_nm_s, -1, {0, 1000});
+  CheckName("masses", config.masses, NamesOf(kMassPresets));
+}
+
+void RefusePair(std::string_view code, const std::string& why) {
+  for (const ComposeRule& rule : kRules) {
+    if (rule.code == code)
+      throw Error(ErrorCode::kInvalidArgument,
+                  "compose: " + std::string(code) + " " + std::string(rule.text) + ": " + why);
+  }
+  throw Error(ErrorCode::kInvalidArgument, "compose: " + why);
+}
+
+JointNumbers JointNumbersOf(const ComposeConfig& config, const std::string& pair) {
+  const std::vector<std::string> names = NamesOf(kJointPresets);
+  const auto at = std::find(names.begin(), names.end(), config.joints) - names.begin();
+  const JointRanges& ranges = kJointRanges.at(static_cast<std::size_t>(at));
+  const auto number = [&](double wanted, const Range& range, const char* name) {
+    if (wanted >= 0) return wanted;
+    if (config.seed == 0) return (range.low + range.high) / 2;
+    return Rng(config.seed, "compose/" + pair + "/" + name).Uniform(range.low, range.high);
+  };
+  return {number(config.hinge_spring_nm_per_rad, ranges.hinge_spring, "hinge_spring"),
+          number(config.handle_spring_nm_per_rad, ranges.handle_spring, "handle_spring"),
+          number(config.hinge_damping_nm_s, ranges.hinge_damping, "hinge_damping"),
+          number(config.handle_damping_nm_s, ranges.handle_damping, "handle_damping")};
+}
+
+MassProperties PresetMass(const PartPiece& piece, PartRole role, const std::string& preset) {
+  const double mass = piece.mass.mass_kg;
+  if (preset == "part" || !(mass > 0)) return piece.mass;
+  const double volume = MeasureTopology(piece.mesh).volume_m3;
+  if (preset == "unidoormanip") return Scaled(piece.mass, 1000 * volume / mass);
+  if (role == PartRole::kHandle) return Scaled(piece.mass, 1 / mass);
+  return piece.name == "leaf" ? Scaled(piece.mass, 300 * volume / mass) : piece.mass;
+}
+
+std::string PhysicsSourceOf(const ComposeConfig& config) {
+  std::string text = "masses " + config.masses + " (" +
+                     std::string(SourceOf(kMassPresets, config.masses)) + "); joints " +
+                     config.joints + " (" + std::string(SourceOf(kJointPresets, config.joints)) +
+                     ")";
+  const bool set = config.hinge_spring_nm_per_rad >= 0 || config.handle_spring_nm_per_rad >= 0 ||
+                   config.hinge_damping_nm_s >= 0 || config.handle_damping_nm_s >= 0;
+  return set ? text + ", some numbers set by hand" : text;
+}
+
+std::string DoorIdOf(const std::string& body, const std::string& handle,
+                     const ComposeConfig& config) {
+  if (!config.id.empty()) return config.id;
+  std::string id = body + "__" + handle;
+  if (config.hinge_side == "right") id += "__right";
+  if (config.opening == "push") id += "__push";
+  if (config.handle_mirrored) id += "__mirrored";
+  if (config.handle_turn_deg != 0) id += "__turned" + std::to_string(config.handle_turn_deg);
+  if (config.seed != 0) id += "__s" + std::to_string(config.seed);
+  return id;
+}
+
+double DrawnFactor(const ComposeConfig& config, const std::string& stream) {
+  return config.seed == 0 ? 1 : Rng(config.seed, "compose/" + stream).Uniform(0.95, 1.05);
+}
+
+}  // namespace internal
+}  // namespace doorforge

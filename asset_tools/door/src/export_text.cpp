@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "export_text.h"
+
+#include <charconv>
+
+#include "placed_mesh.h"
+
+namespace doorforge::internal {
+
+std::string Decimal(double value) {
+  char digits[32];
+  // + 0.0 turns -0 into 0
+  const auto end = std::to_chars(digits, digits + sizeof digits, value + 0.0).ptr;
+  return {digits, end};
+}
+
+std::string Decimals(const Eigen::Ref<const Eigen::VectorXd>& values,
+                     const std::string& separator) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : separator) + Decimal(value);
+  return text;
+}
+
+XmlElement& AddElement(XmlElement& parent, const char* name) {
+  return parent.children.emplace_back(XmlElement{.name = name});
+}
+
+XmlElement& AddText(XmlElement& parent, const char* name, const std::string& text) {
+  XmlElement& element = AddElement(parent, name);
+  element.text = text;
+  return element;
+}
+
+void SetAttribute(XmlElement& element, const char* name, const std::string& value) {
+  element.attributes.emplace_back(name, value);
+}
+
+namespace {
+
+std::string Escaped(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '&')
+      escaped += "&amp;";
+    else if (c == '<')
+      escaped += "&lt;";
+    else if (c == '>')
+      escaped += "&gt;";
+    else if (c == '"')
+      escaped += "&quot;";
+    else
+      escaped += c;
+  }
+  return escaped;
+}
+
+void Print(const XmlElement& element, std::size_t depth, std::string& xml) {
+  const std::string indent(depth * 2, ' ');
+  xml += indent + "<" + element.name;
+  for (const auto& [name, value] : element.attributes)
+    xml.append(" ").append(name).append("=\"").append(Escaped(value)).append("\"");
+  if (element.children.empty() && element.text.empty()) {
+    xml += "/>\n";
+    return;
+  }
+  xml += ">" + Escaped(element.text);
+  if (!element.children.empty()) xml += "\n";
+  for (const XmlElement& child : element.children) Print(child, depth + 1, xml);
+  xml += (element.children.empty() ? "" : indent) + "</" + element.name + ">\n";
+}
+
+}  // namespace
+
+std::string Printed(const XmlElement& root) {
+  std::string xml = "<?xml version=\"1.0\"?>\n";
+  Print(root, 0, xml);
+  return xml;
+}
+
+bool Turns(const DoorJoint& joint) { return joint.upper_rad > joint.lower_rad; }
+
+Eigen::AlignedBox3d LeafBounds(const DoorAsset& door) {
+  Eigen::AlignedBox3d bounds;
+  for (const DoorGeometry& geometry : door.links[kLeafLink].geometry) {
+    if (geometry.label != PointLabel::kHandle) bounds.extend(BoundsOf(geometry.mesh));
+  }
+  return bounds;
+}
+
+}  // namespace doorforge::internal

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/door/shared_doors.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "doorforge/core/error.h"
+#include "doorforge/core/parallel_for.h"
+#include "doorforge/core/program.h"
+#include "doorforge/schemas/mesh_file.h"
+#include "doorforge/schemas/mesh_pool.h"
+
+#include "prepared_part.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+using Shape = PreparedPart::State::Shape;
+
+constexpr std::size_t kPairsInBatch = 1024;
+
+bool Holds(const fs::path& file, const std::string& text) {
+  std::error_code error;
+  if (!fs::is_regular_file(fs::symlink_status(file, error))) return false;
+  if (fs::file_size(file, error) != text.size() || error) return false;
+  return ReadFile(file) == text;
+}
+
+// Parts that share a mesh name it alike; each file is written by the first that has it.
+struct PoolFile {
+  const TriangleMesh* mesh = nullptr;
+  const Shape* shape = nullptr;
+};
+
+std::map<std::string, PoolFile> FilesOf(std::span<const PreparedPart> parts) {
+  std::map<std::string, PoolFile> files;
+  for (const PreparedPart& part : parts) {
+    for (const Shape& shape : part.state().shapes) {
+      files.try_emplace(PooledFileName(shape.sha256, ".json"), PoolFile{nullptr, &shape});
+      files.try_emplace(PooledFileName(shape.mesh_sha256, ".obj"), PoolFile{&shape.mesh});
+      for (std::size_t i = 0; i < shape.hulls.size(); ++i)
+        files.try_emplace(PooledFileName(shape.hull_sha256[i], ".obj"), PoolFile{&shape.hulls[i]});
+    }
+  }
+  return files;
+}
+
+void RequireRealFolder(const fs::path& pool) {
+  if (fs::is_symlink(fs::symlink_status(pool)))
+    throw Error(ErrorCode::kInvalidArgument,
+                pool.string() + ": is a link; a mesh pool is a real folder");
+}
+
+SharedDoorOutcome WriteDoorOf(const SharedDoorPlan& plan, const PartPair& pair,
+                              const fs::path& doors, const fs::path& staging) {
+  SharedDoorOutcome outcome;
+  const PreparedPart& body = plan.parts[pair.body];
+  const PreparedPart& handle = plan.parts[pair.handle];
+  outcome.id = body.id() + "__" + handle.id();
+  try {
+    const SharedDoor door = ComposeSharedDoor(body, handle, plan.config);
+    outcome.id = door.id;
+    const fs::path folder = doors / door.id;
+    if (fs::exists(fs::symlink_status(folder))) {
+      outcome.kept =
+          Holds(folder / "door.json", door.door_json) && Holds(folder / "model.urdf", door.urdf);
+      if (outcome.kept) return outcome;
+      if (plan.existing == Existing::kRefuse)
+        throw Error(ErrorCode::kInvalidArgument,
+                    folder.string() + ": holds another door; pass --overwrite to replace it");
+    }
+    WriteStaged(staging / door.id / "door.json", door.door_json);
+    WriteStaged(staging / door.id / "model.urdf", door.urdf);
+  } catch (const Error& error) {
+    outcome.problem = error.what();
+  }
+  return outcome;
+}
+
+}  // namespace
+
+void WriteMeshPool(std::span<const PreparedPart> parts, const fs::path& doors, int threads) {
+  const fs::path pool = doors / fs::path(kMeshPoolPath).filename();
+  RequireRealFolder(pool);
+  const std::map<std::string, PoolFile> files = FilesOf(parts);
+  std::vector<std::pair<std::string, PoolFile>> list(files.begin(), files.end());
+  StagedBatch batch(pool);
+  ParallelFor(list.size(), threads, [&](std::size_t i) {
+    const auto& [name, file] = list[i];
+    const std::string text = file.mesh != nullptr
+                                 ? ToObj(*file.mesh)
+                                 : ShapeText({file.shape->mesh_sha256, file.shape->hull_sha256});
+    if (!Holds(pool / name, text)) WriteStaged(batch.path() / name, text);
+  });
+  if (!Holds(pool / "pool.json", MeshPoolText()))
+    WriteStaged(batch.path() / "pool.json", MeshPoolText());
+  batch.Commit();
+}
+
+std::vector<SharedDoorOutcome> WriteSharedDoors(const SharedDoorPlan& plan, const fs::path& doors,
+                                                const std::function<void(std::size_t)>& progress) {
+  std::vector<SharedDoorOutcome> outcomes(plan.pairs.size());
+  for (std::size_t first = 0; first < plan.pairs.size(); first += kPairsInBatch) {
+    const std::size_t count = std::min(kPairsInBatch, plan.pairs.size() - first);
+    const bool stopped = StopRequested() != 0;
+    StagedBatch batch(doors);
+    ParallelFor(stopped ? 0 : count, plan.threads, [&](std::size_t i) {
+      outcomes[first + i] = WriteDoorOf(plan, plan.pairs[first + i], doors, batch.path());
+    });
+    if (!stopped) batch.Commit();
+    for (std::size_t i = first; stopped && i < first + count; ++i) {
+      const PartPair& pair = plan.pairs[i];
+      outcomes[i] = {plan.parts[pair.body].id() + "__" + plan.parts[pair.handle].id(), false,
+                     "stopped before its turn; run the same command again"};
+    }
+    progress(count);
+  }
+  return outcomes;
+}
+
+}  // namespace doorforge

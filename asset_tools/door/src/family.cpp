@@ -15,37 +15,34 @@
 
 namespace doorforge::internal {
 
-const Family &FamilyNamed(std::string_view name, const std::string &path) {
+const Family& FamilyNamed(std::string_view name, const std::string& path) {
   std::vector<std::string> known;
-  for (const auto &families :
-       {InteriorBodyFamilies(), InteriorShapedBodyFamilies(),
-        StorageBodyFamilies(), SafeBodyFamilies(), SafeHandleFamilies(),
-        RefrigeratorBodyFamilies(), LatchLeverFamilies(), LeverFamilies(),
-        ShapedLeverFamilies(), KnobFamilies(), PullFamilies()}) {
-    for (const Family &family : families) {
-      if (family.name == name)
-        return family;
+  for (const auto& families :
+       {InteriorBodyFamilies(), InteriorShapedBodyFamilies(), StorageBodyFamilies(),
+        SafeBodyFamilies(), SafeHandleFamilies(), RefrigeratorBodyFamilies(), LatchLeverFamilies(),
+        LeverFamilies(), ShapedLeverFamilies(), KnobFamilies(), PullFamilies(),
+        WindowBodyFamilies(), WindowHandleFamilies(), CarBodyFamilies(), CarHandleFamilies()}) {
+    for (const Family& family : families) {
+      if (family.name == name) return family;
       known.emplace_back(family.name);
     }
   }
-  throw Error(ErrorCode::kInvalidConfig,
-              path + ".family: unknown family \"" + std::string(name) +
-                  "\"; did you mean \"" + NearestName(name, known) + "\"?");
+  throw Error(ErrorCode::kInvalidConfig, path + ".family: unknown family \"" + std::string(name) +
+                                             "\"; did you mean \"" + NearestName(name, known) +
+                                             "\"?");
 }
 
-void RequireRange(const std::string &path, const char *name, double value,
-                  double low, double high) {
-  if (value >= low && value <= high)
-    return;
+void RequireRange(const std::string& path, const char* name, double value, double low,
+                  double high) {
+  if (value >= low && value <= high) return;
   const auto text = [](double number) { return nlohmann::json(number).dump(); };
-  throw Error(ErrorCode::kInvalidConfig, path + "." + name + ": found " +
-                                             text(value) + ", allowed " +
-                                             text(low) + " to " + text(high));
+  throw Error(ErrorCode::kInvalidConfig, path + "." + name + ": found " + text(value) +
+                                             ", allowed " + text(low) + " to " + text(high));
 }
 
-PartPiece MakePiece(const std::string &name, const Solid &solid,
-                    const std::string &finish_name, const std::string &path) {
-  const Finish &finish = FinishNamed(finish_name, path);
+PartPiece MakePiece(const std::string& name, const Solid& solid, const std::string& finish_name,
+                    const std::string& path) {
+  const Finish& finish = FinishNamed(finish_name, path);
   PartPiece piece;
   piece.name = name;
   // as the canonical files hold them, so that a part read back equals the part
@@ -53,14 +50,13 @@ PartPiece MakePiece(const std::string &name, const Solid &solid,
   piece.mesh = RoundedToFloat(solid.mesh);
   // a hull whose corners were rounded may have a dent of that size: it is found
   // again from them
-  for (const TriangleMesh &hull : solid.hulls)
+  for (const TriangleMesh& hull : solid.hulls)
     piece.hulls.push_back(ConvexHull(RoundedToFloat(hull).vertices));
   const std::optional<ClosedMesh> closed = ClosedMesh::From(piece.mesh);
-  Require(closed.has_value(), ErrorCode::kInvalidArgument,
-          path + ": the mesh is not closed");
+  Require(closed.has_value(), ErrorCode::kInvalidArgument, path + ": the mesh is not closed");
   piece.color_rgba << finish.color_rgb, 1.0;
   piece.mass = MassPropertiesOf(*closed, finish.density_kg_m3);
   return piece;
 }
 
-} // namespace doorforge::internal
+}  // namespace doorforge::internal

@@ -38,6 +38,10 @@ std::span<const Family> LeverFamilies();
 std::span<const Family> ShapedLeverFamilies();
 std::span<const Family> KnobFamilies();
 std::span<const Family> PullFamilies();
+std::span<const Family> WindowBodyFamilies();
+std::span<const Family> WindowHandleFamilies();
+std::span<const Family> CarBodyFamilies();
+std::span<const Family> CarHandleFamilies();
 
 /// Throws Error(kInvalidConfig) that suggests the nearest family; `path` names the recipe.
 const Family& FamilyNamed(std::string_view name, const std::string& path);

@@ -172,8 +172,8 @@ void RunChain(const Options& options) {
          "--overwrite"});
   } else {
     steps.Run({"Parts from real objects",
-               {Program("doorforge-assets"), "import", options.assets, "--out", parts, "--threads",
-                threads},
+               {Program("doorforge-assets"), "import", options.assets, "--only",
+                "interior,storagefurniture", "--out", parts, "--threads", threads},
                "--overwrite",
                true});
   }

@@ -72,6 +72,20 @@ TEST(ImportObjects, GoesOnAfterAFaultAndLeavesNothingOfIt) {
   EXPECT_EQ(written, (std::vector<std::string>{"import.json", "udm-9960003", "udm-9965006"}));
 }
 
+TEST(ImportObjects, LeavesOutObjectsOfOtherCategories) {
+  const fs::path root = TestFolder("batch_only");
+  WriteSmallObject(root / "in/Fridge/99650069960003");
+  WriteSmallObject(root / "in/LeverDoor/99650079960004");
+  ImportConfig config;
+  config.only = {"interior"};
+  const ImportReport report = ImportAll(root / "in", root / "out", config);
+  ASSERT_EQ(report.objects.size(), 1U);
+  EXPECT_EQ(report.left_out, 1);
+  EXPECT_EQ(report.objects[0].name, "LeverDoor/99650079960004");
+  EXPECT_EQ(report.objects[0].outcome, ImportOutcome::kImported) << report.objects[0].message;
+  EXPECT_FALSE(report.objects[0].body_id.empty());
+}
+
 TEST(ImportObjects, NothingIsWrittenWhenNothingImports) {
   const fs::path root = TestFolder("batch_nothing");
   WriteSmallObject(root / "LeverDoor/99650069960003");

@@ -47,7 +47,8 @@ std::vector<CatalogueEntry> Chosen(const Options& options) {
     chosen = catalogue;
   } else {
     const fs::path path = DataFolder() / "splits" / (options.split + ".yaml");
-    for (const std::string& id : PartsOf(ReadSplit(fs::exists(path) ? path : options.split)))
+    for (const std::string& id :
+         PartsOf(ReadSplit(fs::exists(path) ? path : fs::path(options.split))))
       chosen.push_back(FindCatalogueEntry(catalogue, id));
   }
   std::erase_if(chosen, [&](const CatalogueEntry& entry) {

@@ -24,6 +24,7 @@ struct Options {
   std::string format = "auto";
   std::string config;
   std::vector<std::string> settings;
+  std::vector<std::string> only;
   ReadConfig read;  // what the flags say; an empty field leaves the config's
   int threads = 0;
   bool overwrite = false;
@@ -70,6 +71,10 @@ Options Parse(int argc, char** argv) {
   formats.insert(formats.begin(), "auto");
   app.add_option("--format", options.format, "auto, or the data set or kind of file")
       ->check(CLI::IsMember(formats));
+  app.add_option("--only", options.only,
+                 "import objects of these categories alone, such as interior,safe")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   AddReadOptions(app, options.read);
   app.add_option("--config", options.config, "YAML file with the settings of import");
   app.add_option("--set", options.settings, "a.b=c overrides one setting");
@@ -134,6 +139,15 @@ void PrintTable(const ImportReport& report) {
   for (const auto& [outcome, count] : counts)
     std::printf(" %d %s", count, std::string(NameOf(outcome)).c_str());
   std::printf("\n");
+  if (report.left_out > 0)
+    std::printf("%d objects of other categories left out\n", report.left_out);
+}
+
+void CheckCategory(const std::string& option, const std::string& category) {
+  if (CategoryNamed(category)) return;
+  throw Error(ErrorCode::kInvalidArgument,
+              option + ": unknown category \"" + category +
+                  "\"; allowed are interior, window, car, safe, storagefurniture, refrigerator");
 }
 
 int ExitCodeFor(const ImportReport& report) {
@@ -153,11 +167,9 @@ int RunImportVerb(int argc, char** argv) {
   auto config = LoadConfig<ImportConfig>(options.config, options.settings);
   OverrideRead(config.read, options.read);
   if (options.threads != 0) config.threads = options.threads;
-  const std::string& category = config.read.category;
-  if (!category.empty() && !CategoryNamed(category))
-    throw Error(ErrorCode::kInvalidArgument,
-                "--category: unknown category \"" + category +
-                    "\"; allowed are interior, window, car, safe, storagefurniture, refrigerator");
+  if (!options.only.empty()) config.only = options.only;
+  if (!config.read.category.empty()) CheckCategory("--category", config.read.category);
+  for (const std::string& category : config.only) CheckCategory("--only", category);
   const ImportReport report =
       ImportObjects(FindObjects(options.source, options.format), options.out, config,
                     options.overwrite ? Existing::kReplace : Existing::kRefuse);

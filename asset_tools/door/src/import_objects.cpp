@@ -71,11 +71,22 @@ class Import {
     });
     for (std::size_t i = 0; i < sources_.size(); ++i) {
       for (std::size_t k = 0; k < entries[i].size(); ++k) {
+        if (!IsWanted(entries[i][k])) {
+          ++report_.left_out;
+          continue;
+        }
         report_.objects.push_back(std::move(entries[i][k]));
         jobs_of_.emplace_back();
         if (k < objects[i].size()) Plan(objects[i][k]);
       }
     }
+  }
+
+  // what cannot be read has no category and stays in the report
+  bool IsWanted(const ImportedObject& entry) const {
+    return config_.only.empty() || entry.category.empty() ||
+           std::find(config_.only.begin(), config_.only.end(), entry.category) !=
+               config_.only.end();
   }
 
   // one entry an object, or one for a source that cannot be read

@@ -19,12 +19,14 @@ namespace doorforge {
 struct ImportConfig {
   ReadConfig read = {};
   MakePartConfig make = {};
+  std::vector<std::string> only = {};  ///< Objects of other categories are left out; empty: none.
   int threads = 0;  ///< 0: all processors. Does not change the result.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
     visit("read", self.read);
     visit("make", self.make);
+    visit("only", self.only);
     visit("threads", self.threads);
   }
 };
@@ -62,6 +64,7 @@ struct ImportedObject {
 /// One entry for each object, in the order of the input; a source can hold several.
 struct ImportReport {
   std::vector<ImportedObject> objects;
+  int left_out = 0;  ///< Objects of other categories than ImportConfig::only.
 };
 
 /// Imports what FindObjects() found into `out`/<part id>/ and writes `out`/import.json.

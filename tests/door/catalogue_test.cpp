@@ -164,6 +164,9 @@ TEST(Catalogue, EveryPartGoesIntoADoorThatBreaksNoRule) {
 // UniDoorManip's measured ranges, see the table in docs/catalogue.md.
 TEST(Catalogue, SizesLieWithinTheMeasuredRangesOfTheReleasedObjects) {
   for (const Part& part : AllParts()) {
+    // the others have files of their own, such as furniture_catalogue_test.cpp
+    if (part.category != Category::kInterior && part.category != Category::kStorageFurniture)
+      continue;
     SCOPED_TRACE(part.id);
     const Eigen::Vector3d size = BoundsOfPart(part).sizes();
     if (part.role == PartRole::kHandle) {
@@ -182,7 +185,7 @@ TEST(Catalogue, SizesLieWithinTheMeasuredRangesOfTheReleasedObjects) {
     EXPECT_GE(reach, interior ? 0.510 : 0.474);
     EXPECT_LE(reach, interior ? 0.889 : 1.299);
     const double leaf_kg = FindPiece(part, "leaf")->mass.mass_kg;
-    EXPECT_GE(leaf_kg, interior ? 8 : 2);
+    EXPECT_GE(leaf_kg, interior ? 8 : 5);
     EXPECT_LE(leaf_kg, 25);
     if (!interior) continue;
     const Eigen::AlignedBox3d leaf = BoundsOfPiece(*FindPiece(part, "leaf"));

@@ -45,11 +45,9 @@ PartPiece MakePiece(const std::string& name, const Solid& solid, const std::stri
   const Finish& finish = FinishNamed(finish_name, path);
   PartPiece piece;
   piece.name = name;
-  // as the canonical files hold them, so that a part read back equals the part
-  // in memory
+  // as the canonical files hold them, so that a part read back equals the part in memory
   piece.mesh = RoundedToFloat(solid.mesh);
-  // a hull whose corners were rounded may have a dent of that size: it is found
-  // again from them
+  // a hull whose corners were rounded may have a dent of that size: it is found again from them
   for (const TriangleMesh& hull : solid.hulls)
     piece.hulls.push_back(ConvexHull(RoundedToFloat(hull).vertices));
   const std::optional<ClosedMesh> closed = ClosedMesh::From(piece.mesh);

@@ -118,7 +118,9 @@ Solid LockBelow(const RoseParameters& rose, const std::string& path) {
   const double z = -rose.lock_drop_m;
   std::vector<Solid> solids;
   if (!IsLong(rose.shape)) {
-    RequireRange(path, "lock_drop_m", rose.lock_drop_m, rose.width_m + 0.006, 0.12);
+    // fingers on the handle need room to a lock above it
+    const double nearest = std::max(rose.width_m + 0.006, z > 0 ? 0.076 : 0);
+    RequireRange(path, "lock_drop_m (distance)", std::abs(z), nearest, 0.14);
     RoseParameters own = rose;
     own.width_m = std::max(0.038, 0.85 * rose.width_m);
     const Outline outline = OutlineOf(own, path);

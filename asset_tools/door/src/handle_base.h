@@ -21,7 +21,7 @@ struct RoseParameters {
   bool keyhole = false;  ///< A plate's cylinder boss below the handle.
   /// "none", "cylinder" or "thumb_turn": on the plate, or on an escutcheon of its own.
   std::string lock = "none";
-  double lock_drop_m = 0.075;  ///< From the handle's axis down to the lock.
+  double lock_drop_m = 0.075;  ///< From the axis down to the lock; negative: above it.
   std::string finish = "brushed_steel";
 
   template <class Self, class Visitor>

@@ -22,6 +22,23 @@ constexpr double kOnLineM = 1e-7;
 constexpr double kEdgeShare = 0.3;
 constexpr double kEdgeDrop[] = {1.0, 0.286};
 
+struct HullExtent {
+  double volume_m3 = 0;
+  double area_m2 = 0;
+};
+
+HullExtent Extent(const TriangleMesh& hull) {
+  HullExtent extent;
+  for (const Eigen::Vector3i& t : hull.triangles) {
+    const Eigen::Vector3d& a = hull.vertices[static_cast<std::size_t>(t[0])];
+    const Eigen::Vector3d& b = hull.vertices[static_cast<std::size_t>(t[1])];
+    const Eigen::Vector3d& c = hull.vertices[static_cast<std::size_t>(t[2])];
+    extent.volume_m3 += a.dot(b.cross(c)) / 6;
+    extent.area_m2 += (b - a).cross(c - a).norm() / 2;
+  }
+  return extent;
+}
+
 class Panel {
  public:
   explicit Panel(const PanelGrid& grid)
@@ -50,6 +67,7 @@ class Panel {
   void AddWall(int i0, int j0, int i1, int j1);
   TriangleMesh HullOf(const Block& block) const;
   double StandsOut(const TriangleMesh& hull, const Block& block) const;
+  double VolumeOf(const Block& block) const;
   bool AllFilled(const Block& block, const std::vector<char>& taken) const;
   bool MayJoin(const Block& block, double tolerance_m) const;
   Block Grown(Block block, const std::vector<char>& taken, double tolerance_m) const;
@@ -194,6 +212,23 @@ double Panel::StandsOut(const TriangleMesh& hull, const Block& block) const {
   return deepest;
 }
 
+double Panel::VolumeOf(const Block& block) const {
+  double volume = 0;
+  for (int i = block.i0; i < block.i1; ++i) {
+    for (int j = block.j0; j < block.j1; ++j) {
+      std::vector<Eigen::Vector3d> corners;
+      for (const int di : {0, 1}) {
+        for (const int dj : {0, 1}) {
+          corners.push_back(grid_.front(U(i + di), V(j + dj)));
+          corners.push_back(grid_.back(U(i + di), V(j + dj)));
+        }
+      }
+      volume += Extent(ConvexHull(corners)).volume_m3;
+    }
+  }
+  return volume;
+}
+
 bool Panel::AllFilled(const Block& block, const std::vector<char>& taken) const {
   if (block.i1 > columns_ || block.j1 > rows_) return false;
   for (int i = block.i0; i < block.i1; ++i) {
@@ -206,7 +241,11 @@ bool Panel::AllFilled(const Block& block, const std::vector<char>& taken) const 
 
 bool Panel::MayJoin(const Block& block, double tolerance_m) const {
   const TriangleMesh hull = HullOf(block);
-  return hull.vertices.size() <= kMaxHullVertices && StandsOut(hull, block) <= tolerance_m;
+  if (hull.vertices.size() > kMaxHullVertices) return false;
+  // a thin bent strip lies near its hull's surface everywhere; what the hull adds tells
+  const auto [volume, area] = Extent(hull);
+  const double added = (volume - VolumeOf(block)) / area;
+  return added <= 0.25 * tolerance_m && StandsOut(hull, block) <= tolerance_m;
 }
 
 // The block made as high as it may be, then as wide: an arch cut into the lower border then costs

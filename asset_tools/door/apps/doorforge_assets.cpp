@@ -30,7 +30,8 @@ struct Verb {
 };
 
 constexpr Verb kVerbs[] = {
-    {"catalog", RunCatalogVerb}, {"compose", RunComposeVerb},   {"export", RunExportVerb},   {"import", RunImportVerb},
+    {"catalog", RunCatalogVerb}, {"compose", RunComposeVerb},
+    {"export", RunExportVerb},   {"import", RunImportVerb},
 #ifdef DOORFORGE_WITH_PREVIEW
     {"preview", RunPreviewVerb},
 #endif

@@ -38,8 +38,8 @@ struct HingedObject {
 /// A leaf is a link below a revolute joint that no other movable joint carries; what is fixed to
 /// it, or moves on it in any other way than a handle, belongs to it. All else is its frame, other
 /// leaves included, at zero joint angles. A leaf that is authored open is closed first: turned to
-/// the limit at which its outline across the hinge, or that of the whole object, is much smaller. The handle is, of what
-/// turns on the leaf or is called a handle, what turns first and is largest.
+/// the limit at which its outline across the hinge, or that of the whole object, is much smaller.
+/// The handle is, of what turns on the leaf or is called a handle, what turns first and is largest.
 ///
 /// Part frame: turned about z by a multiple of 90 degrees, or freely where none fits within 20, so
 /// that opening moves the leaf towards +x; then, for an upright hinge at the large-y side, mirrored

@@ -48,8 +48,8 @@ class StagedFolder {
   bool committed_ = false;
 };
 
-/// Many small files or folders that appear in one folder, each whole or not at all, with one wait for
-/// the disk for all of them: a file system flush in place of an fsync for each.
+/// Many small files or folders that appear in one folder, each whole or not at all, with one wait
+/// for the disk for all of them: a file system flush in place of an fsync for each.
 ///
 ///     StagedBatch batch(folder);
 ///     ... write below batch.path(), plainly ...

@@ -24,8 +24,8 @@ std::optional<DoorFormat> DoorFormatNamed(std::string_view name);
 
 /// MuJoCo's model, with the meshes of WriteDoor() beside it. A latch is a bolt: a sliding body in
 /// the leaf's free edge, coupled to the handle by a joint equality, and a strike on the frame that
-/// only the bolt touches. It holds up to half the unlock angle and lets go before 1.05 times it. Gravity is the
-/// model's default; the latch's numbers are also in <custom>.
+/// only the bolt touches. It holds up to half the unlock angle and lets go before 1.05 times it.
+/// Gravity is the model's default; the latch's numbers are also in <custom>.
 std::string ToMjcf(const DoorAsset& door);
 
 /// SDF 1.9 (sdformat 12), with the meshes of WriteDoor() beside it. Springs are in the joints'

@@ -20,7 +20,7 @@ struct ImportConfig {
   ReadConfig read = {};
   MakePartConfig make = {};
   std::vector<std::string> only = {};  ///< Objects of other categories are left out; empty: none.
-  int threads = 0;  ///< 0: all processors. Does not change the result.
+  int threads = 0;                     ///< 0: all processors. Does not change the result.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {

@@ -16,8 +16,9 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kGapM = 0.008;            // around the leaf
 constexpr double kRearGapM = 0.016;        // its inner corner swings beyond its length
-constexpr double kHullToleranceM = 0.025;  // in the arches of the wheels
+constexpr double kHullToleranceM = 0.014;  // in the arches of the wheels
 constexpr double kArchGapM = 0.05;         // between wheel and arch
+constexpr double kBesideArchM = 0.04;      // body between an arch and what ends there
 constexpr double kRoofM = 0.045;           // thickness of the roof
 constexpr double kPillarM = 0.06;
 
@@ -56,7 +57,10 @@ class Shell {
     solids_.push_back(ChamferedBox(low, high, 0.006));
   }
 
-  double FrontAxle() const { return front_ + 0.62 * shape_.nose_m; }
+  double FrontAxle() const {
+    const double arch = shape_.wheel_m + kArchGapM + kBesideArchM;
+    return std::clamp(front_ + 0.58 * shape_.nose_m, front_ + arch, -kGapM - arch);
+  }
   double RearAxle() const {
     return std::max(rear_ + shape_.wheel_m + kArchGapM + 0.05, tail_ - 0.72);
   }
@@ -80,7 +84,7 @@ class Shell {
     const double radius = shape_.wheel_m + kArchGapM;
     std::vector<double> lines = EqualLines(low, high, 6);
     std::erase_if(lines, [&](double y) { return std::abs(y - axle) < radius + 0.02; });
-    for (int i = 0; i <= 8; ++i) lines.push_back(axle - radius * std::cos(kPi * i / 8));
+    for (int i = 0; i <= 6; ++i) lines.push_back(axle - radius * std::cos(kPi * i / 6));
     std::sort(lines.begin(), lines.end());
     return lines;
   }
@@ -191,11 +195,16 @@ class Shell {
       for (const double x : {-depth - 0.19, FarX(depth)}) {
         const Polygon tyre = CirclePolygon({axle, shape_.wheel_m}, shape_.wheel_m, 28);
         const Polygon rim = CirclePolygon({axle, shape_.wheel_m}, 0.62 * shape_.wheel_m, 16);
-        solids_.push_back(ConvexPrism(tyre, PrismAxis::kX, {x, x + 0.19}, 0.025));
+        Solid wheel = ConvexPrism(tyre, PrismAxis::kX, {x, x + 0.19}, 0.0125);
         const bool near = x > -shape_.width_m / 2;
         const double face = near ? x + 0.1902 : x - 0.0082;
         Solid hub = ConvexPrism(rim, PrismAxis::kX, {face, face + 0.008}, 0.003);
-        hub.hulls.clear();  // the tyre's covers it within its height
+        // one shape for both
+        wheel.hulls = ConvexPrism(tyre, PrismAxis::kX,
+                                  {x - (near ? 0 : 0.0085), x + (near ? 0.1985 : 0.19)}, 0)
+                          .hulls;
+        hub.hulls.clear();
+        solids_.push_back(wheel);
         solids_.push_back(hub);
       }
     }
@@ -281,7 +290,8 @@ class Shell {
     if (style_ == CarStyle::kVan) return;
     if (style_ == CarStyle::kPickup || style_ == CarStyle::kBox) return;
     // behind the leaf, so that it may swing
-    AddPillar({sunk + 0.06, leaf_.length_m - 0.05, leaf_.sill_m},
+    const double behind = leaf_.thickness_m + leaf_.tuck_m + leaf_.bow_m + 0.02;
+    AddPillar({behind, leaf_.length_m - 0.05, leaf_.sill_m},
               {head + 0.06, leaf_.length_m - leaf_.rear_slope_m - 0.05, roof + 0.012}, 0.065);
     AddPillar({sunk + TaperAt(CabinEnd() - 0.1), CabinEnd() - 0.1, belt},
               {head, RoofEnd() - 0.12, roof}, 0.1);
@@ -314,7 +324,8 @@ class Shell {
 
 void CheckCarShell(const CarShellShape& shell, const CarLeafShape& leaf, const std::string& path) {
   RequireRange(path, "width_m", shell.width_m, 1.55, 1.98);
-  RequireRange(path, "nose_m", shell.nose_m, 0.65, 1.5);
+  const double least_nose = 2 * (shell.wheel_m + kArchGapM + kBesideArchM) + kGapM;
+  RequireRange(path, "nose_m", shell.nose_m, least_nose, 1.5);
   RequireRange(path, "wheel_m", shell.wheel_m, 0.26, 0.37);
   RequireRange(path, "clearance_m", shell.clearance_m, 0.14, leaf.sill_m - 0.05);
   RequireRange(path, "nose_taper_m", shell.nose_taper_m, 0, 0.15);

@@ -3,6 +3,7 @@
 #include "doorforge/door/catalogue.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "doorforge/core/committed_file.h"
@@ -107,6 +108,27 @@ std::string SourceOf(const CatalogueEntry& entry) {
          entry.recipe.filename().string();
 }
 
+bool ReadsBackTheSame(const RigidTransform& pose, const std::string& path) {
+  const nlohmann::ordered_json filed = TransformToJson(pose);
+  return TransformToJson(TransformFromJson(filed, path)) == filed;
+}
+
+// A pose that part.json holds to the last bit, so that a part read back equals the part in memory:
+// the quaternion is rounded, ever coarser, until it survives becoming a matrix and back.
+RigidTransform AsFiled(const RigidTransform& pose, const std::string& path) {
+  constexpr int kFinestBits = 52;
+  constexpr int kCoarsestBits = 40;
+  const Eigen::Quaterniond exact(pose.linear());
+  RigidTransform rounded = pose;
+  for (int bits = kFinestBits; bits >= kCoarsestBits && !ReadsBackTheSame(rounded, path); --bits) {
+    Eigen::Vector4d coefficients = exact.coeffs();
+    for (double& value : coefficients)
+      value = std::ldexp(std::round(std::ldexp(value, bits)), -bits);
+    rounded.linear() = Eigen::Quaterniond(coefficients).normalized().toRotationMatrix();
+  }
+  return rounded;
+}
+
 }  // namespace
 
 std::vector<CatalogueEntry> ListCatalogue(const fs::path& data_folder) {
@@ -155,6 +177,8 @@ Part BuildCataloguePart(const CatalogueEntry& entry) {
   part.license = recipe.license;
   part.source = SourceOf(entry);
   part.source_sha256 = Sha256Hex(text);
+  part.part_from_grasp = AsFiled(part.part_from_grasp, part.source);
+  part.part_from_mount = AsFiled(part.part_from_mount, part.source);
   return part;
 }
 

@@ -16,8 +16,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kJointM = 0.0002;  // between solids that touch
-constexpr double kHullToleranceM = 0.0065;
-constexpr int kHalfArcSteps = 6;
+constexpr int kHalfArcSteps = 5;
 
 // Points of a head from its right to its left springing, both included, in the unit of half the
 // width and of the rise: (1, 0) over (0, 1) to (-1, 0).
@@ -102,7 +101,7 @@ Polygon OutlineWithHead(const Rectangle& box, const HeadShape& head, const std::
 }
 
 Solid OutlineHoop(const Polygon& outline, const Polygon& section,
-                  const std::vector<Rectangle>& boxes) {
+                  const std::vector<HoopBox>& boxes) {
   const std::size_t n = outline.size();
   const auto rings_of = [&](const Polygon& profile) {
     std::vector<Ring> rings(n);
@@ -117,12 +116,12 @@ Solid OutlineHoop(const Polygon& outline, const Polygon& section,
     return rings;
   };
   Solid hoop{LoftLoop(rings_of(section)), {}};
-  for (const Rectangle& box : boxes) {
-    std::vector<Ring> rings = rings_of(BoxPolygon(box.min_m, box.max_m));
+  for (const HoopBox& box : boxes) {
+    std::vector<Ring> rings = rings_of(BoxPolygon(box.section.min_m, box.section.max_m));
     // from a corner of the foot, so that no hull runs around one
     std::rotate(rings.begin(), rings.begin() + static_cast<std::ptrdiff_t>(n - 2), rings.end());
     rings.push_back(rings.front());
-    const std::vector<TriangleMesh> hulls = LoftHulls(rings, kHullToleranceM);
+    const std::vector<TriangleMesh> hulls = LoftHulls(rings, box.tolerance_m);
     hoop.hulls.insert(hoop.hulls.end(), hulls.begin(), hulls.end());
   }
   return hoop;

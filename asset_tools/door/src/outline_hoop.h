@@ -29,10 +29,17 @@ struct HeadShape {
 /// Error(kInvalidConfig) on another shape or a rise of more than 0.6 of the height.
 Polygon OutlineWithHead(const Rectangle& box, const HeadShape& head, const std::string& path);
 
+/// What stands for a section in hulls: a rectangle in (u, x), and how far the hulls of a curved
+/// outline may stand out.
+struct HoopBox {
+  Rectangle section;
+  double tolerance_m = 0.0065;
+};
+
 /// A section moved around an outline, with mitred corners. `section` is in (u, x), u outwards from
-/// the outline, counter-clockwise; `boxes` are the rectangles in (u, x) that stand for it in hulls.
+/// the outline, counter-clockwise; the boxes together cover it.
 Solid OutlineHoop(const Polygon& outline, const Polygon& section,
-                  const std::vector<Rectangle>& boxes);
+                  const std::vector<HoopBox>& boxes);
 
 struct BarGrid {
   int columns = 2;

@@ -162,9 +162,8 @@ TriangleMesh Panel::HullOf(const Block& block) const {
   std::vector<Eigen::Vector3d> points;
   for (int i = block.i0; i <= block.i1; ++i) {
     for (int j = block.j0; j <= block.j1; ++j) {
-      // rounded edges inside the block's border would only add vertices
-      points.push_back(grid_.front(U(i), V(j)));
-      points.push_back(grid_.back(U(i), V(j)));
+      points.push_back(Point(i, j, true));
+      points.push_back(Point(i, j, false));
     }
   }
   return ConvexHull(points);

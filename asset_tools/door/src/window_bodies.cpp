@@ -193,8 +193,9 @@ Solid MainFrame(const WindowBody& body, const Polygon& leaf) {
   const Polygon section = {{-kStopM, back + kEdge}, {-kStopM + kEdge, back}, {outer, back},
                            {outer, front - kEdge},  {outer - kEdge, front},  {kGapM + kEdge, front},
                            {kGapM, front - kEdge},  {kGapM, stop},           {-kStopM, stop}};
-  return OutlineHoop(leaf, section,
-                     {{{kGapM, back}, {outer, front}}, {{-kStopM, back}, {kGapM, stop}}});
+  return OutlineHoop(
+      leaf, section,
+      {{{{kGapM, back}, {outer, front}}, 0.4 * kGapM}, {{{-kStopM, back}, {kGapM, stop}}, 0.012}});
 }
 
 // A fixed light that fills an outline, its frame inside it.
@@ -210,7 +211,7 @@ Solid Light(const WindowBody& body, const Polygon& outline, const FixedLight& li
                            {-kEdge, front},
                            {-width + 0.01, front},
                            {-width, front - 0.01}};
-  std::vector<Solid> solids = {OutlineHoop(outline, section, {{{-width, back}, {0, front}}})};
+  std::vector<Solid> solids = {OutlineHoop(outline, section, {{{{-width, back}, {0, front}}}})};
   const Polygon inside = Inset(outline, width);
   const PrismSpan depth{back + 0.3 * (front - back), front - 0.3 * (front - back)};
   if (light.panel)
@@ -228,7 +229,7 @@ Solid Casing(const WindowBody& body, const Rectangle& around) {
   const Polygon section = {{kJointM, back},        {width, back},  {width, front - 0.006},
                            {width - 0.006, front}, {0.006, front}, {kJointM, front - 0.006}};
   return OutlineHoop(BoxPolygon(around.min_m, around.max_m), section,
-                     {{{kJointM, back}, {width, front}}});
+                     {{{{kJointM, back}, {width, front}}}});
 }
 
 Solid FrameSolid(const WindowBody& body, const std::string& path, const Polygon& leaf) {
@@ -279,7 +280,7 @@ Solid Sash(const WindowBody& body, const Polygon& outline) {
   constexpr double kEdge = 0.004;
   const Polygon section = {{-s, -0.75 * t}, {-s + 0.01, -t}, {-kEdge, -t},   {0, -t + kEdge},
                            {0, -kEdge},     {-kEdge, 0},     {-s + 0.01, 0}, {-s, -0.25 * t}};
-  return OutlineHoop(outline, section, {{{-s, -t}, {0, 0}}});
+  return OutlineHoop(outline, section, {{{{-s, -t}, {0, 0}}}});
 }
 
 PrismSpan BarDepth(const WindowBody& body) {

@@ -39,6 +39,7 @@ Options Parse(int argc, char** argv) {
   app.add_option("--format,--to", options.formats,
                  "urdf, mjcf, sdf, glb, usda; several with commas")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->required()
       ->check(CLI::IsMember({"urdf", "mjcf", "sdf", "glb", "usda"}));
   app.add_option("--out", options.out, "each door goes to OUT/<id>")->required();

@@ -47,12 +47,26 @@ std::vector<PartRow> ReadParts(const fs::path& parts_folder) {
   return parts;
 }
 
-// the first part of a source decides for all that were made from it
+// The id without the number that import adds for another part of the same name, in general the same
+// mesh at another size: udm-9962004-2 is a copy of udm-9962004.
+std::string FamilyOf(const std::string& id) {
+  constexpr std::size_t kMostDigits = 3;
+  const std::size_t dash = id.rfind('-');
+  if (dash == std::string::npos || dash + 1 == id.size() || id.size() - dash - 1 > kMostDigits)
+    return id;
+  const bool number = id.find_first_not_of("0123456789", dash + 1) == std::string::npos;
+  return number ? id.substr(0, dash) : id;
+}
+
+// the first part of a source decides for all that were made from it, and for its copies
 void HoldOut(std::vector<PartRow>& parts) {
   std::map<std::tuple<std::string, bool, std::string>, std::size_t> count;
   std::map<std::string, bool> side_of_source;
   for (PartRow& part : parts) {
-    const auto known = side_of_source.find(part.source);
+    const std::string copies = "copies of " + FamilyOf(part.id);
+    const auto known =
+        std::find_if(side_of_source.begin(), side_of_source.end(),
+                     [&](const auto& s) { return s.first == part.source || s.first == copies; });
     if (known != side_of_source.end()) {
       part.held_out = known->second;
       continue;
@@ -60,6 +74,7 @@ void HoldOut(std::vector<PartRow>& parts) {
     const std::size_t index = count[{part.category, part.is_body, part.mechanism}]++;
     part.held_out = index % kHoldOutEvery == kHoldOutEvery - 1;
     side_of_source[part.source] = part.held_out;
+    side_of_source[copies] = part.held_out;
   }
 }
 

@@ -69,6 +69,15 @@ TEST_F(QuickstartSplit, PartsOfOneSourceStayTogether) {
   }
 }
 
+TEST_F(QuickstartSplit, CopiesAtAnotherSizeStayTogether) {
+  AddParts(6, 6);
+  AddPart("body2-2", "body", "none", "another hash");  // the fourth body by name
+  for (const DoorPair& pair : SplitIntoDoors(folder_, 7)) {
+    if (!pair.body_id.starts_with("body2")) continue;
+    EXPECT_EQ(pair.subset, "test");
+  }
+}
+
 TEST_F(QuickstartSplit, IsAFunctionOfTheSeed) {
   AddParts(12, 12);
   const auto names = [&](std::uint64_t seed) {

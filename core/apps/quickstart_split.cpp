@@ -10,6 +10,7 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/rng.h"
+#include "doorforge/core/shape_descriptor.h"
 
 namespace doorforge {
 namespace {
@@ -26,6 +27,7 @@ struct PartRow {
   std::string mechanism;
   std::string source;
   fs::path folder;
+  ShapeDescriptor shape;
   bool is_body = false;
   bool held_out = false;
 };
@@ -36,45 +38,33 @@ std::vector<PartRow> ReadParts(const fs::path& parts_folder) {
     if (entry.path().filename() != "part.json") continue;
     const std::string path = entry.path().string();
     const auto json = ReadJsonFile(path);
-    parts.push_back({ValueOf<std::string>(json, "id", path),
-                     ValueOf<std::string>(json, "category", path),
-                     ValueOf<std::string>(json, "mechanism", path),
-                     ValueOf<std::string>(json, "source_sha256", path), entry.path().parent_path(),
-                     ValueOf<std::string>(json, "role", path) == "body"});
+    parts.push_back(
+        {ValueOf<std::string>(json, "id", path), ValueOf<std::string>(json, "category", path),
+         ValueOf<std::string>(json, "mechanism", path),
+         ValueOf<std::string>(json, "source_sha256", path), entry.path().parent_path(),
+         ShapeOfRecord(json, path), ValueOf<std::string>(json, "role", path) == "body"});
   }
   std::sort(parts.begin(), parts.end(),
             [](const PartRow& a, const PartRow& b) { return a.id < b.id; });
   return parts;
 }
 
-// The id without the number that import adds for another part of the same name, in general the same
-// mesh at another size: udm-9962004-2 is a copy of udm-9962004.
-std::string FamilyOf(const std::string& id) {
-  constexpr std::size_t kMostDigits = 3;
-  const std::size_t dash = id.rfind('-');
-  if (dash == std::string::npos || dash + 1 == id.size() || id.size() - dash - 1 > kMostDigits)
-    return id;
-  const bool number = id.find_first_not_of("0123456789", dash + 1) == std::string::npos;
-  return number ? id.substr(0, dash) : id;
+bool OfOneSource(const PartRow& a, const PartRow& b) {
+  return a.is_body == b.is_body && (a.source == b.source || SameShape(a.shape, b.shape));
 }
 
 // the first part of a source decides for all that were made from it, and for its copies
 void HoldOut(std::vector<PartRow>& parts) {
   std::map<std::tuple<std::string, bool, std::string>, std::size_t> count;
-  std::map<std::string, bool> side_of_source;
-  for (PartRow& part : parts) {
-    const std::string copies = "copies of " + FamilyOf(part.id);
-    const auto known =
-        std::find_if(side_of_source.begin(), side_of_source.end(),
-                     [&](const auto& s) { return s.first == part.source || s.first == copies; });
-    if (known != side_of_source.end()) {
-      part.held_out = known->second;
+  for (auto part = parts.begin(); part != parts.end(); ++part) {
+    const auto known = std::find_if(
+        parts.begin(), part, [&](const PartRow& earlier) { return OfOneSource(earlier, *part); });
+    if (known != part) {
+      part->held_out = known->held_out;
       continue;
     }
-    const std::size_t index = count[{part.category, part.is_body, part.mechanism}]++;
-    part.held_out = index % kHoldOutEvery == kHoldOutEvery - 1;
-    side_of_source[part.source] = part.held_out;
-    side_of_source[copies] = part.held_out;
+    const std::size_t index = count[{part->category, part->is_body, part->mechanism}]++;
+    part->held_out = index % kHoldOutEvery == kHoldOutEvery - 1;
   }
 }
 

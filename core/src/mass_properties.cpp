@@ -6,36 +6,10 @@
 
 #include "doorforge/core/error.h"
 
+#include "volume_moments.h"
+
 namespace doorforge {
 namespace {
-
-// Volume integrals of 1, x and x x^T.
-struct Moments {
-  double volume = 0;
-  Eigen::Vector3d first = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-};
-
-// The tetrahedron (0, a, b, c), whose integrals are closed forms in its corners; signed.
-void AddTetrahedron(const Eigen::Matrix3d& corners, Moments& moments) {
-  const double volume = corners.determinant() / 6;
-  const Eigen::Vector3d sum = corners.rowwise().sum();
-  moments.volume += volume;
-  moments.first += volume / 4 * sum;
-  moments.second += volume / 20 * (corners * corners.transpose() + sum * sum.transpose());
-}
-
-// About `center`, which keeps the digits of a mesh far from the origin.
-Moments MomentsAbout(const TriangleMesh& mesh, const Eigen::Vector3d& center) {
-  Moments moments;
-  for (const Eigen::Vector3i& t : mesh.triangles) {
-    Eigen::Matrix3d corners;
-    for (int k = 0; k < 3; ++k)
-      corners.col(k) = mesh.vertices[static_cast<std::size_t>(t[k])] - center;
-    AddTetrahedron(corners, moments);
-  }
-  return moments;
-}
 
 // Inertia of the point mass distribution whose second moment is `covariance`.
 Eigen::Matrix3d InertiaOf(const Eigen::Matrix3d& covariance) {
@@ -49,7 +23,9 @@ MassProperties MassPropertiesOf(const ClosedMesh& mesh, double density_kg_m3) {
           "the density must be positive and finite");
   Eigen::AlignedBox3d bounds;
   for (const Eigen::Vector3d& vertex : mesh.mesh().vertices) bounds.extend(vertex);
-  const Moments moments = MomentsAbout(mesh.mesh(), bounds.center());
+  // about the bounds' centre, which keeps the digits of a mesh far from the origin
+  internal::VolumeMoments moments;
+  internal::AddMoments(mesh.mesh(), bounds.center(), Eigen::Vector3d::Ones(), moments);
   const Eigen::Vector3d offset = moments.first / moments.volume;
   MassProperties body;
   body.mass_kg = density_kg_m3 * moments.volume;

@@ -77,7 +77,7 @@ std::vector<DoorParts> PartsOf(const DoorFolder& folder) {
   std::vector<DoorParts> parts;
   for (const DoorAsset& door : folder.doors)
     parts.push_back({door.id, std::string(NameOf(door.category)),
-                     std::string(NameOf(door.mechanism)), door.body_sha256, door.handle_sha256});
+                     std::string(NameOf(door.mechanism)), door.body, door.handle});
   return parts;
 }
 
@@ -86,8 +86,8 @@ std::vector<DatasetDoor> RecordsOf(const DoorFolder& folder) {
   for (std::size_t i = 0; i < folder.doors.size(); ++i) {
     const DoorAsset& door = folder.doors[i];
     records.push_back({door.id, folder.sha256[i], std::string(NameOf(door.category)),
-                       std::string(NameOf(door.mechanism)), door.body_id, door.body_sha256,
-                       door.handle_id, door.handle_sha256, door.license, ""});
+                       std::string(NameOf(door.mechanism)), door.body, door.handle, door.license,
+                       ""});
   }
   return records;
 }

@@ -63,8 +63,8 @@ nlohmann::ordered_json DoorRecord(const DoorAsset& door) {
   return {{"id", door.id},
           {"category", NameOf(door.category)},
           {"mechanism", NameOf(door.mechanism)},
-          {"body", {{"id", door.body_id}, {"sha256", door.body_sha256}}},
-          {"handle", {{"id", door.handle_id}, {"sha256", door.handle_sha256}}},
+          {"body", IdentityToJson(door.body)},
+          {"handle", IdentityToJson(door.handle)},
           {"license", door.license}};
 }
 

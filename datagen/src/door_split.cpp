@@ -45,16 +45,28 @@ std::vector<std::size_t> SortedById(std::span<const DoorParts> doors) {
   return order;
 }
 
+void JoinSharers(std::span<const DoorParts> doors, const std::vector<std::size_t>& order,
+                 PartIdentity DoorParts::*role, Groups& groups) {
+  std::vector<std::size_t> firsts;  // one door for each part that is not listed yet
+  for (const std::size_t door : order) {
+    const PartIdentity& part = doors[door].*role;
+    bool listed = false;
+    for (const std::size_t first : firsts) {
+      const PartIdentity& known = doors[first].*role;
+      if (!part.SameAs(known)) continue;
+      groups.Join(door, first);
+      listed = listed || (part.id == known.id && part.sha256 == known.sha256);
+    }
+    if (!listed) firsts.push_back(door);
+  }
+}
+
 // Groups as lists of doors, by their first door in `order`.
 std::vector<std::vector<std::size_t>> ConnectedDoors(std::span<const DoorParts> doors,
                                                      const std::vector<std::size_t>& order) {
   Groups groups(doors.size());
-  std::map<std::pair<char, std::string>, std::size_t> first_with;
-  for (const std::size_t door : order) {
-    const std::pair<char, std::string> parts[] = {{'b', doors[door].body_sha256},
-                                                  {'h', doors[door].handle_sha256}};
-    for (const auto& part : parts) groups.Join(door, first_with.emplace(part, door).first->second);
-  }
+  JoinSharers(doors, order, &DoorParts::body, groups);
+  JoinSharers(doors, order, &DoorParts::handle, groups);
   std::map<std::size_t, std::size_t> place;
   std::vector<std::vector<std::size_t>> lists;
   for (const std::size_t door : order) {

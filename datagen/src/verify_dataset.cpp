@@ -212,22 +212,27 @@ Findings CheckCounts(const fs::path& folder, const DatasetRecord& record,
   return findings;
 }
 
-// No part on two sides.
-Findings CheckSplits(const fs::path& path, const DatasetProvenance& provenance) {
+// No part of one role on two sides, at whatever size.
+Findings CheckSplits(const std::string& path, std::span<const DatasetDoor> doors,
+                     PartIdentity DatasetDoor::*role) {
   Findings findings;
-  std::map<std::string, std::pair<std::string, std::string>> seen;  // part: split, id
-  for (const DatasetDoor& door : provenance.doors) {
-    const std::pair<std::string, std::string> parts[] = {
-        {"body " + door.body_id, door.body_sha256},
-        {"handle " + door.handle_id, door.handle_sha256}};
-    for (const auto& [name, sha256] : parts) {
-      const auto entry = seen.emplace(sha256, std::pair(door.split, door.id)).first;
-      const auto& [split, other] = entry->second;
-      if (split == door.split) continue;
-      findings.push_back({"DST009", path.string() + ": " + door.id,
-                          name + " is in " + door.split + " and, with " + other + ", in " + split,
-                          "each part on one side", "collect anew with a split by parts"});
-    }
+  std::vector<const DatasetDoor*> firsts;  // one door for each part and split
+  for (const DatasetDoor& door : doors) {
+    const PartIdentity& part = door.*role;
+    const auto shares = [&](const DatasetDoor* known) { return part.SameAs(known->*role); };
+    const auto on_other_side = std::find_if(firsts.begin(), firsts.end(), [&](const auto* known) {
+      return known->split != door.split && shares(known);
+    });
+    if (on_other_side != firsts.end())
+      findings.push_back(
+          {"DST009", path + ": " + door.id,
+           part.id + " is in " + door.split + " and, as " + ((*on_other_side)->*role).id + " of " +
+               (*on_other_side)->id + ", in " + (*on_other_side)->split,
+           "each part on one side, at whatever size", "collect anew with a split by parts"});
+    const bool listed = std::any_of(firsts.begin(), firsts.end(), [&](const auto* known) {
+      return known->split == door.split && (known->*role).sha256 == part.sha256;
+    });
+    if (!listed) firsts.push_back(&door);
   }
   return findings;
 }
@@ -237,7 +242,9 @@ Findings CheckRecords(const fs::path& folder, const std::vector<fs::path>& indic
   try {
     Append(findings, CheckCounts(folder, ReadDataset(folder), indices));
     const fs::path path = folder / "provenance.json";
-    Append(findings, CheckSplits(path, ProvenanceFromJson(ReadJsonFile(path), path.string())));
+    const auto doors = ProvenanceFromJson(ReadJsonFile(path), path.string()).doors;
+    Append(findings, CheckSplits(path.string(), doors, &DatasetDoor::body));
+    Append(findings, CheckSplits(path.string(), doors, &DatasetDoor::handle));
     for (const char* name : {"config.yaml", "failures.jsonl", "README.md"}) {
       if (!fs::is_regular_file(folder / name))
         findings.push_back({"DST001", (folder / name).string(), "missing", "present", kRecords});

@@ -193,24 +193,20 @@ Json DoorToJson(const DatasetDoor& door) {
           {"sha256", door.sha256},
           {"category", door.category},
           {"mechanism", door.mechanism},
-          {"body", {{"id", door.body_id}, {"sha256", door.body_sha256}}},
-          {"handle", {{"id", door.handle_id}, {"sha256", door.handle_sha256}}},
+          {"body", IdentityToJson(door.body)},
+          {"handle", IdentityToJson(door.handle)},
           {"license", door.license},
           {"split", door.split}};
 }
 
 DatasetDoor DoorFromJson(const Json& json, const std::string& path) {
-  const Json& body = MemberOf(json, "body", path);
-  const Json& handle = MemberOf(json, "handle", path);
   DatasetDoor door;
   door.id = ValueOf<std::string>(json, "id", path);
   door.sha256 = ValueOf<std::string>(json, "sha256", path);
   door.category = ValueOf<std::string>(json, "category", path);
   door.mechanism = ValueOf<std::string>(json, "mechanism", path);
-  door.body_id = ValueOf<std::string>(body, "id", path + ".body");
-  door.body_sha256 = ValueOf<std::string>(body, "sha256", path + ".body");
-  door.handle_id = ValueOf<std::string>(handle, "id", path + ".handle");
-  door.handle_sha256 = ValueOf<std::string>(handle, "sha256", path + ".handle");
+  door.body = IdentityFromJson(MemberOf(json, "body", path), path + ".body");
+  door.handle = IdentityFromJson(MemberOf(json, "handle", path), path + ".handle");
   door.license = ValueOf<std::string>(json, "license", path);
   door.split = ValueOf<std::string>(json, "split", path);
   return door;

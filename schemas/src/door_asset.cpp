@@ -168,8 +168,8 @@ Json HeadToJson(const DoorAsset& door) {
                {"category", NameOf(door.category)},
                {"mechanism", NameOf(door.mechanism)},
                {"license", door.license},
-               {"body", {{"id", door.body_id}, {"sha256", door.body_sha256}}},
-               {"handle", {{"id", door.handle_id}, {"sha256", door.handle_sha256}}},
+               {"body", IdentityToJson(door.body)},
+               {"handle", IdentityToJson(door.handle)},
                {"latch", internal::LatchToJson(door.latch)},
                {"hinge_side", NameOf(door.hinge_side)},
                {"opening", NameOf(door.opening)},
@@ -215,12 +215,8 @@ void ReadIdentity(const Json& json, const std::string& path, DoorAsset& door) {
   door.opening = NamedOr(OpeningNamed, json, "opening", path);
   if (json.contains("physics_source"))
     door.physics_source = ValueOf<std::string>(json, "physics_source", path);
-  const Json& body = MemberOf(json, "body", path);
-  const Json& handle = MemberOf(json, "handle", path);
-  door.body_id = ValueOf<std::string>(body, "id", path);
-  door.body_sha256 = ValueOf<std::string>(body, "sha256", path);
-  door.handle_id = ValueOf<std::string>(handle, "id", path);
-  door.handle_sha256 = ValueOf<std::string>(handle, "sha256", path);
+  door.body = IdentityFromJson(MemberOf(json, "body", path), path + ".body");
+  door.handle = IdentityFromJson(MemberOf(json, "handle", path), path + ".handle");
 }
 
 }  // namespace

@@ -69,6 +69,7 @@ Json PartToJson(const Part& part) {
                {"license", part.license},
                {"source", part.source},
                {"source_sha256", part.source_sha256},
+               {"shape", ShapeOf(part)},
                {"joint", JointToJson(part.joint)}};
   if (part.role == PartRole::kBody) {
     json["part_from_mount"] = TransformToJson(part.part_from_mount);
@@ -91,6 +92,12 @@ Enum Named(std::optional<Enum> (*find)(std::string_view), const Json& json, cons
 }
 
 }  // namespace
+
+ShapeDescriptor ShapeOf(const Part& part) {
+  std::vector<TriangleMesh> meshes;
+  for (const PartPiece& piece : part.pieces) meshes.push_back(piece.mesh);
+  return DescribeShape(meshes);
+}
 
 void WritePart(const Part& part, const std::filesystem::path& folder) {
   for (const PartPiece& piece : part.pieces) {

@@ -8,6 +8,7 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
+#include "doorforge/core/shape_descriptor.h"
 
 namespace doorforge {
 namespace {
@@ -25,12 +26,13 @@ class QuickstartSplit : public testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
 
   void AddPart(const std::string& id, const std::string& role, const std::string& mechanism,
-               const std::string& source) {
+               const std::string& source, const ShapeDescriptor& shape = {}) {
     WriteJsonFile(folder_ / id / "part.json", {{"id", id},
                                                {"role", role},
                                                {"category", "interior"},
                                                {"mechanism", mechanism},
-                                               {"source_sha256", source}});
+                                               {"source_sha256", source},
+                                               {"shape", shape}});
   }
 
   void AddParts(int bodies, int levers) {
@@ -71,7 +73,8 @@ TEST_F(QuickstartSplit, PartsOfOneSourceStayTogether) {
 
 TEST_F(QuickstartSplit, CopiesAtAnotherSizeStayTogether) {
   AddParts(6, 6);
-  AddPart("body2-2", "body", "none", "another hash");  // the fourth body by name
+  AddPart("body2", "body", "none", "body2", ShapeDescriptor(13, 0.2));
+  AddPart("body2 from elsewhere", "body", "none", "another hash", ShapeDescriptor(13, 0.2001));
   for (const DoorPair& pair : SplitIntoDoors(folder_, 7)) {
     if (!pair.body_id.starts_with("body2")) continue;
     EXPECT_EQ(pair.subset, "test");

@@ -19,12 +19,14 @@
 
 namespace doorforge::synthetic {
 
+inline PartIdentity PartNamed(const std::string& id) { return {id, "hash of " + id, {}}; }
+
 inline std::vector<DoorParts> Doors(int count) {
   std::vector<DoorParts> doors;
   for (int i = 0; i < count; ++i) {
     const std::string n = std::to_string(i);
-    doors.push_back(
-        {"door" + n, i % 2 == 0 ? "interior" : "safe", "lever", "body" + n, "handle" + n});
+    doors.push_back({"door" + n, i % 2 == 0 ? "interior" : "safe", "lever", PartNamed("body" + n),
+                     PartNamed("handle" + n)});
   }
   return doors;
 }
@@ -36,8 +38,7 @@ inline DatasetProvenance ProvenanceOf(const std::vector<DoorParts>& doors) {
   provenance.seed = 11;
   for (const DoorParts& door : doors)
     provenance.doors.push_back({door.door_id, "hash of " + door.door_id, door.category,
-                                door.mechanism, "b", door.body_sha256, "h", door.handle_sha256,
-                                "CC0-1.0", ""});
+                                door.mechanism, door.body, door.handle, "CC0-1.0", ""});
   return provenance;
 }
 

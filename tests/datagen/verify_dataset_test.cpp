@@ -110,7 +110,7 @@ TEST_F(VerifyDatasetTest, FindsAPartOnBothSides) {
   const fs::path path = folder_ / "provenance.json";
   auto json = ReadJsonFile(path);
   DatasetProvenance provenance = ProvenanceFromJson(json, "p");
-  for (DatasetDoor& door : provenance.doors) door.body_sha256 = "the same";
+  for (DatasetDoor& door : provenance.doors) door.body.sha256 = "the same";
   WriteJsonFile(path, ProvenanceToJson(provenance));
   EXPECT_EQ(Codes(), std::set<std::string>{"DST009"});
 }

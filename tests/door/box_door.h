@@ -44,9 +44,9 @@ inline DoorAsset BoxDoor() {
   door.id = "box_door";
   door.category = Category::kInterior;
   door.mechanism = Mechanism::kLever;
-  door.body_id = "box_body";
-  door.handle_id = "box_lever";
-  door.body_sha256 = door.handle_sha256 = std::string(64, '0');
+  door.body.id = "box_body";
+  door.handle.id = "box_lever";
+  door.body.sha256 = door.handle.sha256 = std::string(64, '0');
   door.license = "CC0-1.0";
   const TriangleMesh frame = BoxOf({-0.1, -0.1, 0}, {-0.05, 0.9, 1.9});
   const TriangleMesh leaf = BoxOf({-0.0475, 0, 0.01}, {-0.0075, 0.8, 1.81});

@@ -165,7 +165,7 @@ TEST(ComposeDoor, RecordsItsPartsAndTheirLicences) {
   const DoorAsset door = ComposeDoor(body, SmallLever(), {});
   EXPECT_EQ(door.id, "small_body__small_lever");
   EXPECT_EQ(door.license, "CC-BY-4.0 AND CC0-1.0");
-  EXPECT_EQ(door.body_sha256, ContentHash(body));
+  EXPECT_EQ(door.body.sha256, ContentHash(body));
   EXPECT_EQ(ComposeDoor(body, SmallLever(), {.id = "mine"}).id, "mine");
 }
 

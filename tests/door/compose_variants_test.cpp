@@ -58,7 +58,7 @@ TEST(ComposeVariants, ARightHingedDoorIsTheMirrorImageOfTheLeftOne) {
   const DoorAsset right = ComposeDoor(SmallBody(), SmallLever(), {.hinge_side = "right"});
   EXPECT_EQ(right.hinge_side, HingeSide::kRight);
   EXPECT_EQ(right.id, "small_body__small_lever__right");
-  EXPECT_EQ(right.body_sha256, left.body_sha256);
+  EXPECT_EQ(right.body.sha256, left.body.sha256);
   const Eigen::Matrix3d mirror = Eigen::Vector3d(1, -1, 1).asDiagonal();
   for (const double hinge : {0.0, 0.7}) {
     for (const double handle : {0.0, 0.5}) {

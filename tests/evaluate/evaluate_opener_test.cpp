@@ -29,10 +29,10 @@ namespace fs = std::filesystem;
 DoorAsset DoorNamed(const std::string& body, const std::string& handle) {
   DoorAsset door = MakePrimitiveDoor({});
   door.id = body + "__" + handle;
-  door.body_id = body;
-  door.body_sha256 = "hash of " + body;
-  door.handle_id = handle;
-  door.handle_sha256 = "hash of " + handle;
+  door.body.id = body;
+  door.body.sha256 = "hash of " + body;
+  door.handle.id = handle;
+  door.handle.sha256 = "hash of " + handle;
   return door;
 }
 
@@ -52,9 +52,8 @@ void WriteDataset(const DoorAsset& door, const fs::path& folder) {
             EncodeEpisode(episode, EpisodeMetaToJson(episode), "a preview's bytes"));
   shard.Commit();
   DatasetProvenance provenance;
-  provenance.doors.push_back({door.id, ContentHash(door), "interior", "lever", door.body_id,
-                              door.body_sha256, door.handle_id, door.handle_sha256, "CC0-1.0",
-                              "train"});
+  provenance.doors.push_back({door.id, ContentHash(door), "interior", "lever", door.body,
+                              door.handle, "CC0-1.0", "train"});
   WriteJsonFile(folder / "provenance.json", ProvenanceToJson(provenance));
 }
 

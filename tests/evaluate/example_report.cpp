@@ -24,10 +24,8 @@ ReportDoor Door(int number, const std::string& set) {
   return {.id = body + "__" + handle,
           .category = CategoryOfDoor(number),
           .mechanism = number < 2 ? Mechanism::kLever : Mechanism::kRound,
-          .body_id = body,
-          .body_sha256 = Sha256Hex(body),
-          .handle_id = handle,
-          .handle_sha256 = Sha256Hex(handle),
+          .body = {body, Sha256Hex(body), {}},
+          .handle = {handle, Sha256Hex(handle), {}},
           .sha256 = Sha256Hex(body + handle),
           .license = "CC0-1.0"};
 }

@@ -56,7 +56,7 @@ TEST(ReportPage, ShowsTheHeadlineAndEveryCause) {
 
 TEST(ReportPage, TextFromOutsideIsEscaped) {
   EvaluationReport report = ExampleReport();
-  report.doors[0].body_id = "<script>alert(1)</script>";
+  report.doors[0].body.id = "<script>alert(1)</script>";
   report.losses[0].name = "<script>alert(2)</script>";
   report.episodes[0].detail = "\"/><img src=x onerror=alert(1)>";
   report.provenance.command = "eval --out '</pre><b>'";

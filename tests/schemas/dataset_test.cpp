@@ -101,14 +101,28 @@ TEST(DatasetProvenance, SurvivesARoundTrip) {
   provenance.libraries = {{"Embree", "3.13.5"}, {"Bullet", "3.24"}};
   provenance.config_sha256 = "00";
   provenance.seed = 18446744073709551615U;
-  provenance.doors = {{"d", "1", "interior", "lever", "b", "2", "h", "3", "CC0-1.0", "train"}};
+  provenance.doors = {{"d",
+                       "1",
+                       "interior",
+                       "lever",
+                       {"b", "2", ShapeDescriptor(13, 0.25)},
+                       {"h", "3", {}},
+                       "CC0-1.0",
+                       "train"}};
   const nlohmann::ordered_json json = ProvenanceToJson(provenance);
   EXPECT_EQ(ProvenanceToJson(ProvenanceFromJson(json, "provenance")), json);
 }
 
 TEST(DatasetCard, NamesTheLicenceAndTheCounts) {
   DatasetProvenance provenance;
-  provenance.doors = {{"d", "1", "interior", "lever", "b", "2", "h", "3", "CC0-1.0", "train"}};
+  provenance.doors = {{"d",
+                       "1",
+                       "interior",
+                       "lever",
+                       {"b", "2", ShapeDescriptor(13, 0.25)},
+                       {"h", "3", {}},
+                       "CC0-1.0",
+                       "train"}};
   DatasetRecord record;
   record.parts = {{"open", "train", 1, 12, 3, 150, 9 << 20}};
   const std::string card = DatasetCard(record, provenance);

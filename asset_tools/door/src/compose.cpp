@@ -233,7 +233,7 @@ Latch MakeLatch(const Pair& pair, const DoorAsset& door) {
   const bool asked = config.latch == "effort" || config.latch == "bolt";
   if (asked && !turns)
     internal::RefusePair("CMP007",
-                         "handle \"" + door.handle_id + "\" does not turn; latch: " + config.latch);
+                         "handle \"" + door.handle.id + "\" does not turn; latch: " + config.latch);
   const bool locks =
       turns && (asked || (config.latch == "auto" && door.mechanism != Mechanism::kNone));
   const Mechanism mechanism =
@@ -268,10 +268,8 @@ Composed Compose(const Pair& pair) {
   door.mechanism = handle.mechanism;
   door.hinge_side = *HingeSideNamed(pair.config.hinge_side);
   door.opening = *OpeningNamed(pair.config.opening);
-  door.body_id = body.id;
-  door.body_sha256 = pair.body.sha256;
-  door.handle_id = handle.id;
-  door.handle_sha256 = pair.handle.sha256;
+  door.body = pair.body.identity;
+  door.handle = pair.handle.identity;
   door.license = JoinedLicense(body.license, handle.license);
   door.physics_source = internal::PhysicsSourceOf(pair.config);
   const RigidTransform body_from_handle = SeatedMount(pair);

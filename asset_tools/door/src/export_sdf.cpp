@@ -139,7 +139,7 @@ std::string ToSdfConfig(const DoorAsset& door) {
   AddText(model, "version", "1.0");
   SetAttribute(AddText(model, "sdf", "model.sdf"), "version", "1.9");
   AddText(model, "description",
-          "A door of body " + door.body_id + " and handle " + door.handle_id + ", " + door.license);
+          "A door of body " + door.body.id + " and handle " + door.handle.id + ", " + door.license);
   return internal::Printed(model);
 }
 

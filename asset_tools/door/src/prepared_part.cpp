@@ -131,7 +131,7 @@ PreparedPart::PreparedPart(const Part& part, const ComposeConfig& config) {
   internal::CheckComposeConfig(config);
   CheckPart(part, config);
   auto state = std::make_shared<State>();
-  state->sha256 = ContentHash(part);
+  state->identity = IdentityOf(part);
   state->part = ChangedPart(part, config);
   for (const PartPiece& piece : state->part.pieces)
     state->shapes.push_back(ShapeOf(piece, state->part.joint));

@@ -26,7 +26,7 @@ struct PreparedPart::State {
   };
 
   Part part;                                  ///< As the config changes it.
-  std::string sha256;                         ///< Of the part as it was made.
+  PartIdentity identity;                      ///< Of the part as it was made.
   std::vector<Shape> shapes;                  ///< One a piece of `part`.
   std::optional<internal::LeafSurface> leaf;  ///< Of a body.
   std::optional<internal::BackOutline> back;  ///< Of a handle, in its own frame.

@@ -53,10 +53,8 @@ ReportDoor ReportDoorOf(const DoorAsset& door) {
   return {.id = door.id,
           .category = door.category,
           .mechanism = door.mechanism,
-          .body_id = door.body_id,
-          .body_sha256 = door.body_sha256,
-          .handle_id = door.handle_id,
-          .handle_sha256 = door.handle_sha256,
+          .body = door.body,
+          .handle = door.handle,
           .sha256 = ContentHash(door),
           .license = door.license};
 }

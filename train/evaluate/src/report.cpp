@@ -75,10 +75,8 @@ Json DoorToJson(const ReportDoor& door) {
   return {{"id", door.id},
           {"category", NameOf(door.category)},
           {"mechanism", NameOf(door.mechanism)},
-          {"body_id", door.body_id},
-          {"body_sha256", door.body_sha256},
-          {"handle_id", door.handle_id},
-          {"handle_sha256", door.handle_sha256},
+          {"body", IdentityToJson(door.body)},
+          {"handle", IdentityToJson(door.handle)},
           {"sha256", door.sha256},
           {"license", door.license}};
 }
@@ -92,10 +90,8 @@ ReportDoor DoorFromJson(const Json& json, const std::string& path) {
     throw Error(ErrorCode::kFormat, path + ": unknown category or mechanism of door " + door.id);
   door.category = *category;
   door.mechanism = *mechanism;
-  door.body_id = ValueOf<std::string>(json, "body_id", path);
-  door.body_sha256 = ValueOf<std::string>(json, "body_sha256", path);
-  door.handle_id = ValueOf<std::string>(json, "handle_id", path);
-  door.handle_sha256 = ValueOf<std::string>(json, "handle_sha256", path);
+  door.body = IdentityFromJson(MemberOf(json, "body", path), path + ".body");
+  door.handle = IdentityFromJson(MemberOf(json, "handle", path), path + ".handle");
   door.sha256 = ValueOf<std::string>(json, "sha256", path);
   door.license = ValueOf<std::string>(json, "license", path);
   return door;
@@ -182,17 +178,13 @@ auto ArrayFromJson(const Json& json, const std::string& path, const Codec& from_
 
 std::vector<std::string> SeenDoors(std::span<const ReportDoor> doors,
                                    std::span<const ReportDoor> training_doors) {
-  std::set<std::string> bodies;
-  std::set<std::string> handles;
-  for (const ReportDoor& door : training_doors) {
-    bodies.insert({door.body_id, door.body_sha256});
-    handles.insert({door.handle_id, door.handle_sha256});
-  }
   std::vector<std::string> seen;
   for (const ReportDoor& door : doors) {
-    if (bodies.contains(door.body_id) || bodies.contains(door.body_sha256) ||
-        handles.contains(door.handle_id) || handles.contains(door.handle_sha256))
-      seen.push_back(door.id);
+    const bool trained_on =
+        std::any_of(training_doors.begin(), training_doors.end(), [&](const ReportDoor& known) {
+          return door.body.SameAs(known.body) || door.handle.SameAs(known.handle);
+        });
+    if (trained_on) seen.push_back(door.id);
   }
   return seen;
 }

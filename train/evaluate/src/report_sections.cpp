@@ -143,8 +143,8 @@ std::string DoorTile(const ReportDoor& door, const ReportPictures& pictures, Epi
   return Fill(
       R"(<figure>{image}<figcaption><b>{body}</b> with <b>{handle}</b><br/>{category}, {mechanism}{dots}</figcaption></figure>)",
       {{"image", image},
-       {"body", BreakableId(door.body_id)},
-       {"handle", BreakableId(door.handle_id)},
+       {"body", BreakableId(door.body.id)},
+       {"handle", BreakableId(door.handle.id)},
        {"category", TitleOf(door.category)},
        {"mechanism",
         door.mechanism == Mechanism::kNone ? "no latch" : std::string(NameOf(door.mechanism))},

@@ -37,10 +37,8 @@ ReportDoor DoorOf(const DatasetDoor& door, const std::string& path) {
   return {.id = door.id,
           .category = *category,
           .mechanism = *mechanism,
-          .body_id = door.body_id,
-          .body_sha256 = door.body_sha256,
-          .handle_id = door.handle_id,
-          .handle_sha256 = door.handle_sha256,
+          .body = door.body,
+          .handle = door.handle,
           .sha256 = door.sha256,
           .license = door.license};
 }

@@ -7,16 +7,18 @@
 #include <string>
 #include <vector>
 
+#include "doorforge/schemas/part_identity.h"
+
 namespace doorforge {
 
-/// What decides on which side of a split a door lies. Parts are told apart by content: two ids of
-/// the same mesh are one part.
+/// What decides on which side of a split a door lies. Parts are told apart as by
+/// PartIdentity::SameAs().
 struct DoorParts {
   std::string door_id;
   std::string category;
   std::string mechanism;
-  std::string body_sha256;
-  std::string handle_sha256;
+  PartIdentity body;
+  PartIdentity handle;
 };
 
 enum class DoorSide { kTrain, kVal };

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "doorforge/schemas/episode_arrays.h"
+#include "doorforge/schemas/part_identity.h"
 #include "doorforge/schemas/shard.h"
 
 namespace doorforge {
@@ -71,10 +72,8 @@ struct DatasetDoor {
   std::string sha256;
   std::string category;
   std::string mechanism;
-  std::string body_id;
-  std::string body_sha256;
-  std::string handle_id;
-  std::string handle_sha256;
+  PartIdentity body;
+  PartIdentity handle;
   std::string license;  ///< SPDX expression.
   std::string split;
 };

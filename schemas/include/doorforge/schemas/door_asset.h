@@ -14,6 +14,7 @@
 #include "doorforge/schemas/cloud.h"
 #include "doorforge/schemas/mesh_file.h"
 #include "doorforge/schemas/names.h"
+#include "doorforge/schemas/part_identity.h"
 
 namespace doorforge {
 
@@ -92,10 +93,8 @@ struct DoorAsset {
   Opening opening = Opening::kPull;
   RigidTransform handle_from_grasp = RigidTransform::Identity();  ///< See Part::part_from_grasp.
   Eigen::Vector3d grasp_half_extent_m = Eigen::Vector3d::Zero();
-  std::string body_id;
-  std::string body_sha256;
-  std::string handle_id;
-  std::string handle_sha256;
+  PartIdentity body;
+  PartIdentity handle;
   std::string license;  ///< SPDX expression of both parts.
   /// Where masses, springs and dampings come from, for people; empty where nobody said.
   std::string physics_source = {};

@@ -8,6 +8,7 @@
 
 #include "doorforge/core/mass_properties.h"
 #include "doorforge/core/rigid_transform.h"
+#include "doorforge/core/shape_descriptor.h"
 #include "doorforge/core/triangle_mesh.h"
 #include "doorforge/schemas/mesh_file.h"
 #include "doorforge/schemas/names.h"
@@ -71,6 +72,9 @@ void WritePart(const Part& part, const std::filesystem::path& folder);
 Part ReadPart(const std::filesystem::path& folder);
 /// The same with meshes from `read_mesh`, which also decides which paths it accepts.
 Part ReadPart(const std::filesystem::path& folder, const MeshReader& read_mesh);
+
+/// Of all pieces; part.json holds it as "shape", so that copies are found without reading meshes.
+ShapeDescriptor ShapeOf(const Part& part);
 
 /// SHA-256 over part.json's fields and the mesh bytes: the part's identity for later values.
 std::string ContentHash(const Part& part);

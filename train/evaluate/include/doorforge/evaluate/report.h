@@ -10,20 +10,19 @@
 
 #include "doorforge/evaluate/evaluated_episode.h"
 #include "doorforge/evaluate/success_statistics.h"
+#include "doorforge/schemas/part_identity.h"
 
 namespace doorforge {
 
-inline constexpr int kReportSchemaVersion = 1;
+inline constexpr int kReportSchemaVersion = 2;
 
 /// What a report says of a door.
 struct ReportDoor {
   std::string id;
   Category category = Category::kInterior;
   Mechanism mechanism = Mechanism::kNone;
-  std::string body_id;
-  std::string body_sha256;  ///< ContentHash of the part.
-  std::string handle_id;
-  std::string handle_sha256;
+  PartIdentity body;
+  PartIdentity handle;
   std::string sha256;   ///< ContentHash of the door.
   std::string license;  ///< SPDX expression of its parts.
 };

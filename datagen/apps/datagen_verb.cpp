@@ -65,6 +65,7 @@ OpenStageConfig LoadOpenConfig(const Options& options) {
   if (options.seed) config.seed = *options.seed;
   Require(config.cloud.point_count >= 1 && config.cloud.point_count <= 1000000,
           ErrorCode::kInvalidConfig, "config.cloud.point_count: out of 1..1000000");
+  CheckDepthNoise(config.cloud.noise);
   return config;
 }
 

@@ -2,52 +2,72 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "open_stage.h"
 
+#include <cmath>
 #include <optional>
 #include <utility>
 
 #include "doorforge/core/config_io.h"
-#include "doorforge/rollout/camera_observer.h"
+#include "doorforge/rollout/occlusion.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/sensor/picture.h"
 
 namespace doorforge {
 namespace {
 
-// The policy's camera, which also keeps the first and the last depth image.
+// The policy's camera, which also keeps the first and the last depth image and what was hidden.
 class RecordingCamera : public Observer {
  public:
   RecordingCamera(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
                   const CloudConfig& config)
-      : model_(scene.camera), config_(config), camera_(VisibleMeshesOf(door, robot)) {}
+      : model_(scene.camera),
+        max_depth_m_(config.max_depth_m),
+        camera_(scene, door, robot, config),
+        occlusion_(door) {}
 
   LabelledCloud Observe(const SceneSnapshot& snapshot) override {
-    const std::vector<RigidTransform> poses = LinkPosesOf(snapshot);
-    last_ = camera_.Render(model_, poses);
+    Sight sight = camera_.Look(snapshot);
+    visible_.push_back(sight.sampled.visible_count);
+    hidden_.push_back(occlusion_.Measure(sight.ideal, model_, snapshot));
+    last_ = std::move(sight.depth);
     if (!first_) first_ = last_;
-    SampledCloud sampled =
-        ObserveCloud(*last_, model_, snapshot.robot.world_from_tcp.translation(), config_);
-    visible_.push_back(sampled.visible_count);
-    return std::move(sampled.cloud);
+    return std::move(sight.sampled.cloud);
   }
 
   /// Points inside the crop before sampling, one number a decision.
   const std::vector<int>& visible() const { return visible_; }
 
+  /// Hidden shares, one number a decision each.
+  nlohmann::ordered_json OcclusionRecord() const {
+    nlohmann::ordered_json record;
+    const auto add = [&](const char* key, auto&& share) {
+      record[key] = nlohmann::ordered_json::array();
+      for (const Occlusion& hidden : hidden_)
+        record[key].push_back(std::round(share(hidden) * 1e4) / 1e4);
+    };
+    add("handle_by_robot", [](const Occlusion& o) { return o.handle.by_robot; });
+    add("handle_by_door", [](const Occlusion& o) { return o.handle.by_door; });
+    add("leaf_by_robot", [](const Occlusion& o) { return o.leaf.by_robot; });
+    add("leaf_by_door", [](const Occlusion& o) { return o.leaf.by_door; });
+    return record;
+  }
+
   std::string PreviewPng() const {
     if (!first_) return {};
-    const Picture pictures[] = {DepthPreview(*first_, config_.max_depth_m),
-                                DepthPreview(*last_, config_.max_depth_m)};
+    const Picture pictures[] = {DepthPreview(*first_, max_depth_m_),
+                                DepthPreview(*last_, max_depth_m_)};
     return EncodePng(ContactSheet(
         pictures, {}, {.columns = 2, .tile_width = model_.width, .tile_height = model_.height}));
   }
 
  private:
   CameraModel model_;
-  CloudConfig config_;
-  DepthCamera camera_;
+  double max_depth_m_;
+  CameraObserver camera_;
+  OcclusionMeter occlusion_;
   std::optional<DepthImage> first_;
   std::optional<DepthImage> last_;
   std::vector<int> visible_;
+  std::vector<Occlusion> hidden_;
 };
 
 nlohmann::ordered_json CameraRecord(const CameraModel& camera) {
@@ -81,6 +101,7 @@ CollectedEpisode RunOpenEpisode(const PlannedEpisode& planned, const DoorAsset& 
   collected.meta["door"] = DoorRecord(door);
   collected.meta["camera"] = CameraRecord(scene.camera);
   collected.meta["visible_points"] = camera.visible();
+  collected.meta["hidden"] = camera.OcclusionRecord();
   collected.meta["policies"] = {{"grasp", "expert"}, {"unlock", "expert"}, {"open", "expert"}};
   if (config.preview && collected.episode.outcome == EpisodeOutcome::kOpened)
     collected.preview_png = camera.PreviewPng();

@@ -39,5 +39,23 @@ TEST(CameraObserver, EveryDecisionSeesDoorAndRobotAndThePhysicsIsTheSame) {
   }
 }
 
+TEST(CameraObserver, NoiseIsAFunctionOfTheSceneAndOfTheLook) {
+  const RobotModel robot = LoadMobileFranka();
+  const DoorAsset door = MakePrimitiveDoor({});
+  const Scene scene = SampleScene(door, 1, 0);
+  CloudConfig config;
+  config.noise.sensor = "time_of_flight";
+  OpeningExpert expert;
+  const auto clouds = [&](const CloudConfig& used) {
+    CameraObserver camera(scene, door, robot, used);
+    std::vector<std::vector<float>> all;
+    for (const Decision& decision : RunEpisode(scene, door, robot, expert, &camera).decisions)
+      all.push_back(decision.cloud.xyz);
+    return all;
+  };
+  EXPECT_EQ(clouds(config), clouds(config));
+  EXPECT_NE(clouds(config), clouds({}));
+}
+
 }  // namespace
 }  // namespace doorforge

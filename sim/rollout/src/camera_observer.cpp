@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/rollout/camera_observer.h"
 
+#include <string>
+
 namespace doorforge {
 namespace {
 
@@ -32,12 +34,28 @@ std::vector<RigidTransform> LinkPosesOf(const SceneSnapshot& snapshot) {
 
 CameraObserver::CameraObserver(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
                                const CloudConfig& config)
-    : model_(scene.camera), config_(config), camera_(VisibleMeshesOf(door, robot)) {}
+    : seed_(scene.seed),
+      stream_("sensor/" + scene.door_id + "/" + std::to_string(scene.episode) + "/"),
+      model_(scene.camera),
+      believed_(BelievedCamera(scene.camera, config.noise, Stream("calibration"))),
+      config_(config),
+      camera_(VisibleMeshesOf(door, robot)) {}
+
+Rng CameraObserver::Stream(const std::string& purpose) const { return {seed_, stream_ + purpose}; }
+
+Sight CameraObserver::Look(const SceneSnapshot& snapshot) {
+  const std::vector<RigidTransform> poses = LinkPosesOf(snapshot);
+  Sight sight;
+  sight.ideal = camera_.Render(model_, poses);
+  sight.depth =
+      WithDepthNoise(sight.ideal, model_, config_.noise, Stream(std::to_string(looks_++)));
+  sight.sampled =
+      ObserveCloud(sight.depth, believed_, snapshot.robot.world_from_tcp.translation(), config_);
+  return sight;
+}
 
 LabelledCloud CameraObserver::Observe(const SceneSnapshot& snapshot) {
-  const std::vector<RigidTransform> poses = LinkPosesOf(snapshot);
-  const DepthImage image = camera_.Render(model_, poses);
-  return ObserveCloud(image, model_, snapshot.robot.world_from_tcp.translation(), config_).cloud;
+  return Look(snapshot).sampled.cloud;
 }
 
 }  // namespace doorforge

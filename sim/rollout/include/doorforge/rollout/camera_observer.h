@@ -19,20 +19,37 @@ std::vector<VisibleMesh> VisibleMeshesOf(const DoorAsset& door, const RobotModel
 /// The links' poses at an instant, in the order of VisibleMeshesOf().
 std::vector<RigidTransform> LinkPosesOf(const SceneSnapshot& snapshot);
 
-/// The scene's camera: depth of robot and door, cropped and sampled to the policy's cloud. Point 0
-/// is the visible point nearest to the tool centre. Serves one thread at a time.
+/// What the policy's camera makes of an instant.
+struct Sight {
+  DepthImage ideal;  ///< Without noise.
+  DepthImage depth;  ///< As the sensor gives it; the same as `ideal` without noise.
+  SampledCloud sampled;
+};
+
+/// The scene's camera: depth of robot and door, with the noise that the config asks for, cropped
+/// and sampled to the policy's cloud. Point 0 is the visible point nearest to the tool centre. The
+/// error of the camera's calibration is drawn once, the other noise for each look, from streams
+/// "sensor/<door id>/<episode>/..." of the scene's seed. Serves one thread at a time.
 class CameraObserver : public Observer {
  public:
-  /// @throws Error(kInvalidArgument) as DepthCamera does.
+  /// @throws Error(kInvalidArgument) as DepthCamera does, Error(kInvalidConfig) as
+  ///     CheckDepthNoise().
   CameraObserver(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
                  const CloudConfig& config = {});
 
+  Sight Look(const SceneSnapshot& snapshot);
   LabelledCloud Observe(const SceneSnapshot& snapshot) override;
 
  private:
+  Rng Stream(const std::string& purpose) const;
+
+  std::uint64_t seed_;
+  std::string stream_;
   CameraModel model_;
+  CameraModel believed_;
   CloudConfig config_;
   DepthCamera camera_;
+  int looks_ = 0;
 };
 
 }  // namespace doorforge

@@ -7,6 +7,7 @@
 #include "doorforge/schemas/camera_model.h"
 #include "doorforge/schemas/cloud.h"
 #include "doorforge/sensor/depth_camera.h"
+#include "doorforge/sensor/depth_noise.h"
 
 namespace doorforge {
 
@@ -15,18 +16,22 @@ struct CloudConfig {
   double max_depth_m = 2.5;   ///< Points at this depth or farther are dropped.
   double min_height_m = 0.1;  ///< Points at this world z or lower are dropped.
   int point_count = 4096;     ///< In [1, 1000000].
+  DepthNoiseConfig noise{};   ///< Of the depth image that the cloud is made of.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
     visit("max_depth_m", self.max_depth_m);
     visit("min_height_m", self.min_height_m);
     visit("point_count", self.point_count);
+    visit("noise", self.noise);
   }
 };
 
 /// Every pixel of `image` inside the crop as a point in the world, in pixel order.
 ///
-/// @param image Rendered with this very `camera`.
+/// The image is taken as it is: `config.noise` is for whoever makes the image.
+///
+/// @param image Rendered with this very `camera`, or with the one that it is believed to be.
 /// @throws Error(kInvalidArgument) if the sizes of image and camera differ.
 LabelledCloud CropCloud(const DepthImage& image, const CameraModel& camera,
                         const CloudConfig& config = {});

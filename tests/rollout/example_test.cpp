@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include "../physics/primitive_door.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Ran {
+  int code = -1;
+  std::string output;
+};
+
+Ran RunExample(const fs::path& door) {
+  const std::string command = DOORFORGE_BINARY_DIR "/bin/own_policy " + door.string() + " 2>&1";
+  Ran ran;
+  FILE* pipe = popen(command.c_str(), "r");
+  std::array<char, 256> line{};
+  while (std::fgets(line.data(), line.size(), pipe) != nullptr) ran.output += line.data();
+  ran.code = WEXITSTATUS(pclose(pipe));
+  return ran;
+}
+
+TEST(OwnPolicyExample, OpensMostDoorsAndSaysWhatIsWrongOtherwise) {
+  const fs::path folder = fs::path(testing::TempDir()) / "own_policy_example";
+  fs::remove_all(folder);
+  WriteDoor(MakePrimitiveDoor({}), folder);
+  const Ran ran = RunExample(folder);
+  EXPECT_EQ(ran.code, 0) << ran.output;
+  EXPECT_TRUE(ran.output.ends_with("opened 5 of 5\n") || ran.output.ends_with("opened 4 of 5\n"))
+      << ran.output;
+  fs::remove_all(folder);
+  const Ran missing = RunExample(folder);
+  EXPECT_EQ(missing.code, 3);
+  EXPECT_NE(missing.output.find("own_policy_example"), std::string::npos) << missing.output;
+}
+
+}  // namespace
+}  // namespace doorforge

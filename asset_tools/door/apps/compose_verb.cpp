@@ -21,6 +21,7 @@
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
+#include "doorforge/door/author_place.h"
 #include "doorforge/door/catalogue.h"
 #include "doorforge/door/compose.h"
 #include "doorforge/door/export_urdf.h"
@@ -54,6 +55,7 @@ struct Options {
   std::string parts;
   std::string category;
   std::string config;
+  std::string place;
   std::vector<std::string> settings;
   int threads = 0;
   bool all = false;
@@ -76,6 +78,12 @@ void AddOptions(CLI::App& app, Options& options) {
                "with --parts: the pairs that the imported objects were composed of");
   app.add_option("--parts", options.parts, "folder of parts; the catalogue if left out");
   app.add_option("--category", options.category, "with many doors: only this category");
+  app.add_option(
+         "--place", options.place,
+         "seat: the body's mount, on the leaf's surface; author: as on the object that both "
+         "were imported from; axis: about the same axis, on the surface; auto: axis for parts "
+         "of one object, else seat")
+      ->check(CLI::IsMember({"auto", "seat", "axis", "author"}));
   app.add_option("--config", options.config, "YAML file with body, handle and all settings");
   app.add_option("--set", options.settings, "key=value overrides one setting");
   app.add_flag("--standalone", options.standalone,
@@ -122,6 +130,7 @@ ComposeRequest RequestOf(const Options& options) {
   auto request = LoadConfig<ComposeRequest>(options.config, options.settings);
   if (!options.body.empty()) request.body = options.body;
   if (!options.handle.empty()) request.handle = options.handle;
+  if (!options.place.empty()) request.door.place = options.place;
   if (options.all || options.as_imported) return request;
   if (request.body.empty() || request.handle.empty())
     throw Error(ErrorCode::kInvalidArgument,
@@ -174,10 +183,15 @@ class PartStore {
     return names;
   }
 
+  /// Of a part in files; empty for one of the catalogue.
+  fs::path FolderOf(const std::string& name) const {
+    if (IsPartFolder(name)) return name;
+    const bool in_store = !folder_.empty() && name.find('/') == std::string::npos;
+    return in_store && IsPartFolder(folder_ / name) ? folder_ / name : fs::path();
+  }
+
   Part Load(const std::string& name) const {
-    if (IsPartFolder(name)) return ReadPart(name);
-    if (!folder_.empty() && name.find('/') == std::string::npos && IsPartFolder(folder_ / name))
-      return ReadPart(folder_ / name);
+    if (const fs::path folder = FolderOf(name); !folder.empty()) return ReadPart(folder);
     if (name.find('/') != std::string::npos || fs::exists(name))
       throw Error(ErrorCode::kMissing, name +
                                            ": no part.json there; `doorforge import` and "
@@ -253,9 +267,13 @@ void WriteRequest(const ComposeRequest& request, const fs::path& folder) {
   WriteJsonFile(folder / "compose.json", ToJson(request));
 }
 
-std::vector<PreparedPart> PrepareParts(const PartStore& store,
-                                       const std::vector<std::string>& names,
-                                       const ComposeRequest& request, int threads) {
+struct PreparedParts {
+  std::vector<PreparedPart> parts;
+  std::vector<fs::path> folders;  ///< Of each; empty for those of the catalogue.
+};
+
+PreparedParts PrepareParts(const PartStore& store, const std::vector<std::string>& names,
+                           const ComposeRequest& request, int threads) {
   std::vector<std::optional<PreparedPart>> prepared(names.size());
   std::vector<std::string> problems(names.size());
   Progress progress("preparing parts", names.size());
@@ -268,14 +286,32 @@ std::vector<PreparedPart> PrepareParts(const PartStore& store,
     }
     progress.Advance();
   });
-  std::vector<PreparedPart> parts;
+  PreparedParts parts;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (prepared[i])
-      parts.push_back(std::move(*prepared[i]));
-    else
+    if (!prepared[i]) {
       std::fprintf(stderr, "doorforge: %s: left out: %s\n", names[i].c_str(), problems[i].c_str());
+      continue;
+    }
+    parts.parts.push_back(std::move(*prepared[i]));
+    parts.folders.push_back(store.FolderOf(names[i]));
   }
   return parts;
+}
+
+// nothing for parts of different objects
+std::optional<RigidTransform> PlaceIn(const AuthorPlaces& places, const std::string& handle) {
+  const auto found = places.find(handle);
+  return found == places.end() ? std::nullopt : std::optional(found->second);
+}
+
+void SetAuthorPlaces(const PreparedParts& parts, std::vector<PartPair>& pairs) {
+  std::map<std::size_t, AuthorPlaces> places;  // by body
+  for (PartPair& pair : pairs) {
+    if (parts.folders[pair.body].empty()) continue;
+    const auto [known, added] = places.try_emplace(pair.body);
+    if (added) known->second = ReadAuthorPlaces(parts.folders[pair.body]);
+    pair.body_from_handle = PlaceIn(known->second, parts.parts[pair.handle].source_sha256());
+  }
 }
 
 std::map<std::string, std::size_t> PlacesById(const std::vector<PreparedPart>& parts) {
@@ -341,7 +377,7 @@ std::vector<Door> WriteStandalone(const SharedDoorPlan& plan, const PartStore& s
     doors[i].id = body.id + "__" + handle.id;
     try {
       if (StopRequested() != 0) throw Error(ErrorCode::kIncomplete, "stopped before its turn");
-      const DoorAsset door = ComposeDoor(body, handle, plan.config);
+      const DoorAsset door = ComposeDoor(body, handle, plan.config, plan.pairs[i].body_from_handle);
       doors[i].id = door.id;
       WriteDoorFolder(door, out / door.id, plan.existing);
     } catch (const Error& error) {
@@ -372,7 +408,8 @@ int ComposeMany(const Options& options, const ComposeRequest& request) {
     for (std::string& name : store.Matching(request.handle, PartRole::kHandle))
       names.push_back(std::move(name));
   }
-  std::vector<PreparedPart> parts = PrepareParts(store, names, request, options.threads);
+  const PreparedParts prepared = PrepareParts(store, names, request, options.threads);
+  const std::vector<PreparedPart>& parts = prepared.parts;
   std::vector<PartPair> pairs =
       options.as_imported ? ImportedPairs(options.parts, parts) : MatchingPairs(parts);
   if (!options.category.empty())
@@ -381,6 +418,7 @@ int ComposeMany(const Options& options, const ComposeRequest& request) {
     });
   if (pairs.empty())
     throw Error(ErrorCode::kMissing, "compose: no body and handle of one category among the parts");
+  SetAuthorPlaces(prepared, pairs);
   const SharedDoorPlan plan{parts, pairs, request.door, OnExisting(options), options.threads};
   const std::vector<Door> doors = options.standalone
                                       ? WriteStandalone(plan, store, names, options.out)
@@ -391,8 +429,12 @@ int ComposeMany(const Options& options, const ComposeRequest& request) {
 
 int ComposeOne(const Options& options, const ComposeRequest& request) {
   const PartStore store(options.parts);
-  const DoorAsset door =
-      ComposeDoor(store.Load(request.body), store.Load(request.handle), request.door);
+  const Part handle = store.Load(request.handle);
+  const fs::path body_folder = store.FolderOf(request.body);
+  const std::optional<RigidTransform> authored =
+      body_folder.empty() ? std::nullopt
+                          : PlaceIn(ReadAuthorPlaces(body_folder), handle.source_sha256);
+  const DoorAsset door = ComposeDoor(store.Load(request.body), handle, request.door, authored);
   WriteDoorFolder(door, options.out, OnExisting(options));
   WriteRequest(request, options.out);
   return Finish({{door.id, "", false}}, options);

@@ -3,6 +3,7 @@
 #include "doorforge/door/compose.h"
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "doorforge/schemas/mesh_pool.h"
 
 #include "compose_settings.h"
+#include "mapped_part.h"
 #include "placed_mesh.h"
 #include "prepared_part.h"
 
@@ -29,6 +31,8 @@ constexpr double kHingeVelocity = 6;       // [rad/s] a slammed door
 constexpr double kHandleEffort = 30;       // [N m] a person's strong twist
 constexpr double kHandleVelocity = 12;     // [rad/s]
 constexpr double kOutlineOverhang = 0.01;  // [m] as rule HND003 of validate
+constexpr double kOutOfLeaf = 0.9;         // |axis.x| above this: the axis runs out of the leaf
+constexpr double kLongestSlide = 0.1;      // [m] what is further off is not what the handle sits on
 // A base without a frame never moves, but programs drop links without mass.
 const MassProperties kFixedBase{1.0, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity() * 0.01};
 
@@ -48,6 +52,7 @@ struct Pair {
   const PreparedPart::State& body;
   const PreparedPart::State& handle;
   const ComposeConfig& config;
+  const std::optional<RigidTransform>& authored;  ///< Of the parts as they were made.
 };
 
 void CheckPair(const Part& body, const Part& handle) {
@@ -112,6 +117,42 @@ RigidTransform SeatedMount(const Pair& pair) {
   if (!seat) internal::RefusePair("CMP005", names + "; set handle_height_m or backset_m");
   body_from_handle.translation() = *seat;
   CheckOutline(pair, body_from_handle);
+  return body_from_handle;
+}
+
+bool KeepsTheAuthorsPlace(const Pair& pair) {
+  const std::string& place = pair.config.place;
+  if (place == "seat") return false;
+  if (place == "auto")
+    return pair.authored.has_value() && internal::MovesTheHandle(pair.config).empty();
+  if (!pair.authored)
+    internal::RefusePair("CMP011", "body \"" + pair.body.part.id + "\" and handle \"" +
+                                       pair.handle.part.id +
+                                       "\" were not imported together; use place: seat");
+  return true;
+}
+
+// Along its axis onto the leaf; a handle whose axis lies in the leaf stays where it was, and so
+// does one that has nothing near behind it.
+void SlideOntoLeaf(const Pair& pair, RigidTransform& body_from_handle) {
+  const Eigen::Vector3d axis = body_from_handle.linear() * pair.handle.part.joint.axis.normalized();
+  const bool turned = body_from_handle.linear() != Eigen::Matrix3d::Identity();
+  if (turned || std::abs(axis.x()) < kOutOfLeaf) return;
+  const std::optional<double> surface = internal::SurfaceBehind(
+      *pair.body.leaf, *pair.handle.back, body_from_handle.translation().tail<2>());
+  if (!surface) return;
+  const double slide = *surface - pair.handle.back->rear_m - body_from_handle.translation().x();
+  if (std::abs(slide) <= kLongestSlide) body_from_handle.translation() += axis * (slide / axis.x());
+}
+
+RigidTransform AuthoredMount(const Pair& pair) {
+  RigidTransform body_from_handle = *pair.authored;
+  if (pair.config.hinge_side == "right") {
+    const Eigen::Matrix3d mirror = internal::MirrorY();
+    body_from_handle.linear() = mirror * body_from_handle.linear() * mirror;
+    body_from_handle.translation() = mirror * body_from_handle.translation();
+  }
+  if (pair.config.place != "author") SlideOntoLeaf(pair, body_from_handle);
   return body_from_handle;
 }
 
@@ -272,7 +313,8 @@ Composed Compose(const Pair& pair) {
   door.handle = pair.handle.identity;
   door.license = JoinedLicense(body.license, handle.license);
   door.physics_source = internal::PhysicsSourceOf(pair.config);
-  const RigidTransform body_from_handle = SeatedMount(pair);
+  const RigidTransform body_from_handle =
+      KeepsTheAuthorsPlace(pair) ? AuthoredMount(pair) : SeatedMount(pair);
   AddJoints(pair, body_from_handle, door);
   AddLinks(pair, body_from_handle, composed);
   door.latch = MakeLatch(pair, door);
@@ -322,19 +364,22 @@ std::array<std::vector<std::string>, 3> ShapeNamesOf(const Composed& composed) {
 
 }  // namespace
 
-DoorAsset ComposeDoor(const Part& body, const Part& handle, const ComposeConfig& config) {
+DoorAsset ComposeDoor(const Part& body, const Part& handle, const ComposeConfig& config,
+                      const std::optional<RigidTransform>& body_from_handle) {
   internal::CheckComposeConfig(config);
   CheckPair(body, handle);
   const PreparedPart prepared_body(body, config);
   const PreparedPart prepared_handle(handle, config);
-  Composed composed = Compose({prepared_body.state(), prepared_handle.state(), config});
+  Composed composed =
+      Compose({prepared_body.state(), prepared_handle.state(), config, body_from_handle});
   AddMeshes(composed);
   return std::move(composed.door);
 }
 
 SharedDoor ComposeSharedDoor(const PreparedPart& body, const PreparedPart& handle,
-                             const ComposeConfig& config) {
-  const Composed composed = Compose({body.state(), handle.state(), config});
+                             const ComposeConfig& config,
+                             const std::optional<RigidTransform>& body_from_handle) {
+  const Composed composed = Compose({body.state(), handle.state(), config, body_from_handle});
   const DoorFiles files = SharedFilesOf(composed);
   return {composed.door.id, PooledDoorText(composed.door, files, ShapeNamesOf(composed)),
           ToCompactUrdf(ToUrdfModel(composed.door, files))};

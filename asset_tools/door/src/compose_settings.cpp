@@ -27,6 +27,7 @@ constexpr std::array kRules = {
     ComposeRule{"CMP008", "the wanted place of the handle is on the leaf"},
     ComposeRule{"CMP009", "the licence of each part is one of license_allow"},
     ComposeRule{"CMP010", "a mirrored or turned handle reaches at most 10 mm beyond the leaf"},
+    ComposeRule{"CMP011", "the author's place is that of one imported object"},
 };
 
 constexpr std::array kJointPresets = {
@@ -118,6 +119,15 @@ MassProperties Scaled(MassProperties mass, double factor) {
   return mass;
 }
 
+void CheckPlace(const ComposeConfig& config) {
+  CheckName("place", config.place, {"auto", "seat", "author", "axis"});
+  if (config.place != "author" && config.place != "axis") return;
+  const std::string moved = internal::MovesTheHandle(config);
+  if (!moved.empty())
+    Fail("place", '"' + config.place + "\" together with " + moved,
+         "auto or seat where the handle or the leaf is changed");
+}
+
 }  // namespace
 
 std::span<const ComposeRule> ComposeRules() { return kRules; }
@@ -132,6 +142,7 @@ void CheckComposeConfig(const ComposeConfig& config) {
   CheckUnless("handle_height_m", config.handle_height_m, 0, {0.01, 4});
   CheckUnless("backset_m", config.backset_m, 0, {0.005, 4});
   CheckRange("handle_scale", config.handle_scale, {0.5, 2});
+  CheckPlace(config);
   CheckName("hinge_side", config.hinge_side, {"left", "right"});
   CheckName("opening", config.opening, {"pull", "push"});
   const int turn = config.handle_turn_deg;
@@ -148,6 +159,18 @@ void CheckComposeConfig(const ComposeConfig& config) {
   CheckUnless("hinge_damping_nm_s", config.hinge_damping_nm_s, -1, {0, 1000});
   CheckUnless("handle_damping_nm_s", config.handle_damping_nm_s, -1, {0, 1000});
   CheckName("masses", config.masses, NamesOf(kMassPresets));
+}
+
+std::string MovesTheHandle(const ComposeConfig& config) {
+  if (config.leaf_width_m > 0) return "leaf_width_m";
+  if (config.leaf_height_m > 0) return "leaf_height_m";
+  if (config.handle_height_m > 0) return "handle_height_m";
+  if (config.backset_m > 0) return "backset_m";
+  if (config.handle_scale != 1) return "handle_scale";
+  if (config.opening == "push") return "opening: push";
+  if (config.handle_mirrored) return "handle_mirrored";
+  if (config.handle_turn_deg != 0) return "handle_turn_deg";
+  return config.seed != 0 ? "seed" : "";
 }
 
 void RefusePair(std::string_view code, const std::string& why) {

@@ -11,6 +11,10 @@ namespace doorforge::internal {
 /// Throws Error(kInvalidConfig) that names the setting, the value found and what is allowed.
 void CheckComposeConfig(const ComposeConfig& config);
 
+/// The first setting that puts the handle elsewhere than its author did, or changes what it is put
+/// on; empty if none does. A door hinged right is the mirror image, which keeps the place.
+std::string MovesTheHandle(const ComposeConfig& config);
+
 /// Throws Error(kInvalidArgument): "compose: <code> <text of the rule>: <why>".
 [[noreturn]] void RefusePair(std::string_view code, const std::string& why);
 

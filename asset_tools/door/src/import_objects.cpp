@@ -14,6 +14,7 @@
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
+#include "doorforge/door/author_place.h"
 
 #include "placed_mesh.h"
 #include "subtask.h"
@@ -53,6 +54,7 @@ class Import {
   ImportReport Run() {
     ReadAll();
     MakeAll();
+    RememberPlaces();
     Summarize();
     WriteRecord();
     return std::move(report_);
@@ -77,6 +79,8 @@ class Import {
         }
         report_.objects.push_back(std::move(entries[i][k]));
         jobs_of_.emplace_back();
+        hinge_to_handle_m_.push_back(k < objects[i].size() ? objects[i][k].hinge_to_handle_m
+                                                           : std::nullopt);
         if (k < objects[i].size()) Plan(objects[i][k]);
       }
     }
@@ -266,6 +270,30 @@ class Import {
             {"contact", grasp.fit.contact},   {"tip_clearance_m", grasp.fit.tip_clearance_m}};
   }
 
+  // a body and a handle of one object; both parts are there
+  void RememberPlaces() const {
+    std::map<std::string, AuthorPlaces> places;
+    for (std::size_t i = 0; i < jobs_of_.size(); ++i) {
+      const std::optional<Eigen::Vector3d>& offset = hinge_to_handle_m_[i];
+      if (!offset || jobs_of_[i].size() != 2) continue;
+      const PartJob& body = jobs_[jobs_of_[i][0]];
+      const PartJob& handle = jobs_[jobs_of_[i][1]];
+      if (!IsThere(body) || !IsThere(handle)) continue;
+      places[body.id][handle.part.source_sha256] = Translation(HingeOf(body) + *offset);
+    }
+    for (const auto& [id, handles] : places) RememberAuthorPlaces(out_ / id, handles);
+  }
+
+  static bool IsThere(const PartJob& job) { return job.present || job.written; }
+
+  // a part made by an earlier run says it itself
+  Eigen::Vector3d HingeOf(const PartJob& body) const {
+    if (body.made.part) return body.made.part->joint.origin_m;
+    const std::string path = (out_ / body.id / "part.json").string();
+    const Json json = ReadJsonFile(path);
+    return Vector3FromJson(MemberOf(MemberOf(json, "joint", path), "origin_m", path), path);
+  }
+
   void Summarize() {
     for (std::size_t i = 0; i < jobs_of_.size(); ++i) {
       for (const std::size_t j : jobs_of_[i]) Summarize(jobs_[j], report_.objects[i]);
@@ -294,7 +322,8 @@ class Import {
   Existing existing_;
   Json settings_;
   ImportReport report_;
-  std::vector<std::vector<std::size_t>> jobs_of_;  // of each object in the report
+  std::vector<std::vector<std::size_t>> jobs_of_;                  // of each object in the report
+  std::vector<std::optional<Eigen::Vector3d>> hinge_to_handle_m_;  // the same
   std::vector<PartJob> jobs_;
   std::map<std::string, std::size_t> job_by_hash_;
   std::map<std::string, bool> taken_;

@@ -144,6 +144,7 @@ PreparedPart::PreparedPart(const Part& part, const ComposeConfig& config) {
 }
 
 const std::string& PreparedPart::id() const { return state_->part.id; }
+const std::string& PreparedPart::source_sha256() const { return state_->part.source_sha256; }
 PartRole PreparedPart::role() const { return state_->part.role; }
 Category PreparedPart::category() const { return state_->part.category; }
 

@@ -61,6 +61,20 @@ bool FitsOn(const LeafSurface& leaf, const BackOutline& back) {
   return ((back.max_m - back.min_m).array() <= room.array()).all();
 }
 
+std::optional<double> SurfaceBehind(const LeafSurface& leaf, const BackOutline& back,
+                                    const Eigen::Vector2d& at_m) {
+  std::vector<double> surface;
+  for (const Eigen::Vector2d& sample : back.samples) {
+    const auto hits = leaf.lines.At(sample + at_m);
+    if (hits) surface.push_back(hits->last);
+  }
+  if (surface.empty()) return std::nullopt;
+  const auto at = surface.begin() + static_cast<std::ptrdiff_t>(
+                                        kSeatQuantile * static_cast<double>(surface.size() - 1));
+  std::nth_element(surface.begin(), at, surface.end());
+  return *at;
+}
+
 std::optional<Eigen::Vector3d> SeatOn(const LeafSurface& leaf, const BackOutline& back,
                                       const Eigen::Vector3d& mount_m) {
   const Eigen::AlignedBox3d& bounds = leaf.bounds;
@@ -72,16 +86,9 @@ std::optional<Eigen::Vector3d> SeatOn(const LeafSurface& leaf, const BackOutline
     if (!shift) return std::nullopt;
     seat[k + 1] += *shift;
   }
-  std::vector<double> surface;
-  for (const Eigen::Vector2d& sample : back.samples) {
-    const auto hits = leaf.lines.At(sample + Eigen::Vector2d(seat.y(), seat.z()));
-    if (hits) surface.push_back(hits->last);
-  }
-  if (surface.empty()) return std::nullopt;
-  const auto at = surface.begin() + static_cast<std::ptrdiff_t>(
-                                        kSeatQuantile * static_cast<double>(surface.size() - 1));
-  std::nth_element(surface.begin(), at, surface.end());
-  seat.x() = *at - back.rear_m;
+  const std::optional<double> surface = SurfaceBehind(leaf, back, seat.tail<2>());
+  if (!surface) return std::nullopt;
+  seat.x() = *surface - back.rear_m;
   return seat;
 }
 

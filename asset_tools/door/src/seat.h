@@ -34,6 +34,11 @@ struct LeafSurface {
 /// Whether the back is no larger than the leaf.
 bool FitsOn(const LeafSurface& leaf, const BackOutline& back);
 
+/// x of the leaf's surface behind the back of a handle whose frame is at (y, z). Empty if the leaf
+/// has no surface there.
+std::optional<double> SurfaceBehind(const LeafSurface& leaf, const BackOutline& back,
+                                    const Eigen::Vector2d& at_m);
+
 /// The translation that brings the back onto the leaf, starting from `mount_m` in the body's frame.
 /// Empty, with no guess, if the leaf has no surface there or is smaller than the back.
 std::optional<Eigen::Vector3d> SeatOn(const LeafSurface& leaf, const BackOutline& back,

@@ -61,7 +61,7 @@ SharedDoorOutcome WriteDoorOf(const SharedDoorPlan& plan, const PartPair& pair,
   const PreparedPart& handle = plan.parts[pair.handle];
   outcome.id = body.id() + "__" + handle.id();
   try {
-    const SharedDoor door = ComposeSharedDoor(body, handle, plan.config);
+    const SharedDoor door = ComposeSharedDoor(body, handle, plan.config, pair.body_from_handle);
     outcome.id = door.id;
     const fs::path folder = doors / door.id;
     if (fs::exists(fs::symlink_status(folder))) {

@@ -218,6 +218,7 @@ class LeafReader {
     if (handle) {
       const HandlePlace place = PlaceOf(*handle);
       mount = place.mount_m;
+      read_.hinge_to_handle_m = mount - motion_.hinge.origin_m;
       mechanism = place.mechanism;
       AddBody(leaf, mount);
       AddHandle(*handle, place);

@@ -34,6 +34,7 @@ std::vector<ForeignObject> Read(const fs::path& folder, const ReadConfig& config
   read.category = NameOf(object->category);
   read.mechanism = NameOf(object->mechanism);
   read.parts = {PartOf(object, PartRole::kBody), PartOf(object, PartRole::kHandle)};
+  read.hinge_to_handle_m = object->handle_joint.origin_m - object->hinge.origin_m;
   for (const std::string& mesh : object->left_out)
     read.notes.push_back("without " + mesh + ", which is missing");
   return {read};

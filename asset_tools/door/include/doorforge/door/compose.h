@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,6 +26,11 @@ struct ComposeConfig {
       0;                    ///< Above the body's lowest point; 0: where the body's author put it.
   double backset_m = 0;     ///< Handle to free edge of the leaf; 0: as the body's author put it.
   double handle_scale = 1;  ///< 0.5 to 2, alike in all directions.
+  /// Where the handle goes: "seat" (the body's mount, laid on the leaf's surface), "author"
+  /// (exactly where it was on the object that both were imported from), "axis" (about the axis it
+  /// had there, slid along it onto the surface where it runs out of the leaf) or "auto": axis for
+  /// parts of one object that no other setting moves or stretches, else seat.
+  std::string place = "auto";
   std::string hinge_side = "left";  ///< "left", "right": as seen from the handle's side.
   std::string opening = "pull";     ///< "pull", "push": towards or away from the handle's side.
   bool handle_mirrored = false;     ///< A lever then points the other way.
@@ -56,6 +62,7 @@ struct ComposeConfig {
     visit("handle_height_m", self.handle_height_m);
     visit("backset_m", self.backset_m);
     visit("handle_scale", self.handle_scale);
+    visit("place", self.place);
     visit("hinge_side", self.hinge_side);
     visit("opening", self.opening);
     visit("handle_mirrored", self.handle_mirrored);
@@ -108,6 +115,7 @@ class PreparedPart {
   PreparedPart(const Part& part, const ComposeConfig& config);
 
   const std::string& id() const;
+  const std::string& source_sha256() const;
   PartRole role() const;
   Category category() const;
   const State& state() const { return *state_; }
@@ -118,16 +126,19 @@ class PreparedPart {
 
 /// Puts a handle on a body of the same category, whatever both come from.
 ///
-/// The handle goes to the body's mount (or to `handle_height_m` and `backset_m`). It is moved along
-/// x until its back rests on the leaf's real surface as seen from outside, so that it is neither
-/// buried nor afloat, and in the leaf's plane by as much as its back would reach beyond the leaf's
-/// outline. Latch, thresholds and range follow LatchOf(). Hinged right: both parts are mirrored
-/// across y. Pushed: the body is mirrored across x and the handle sits on the face that is in front
-/// then. Deterministic.
+/// Where the handle goes is `config.place`. Seated, it goes to the body's mount (or to
+/// `handle_height_m` and `backset_m`). It is moved along x until its back rests on the leaf's real
+/// surface as seen from outside, so that it is neither buried nor afloat, and in the leaf's plane
+/// by as much as its back would reach beyond the leaf's outline. Latch, thresholds and range follow
+/// LatchOf(). Hinged right: both parts are mirrored across y. Pushed: the body is mirrored across x
+/// and the handle sits on the face that is in front then. Deterministic.
 ///
+/// @param body_from_handle Where the author of an object that gave both parts had the handle, see
+///     author_place.h; parts as they were made.
 /// @throws Error(kInvalidArgument) that begins with the code of the rule if the two are no door;
 ///     Error(kInvalidConfig) on a config value out of range.
-DoorAsset ComposeDoor(const Part& body, const Part& handle, const ComposeConfig& config);
+DoorAsset ComposeDoor(const Part& body, const Part& handle, const ComposeConfig& config,
+                      const std::optional<RigidTransform>& body_from_handle = std::nullopt);
 
 /// A door whose meshes lie in the pool that WriteMeshPool() writes: the texts of its two files.
 struct SharedDoor {
@@ -139,6 +150,7 @@ struct SharedDoor {
 /// The same door as ComposeDoor() of the same parts and config: read back, it has the same content
 /// hash. Both parts were prepared with `config`. Throws as ComposeDoor().
 SharedDoor ComposeSharedDoor(const PreparedPart& body, const PreparedPart& handle,
-                             const ComposeConfig& config);
+                             const ComposeConfig& config,
+                             const std::optional<RigidTransform>& body_from_handle = std::nullopt);
 
 }  // namespace doorforge

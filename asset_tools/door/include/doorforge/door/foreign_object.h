@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -89,6 +90,9 @@ struct ForeignObject {
   std::string refusal;             ///< Why this cannot be a door, and what it is.
   std::vector<std::string> notes;  ///< What was left out or assumed.
   double scale = 1;                ///< Metres a unit of the source.
+  /// Of an object with both parts: from the body's PartJoint::origin_m to the origin of the
+  /// handle's frame as the source places it, in the parts' common axes.
+  std::optional<Eigen::Vector3d> hinge_to_handle_m = {};
   /// The source's hinge is at the large-y side (right for who faces the door). Its mirror image in
   /// the plane y = 0 was imported, for parts are hinged at the small-y side.
   bool mirrored = false;

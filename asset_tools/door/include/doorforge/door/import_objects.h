@@ -73,7 +73,8 @@ struct ImportReport {
 /// "-3", ... in the order of `sources`. A part that is there already, from the same source and
 /// settings, is kept. Each part's folder appears complete or not at all, and only if all parts of
 /// its object could be made. An object's failure is an outcome, never an Error; the rest goes on.
-/// Grasps are refined, see RefineGrasp(). Progress goes to standard error. The parts do not depend
+/// A body remembers where its object's handle was, see author_place.h. Grasps are refined, see
+/// RefineGrasp(). Progress goes to standard error. The parts do not depend
 /// on the number of threads.
 ImportReport ImportObjects(const std::vector<ForeignSource>& sources,
                            const std::filesystem::path& out, const ImportConfig& config,

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,6 +32,7 @@ struct SharedDoorOutcome {
 struct PartPair {
   std::size_t body;
   std::size_t handle;
+  std::optional<RigidTransform> body_from_handle = {};  ///< As of ComposeDoor().
 };
 
 /// What to write, and how.

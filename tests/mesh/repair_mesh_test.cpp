@@ -83,32 +83,95 @@ TEST(RepairMesh, FillsAFlatHoleThatIsSmallBesideItsPiece) {
   EXPECT_NEAR(VolumeAfter(result), 0.01, 1e-15);
 }
 
-TEST(RepairMesh, WrapsAnOpenBoxWithoutClosingItsOpening) {
+// A box with one corner pulled out through the opposite sides.
+TriangleMesh CrossingItself() {
+  TriangleMesh mesh = UnitBox();
+  for (Eigen::Vector3d& vertex : mesh.vertices) {
+    if (vertex.isApprox(Eigen::Vector3d::Ones())) vertex = {-0.5, 0.3, 0.2};
+  }
+  return mesh;
+}
+
+TEST(RepairMesh, MakesWallsOfAnOpenBoxWithoutClosingItsOpening) {
   TriangleMesh open = UnitBox();
   open.triangles.resize(10);
   const RepairResult result = Repaired(open, Coarse());
-  EXPECT_EQ(result.report.outcome, RepairOutcome::kWrapped);
-  EXPECT_EQ(result.report.reason, "1 piece of 1 could not be closed");
-  // five walls of twice the offset, not the box
-  const double thickness = 2 * std::sqrt(3.0) * 0.005;
-  EXPECT_NEAR(VolumeAfter(result), 5 * thickness, 0.5 * 5 * thickness);
-  EXPECT_LT(result.report.visible_input_to_output.max_m, 0.1);
+  EXPECT_EQ(result.report.outcome, RepairOutcome::kRepaired);
+  EXPECT_EQ(result.report.sheets_thickened, 1);
+  EXPECT_FALSE(result.report.self_intersects);
+  // a box around less a box within, both cut off at the opening
+  const double half = std::sqrt(3.0) * 0.005;
+  const auto box = [](double by) { return std::pow(1 + 2 * by, 2) * (1 + by); };
+  EXPECT_NEAR(VolumeAfter(result), box(half) - box(-half), 0.01 * box(half));
+  EXPECT_LT(result.report.visible_input_to_output.max_m, 1.01 * half);
   EXPECT_FALSE(result.report.steps.empty());
 }
 
-TEST(RepairMesh, KeepsPiecesThatBarelyOverlapAndWrapsThoseThatShareMuch) {
-  const auto overlapping = [](double by) {
-    return Together(UnitBox(),
-                    Box(Eigen::Vector3d(1 - by, 0.1, 0.1), Eigen::Vector3d(2 - by, 0.9, 0.9)));
+TEST(RepairMesh, MakesOneSolidOfASurfaceThatCrossesItself) {
+  const RepairResult result = Repaired(CrossingItself());
+  EXPECT_EQ(result.report.outcome, RepairOutcome::kRepaired) << result.report.reason;
+  EXPECT_FALSE(result.report.self_intersects);
+  EXPECT_EQ(result.report.after.components, 1);
+  const double half = result.report.before.bounds.diagonal().norm() / 1200;
+  EXPECT_LT(result.report.visible_input_to_output.max_m, 3.1 * half);
+  EXPECT_LT(result.report.output_to_input.max_m, 3.1 * half);
+}
+
+// A strip bent to an eight, open above and below: no sharp edge to cut it at.
+TEST(RepairMesh, MakesWallsOfASheetThatCrossesItself) {
+  TriangleMesh eight;
+  constexpr int kSteps = 60;
+  for (int i = 0; i < kSteps; ++i) {
+    const double t = 2 * std::numbers::pi * (i + 0.5) / kSteps;
+    for (const double z : {0.0, 0.5}) eight.vertices.emplace_back(std::sin(t), std::sin(2 * t), z);
+    const int a = 2 * i;
+    const int b = 2 * ((i + 1) % kSteps);
+    eight.triangles.emplace_back(a, b, a + 1);
+    eight.triangles.emplace_back(b, b + 1, a + 1);
+  }
+  const RepairResult result = Repaired(eight);
+  EXPECT_EQ(result.report.outcome, RepairOutcome::kRepaired) << result.report.reason;
+  EXPECT_FALSE(result.report.self_intersects);
+  const double half = result.report.before.bounds.diagonal().norm() / 1200;
+  const double area = result.report.before.area_m2;
+  EXPECT_NEAR(VolumeAfter(result), 2 * half * area, 0.1 * half * area);
+}
+
+TEST(RepairMesh, UnitesPiecesThatOverlapOrOnlyTouch) {
+  struct Case {
+    const char* name;
+    TriangleMesh mesh;
+    double volume_m3;
   };
-  const RepairResult little = Repaired(overlapping(0.01));
-  EXPECT_EQ(little.report.outcome, RepairOutcome::kAlreadyClosed);
-  EXPECT_TRUE(little.report.self_intersects);
-  EXPECT_NEAR(little.report.overlap_fraction, 0.0064 / 1.64, 2e-4);
-  const RepairResult much = Repaired(overlapping(0.5), Coarse());
-  EXPECT_EQ(much.report.outcome, RepairOutcome::kWrapped);
-  EXPECT_EQ(much.report.after.components, 1);
-  EXPECT_NEAR(VolumeAfter(much), 1.32, 0.1);
+  using Eigen::Vector3d;
+  const Case cases[] = {
+      {"overlapping little",
+       Together(UnitBox(), Box(Vector3d(0.99, 0.1, 0.1), Vector3d(1.99, 0.9, 0.9))),
+       1 + 0.64 - 0.0064},
+      {"overlapping much",
+       Together(UnitBox(), Box(Vector3d(0.5, 0.1, 0.1), Vector3d(1.5, 0.9, 0.9))), 1.32},
+      {"on top of each other, flush on two sides",
+       Together(UnitBox(), Box(Vector3d(0, 0.1, 1), Vector3d(1, 0.9, 1.5))), 1.4},
+      {"a corner shared", Together(UnitBox(), Box(Vector3d(0.5, 0.5, 0.5), Vector3d(1, 1, 1))), 1},
+      {"edge to edge", Together(UnitBox(), Box(Vector3d(1, 1, 0), Vector3d(2, 2, 1))), 2}};
+  for (const Case& one : cases) {
+    SCOPED_TRACE(one.name);
+    const RepairResult result = Repaired(one.mesh);
+    EXPECT_EQ(result.report.outcome, RepairOutcome::kRepaired) << result.report.reason;
+    EXPECT_FALSE(result.report.self_intersects);
+    EXPECT_NEAR(VolumeAfter(result), one.volume_m3, 2e-3 * one.volume_m3);
+    EXPECT_LT(result.report.visible_input_to_output.max_m, 1e-3);
+    EXPECT_LT(result.report.output_to_input.max_m, 1e-3);
+  }
+}
+
+TEST(RepairMesh, UnitesPiecesToTheSameBytesTwice) {
+  const TriangleMesh boxes =
+      Together(UnitBox(), Box(Eigen::Vector3d(0, 0.1, 1), Eigen::Vector3d(1, 0.9, 1.5)));
+  const RepairResult a = Repaired(boxes);
+  const RepairResult b = Repaired(boxes);
+  EXPECT_EQ(a.mesh->mesh().vertices, b.mesh->mesh().vertices);
+  EXPECT_EQ(a.mesh->mesh().triangles, b.mesh->mesh().triangles);
 }
 
 TEST(RepairMesh, DropsAPieceHiddenInsideAnother) {
@@ -123,22 +186,46 @@ TEST(RepairMesh, DropsAPieceHiddenInsideAnother) {
 
 TEST(RepairMesh, ThickensASheetByItsOffset) {
   const TriangleMesh sheet{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
-  const RepairResult result = Repaired(sheet, Coarse());
-  ASSERT_EQ(result.report.outcome, RepairOutcome::kWrapped);
   const double offset = std::sqrt(2.0) * 0.005;
-  EXPECT_NEAR(result.report.after.bounds.sizes().z(), 2 * offset, 0.2 * offset);
-  EXPECT_NEAR(result.report.output_to_input.mean_m, offset, 0.3 * offset);
+  const RepairResult wall = Repaired(sheet, Coarse());
+  ASSERT_EQ(wall.report.outcome, RepairOutcome::kRepaired);
+  EXPECT_EQ(wall.mesh->mesh().triangles.size(), 12U);
+  EXPECT_NEAR(VolumeAfter(wall), 2 * offset, 0.01 * offset);
+  RepairConfig config = Coarse();
+  config.wrap = "always";
+  const RepairResult wrap = Repaired(sheet, config);
+  ASSERT_EQ(wrap.report.outcome, RepairOutcome::kWrapped);
+  EXPECT_NEAR(wrap.report.after.bounds.sizes().z(), 2 * offset, 0.2 * offset);
+  EXPECT_NEAR(wrap.report.output_to_input.mean_m, offset, 0.3 * offset);
+}
+
+// Where three sheets meet in one edge, none of them is a surface with the others.
+TEST(RepairMesh, UnitesSheetsThatMeetInOneEdge) {
+  TriangleMesh sheets{{{0, 0, 0}, {1, 0, 0}}, {}};
+  for (int i = 0; i < 3; ++i) {
+    const double angle = 2 * std::numbers::pi * i / 3;
+    const Eigen::Vector3d out(0, std::cos(angle), std::sin(angle));
+    const int first = static_cast<int>(sheets.vertices.size());
+    sheets.vertices.push_back(out);
+    sheets.vertices.push_back(Eigen::Vector3d::UnitX() + out);
+    sheets.triangles.emplace_back(0, 1, first + 1);
+    sheets.triangles.emplace_back(0, first + 1, first);
+  }
+  const RepairResult result = Repaired(sheets, Coarse());
+  ASSERT_EQ(result.report.outcome, RepairOutcome::kRepaired) << result.report.reason;
+  EXPECT_FALSE(result.report.self_intersects);
+  EXPECT_EQ(result.report.after.components, 1);
+  const double half = result.report.before.bounds.diagonal().norm() * 0.005;
+  EXPECT_NEAR(VolumeAfter(result), 3 * 2 * half, 0.1 * half);
 }
 
 TEST(RepairMesh, SaysWhyItFailsWhereItMayNotWrap) {
   RepairConfig config;
   config.wrap = "never";
-  TriangleMesh open = UnitBox();
-  open.triangles.resize(10);
-  const RepairResult result = Repaired(open, config);
+  const RepairResult result = Repaired(FlatPillow(), config);
   EXPECT_EQ(result.report.outcome, RepairOutcome::kFailed);
   EXPECT_FALSE(result.mesh);
-  EXPECT_EQ(result.report.reason, "1 piece of 1 could not be closed");
+  EXPECT_EQ(result.report.reason, "1 piece of 1 without thickness");
 }
 
 TEST(RepairMesh, FailsOnAMeshWithoutAnArea) {
@@ -162,10 +249,12 @@ TEST(RepairMesh, WrapsAndSimplifiesToTheSameBytesTwice) {
   TriangleMesh open = Torus(1, 0.3, 24, 12);
   open.triangles.resize(400);
   RepairConfig config = Coarse();
+  config.wrap = "always";
   config.max_triangles = 500;
   const RepairResult a = Repaired(open, config);
   const RepairResult b = Repaired(open, config);
   ASSERT_EQ(a.report.outcome, RepairOutcome::kWrapped);
+  EXPECT_FALSE(a.report.self_intersects);
   EXPECT_EQ(ToJson(a.report).dump(), ToJson(b.report).dump());
   EXPECT_EQ(a.mesh->mesh().vertices, b.mesh->mesh().vertices);
   EXPECT_EQ(a.mesh->mesh().triangles, b.mesh->mesh().triangles);

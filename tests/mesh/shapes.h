@@ -26,6 +26,12 @@ inline TriangleMesh Box(const Eigen::Vector3d& low, const Eigen::Vector3d& high)
 
 inline TriangleMesh UnitBox() { return Box(Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()); }
 
+/// A closed surface without an inside: a square and its underside, cut along different diagonals.
+inline TriangleMesh FlatPillow() {
+  return {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+          {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}};
+}
+
 inline TriangleMesh Together(TriangleMesh mesh, const TriangleMesh& more) {
   const int offset = static_cast<int>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), more.vertices.begin(), more.vertices.end());

@@ -119,6 +119,20 @@ ClosedSoup CloseSoup(const TriangleMesh& soup, const HoleLimits& holes) {
   return closed;
 }
 
+std::vector<std::pair<int, int>> CrossingTriangles(const TriangleMesh& mesh) {
+  const SurfaceMesh surface = SurfaceOf(mesh);
+  std::vector<std::pair<SurfaceMesh::Face_index, SurfaceMesh::Face_index>> faces;
+  pmp::self_intersections(surface, std::back_inserter(faces));
+  std::vector<std::pair<int, int>> pairs;
+  for (const auto& [a, b] : faces) {
+    const auto s = static_cast<int>(a.idx());
+    const auto t = static_cast<int>(b.idx());
+    pairs.emplace_back(std::min(s, t), std::max(s, t));
+  }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
 bool SelfIntersects(const TriangleMesh& mesh) { return pmp::does_self_intersect(SurfaceOf(mesh)); }
 
 }  // namespace doorforge

@@ -11,10 +11,13 @@
 #include "doorforge/core/error.h"
 
 #include "convex_region.h"
+#include "cover_parts.h"
 #include "triangle_tree.h"
 
 namespace doorforge {
 namespace {
+
+constexpr double kCoverShare = 0.5;  // of the concavity: what the parts may leave out
 
 // A piece of the surface, or a point that was noted for a region.
 struct Polygon {
@@ -154,7 +157,8 @@ std::vector<Candidate> Candidates(const Region& region, double bin_m) {
 class Decomposition {
  public:
   Decomposition(const ClosedMesh& mesh, const ConvexPartsConfig& config)
-      : config_(config),
+      : mesh_(&mesh),
+        config_(config),
         tree_(mesh.mesh()),
         solid_(mesh, CellFor(mesh.mesh(), config.max_concavity_m / 3, 0, config.max_grid_cells)),
         // the grid sees depths to within half a cell
@@ -182,7 +186,11 @@ class Decomposition {
     std::vector<TriangleMesh> parts;
     for (const Region& region : regions_)
       parts.push_back(ReducedHull(region.hull, config_.max_vertices));
-    return parts;
+    return Covering(std::move(parts), *mesh_, solid_,
+                    {.tolerance_m = kCoverShare * config_.max_concavity_m,
+                     .allowed_m = allowed_m_,
+                     .max_parts = config_.max_parts,
+                     .max_vertices = config_.max_vertices});
   }
 
  private:
@@ -374,6 +382,7 @@ class Decomposition {
     return entry->second;
   }
 
+  const ClosedMesh* mesh_;
   ConvexPartsConfig config_;
   TriangleTree tree_;
   DistanceGrid solid_;

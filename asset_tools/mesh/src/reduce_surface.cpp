@@ -41,6 +41,28 @@ class BudgetAndCost {
   double max_cost_;
 };
 
+// Edges that a collapse must leave alone.
+struct KeptEdges {
+  using key_type = SurfaceMesh::Edge_index;
+  using value_type = bool;
+  using reference = bool;
+  using category = boost::readable_property_map_tag;
+
+  const SurfaceMesh* surface = nullptr;
+  const std::vector<Eigen::AlignedBox3d>* boxes = nullptr;
+
+  bool IsKept(SurfaceMesh::Vertex_index vertex) const {
+    const Point& p = surface->point(vertex);
+    const Eigen::Vector3d position(p.x(), p.y(), p.z());
+    return std::any_of(boxes->begin(), boxes->end(),
+                       [&](const Eigen::AlignedBox3d& box) { return box.contains(position); });
+  }
+  friend bool get(const KeptEdges& kept, SurfaceMesh::Edge_index edge) {
+    if (kept.boxes->empty()) return false;
+    return kept.IsKept(kept.surface->vertex(edge, 0)) || kept.IsKept(kept.surface->vertex(edge, 1));
+  }
+};
+
 // ---- one triangulation for one hull -----------------------------------------------------------
 
 using Edge = std::pair<int, int>;
@@ -160,7 +182,8 @@ TriangleMesh CanonicalHull(const TriangleMesh& hull) {
 
 }  // namespace
 
-TriangleMesh Simplified(const TriangleMesh& mesh, int max_triangles, double free_error_m) {
+TriangleMesh Simplified(const TriangleMesh& mesh, int max_triangles, double free_error_m,
+                        const std::vector<Eigen::AlignedBox3d>& kept) {
   SurfaceMesh surface = SurfaceOf(mesh);
   // a closed surface has three edges for two triangles; the cost is a sum of squared distances
   const BudgetAndCost stop(static_cast<std::size_t>(max_triangles) * 3 / 2,
@@ -170,7 +193,8 @@ TriangleMesh Simplified(const TriangleMesh& mesh, int max_triangles, double free
   sms::edge_collapse(surface, stop,
                      CGAL::parameters::get_cost(policies.get_cost())
                          .get_placement(policies.get_placement())
-                         .filter(filter));
+                         .filter(filter)
+                         .edge_is_constrained_map(KeptEdges{&surface, &kept}));
   surface.collect_garbage();
   return TrianglesOf(surface);
 }

@@ -10,7 +10,7 @@
 #include "doorforge/core/error.h"
 
 #include "mesh_pieces.h"
-#include "solid_rows.h"
+#include "separate_pieces.h"
 #include "surface_operations.h"
 #include "surface_samples.h"
 #include "triangle_tree.h"
@@ -24,7 +24,12 @@ constexpr double kFlatHoleSize = 0.35;  // of D: larger flat holes are openings 
 constexpr double kFlatHoleFraction = 1e-4;  // of D: how far a flat hole may leave its plane
 constexpr double kFlatAreaShare = 0.01;  // of all area: less than this may be lost with flat pieces
 constexpr double kFreeErrorShare = 0.25;  // of the offset: error of a wrap that costs nothing
-constexpr int kVolumeRows = 40'000;       // rows of the grid that measures overlaps
+constexpr double kShiftFraction = 3e-5;   // of D: how far pieces move so that nothing only touches
+
+constexpr double kFinestAlpha = 0.004;    // of D: a finer wrap would take a minute
+constexpr double kGoodFraction = 0.01;    // of D: an exact result farther off competes with a wrap
+constexpr std::size_t kBudgetFactor = 3;  // triangles of the output for one of the input,
+constexpr std::size_t kBudget = 5000;     // and besides
 
 void CheckConfig(const RepairConfig& config) {
   const auto require = [](bool holds, const char* message) {
@@ -40,8 +45,6 @@ void CheckConfig(const RepairConfig& config) {
           "repair.max_hole_fraction: allowed 0..1");
   require(config.max_flat_hole_share >= 0 && config.max_flat_hole_share <= 1,
           "repair.max_flat_hole_share: allowed 0..1");
-  require(config.max_overlap_fraction >= 0 && config.max_overlap_fraction <= 1,
-          "repair.max_overlap_fraction: allowed 0..1");
   require(config.max_triangles == 0 || config.max_triangles >= 100,
           "repair.max_triangles: allowed 0 (any number) or 100 and more");
 }
@@ -68,11 +71,7 @@ class Repair {
     if (!(report_.before.area_m2 > 0)) return Failed("no triangle has an area");
     surface_ = soup_;
     try {
-      TriangleMesh mesh = config_.wrap == "always" ? TriangleMesh{} : KeptExactly();
-      if (config_.wrap == "always") report_.reason = "a wrap was asked for";
-      if (mesh.triangles.empty() && config_.wrap == "never") return Failed(report_.reason);
-      if (mesh.triangles.empty()) mesh = Wrapped();
-      return Finished(WithinBudget(std::move(mesh)));
+      return Best();
     } catch (const Error&) {
       throw;
     } catch (const std::exception& error) {
@@ -89,24 +88,66 @@ class Repair {
     return {std::nullopt, std::move(report_)};
   }
 
-  // The union of the input's closed pieces; empty, with a reason, where it is none.
+  // The exact result where there is one that is near enough, else the wrap, or whichever is nearer.
+  RepairResult Best() {
+    TriangleMesh mesh;
+    if (config_.wrap == "always")
+      report_.reason = "a wrap was asked for";
+    else
+      mesh = KeptExactly();
+    if (mesh.triangles.empty())
+      return config_.wrap == "never" ? Failed(report_.reason) : NearWrap();
+    const RepairReport begun = report_;
+    RepairResult exact = Finished(WithinBudget(std::move(mesh)));
+    if (config_.wrap == "never" || IsGood(exact)) return exact;
+    report_ = begun;
+    report_.reason = "the union of its pieces and walls is farther off or has more triangles";
+    RepairResult wrap = NearWrap();
+    const bool nearer = wrap.mesh && WorstOf(wrap.report) < WorstOf(exact.report);
+    return nearer || IsGood(wrap) ? wrap : exact;
+  }
+
+  // A wrap that leaves out too much is tried once more with half the alpha, which takes four times
+  // as long.
+  RepairResult NearWrap() {
+    const RepairReport begun = report_;
+    RepairResult coarse = Finished(WithinBudget(Wrapped(config_.alpha_fraction)));
+    const bool has_fine = 0.5 * config_.alpha_fraction >= kFinestAlpha;
+    if (config_.wrap == "always" || !has_fine || IsGood(coarse)) return coarse;
+    report_ = begun;
+    RepairResult fine = Finished(WithinBudget(Wrapped(0.5 * config_.alpha_fraction)));
+    return fine.mesh && WorstOf(fine.report) < WorstOf(coarse.report) ? fine : coarse;
+  }
+
+  static double WorstOf(const RepairReport& report) {
+    return std::max(report.output_to_input.max_m, report.visible_input_to_output.max_m);
+  }
+
+  bool IsGood(const RepairResult& result) const {
+    if (!result.mesh) return false;
+    const bool in_budget =
+        config_.max_triangles == 0 ||
+        result.mesh->mesh().triangles.size() <= kBudgetFactor * input_->triangles.size() + kBudget;
+    return in_budget && WorstOf(result.report) <= kGoodFraction * diagonal_m_;
+  }
+
+  // The union of the input's pieces, where open ones count as thin walls; empty, with a reason,
+  // where it cannot be had without crossings.
   TriangleMesh KeptExactly() {
     const bool is_closed =
         report_.before.non_manifold_vertices == 0 && ClosedMesh::From(soup_).has_value();
     report_.outcome = is_closed ? RepairOutcome::kAlreadyClosed : RepairOutcome::kRepaired;
     if (!is_closed) surface_ = Closed();
     std::vector<TriangleMesh> pieces = PiecesOf(surface_);
-    if (!DropFlat(pieces)) return {};
+    if (!DropFlat(pieces) || !ThickenOpen(pieces)) return {};
     if (is_closed) {
       OrientKeepingCavities(pieces);
     } else {
       OrientOutwards(pieces);
       DropHidden(pieces);
     }
-    TriangleMesh mesh = Joined(pieces);
-    if (!OverlapIsSmall(mesh)) return {};
     report_.components_kept = static_cast<int>(pieces.size());
-    return mesh;
+    return WithoutCrossings(std::move(pieces));
   }
 
   TriangleMesh Closed() {
@@ -126,15 +167,12 @@ class Repair {
     return std::move(closed.mesh);
   }
 
-  // Removes closed pieces without thickness. False, with a reason, if a piece is open or if the
-  // pieces without thickness matter.
+  // Removes closed pieces without thickness. False, with a reason, if they matter.
   bool DropFlat(std::vector<TriangleMesh>& pieces) {
-    int open = 0;
     double flat_area = 0;
     const std::size_t before = pieces.size();
     std::erase_if(pieces, [&](const TriangleMesh& piece) {
       const MeshTopology topology = MeasureTopology(piece);
-      open += topology.boundary_edges > 0;
       const double thickness_m = 2 * std::abs(topology.volume_m3) / topology.area_m2;
       const bool flat =
           topology.boundary_edges == 0 && !(thickness_m > kFlatFraction * diagonal_m_);
@@ -142,18 +180,38 @@ class Repair {
       return flat;
     });
     const int flat = static_cast<int>(before - pieces.size());
-    if (open > 0) {
-      report_.reason =
-          Count(open, "piece") + " of " + std::to_string(before) + " could not be closed";
-    } else if (pieces.empty() || flat_area > kFlatAreaShare * report_.before.area_m2) {
+    if (pieces.empty() || flat_area > kFlatAreaShare * report_.before.area_m2) {
       report_.reason =
           Count(flat, "piece") + " of " + std::to_string(before) + " without thickness";
-    } else {
-      if (flat > 0) Did("dropped " + Count(flat, "piece") + " without thickness");
-      report_.components_dropped += flat;
-      return true;
+      return false;
     }
-    return false;
+    if (flat > 0) Did("dropped " + Count(flat, "piece") + " without thickness");
+    report_.components_dropped += flat;
+    return true;
+  }
+
+  // Makes walls of the pieces that are still open. False, with a reason, where one would cross
+  // itself.
+  bool ThickenOpen(std::vector<TriangleMesh>& pieces) {
+    const double half_m = config_.offset_fraction * diagonal_m_;
+    int thickened = 0;
+    for (TriangleMesh& piece : pieces) {
+      if (MeasureTopology(piece).boundary_edges == 0) continue;
+      std::optional<TriangleMesh> wall = WallsOf(piece, half_m);
+      if (!wall) {
+        report_.reason = "an open piece of " +
+                         Count(static_cast<int>(piece.triangles.size()), "triangle") +
+                         " makes no simple wall";
+        return false;
+      }
+      piece = *std::move(wall);
+      ++thickened;
+    }
+    if (thickened > 0)
+      Did("made walls " + std::to_string(2000 * half_m) + " mm thick of " +
+          Count(thickened, "open piece"));
+    report_.sheets_thickened = thickened;
+    return true;
   }
 
   void OrientOutwards(std::vector<TriangleMesh>& pieces) {
@@ -208,20 +266,27 @@ class Repair {
     return std::all_of(probes.begin(), probes.end(), is_inside);
   }
 
-  bool OverlapIsSmall(const TriangleMesh& mesh) {
-    const double cell_m = CellFor(mesh, diagonal_m_ / 400, 0, kVolumeRows * 200);
-    const SolidVolumes volumes = VolumesOf(mesh, GridOver(mesh, cell_m, 0));
-    report_.overlap_fraction =
-        volumes.sum_m3 > 0 ? std::max(0.0, 1 - volumes.union_m3 / volumes.sum_m3) : 0;
-    if (report_.overlap_fraction <= config_.max_overlap_fraction) return true;
-    report_.reason = "closed pieces share " +
-                     std::to_string(std::lround(100 * report_.overlap_fraction)) +
-                     " % of their volume";
-    return false;
+  TriangleMesh WithoutCrossings(std::vector<TriangleMesh> pieces) {
+    Separation separation =
+        Separated(std::move(pieces), {.shift_m = kShiftFraction * diagonal_m_,
+                                      .half_wall_m = config_.offset_fraction * diagonal_m_,
+                                      .fill_cavities = report_.sheets_thickened > 0});
+    if (separation.solids.empty()) {
+      report_.reason = separation.problem;
+      return {};
+    }
+    if (separation.untangled > 0)
+      Did("untangled " + Count(separation.untangled, "piece") + " that crossed themselves");
+    if (separation.united > 0) {
+      Did("united pieces that met: " + Count(separation.united, "piece") + " fewer");
+      report_.components_united = separation.united;
+    }
+    if (separation.untangled + separation.united > 0) report_.outcome = RepairOutcome::kRepaired;
+    return Joined(separation.solids);
   }
 
-  TriangleMesh Wrapped() {
-    const double alpha_m = config_.alpha_fraction * diagonal_m_;
+  TriangleMesh Wrapped(double alpha_fraction) {
+    const double alpha_m = alpha_fraction * diagonal_m_;
     const double offset_m = config_.offset_fraction * diagonal_m_;
     TriangleMesh wrap = AlphaWrap(surface_, alpha_m, offset_m);
     Did("wrapped with alpha " + std::to_string(1000 * alpha_m) + " mm and offset " +
@@ -229,7 +294,8 @@ class Repair {
         Count(static_cast<int>(wrap.triangles.size()), "triangle"));
     report_.outcome = RepairOutcome::kWrapped;
     report_.components_dropped = 0;
-    report_.overlap_fraction = 0;
+    report_.components_united = 0;
+    report_.sheets_thickened = 0;
     report_.components_kept = MeasureTopology(wrap).components;
     return wrap;
   }
@@ -240,16 +306,46 @@ class Repair {
     const auto count = static_cast<int>(mesh.triangles.size());
     const bool wrapped = report_.outcome == RepairOutcome::kWrapped;
     if (config_.max_triangles == 0 || (count <= config_.max_triangles && !wrapped)) return mesh;
+    const auto of_input = static_cast<int>(kBudgetFactor * input_->triangles.size() + kBudget);
     const double free_error_m =
         wrapped ? kFreeErrorShare * config_.offset_fraction * diagonal_m_ : 0;
-    TriangleMesh simple = Simplified(mesh, config_.max_triangles, free_error_m);
-    if (!ClosedMesh::From(simple)) {
-      Did("kept " + std::to_string(count) + " triangles: fewer would not be closed");
+    std::optional<TriangleMesh> simple =
+        SimplifiedWithoutCrossings(mesh, std::min(config_.max_triangles, of_input), free_error_m);
+    if (!simple) {
+      Did("kept " + Count(count, "triangle") + ": fewer would cross");
       return mesh;
     }
     Did("simplified " + std::to_string(count) + " triangles to " +
-        std::to_string(simple.triangles.size()));
-    return simple;
+        std::to_string(simple->triangles.size()));
+    return *std::move(simple);
+  }
+
+  // Where triangles cross after the collapses, the next try leaves the surroundings as they were.
+  static std::optional<TriangleMesh> SimplifiedWithoutCrossings(const TriangleMesh& mesh,
+                                                                int max_triangles,
+                                                                double free_error_m) {
+    constexpr int kTries = 4;
+    std::vector<Eigen::AlignedBox3d> kept;
+    for (int i = 0; i < kTries; ++i) {
+      TriangleMesh simple = Simplified(mesh, max_triangles, free_error_m, kept);
+      if (!ClosedMesh::From(simple)) return std::nullopt;
+      const std::vector<std::pair<int, int>> crossings = CrossingTriangles(simple);
+      if (crossings.empty()) return simple;
+      for (const auto& [a, b] : crossings) {
+        Eigen::AlignedBox3d box = BoxOf(simple, a);
+        box.extend(BoxOf(simple, b));
+        const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.1 * i * box.diagonal().norm());
+        kept.emplace_back(box.min() - margin, box.max() + margin);
+      }
+    }
+    return std::nullopt;
+  }
+
+  static Eigen::AlignedBox3d BoxOf(const TriangleMesh& mesh, int triangle) {
+    Eigen::AlignedBox3d box;
+    for (const int index : mesh.triangles[static_cast<std::size_t>(triangle)])
+      box.extend(mesh.vertices[static_cast<std::size_t>(index)]);
+    return box;
   }
 
   RepairResult Finished(TriangleMesh mesh) {
@@ -261,7 +357,7 @@ class Repair {
     report_.output_to_input = DeviationOf(output, *input_, {.samples = 2000});
     report_.visible_input_to_output =
         DeviationOf(*input_, output, {.samples = 2000, .visible_only = true, .rays = 48});
-    return {std::move(closed), std::move(report_)};
+    return {std::move(closed), report_};
   }
 
   const TriangleMesh* input_;

@@ -108,7 +108,8 @@ Json ToJson(const RepairReport& report) {
           {"holes_filled", report.holes_filled},
           {"components_kept", report.components_kept},
           {"components_dropped", report.components_dropped},
-          {"overlap_fraction", report.overlap_fraction},
+          {"sheets_thickened", report.sheets_thickened},
+          {"components_united", report.components_united},
           {"self_intersects", report.self_intersects},
           {"output_to_input", ToJson(report.output_to_input)},
           {"visible_input_to_output", ToJson(report.visible_input_to_output)}};
@@ -125,7 +126,8 @@ RepairReport RepairReportFromJson(const Json& json, const std::string& path) {
   report.holes_filled = ValueOf<int>(json, "holes_filled", path);
   report.components_kept = ValueOf<int>(json, "components_kept", path);
   report.components_dropped = ValueOf<int>(json, "components_dropped", path);
-  report.overlap_fraction = ValueOf<double>(json, "overlap_fraction", path);
+  report.sheets_thickened = ValueOf<int>(json, "sheets_thickened", path);
+  report.components_united = ValueOf<int>(json, "components_united", path);
   report.self_intersects = ValueOf<bool>(json, "self_intersects", path);
   report.output_to_input =
       DeviationFromJson(MemberOf(json, "output_to_input", path), path + ".output_to_input");

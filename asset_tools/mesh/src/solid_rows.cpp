@@ -85,22 +85,6 @@ std::vector<std::vector<Crossing>> RowCrossings(const TriangleMesh& mesh, const 
   return rows;
 }
 
-SolidVolumes VolumesOf(const TriangleMesh& mesh, const Grid& grid) {
-  SolidVolumes volumes;
-  for (const std::vector<Crossing>& row : RowCrossings(mesh, grid)) {
-    int winding = 0;
-    for (std::size_t i = 0; i + 1 < row.size(); ++i) {
-      winding += row[i].winding;
-      const double length = row[i + 1].x_m - row[i].x_m;
-      if (winding > 0) volumes.union_m3 += length;
-      volumes.sum_m3 += winding * length;
-    }
-  }
-  volumes.union_m3 *= grid.cell_m * grid.cell_m;
-  volumes.sum_m3 *= grid.cell_m * grid.cell_m;
-  return volumes;
-}
-
 Grid GridOver(const TriangleMesh& mesh, double cell_m, int margin) {
   Eigen::AlignedBox3d box;
   for (const Vector3d& vertex : mesh.vertices) box.extend(vertex);

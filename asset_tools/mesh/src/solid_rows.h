@@ -45,13 +45,6 @@ struct Crossing {
 /// add up to 0.
 std::vector<std::vector<Crossing>> RowCrossings(const TriangleMesh& mesh, const Grid& grid);
 
-/// Volumes seen by the rows: of the union of the mesh's pieces, and of the pieces one by one.
-struct SolidVolumes {
-  double union_m3 = 0;
-  double sum_m3 = 0;
-};
-SolidVolumes VolumesOf(const TriangleMesh& mesh, const Grid& grid);
-
 /// The mesh's bounds with `margin` empty cells around.
 Grid GridOver(const TriangleMesh& mesh, double cell_m, int margin);
 

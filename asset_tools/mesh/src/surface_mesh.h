@@ -10,7 +10,7 @@
 
 #include "doorforge/core/triangle_mesh.h"
 
-// Only for the three sources named in surface_operations.h.
+// Only for the four sources named in surface_operations.h.
 
 namespace doorforge {
 

@@ -2,11 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+
 #include "doorforge/core/triangle_mesh.h"
 
 // What CGAL does for this room. Its headers take gigabytes and minutes to compile, so only the
-// three sources behind this header include them: close_soup.cpp, wrap_surface.cpp,
-// reduce_surface.cpp. Indices must be in range and vertices finite. All deterministic.
+// four sources behind this header include them: close_soup.cpp, reduce_surface.cpp,
+// unite_solids.cpp, wrap_surface.cpp. Indices must be in range and vertices finite. All
+// deterministic.
 
 namespace doorforge {
 
@@ -32,8 +39,19 @@ struct ClosedSoup {
 /// filled with triangles between their own vertices.
 ClosedSoup CloseSoup(const TriangleMesh& soup, const HoleLimits& holes);
 
-/// Whether two triangles of the manifold mesh cross, other than in a shared vertex or edge.
+/// The pairs of triangles of the manifold mesh that cross or touch, other than in a shared vertex
+/// or edge; indices in increasing order.
+std::vector<std::pair<int, int>> CrossingTriangles(const TriangleMesh& mesh);
+
+/// Whether there is such a pair; quicker where there are many.
 bool SelfIntersects(const TriangleMesh& mesh);
+
+/// One surface around closed, outward oriented solids, none of which crosses itself. Each is grown
+/// by about `shift_m` first and moved by less, differently in each attempt, so that faces in one
+/// plane overlap; cavities that close between them stay, oriented inwards. Nothing where the solids
+/// do not unite to a manifold surface; the result may cross itself by rounding.
+std::optional<TriangleMesh> United(const std::vector<TriangleMesh>& solids, double shift_m,
+                                   int attempt);
 
 /// Alpha wrap (Portaneri et al. 2022): closed, oriented, without self-intersections, `offset_m`
 /// outside of the triangles, entering openings wider than about `alpha_m`.
@@ -41,7 +59,9 @@ TriangleMesh AlphaWrap(const TriangleMesh& soup, double alpha_m, double offset_m
 
 /// Edge collapse by quadrics (Garland and Heckbert 1997) to at most `max_triangles`, or as near as
 /// the topology allows, and below that as long as it costs at most `free_error_m`. The mesh must be
-/// closed; the result is closed.
-TriangleMesh Simplified(const TriangleMesh& mesh, int max_triangles, double free_error_m);
+/// closed; the result is closed, but triangles may cross. Edges with an end in one of the boxes of
+/// `kept` are left alone.
+TriangleMesh Simplified(const TriangleMesh& mesh, int max_triangles, double free_error_m,
+                        const std::vector<Eigen::AlignedBox3d>& kept = {});
 
 }  // namespace doorforge

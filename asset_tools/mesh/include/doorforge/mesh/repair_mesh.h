@@ -20,9 +20,10 @@ struct RepairConfig {
   double alpha_fraction = 0.01;  ///< The wrap enters openings wider than this times D.
   double offset_fraction = 1.0 / 1200;  ///< The wrap lies this times D outside the input.
   double max_hole_fraction = 0.05;      ///< Holes up to this times D across are filled.
-  double max_flat_hole_share = 0.15;   ///< So are flat holes up to this part of their piece's area.
-  double max_overlap_fraction = 0.02;  ///< Closed pieces may share this part of their volume.
-  int max_triangles = 6000;            ///< Of the output; 0: any number.
+  double max_flat_hole_share = 0.15;  ///< So are flat holes up to this part of their piece's area.
+  /// Of the output, and of a wrap never more than three times the input's and 5,000. More are kept
+  /// where fewer would cross. 0: any number.
+  int max_triangles = 6000;
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -31,14 +32,14 @@ struct RepairConfig {
     visit("offset_fraction", self.offset_fraction);
     visit("max_hole_fraction", self.max_hole_fraction);
     visit("max_flat_hole_share", self.max_flat_hole_share);
-    visit("max_overlap_fraction", self.max_overlap_fraction);
     visit("max_triangles", self.max_triangles);
   }
 };
 
 enum class RepairOutcome {
   kAlreadyClosed,  ///< The input was closed; vertices may have been welded.
-  kRepaired,       ///< Closed by exact steps: the surface is the input's but for filled holes.
+  kRepaired,       ///< Closed by exact steps: the surface is the input's but for filled holes and
+                   ///< the walls that stand for open sheets.
   kWrapped,        ///< Replaced by an alpha wrap around it.
   kFailed,         ///< No closed mesh; `reason` says why.
 };
@@ -55,8 +56,9 @@ struct RepairReport {
   int holes_filled = 0;
   int components_kept = 0;
   int components_dropped = 0;    ///< Pieces without thickness or hidden wholly inside others.
-  double overlap_fraction = 0;   ///< Part of the pieces' volume that several pieces share.
-  bool self_intersects = false;  ///< Two triangles of the output cross.
+  int sheets_thickened = 0;      ///< Open pieces that became thin walls.
+  int components_united = 0;     ///< Pieces that met others and were made one with them.
+  bool self_intersects = false;  ///< Two triangles of the output cross or touch.
   SurfaceDeviation output_to_input;
   /// From the points of the input that a ray from outside can reach: what lies hidden inside, a
   /// wrap rightly leaves out.
@@ -71,11 +73,12 @@ struct RepairResult {
 /// Makes a closed mesh of triangles in any state; see docs/design/mesh.md for the steps.
 ///
 /// Exact first: duplicate and degenerate triangles dropped, pieces oriented and stitched, small
-/// holes filled; kept where every piece is closed and pieces barely overlap. Otherwise an alpha
-/// wrap (Portaneri et al., "Alpha wrapping with an offset", SIGGRAPH 2022), which thickens thin
-/// sheets by twice its offset. More than `max_triangles` are reduced by edge collapse (Garland and
-/// Heckbert, 1997), which keeps the mesh closed. Deterministic: the same input gives the same
-/// output on every machine of one architecture, whatever the number of threads.
+/// holes filled, pieces that stay open made walls of twice the offset, pieces that meet united.
+/// Where that leaves triangles that cross, an alpha wrap (Portaneri et al., "Alpha wrapping with an
+/// offset", SIGGRAPH 2022), which thickens thin sheets by twice its offset. More than
+/// `max_triangles` are reduced by edge collapse (Garland and Heckbert, 1997), which keeps the mesh
+/// closed. Deterministic: the same input gives the same output on every machine of one
+/// architecture, whatever the number of threads.
 ///
 /// @throws Error(kInvalidArgument) as MeasureTopology() does; Error(kInvalidConfig) on a config
 ///     value out of range. A mesh that cannot be closed is an outcome, not an Error.

@@ -10,6 +10,23 @@
 #include "latch_json.h"
 
 namespace doorforge {
+namespace {
+
+void Scale(MassProperties& mass, double factor) {
+  mass.mass_kg *= factor;
+  mass.inertia_kg_m2 *= factor;
+}
+
+}  // namespace
+
+DoorAsset Varied(const DoorAsset& door, const DoorVariation& variation) {
+  DoorAsset varied = door;
+  Scale(varied.links[kLeafLink].mass, variation.leaf_mass);
+  Scale(varied.links[kHandleLink].mass, variation.handle_mass);
+  varied.hinge.damping_nm_s *= variation.hinge_damping;
+  varied.handle_joint.damping_nm_s *= variation.handle_damping;
+  return varied;
+}
 
 nlohmann::ordered_json SceneToJson(const Scene& scene) {
   return {{"door_id", scene.door_id},
@@ -19,6 +36,8 @@ nlohmann::ordered_json SceneToJson(const Scene& scene) {
           {"world_from_door", TransformToJson(scene.world_from_door)},
           {"world_from_robot_base", TransformToJson(scene.world_from_robot_base)},
           {"latch", internal::LatchToJson(scene.latch)},
+          {"variation", ToJson(scene.variation)},
+          {"arm_start_offset_rad", scene.arm_start_offset_rad},
           {"grasp_from_noisy_grasp", TransformToJson(scene.grasp_from_noisy_grasp)},
           {"physics", ToJson(scene.physics)},
           {"camera", CameraToJson(scene.camera)}};
@@ -36,6 +55,11 @@ Scene SceneFromJson(const nlohmann::ordered_json& json, const std::string& path)
   scene.world_from_door = transform("world_from_door");
   scene.world_from_robot_base = transform("world_from_robot_base");
   scene.latch = internal::LatchFromJson(MemberOf(json, "latch", path), path + ".latch");
+  if (json.contains("variation")) {  // scenes of before had none
+    Assign(json["variation"], scene.variation, path + ".variation");
+    Assign(MemberOf(json, "arm_start_offset_rad", path), scene.arm_start_offset_rad,
+           path + ".arm_start_offset_rad");
+  }
   scene.grasp_from_noisy_grasp = transform("grasp_from_noisy_grasp");
   Assign(MemberOf(json, "physics", path), scene.physics, path + ".physics");
   scene.camera = CameraFromJson(MemberOf(json, "camera", path), path + ".camera");

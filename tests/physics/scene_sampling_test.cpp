@@ -2,8 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/physics/scene_sampling.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+#include "doorforge/core/error.h"
 
 #include "primitive_door.h"
 
@@ -45,6 +50,62 @@ TEST(SceneSampling, ADoorThatIsInTheRangeIsOnlyLiftedATenthOfAMetre) {
   const DoorAsset door = MakePrimitiveDoor(shape);
   const Scene scene = SampleScene(door, 1, 0);
   EXPECT_LT((scene.world_from_door.translation() - Eigen::Vector3d(0, 0, 0.1)).norm(), 1e-12);
+}
+
+SceneConfig WithRandomisation(const std::string& name) {
+  SceneConfig config;
+  config.randomisation = name;
+  return config;
+}
+
+TEST(SceneSampling, WithoutRandomisationAllEpisodesOfADoorAreTheSame) {
+  const DoorAsset door = MakePrimitiveDoor({});
+  Scene first = SampleScene(door, 1, 0, WithRandomisation("off"));
+  Scene other = SampleScene(door, 2, 9, WithRandomisation("off"));
+  other.seed = first.seed;
+  other.episode = first.episode;
+  EXPECT_EQ(SceneToJson(first).dump(), SceneToJson(other).dump());
+  EXPECT_EQ(first.variation, DoorVariation{});
+  EXPECT_THROW(SampleScene(door, 1, 0, WithRandomisation("wild")), Error);
+}
+
+TEST(SceneSampling, StrongRandomisationVariesTheDoorWithinItsRangesAndKeepsThePapersDraws) {
+  const DoorAsset door = MakePrimitiveDoor({});
+  const Latch made = door.latch;
+  double least_mass = 9;
+  double most_mass = 0;
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    const Scene paper = SampleScene(door, 1, i);
+    const Scene strong = SampleScene(door, 1, i, WithRandomisation("strong"));
+    EXPECT_TRUE(strong.world_from_robot_base.isApprox(paper.world_from_robot_base));
+    EXPECT_TRUE(strong.grasp_from_noisy_grasp.isApprox(paper.grasp_from_noisy_grasp));
+    EXPECT_GE(strong.latch.hinge_spring_nm_per_rad, 0.58 * made.hinge_spring_nm_per_rad);
+    EXPECT_LE(strong.latch.hinge_spring_nm_per_rad, 1.33 * made.hinge_spring_nm_per_rad);
+    EXPECT_GE(strong.latch.unlock_angle_rad, 0.77 * made.unlock_angle_rad);
+    EXPECT_LE(strong.latch.unlock_angle_rad, made.handle_done_angle_rad);
+    EXPECT_GE(strong.physics.handle_friction, paper.physics.handle_friction);
+    EXPECT_LE((strong.camera.position_m - paper.camera.position_m).cwiseAbs().maxCoeff(), 0.05);
+    for (const double offset : strong.arm_start_offset_rad) EXPECT_LE(std::abs(offset), 0.05);
+    least_mass = std::min(least_mass, strong.variation.leaf_mass);
+    most_mass = std::max(most_mass, strong.variation.leaf_mass);
+    const Scene again = SceneFromJson(SceneToJson(strong), "scene");
+    EXPECT_EQ(again.variation, strong.variation);
+    EXPECT_EQ(again.arm_start_offset_rad, strong.arm_start_offset_rad);
+  }
+  EXPECT_GE(least_mass, 0.7);
+  EXPECT_LT(least_mass, 0.73);
+  EXPECT_GT(most_mass, 1.27);
+  EXPECT_LE(most_mass, 1.3);
+}
+
+TEST(SceneSampling, AVariedDoorHasItsFactors) {
+  const DoorAsset door = MakePrimitiveDoor({});
+  const DoorAsset varied = Varied(door, {.leaf_mass = 2, .handle_damping = 0.5});
+  EXPECT_EQ(varied.links[kLeafLink].mass.mass_kg, 2 * door.links[kLeafLink].mass.mass_kg);
+  EXPECT_TRUE(varied.links[kLeafLink].mass.inertia_kg_m2.isApprox(
+      2 * door.links[kLeafLink].mass.inertia_kg_m2));
+  EXPECT_EQ(varied.links[kHandleLink].mass.mass_kg, door.links[kHandleLink].mass.mass_kg);
+  EXPECT_EQ(varied.handle_joint.damping_nm_s, 0.5 * door.handle_joint.damping_nm_s);
 }
 
 TEST(SceneSampling, JitterAndNoiseStayInTheirBoundsAndCanBeSwitchedOff) {

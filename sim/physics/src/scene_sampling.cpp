@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "doorforge/core/error.h"
 #include "doorforge/core/rng.h"
 
 namespace doorforge {
@@ -74,6 +75,53 @@ RigidTransform GraspNoise(const DoorAsset& door, double scale, Rng rng) {
   return Translation({shift, 0, 0}) * RotationAbout(Eigen::Vector3d::UnitZ(), turn);
 }
 
+// Ranges of "strong"; docs/design/simulation.md says where they come from.
+constexpr Range kHandleFriction{1, 1.5};
+constexpr Range kSpring{0.58, 1.33};
+constexpr Range kUnlockAngle{0.77, 1.03};
+constexpr Range kMass{0.7, 1.3};
+constexpr Range kDamping{0.7, 1.4};
+constexpr double kCameraShift = 0.05;  // [m] along each axis
+constexpr double kTargetShift = 0.03;
+constexpr double kArmShift = 0.05;  // [rad] of each joint
+
+double Draw(const Range& range, Rng& rng) { return rng.Uniform(range.low, range.high); }
+
+Eigen::Vector3d DrawShift(double most, Rng& rng) {
+  const double x = rng.Uniform(-most, most);
+  const double y = rng.Uniform(-most, most);
+  return {x, y, rng.Uniform(-most, most)};
+}
+
+void VaryLatch(Latch& latch, Rng rng) {
+  latch.hinge_spring_nm_per_rad *= Draw(kSpring, rng);
+  latch.handle_spring_nm_per_rad *= Draw(kSpring, rng);
+  latch.unlock_angle_rad =
+      std::min(latch.unlock_angle_rad * Draw(kUnlockAngle, rng), latch.handle_done_angle_rad);
+}
+
+void VaryDoor(Scene& scene, Rng rng) {
+  scene.physics.handle_friction *= Draw(kHandleFriction, rng);
+  scene.variation.leaf_mass = Draw(kMass, rng);
+  scene.variation.handle_mass = Draw(kMass, rng);
+  scene.variation.hinge_damping = Draw(kDamping, rng);
+  scene.variation.handle_damping = Draw(kDamping, rng);
+}
+
+void VaryView(Scene& scene, Rng rng) {
+  scene.camera.position_m += DrawShift(kCameraShift, rng);
+  scene.camera.target_m += DrawShift(kTargetShift, rng);
+}
+
+// How much of the paper's own jitter there is.
+double PaperShare(const SceneConfig& config) {
+  if (config.randomisation == "off") return 0;
+  if (config.randomisation == "paper" || config.randomisation == "strong") return 1;
+  throw Error(ErrorCode::kInvalidConfig, "config.scene.randomisation: found \"" +
+                                             config.randomisation +
+                                             "\", allowed off, paper, strong");
+}
+
 }  // namespace
 
 Scene SampleScene(const DoorAsset& door, std::uint64_t seed, std::uint64_t episode,
@@ -81,6 +129,7 @@ Scene SampleScene(const DoorAsset& door, std::uint64_t seed, std::uint64_t episo
   RequireSimulatable(door, "scene");
   const std::string stream = "scene/" + door.id + "/" + std::to_string(episode) + "/";
   const Placement placement = PlacementOf(door.category);
+  const double share = PaperShare(config);
   Scene scene;
   scene.door_id = door.id;
   scene.door_sha256 = ContentHash(door);
@@ -88,10 +137,17 @@ Scene SampleScene(const DoorAsset& door, std::uint64_t seed, std::uint64_t episo
   scene.episode = episode;
   scene.world_from_door = PlaceDoor(door, placement);
   scene.world_from_robot_base =
-      PlaceRobot(placement, config.base_jitter, Rng(seed, stream + "base"));
+      PlaceRobot(placement, share * config.base_jitter, Rng(seed, stream + "base"));
   scene.latch = door.latch;
-  scene.grasp_from_noisy_grasp = GraspNoise(door, config.grasp_noise, Rng(seed, stream + "grasp"));
+  scene.grasp_from_noisy_grasp =
+      GraspNoise(door, share * config.grasp_noise, Rng(seed, stream + "grasp"));
   scene.physics = config.physics;
+  if (config.randomisation != "strong") return scene;
+  VaryLatch(scene.latch, Rng(seed, stream + "latch"));
+  VaryDoor(scene, Rng(seed, stream + "door"));
+  VaryView(scene, Rng(seed, stream + "camera"));
+  Rng start(seed, stream + "start");
+  for (double& offset : scene.arm_start_offset_rad) offset = start.Uniform(-kArmShift, kArmShift);
   return scene;
 }
 

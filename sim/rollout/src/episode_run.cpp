@@ -38,6 +38,13 @@ Format(const char* format, ...) {
   return text;
 }
 
+JointVector StartOf(const Scene& scene, const RobotModel& robot) {
+  JointVector start = robot.InitialPosition();
+  for (std::size_t i = 0; i < scene.arm_start_offset_rad.size(); ++i)
+    start[kSliderCount + static_cast<Eigen::Index>(i)] += scene.arm_start_offset_rad[i];
+  return start;
+}
+
 }  // namespace
 
 EpisodeRun::EpisodeRun(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
@@ -46,8 +53,8 @@ EpisodeRun::EpisodeRun(const Scene& scene, const DoorAsset& door, const RobotMod
       robot_(robot),
       observer_(observer),
       plan_(PlanGrasp(scene, door, robot)),
-      world_(scene, door, robot, robot.InitialPosition()),
-      controller_(robot, scene.world_from_robot_base, robot.InitialPosition()),
+      world_(scene, door, robot, StartOf(scene, robot)),
+      controller_(robot, scene.world_from_robot_base, StartOf(scene, robot)),
       action_noise_(scene.seed,
                     "episode/" + scene.door_id + "/" + std::to_string(scene.episode) + "/actions") {
   episode_.scene = scene;

@@ -12,7 +12,8 @@ Episode RunEpisode(const Scene& scene, const DoorAsset& door, const RobotModel& 
                    Policy& opening, Observer* observer) {
   Require(scene.door_id == door.id, ErrorCode::kInvalidArgument,
           "the scene is of door \"" + scene.door_id + "\", not of \"" + door.id + '"');
-  internal::EpisodeRun run(scene, door, robot, observer);
+  const DoorAsset varied = Varied(door, scene.variation);
+  internal::EpisodeRun run(scene, varied, robot, observer);
   auto failure = run.Reach();
   if (!failure) failure = run.Grasp();
   if (!failure) failure = run.Unlock();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -45,6 +46,27 @@ struct PhysicsConfig {
   }
 };
 
+/// Factors on what the door's record says, drawn for one scene.
+struct DoorVariation {
+  double leaf_mass = 1;  ///< On mass and inertia.
+  double handle_mass = 1;
+  double hinge_damping = 1;
+  double handle_damping = 1;
+
+  bool operator==(const DoorVariation&) const = default;
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    visit("leaf_mass", self.leaf_mass);
+    visit("handle_mass", self.handle_mass);
+    visit("hinge_damping", self.hinge_damping);
+    visit("handle_damping", self.handle_damping);
+  }
+};
+
+/// The door with these factors applied.
+DoorAsset Varied(const DoorAsset& door, const DoorVariation& variation);
+
 /// Everything that decides an episode, except the policies. Plain data; same scene, same door, same
 /// policies: same episode.
 struct Scene {
@@ -54,7 +76,10 @@ struct Scene {
   std::uint64_t episode = 0;  ///< Index within its plan; names the random streams.
   RigidTransform world_from_door = RigidTransform::Identity();
   RigidTransform world_from_robot_base = RigidTransform::Identity();
-  Latch latch;
+  Latch latch;              ///< With the scene's springs and unlock angle.
+  DoorVariation variation;  ///< Of the rest of the door.
+  /// Added to the seven arm joints of the robot's initial position.
+  std::array<double, 7> arm_start_offset_rad{};
   /// Offset of the expert's grasp from the door's grasp frame, in the grasp frame.
   RigidTransform grasp_from_noisy_grasp = RigidTransform::Identity();
   PhysicsConfig physics;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "doorforge/schemas/door_asset.h"
 #include "doorforge/schemas/scene.h"
@@ -11,12 +12,18 @@ namespace doorforge {
 
 struct SceneConfig {
   PhysicsConfig physics;
+  /// "off": every episode of a door is the same, but for the policies' own noise; "paper": the
+  /// robot's place and the grasp vary, as in UniDoorManip's released code; "strong": friction,
+  /// masses, damping, springs, unlock angle, camera and start pose as well, see
+  /// docs/design/simulation.md for the ranges and their sources.
+  std::string randomisation = "paper";
   double base_jitter = 1;  ///< Scales the spread of the robot's place; 0: always the same.
   double grasp_noise = 1;  ///< Scales the offset of the expert's grasp; 0: the nominal grasp.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
     visit("physics", self.physics);
+    visit("randomisation", self.randomisation);
     visit("base_jitter", self.base_jitter);
     visit("grasp_noise", self.grasp_noise);
   }
@@ -31,7 +38,9 @@ struct SceneConfig {
 /// at height 0.1 m is not moved. Robot: facing the door at the category's distance, x and y
 /// jittered independently by clip(N(0, 0.5), -1, 1) times 0.08 to 0.15 m. Grasp: turned about the
 /// approach by the same kind of number times 10 degrees; on levers and flaps also shifted along the
-/// handle by up to grasp_half_extent_m. Throws as RequireSimulatable().
+/// handle by up to grasp_half_extent_m. Throws as RequireSimulatable(), and Error(kInvalidConfig)
+/// on an unknown randomisation. A stronger randomisation leaves the draws of a weaker one as they
+/// are.
 Scene SampleScene(const DoorAsset& door, std::uint64_t seed, std::uint64_t episode,
                   const SceneConfig& config = {});
 

@@ -42,6 +42,13 @@ TEST(ComposePlace, AuthorKeepsTheDepthTooAndSeatMovesTheBackOntoTheLeaf) {
   ExpectAt(ComposeDoor(SmallBody(), SmallLever(), {.place = "seat"}, kFloating), {0.02, 0.32, 0.8});
 }
 
+TEST(ComposePlace, PlaneLaysTheHandlesOwnPlaneOnTheLeaf) {
+  Part floating = SmallLever();
+  for (PartPiece& piece : floating.pieces) Shift(piece, {0.034, 0, 0});
+  ExpectAt(ComposeDoor(SmallBody(), floating, {.place = "plane"}), {0.02, 0.32, 0.8});
+  ExpectAt(ComposeDoor(SmallBody(), floating, {.place = "seat"}), {0.02 - 0.034, 0.32, 0.8});
+}
+
 TEST(ComposePlace, AHandleWhoseAxisLiesInTheLeafIsNotMovedAtAll) {
   Part flap = SmallLever();
   flap.mechanism = Mechanism::kFlap;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/door/foreign_object.h"
 
+#include <map>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -520,6 +521,37 @@ TEST(LooseMesh, FlagsTurnAFileIntoAHandle) {
     config.mesh = wrong;
     ExpectError(folder / "my_lever.stl", ErrorCode::kInvalidArgument, "", config);
   }
+}
+
+TEST(LooseMesh, TheUnitIsToldByTheSizeOrAskedFor) {
+  const fs::path folder = TestFolder("mesh_unit");
+  ReadConfig config{.category = "storagefurniture", .mesh = {.role = "handle"}};
+  const auto read = [&](double length) {
+    WriteText(folder / "bar.obj", ToObj(Box(length * Eigen::Vector3d(0, -0.05, -0.5),
+                                            length * Eigen::Vector3d(0.2, 0.05, 0.5))));
+    return ReadOne(folder / "bar.obj", config);
+  };
+  // length in the file's unit -> metres a unit
+  for (const auto& [length, scale] : std::map<double, double>{
+           {0.14, 1}, {0.6, 1}, {14, 0.01}, {140, 0.001}, {590, 0.001}, {1.3, 1}})
+    EXPECT_EQ(read(length).scale, scale) << length;
+  EXPECT_TRUE(read(0.14).notes.empty());
+  EXPECT_NE(read(140).notes.at(0).find("read in mm"), std::string::npos);
+  EXPECT_NE(read(1.3).notes.at(0).find("--size"), std::string::npos);
+  // 0.4 m or 40 mm
+  EXPECT_THROW(read(40), Error);
+  // no handle in any unit, and no thing that a door could carry
+  EXPECT_THROW(read(1900), Error);
+  config.mesh.unit = "mm";
+  EXPECT_EQ(read(40).scale, 0.001);
+  config.mesh = {.role = "handle", .size_m = 0.2};
+  ExpectNear(BoundsOf(Load(read(40), PartRole::kHandle), "grip").sizes(), {0.04, 0.02, 0.2}, 1e-9);
+  config.mesh.unit = "mm";
+  EXPECT_THROW(read(40), Error);
+  // the same number is a leaf's height in mm
+  WriteText(folder / "leaf.obj", ToObj(Box({0, -380, -950}, {38, 380, 950})));
+  config.mesh = {.role = "body"};
+  EXPECT_EQ(ReadOne(folder / "leaf.obj", config).scale, 0.001);
 }
 
 TEST(LooseMesh, ALeafIsHingedAtItsEdgeAndABoxIsRefused) {

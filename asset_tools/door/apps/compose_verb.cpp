@@ -26,8 +26,14 @@
 #include "doorforge/door/compose.h"
 #include "doorforge/door/export_urdf.h"
 #include "doorforge/door/shared_doors.h"
+#include "doorforge/door/validate_door.h"
 
+#include "mesh_options.h"
+#include "own_part.h"
 #include "verb_options.h"
+#ifdef DOORFORGE_WITH_PREVIEW
+#include "preview_verb.h"
+#endif
 
 namespace doorforge {
 namespace {
@@ -36,14 +42,20 @@ namespace fs = std::filesystem;
 
 /// What --config and --set hold: everything that decides the doors.
 struct ComposeRequest {
-  std::string body = {};    ///< Id, folder or glob.
-  std::string handle = {};  ///< The same.
+  std::string body = {};           ///< Id, folder or glob.
+  std::string handle = {};         ///< The same.
+  std::string category = {};       ///< Of a door whose body and handle are both to be imported.
+  LooseMeshConfig body_mesh = {};  ///< How to read a body that is a mesh file.
+  LooseMeshConfig handle_mesh = {};
   ComposeConfig door = {};
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
     visit("body", self.body);
     visit("handle", self.handle);
+    visit("category", self.category);
+    visit("body_mesh", self.body_mesh);
+    visit("handle_mesh", self.handle_mesh);
     ComposeConfig::VisitFields(self.door, visit);
   }
 };
@@ -57,10 +69,14 @@ struct Options {
   std::string config;
   std::string place;
   std::vector<std::string> settings;
+  LooseMeshConfig body_mesh = UnsetMeshOptions();
+  LooseMeshConfig handle_mesh = UnsetMeshOptions();
   int threads = 0;
   bool all = false;
   bool as_imported = false;
   bool standalone = false;
+  bool preview = false;
+  bool validate = false;
   bool overwrite = false;
   bool json = false;
   bool quiet = false;
@@ -69,25 +85,37 @@ struct Options {
 
 void AddOptions(CLI::App& app, Options& options) {
   app.add_option("--body", options.body,
-                 "id in the catalogue or in --parts, a part's folder, or a "
-                 "glob of either");
+                 "id in the catalogue or in --parts, a part's folder, a glob of either, or what "
+                 "`doorforge import` reads, such as a mesh file");
   app.add_option("--handle", options.handle, "the same");
   app.add_option("--out", options.out, "folder of the door; of the doors where there may be many");
   app.add_flag("--all", options.all, "every body with every handle of its category");
   app.add_flag("--as-imported", options.as_imported,
                "with --parts: the pairs that the imported objects were composed of");
   app.add_option("--parts", options.parts, "folder of parts; the catalogue if left out");
-  app.add_option("--category", options.category, "with many doors: only this category");
+  app.add_option("--category", options.category,
+                 "with many doors: only this category; of a door whose body and handle are both "
+                 "imported on the way");
+  AddHandleMeshOptions(app, "handle-", options.handle_mesh);
+  AddMeshOptions(app, "handle-", options.handle_mesh);
+  AddBodyMeshOptions(app, "body-", options.body_mesh);
+  AddMeshOptions(app, "body-", options.body_mesh);
   app.add_option(
          "--place", options.place,
-         "seat: the body's mount, on the leaf's surface; author: as on the object that both "
-         "were imported from; axis: about the same axis, on the surface; auto: axis for parts "
-         "of one object, else seat")
-      ->check(CLI::IsMember({"auto", "seat", "axis", "author"}));
+         "seat: the body's mount, the handle's back on the leaf; plane: the same with the "
+         "handle's own plane of mounting; author: as on the object that both were imported from; "
+         "axis: about the same axis, on the leaf; auto: axis for parts of one object, plane with "
+         "--handle-mount, else seat")
+      ->check(CLI::IsMember({"auto", "seat", "plane", "axis", "author"}));
   app.add_option("--config", options.config, "YAML file with body, handle and all settings");
   app.add_option("--set", options.settings, "key=value overrides one setting");
   app.add_flag("--standalone", options.standalone,
                "many doors: each with its own copy of the meshes");
+  app.add_flag("--validate", options.validate,
+               "one door: validate it and write validation.json; with imported parts always");
+#ifdef DOORFORGE_WITH_PREVIEW
+  app.add_flag("--preview", options.preview, "one door: write its picture thumb.png");
+#endif
   app.add_option("--threads", options.threads, "0: all processors; no byte depends on it");
   app.add_flag("--overwrite", options.overwrite, "replace doors that are there already");
   app.add_flag("--json", options.json, "print one JSON document");
@@ -98,7 +126,10 @@ void AddOptions(CLI::App& app, Options& options) {
       "its own. A run that was ended goes on where it was when it is given again.\n"
       "examples:\n"
       "  doorforge compose --body interior_flush_01 --handle interior_lever_tube_01 --out doors/a\n"
-      "  doorforge compose --body 'interior_panel*' --handle 'interior_lever*' --out doors \\\n"
+      "  doorforge compose --body interior_flush_01 --handle my_lever.stl --handle-mechanism lever "
+      "\\\n"
+      "      --handle-up y --handle-front z --out doors/mine --preview\n"
+      "  doorforge compose --body 'interior_*_panel_*' --handle 'interior_lever*' --out doors \\\n"
       "      --set hinge_side=right\n"
       "  doorforge compose --all --category interior --out doors");
 }
@@ -131,6 +162,9 @@ ComposeRequest RequestOf(const Options& options) {
   if (!options.body.empty()) request.body = options.body;
   if (!options.handle.empty()) request.handle = options.handle;
   if (!options.place.empty()) request.door.place = options.place;
+  if (!options.category.empty()) request.category = options.category;
+  OverrideMesh(request.body_mesh, options.body_mesh);
+  OverrideMesh(request.handle_mesh, options.handle_mesh);
   if (options.all || options.as_imported) return request;
   if (request.body.empty() || request.handle.empty())
     throw Error(ErrorCode::kInvalidArgument,
@@ -188,6 +222,12 @@ class PartStore {
     if (IsPartFolder(name)) return name;
     const bool in_store = !folder_.empty() && name.find('/') == std::string::npos;
     return in_store && IsPartFolder(folder_ / name) ? folder_ / name : fs::path();
+  }
+
+  /// Whether it is neither a part nor the name of one, but a file or folder to import.
+  bool IsToImport(const std::string& name) const {
+    if (!FolderOf(name).empty() || IsGlob(name)) return false;
+    return fs::exists(name) || fs::path(name).has_extension();
   }
 
   Part Load(const std::string& name) const {
@@ -398,8 +438,16 @@ std::vector<Door> WriteShared(const SharedDoorPlan& plan, const fs::path& out) {
   return doors;
 }
 
+void RefuseToImport(const PartStore& store, const std::string& name) {
+  if (store.IsToImport(name))
+    throw Error(ErrorCode::kInvalidArgument,
+                name + ": is no part; for many doors make it one first with `doorforge import`");
+}
+
 int ComposeMany(const Options& options, const ComposeRequest& request) {
   const PartStore store(options.parts);
+  RefuseToImport(store, request.body);
+  RefuseToImport(store, request.handle);
   std::vector<std::string> names;
   if (request.body.empty() || options.all || options.as_imported) {
     names = store.All();
@@ -427,18 +475,96 @@ int ComposeMany(const Options& options, const ComposeRequest& request) {
   return Finish(doors, options);
 }
 
-int ComposeOne(const Options& options, const ComposeRequest& request) {
-  const PartStore store(options.parts);
-  const Part handle = store.Load(request.handle);
-  const fs::path body_folder = store.FolderOf(request.body);
-  const std::optional<RigidTransform> authored =
-      body_folder.empty() ? std::nullopt
-                          : PlaceIn(ReadAuthorPlaces(body_folder), handle.source_sha256);
-  const DoorAsset door = ComposeDoor(store.Load(request.body), handle, request.door, authored);
-  WriteDoorFolder(door, options.out, OnExisting(options));
-  WriteRequest(request, options.out);
-  return Finish({{door.id, "", false}}, options);
-}
+/// One door on its way, with what was imported for it.
+class OneDoor {
+ public:
+  OneDoor(const Options& options, ComposeRequest request)
+      : options_(options), request_(std::move(request)), store_(options.parts) {}
+
+  int Run() {
+    // refuses what is there already before anything is imported
+    { const StagedFolder probe(options_.out, OnExisting(options_)); }
+    LoadParts();
+    const fs::path body_folder = store_.FolderOf(request_.body);
+    const std::optional<RigidTransform> authored =
+        body_folder.empty() ? std::nullopt
+                            : PlaceIn(ReadAuthorPlaces(body_folder), handle_->source_sha256);
+    // who says where the leaf lies in the file is believed
+    if (own_handle_ && !request_.handle_mesh.mount.empty() && request_.door.place == "auto")
+      request_.door.place = "plane";
+    const DoorAsset door = ComposeDoor(*body_, *handle_, request_.door, authored);
+    WriteDoorFolder(door, options_.out, OnExisting(options_));
+    WriteRequest(request_, options_.out);
+    // beside the door, for other doors
+    if (own_body_) own_body_->MoveTo(fs::path(options_.out) / "body");
+    if (own_handle_) own_handle_->MoveTo(fs::path(options_.out) / "handle");
+    const int code = Finish({{door.id, "", false}}, options_);
+    return std::max(code, Check());
+  }
+
+ private:
+  void LoadParts() {
+    const bool own_body = store_.IsToImport(request_.body);
+    const bool own_handle = store_.IsToImport(request_.handle);
+    if (!own_body) body_ = store_.Load(request_.body);
+    if (!own_handle) handle_ = store_.Load(request_.handle);
+    if (own_body)
+      body_ = ImportOwn({request_.body, PartRole::kBody, CategoryFor(handle_), request_.body_mesh},
+                        own_body_);
+    if (own_handle)
+      handle_ =
+          ImportOwn({request_.handle, PartRole::kHandle, CategoryFor(body_), request_.handle_mesh},
+                    own_handle_);
+  }
+
+  // that of the other half
+  Category CategoryFor(const std::optional<Part>& other) const {
+    if (other) return other->category;
+    if (const std::optional<Category> category = CategoryNamed(request_.category)) return *category;
+    throw Error(ErrorCode::kInvalidArgument,
+                "--category is required where body and handle are both to be imported");
+  }
+
+  Part ImportOwn(const OwnPartRequest& request, std::optional<OwnPart>& own) const {
+    own.emplace(request, options_.out);
+    for (const std::string& note : own->notes())
+      std::fprintf(stderr, "doorforge: %s: %s\n", own->part().id.c_str(), note.c_str());
+    return own->part();
+  }
+
+  // of the door as it was written
+  int Check() const {
+    int errors = 0;
+    if (options_.validate || own_body_ || own_handle_) {
+      const ValidationReport report = ValidateDoor(options_.out);
+      WriteJsonFile(fs::path(options_.out) / "validation.json", ToJson(std::span(&report, 1)));
+      errors = report.errors;
+      for (const Finding& finding : report.findings)
+        std::fprintf(stderr, "doorforge: %s %s %s: measured %s; allowed %s; to fix: %s\n",
+                     finding.code.c_str(), std::string(NameOf(finding.severity)).c_str(),
+                     finding.where.c_str(), finding.measured.c_str(), finding.allowed.c_str(),
+                     finding.fix.c_str());
+      if (!options_.json && !options_.quiet)
+        std::printf("validated: %d errors, %d warnings\n", report.errors, report.warnings);
+    }
+#ifdef DOORFORGE_WITH_PREVIEW
+    if (options_.preview) {
+      const fs::path png = fs::path(options_.out) / "thumb.png";
+      WritePreview(options_.out, png);
+      if (!options_.json && !options_.quiet) std::printf("picture: %s\n", png.c_str());
+    }
+#endif
+    return errors == 0 ? 0 : 1;
+  }
+
+  const Options& options_;
+  ComposeRequest request_;
+  PartStore store_;
+  std::optional<Part> body_;
+  std::optional<Part> handle_;
+  std::optional<OwnPart> own_body_;
+  std::optional<OwnPart> own_handle_;
+};
 
 int ListRules() {
   for (const ComposeRule& rule : ComposeRules())
@@ -461,7 +587,7 @@ int RunComposeVerb(int argc, char** argv) {
   const ComposeRequest request = RequestOf(options);
   const bool many =
       options.all || options.as_imported || IsGlob(request.body) || IsGlob(request.handle);
-  return many ? ComposeMany(options, request) : ComposeOne(options, request);
+  return many ? ComposeMany(options, request) : OneDoor(options, request).Run();
 }
 
 }  // namespace doorforge

@@ -13,6 +13,7 @@
 #include "doorforge/core/program.h"
 #include "doorforge/door/import_objects.h"
 
+#include "mesh_options.h"
 #include "verb_options.h"
 
 namespace doorforge {
@@ -39,25 +40,11 @@ void AddReadOptions(CLI::App& app, ReadConfig& read) {
                  "frame: objects that lack only the mesh of their frame are imported without");
   app.add_option("--height", read.height_m,
                  "height of the whole object in m, for data sets without a unit");
-  LooseMeshConfig& mesh = read.mesh;
-  mesh = {.role = "", .mechanism = "", .unit = "", .hinge = "", .license = ""};
-  app.add_option("--role", mesh.role, "of loose meshes: body (a leaf) or handle");
-  app.add_option("--mechanism", mesh.mechanism,
-                 "of loose handles: none, lever, round, key, valve or flap");
-  app.add_option("--unit", mesh.unit, "of loose meshes: m, cm, mm, in or ft");
-  app.add_option("--scale", mesh.scale,
-                 "of loose meshes: one factor, or three along the file's axes")
-      ->expected(1, 3);
-  app.add_option("--up", mesh.up, "axis of the file that points up: x, y, z, -x, -y or -z");
-  app.add_option("--front", mesh.front, "axis of a loose mesh that points out of the door");
-  app.add_option("--hinge", mesh.hinge, "of loose leaves, as seen from the front: left or right");
-  app.add_option("--frame", mesh.frame, "mesh of a loose leaf's frame");
-  app.add_option("--rose", mesh.rose, "mesh of what stays fixed around a loose handle");
-  app.add_option("--mount", mesh.mount,
-                 "x y z in a loose mesh: where the handle goes, or the point on its axis that lies "
-                 "on the leaf")
-      ->expected(3);
-  app.add_option("--license", mesh.license, "SPDX expression, of loose meshes and URDF");
+  read.mesh = UnsetMeshOptions();
+  app.add_option("--role", read.mesh.role, "of loose meshes: body (a leaf) or handle");
+  AddMeshOptions(app, "", read.mesh);
+  AddHandleMeshOptions(app, "", read.mesh);
+  AddBodyMeshOptions(app, "", read.mesh);
 }
 
 Options Parse(int argc, char** argv) {
@@ -100,18 +87,7 @@ void OverrideRead(ReadConfig& config, const ReadConfig& flags) {
   Override(config.category, flags.category);
   Override(config.allow_missing, flags.allow_missing);
   Override(config.height_m, flags.height_m);
-  LooseMeshConfig& mesh = config.mesh;
-  Override(mesh.role, flags.mesh.role);
-  Override(mesh.mechanism, flags.mesh.mechanism);
-  Override(mesh.unit, flags.mesh.unit);
-  Override(mesh.scale, flags.mesh.scale);
-  Override(mesh.up, flags.mesh.up);
-  Override(mesh.front, flags.mesh.front);
-  Override(mesh.hinge, flags.mesh.hinge);
-  Override(mesh.frame, flags.mesh.frame);
-  Override(mesh.rose, flags.mesh.rose);
-  Override(mesh.mount, flags.mesh.mount);
-  Override(mesh.license, flags.mesh.license);
+  OverrideMesh(config.mesh, flags.mesh);
 }
 
 std::string NotesOf(const ImportedObject& object) {

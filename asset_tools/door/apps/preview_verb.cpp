@@ -31,7 +31,7 @@ struct Options {
   double handle_deg = 0;
   double azimuth_deg = -34;
   int columns = 6;
-  int width = 0;
+  int width = 0;  // 0: by what is drawn
   int threads = 0;
   bool collision = false;
 };
@@ -133,7 +133,14 @@ Picture Draw(const fs::path& folder, const Options& options, int width) {
   return RenderPicture(scene, FramingCamera(scene, view), config);
 }
 
+constexpr int kWidth = 960;
+constexpr int kSheetWidth = 320;
+
 }  // namespace
+
+void WritePreview(const fs::path& folder, const fs::path& png) {
+  WritePng(png, Draw(folder, Options{}, kWidth));
+}
 
 int RunPreviewVerb(int argc, char** argv) {
   const Options options = Parse(argc, argv);
@@ -142,7 +149,7 @@ int RunPreviewVerb(int argc, char** argv) {
     for (fs::path& folder : FindRecords(path)) folders.push_back(std::move(folder));
   }
   const bool sheet = folders.size() > 1;
-  const int width = options.width > 0 ? options.width : (sheet ? 320 : 960);
+  const int width = options.width > 0 ? options.width : (sheet ? kSheetWidth : kWidth);
   std::vector<Picture> pictures(folders.size());
   std::vector<std::string> captions;
   for (const fs::path& folder : folders)

@@ -116,13 +116,14 @@ RigidTransform SeatedMount(const Pair& pair) {
       internal::SeatOn(*pair.body.leaf, back, WantedMount(pair));
   if (!seat) internal::RefusePair("CMP005", names + "; set handle_height_m or backset_m");
   body_from_handle.translation() = *seat;
+  if (pair.config.place == "plane") body_from_handle.translation().x() += back.rear_m;
   CheckOutline(pair, body_from_handle);
   return body_from_handle;
 }
 
 bool KeepsTheAuthorsPlace(const Pair& pair) {
   const std::string& place = pair.config.place;
-  if (place == "seat") return false;
+  if (place == "seat" || place == "plane") return false;
   if (place == "auto")
     return pair.authored.has_value() && internal::MovesTheHandle(pair.config).empty();
   if (!pair.authored)

@@ -120,7 +120,7 @@ MassProperties Scaled(MassProperties mass, double factor) {
 }
 
 void CheckPlace(const ComposeConfig& config) {
-  CheckName("place", config.place, {"auto", "seat", "author", "axis"});
+  CheckName("place", config.place, {"auto", "seat", "plane", "author", "axis"});
   if (config.place != "author" && config.place != "axis") return;
   const std::string moved = internal::MovesTheHandle(config);
   if (!moved.empty())

@@ -25,6 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+constexpr double kLongestGrip = 10;  // [m]
 constexpr const char* kStoppedMessage =
     "stopped before its turn; run the same command again to go on";
 
@@ -232,6 +233,9 @@ class Import {
 
   static void SetGrasp(PartJob& job) {
     Part& part = *job.made.part;
+    // nothing that a hand holds; looking for a grasp takes memory by its size
+    const Eigen::Vector3d size = internal::BoundsOf(FindPiece(part, "grip")->mesh).sizes();
+    if (size.maxCoeff() > kLongestGrip) return;
     std::vector<TriangleMesh> pieces;
     for (const PartPiece& piece : part.pieces) pieces.push_back(piece.mesh);
     job.grasp = RefineGrasp(FindPiece(part, "grip")->mesh, internal::JoinedMeshes(pieces),

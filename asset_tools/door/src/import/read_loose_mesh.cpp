@@ -4,10 +4,13 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <iomanip>
 #include <numbers>
+#include <sstream>
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
+#include "doorforge/mesh/import_mesh.h"
 
 #include "import/file_axes.h"
 #include "import/handle_part.h"
@@ -78,6 +81,90 @@ std::optional<Eigen::Vector3d> MountIn(const LooseMeshConfig& config) {
          Eigen::Vector3d(config.mount[0], config.mount[1], config.mount[2]);
 }
 
+// how long things of a role are
+struct UsualLength {
+  const char* what;
+  double low_m;
+  double high_m;
+};
+constexpr UsualLength kHandleLength{"handle", 0.02, 0.6};
+constexpr UsualLength kLeafLength{"leaf", 0.2, 3.5};
+
+std::string Metres(double metres) {
+  std::ostringstream text;
+  text << std::setprecision(3) << metres << " m";
+  return text.str();
+}
+
+double LongestSide(const fs::path& file) {
+  return BoundsOf(MergedPieces(ImportMesh(file))).sizes().maxCoeff();
+}
+
+// A config with a unit, and what was assumed.
+struct KnownUnit {
+  LooseMeshConfig config;
+  std::string note;
+};
+
+KnownUnit WithSize(LooseMeshConfig config, const fs::path& file) {
+  if (!config.unit.empty() || !config.scale.empty())
+    Wrong("--size: stands for --unit and --scale; give one of them");
+  if (!(config.size_m > 0) || !std::isfinite(config.size_m))
+    Wrong("--size: expected a length above 0 m");
+  config.unit = "m";
+  config.scale = {config.size_m / LongestSide(file)};
+  return {config, ""};
+}
+
+KnownUnit GuessUnit(LooseMeshConfig config, const fs::path& file, const UsualLength& usual) {
+  const double length = LongestSide(file);
+  std::vector<std::string> fitting;
+  std::string lengths;
+  for (const char* unit : {"m", "cm", "mm"}) {
+    const double metres = length * MetresOf(unit);
+    if (metres < usual.low_m || metres > usual.high_m) continue;
+    fitting.emplace_back(unit);
+    lengths += (lengths.empty() ? "" : " or ") + Metres(metres) + " in " + unit;
+  }
+  if (fitting.size() > 1)
+    Wrong(file.string() + ": its longest side would be " + lengths +
+          "; pass --unit, or --size with its length in m");
+  const std::string range = Metres(usual.low_m) + " to " + Metres(usual.high_m);
+  config.unit = fitting.empty() ? "m" : fitting.front();
+  if (fitting.empty())
+    return {config, "read in m, " + Metres(length) + " long, where a " + usual.what + " is " +
+                        range + "; pass --unit or --size"};
+  if (config.unit == "m") return {config, ""};
+  return {config, "read in " + config.unit + ", which makes it " +
+                      Metres(length * MetresOf(config.unit)) + " long; --unit says otherwise"};
+}
+
+// what is off by more than this is a wrong unit, not an unusual thing
+constexpr double kFarOff = 10;
+
+void CheckLength(const LooseMeshConfig& config, const fs::path& file, const UsualLength& usual) {
+  const double length = LongestSide(file) * MetresOf(config.unit) * ScaleOf(config).maxCoeff();
+  if (length >= usual.low_m / kFarOff && length <= usual.high_m * kFarOff) return;
+  Wrong(file.string() + ": would be " + Metres(length) + " long, where a " + usual.what + " is " +
+        Metres(usual.low_m) + " to " + Metres(usual.high_m) +
+        "; pass another --unit or --scale, or --size with its length in m");
+}
+
+KnownUnit FindUnit(const LooseMeshConfig& config, const fs::path& file, const UsualLength& usual) {
+  if (config.size_m != 0) return WithSize(config, file);
+  if (!config.unit.empty()) return {config, ""};
+  if (config.scale.empty()) return GuessUnit(config, file, usual);
+  KnownUnit known{config, ""};
+  known.config.unit = "m";
+  return known;
+}
+
+KnownUnit KnowUnit(const LooseMeshConfig& config, const fs::path& file, const UsualLength& usual) {
+  KnownUnit known = FindUnit(config, file, usual);
+  CheckLength(known.config, file, usual);
+  return known;
+}
+
 SourceMesh MeshFrom(const fs::path& file, const std::string& piece, const LooseMeshConfig& config) {
   SourceMesh mesh;
   mesh.piece = piece;
@@ -103,7 +190,7 @@ std::string NameFor(const fs::path& path) {
 }
 
 ForeignObject ReadHandleMesh(const fs::path& path, const ReadConfig& config) {
-  const LooseMeshConfig& mesh = config.mesh;
+  const auto [mesh, note] = KnowUnit(config.mesh, path, kHandleLength);
   HandleSource handle;
   handle.name = "mesh/" + NameFor(path);
   handle.id = NameFor(path);
@@ -121,12 +208,17 @@ ForeignObject ReadHandleMesh(const fs::path& path, const ReadConfig& config) {
   handle.meshes.push_back(MeshFrom(path, "grip", mesh));
   ForeignObject object = ReadHandle(handle);
   object.scale = MetresOf(mesh.unit) * ScaleOf(mesh).x();
+  if (!note.empty()) object.notes.push_back(note);
   return object;
 }
 
 class BodyMeshReader {
  public:
-  BodyMeshReader(const fs::path& path, const ReadConfig& config) : path_(path), config_(config) {}
+  BodyMeshReader(const fs::path& path, const ReadConfig& config) : path_(path), config_(config) {
+    KnownUnit known = KnowUnit(config.mesh, path, kLeafLength);
+    config_.mesh = std::move(known.config);
+    if (!known.note.empty()) object_.notes.push_back(std::move(known.note));
+  }
 
   ForeignObject Read() {
     const LooseMeshConfig& config = config_.mesh;
@@ -193,7 +285,7 @@ class BodyMeshReader {
   }
 
   fs::path path_;
-  const ReadConfig& config_;
+  ReadConfig config_;
   std::vector<SourceMesh> meshes_;
   ForeignObject object_;
 };

@@ -26,7 +26,8 @@ struct ComposeConfig {
       0;                    ///< Above the body's lowest point; 0: where the body's author put it.
   double backset_m = 0;     ///< Handle to free edge of the leaf; 0: as the body's author put it.
   double handle_scale = 1;  ///< 0.5 to 2, alike in all directions.
-  /// Where the handle goes: "seat" (the body's mount, laid on the leaf's surface), "author"
+  /// Where the handle goes: "seat" (the body's mount, its back laid on the leaf's surface), "plane"
+  /// (the same, with the plane x = 0 of its frame on the surface, wherever its back is), "author"
   /// (exactly where it was on the object that both were imported from), "axis" (about the axis it
   /// had there, slid along it onto the surface where it runs out of the leaf) or "auto": axis for
   /// parts of one object that no other setting moves or stretches, else seat.

@@ -17,7 +17,10 @@ namespace doorforge {
 struct LooseMeshConfig {
   std::string role = {};           ///< "body" (a leaf) or "handle"; needed.
   std::string mechanism = "none";  ///< Of a handle, as in names.h.
-  std::string unit = "m";          ///< Of the file's numbers: m, cm, mm, in or ft.
+  /// Of the file's numbers: m, cm, mm, in or ft. Empty: m with a scale; else that of m, cm and mm
+  /// which makes it as long as handles (0.02 to 0.6 m) or leaves (0.2 to 3.5 m) are.
+  std::string unit = {};
+  double size_m = 0;  ///< Length of its longest side; replaces unit and scale. 0: not set.
   std::vector<double> scale = {};  ///< One factor or three along the file's axes; empty: 1.
   std::string up = {};  ///< Axis of the file: x, y, z, -x, -y or -z; empty: z (AKB-48: x).
   std::string front =
@@ -35,6 +38,7 @@ struct LooseMeshConfig {
     visit("role", self.role);
     visit("mechanism", self.mechanism);
     visit("unit", self.unit);
+    visit("size_m", self.size_m);
     visit("scale", self.scale);
     visit("up", self.up);
     visit("front", self.front);

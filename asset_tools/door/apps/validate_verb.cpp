@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,9 +15,13 @@
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
+#include "doorforge/door/fix_door.h"
 #include "doorforge/door/validate_door.h"
 
 #include "verb_options.h"
+#ifdef DOORFORGE_WITH_OPENABLE
+#include "openable_check.h"
+#endif
 
 namespace doorforge {
 namespace {
@@ -28,6 +34,8 @@ struct Options {
   int threads = 0;
   bool json = false;
   bool rules = false;
+  bool fix = false;
+  bool dry_run = false;
 };
 
 Options Parse(int argc, char** argv) {
@@ -35,13 +43,17 @@ Options Parse(int argc, char** argv) {
   CLI::App app("Checks doors and parts and reports every fault at once.", "doorforge validate");
   app.add_option("PATH", options.paths, "folders of doors or parts, or folders that hold some");
   app.add_option("--profile", options.profile,
-                 "urdf: what loading needs; physics: all rules (default)")
-      ->check(CLI::IsMember({"urdf", "physics"}));
+                 "urdf: what loading needs; physics: all but simulation (default); openable: all, "
+                 "with every door simulated")
+      ->check(CLI::IsMember({"urdf", "physics", "openable"}));
+  auto* fix = app.add_flag("--fix", options.fix,
+                           "mend what can be mended, then validate; --rules says which");
+  app.add_flag("--dry-run", options.dry_run, "with --fix: show what would be mended")->needs(fix);
   app.add_option("--threads", options.threads, "0: all processors");
   app.add_flag("--json", options.json, "print one JSON document");
   app.add_flag("--rules", options.rules, "list the rules and end");
   app.footer(
-      "exit code: 0 without errors, 1 with errors, 3 if a path could not be read\n"
+      "exit code: 0 without errors, 1 with errors, 3 if a path could not be read or written\n"
       "example:\n"
       "  doorforge validate doors --json");
   ParseVerb(app, argc, argv);
@@ -52,8 +64,9 @@ Options Parse(int argc, char** argv) {
 
 int ListRules() {
   for (const ValidationRule& rule : ValidationRules())
-    std::printf("%s %-7s %s\n", std::string(rule.code).c_str(),
-                std::string(NameOf(rule.severity)).c_str(), std::string(rule.text).c_str());
+    std::printf("%s %-7s %-7s %s\n", std::string(rule.code).c_str(),
+                std::string(NameOf(rule.severity)).c_str(), rule.fixable ? "fixable" : "",
+                std::string(rule.text).c_str());
   return 0;
 }
 
@@ -67,13 +80,122 @@ void Print(const ValidationReport& report) {
                 finding.allowed.c_str(), finding.fix.c_str());
 }
 
+std::unique_ptr<DoorValidator> ValidatorFor(const std::string& profile) {
+  if (profile == "urdf") return std::make_unique<DoorValidator>(ValidationProfile::kUrdf);
+  if (profile == "physics") return std::make_unique<DoorValidator>(ValidationProfile::kPhysics);
+#ifdef DOORFORGE_WITH_OPENABLE
+  return std::make_unique<DoorValidator>(OpenableCheck());
+#else
+  throw Error(ErrorCode::kInvalidArgument,
+              "--profile openable: this build lacks the simulation (sim/rollout)");
+#endif
+}
+
+/// What came of the folders; empty where a stop request came first.
+struct Results {
+  std::vector<std::optional<ValidationReport>> reports;
+  std::vector<FixReport> fixes;
+  std::vector<std::string> problems;
+};
+
+void FixOne(const Options& options, const fs::path& folder, std::size_t i, Results& results) {
+  try {
+    results.fixes[i] = FixFolder(folder, options.dry_run ? FixMode::kDryRun : FixMode::kWrite);
+  } catch (const Error& error) {
+    results.problems[i] = error.what();
+  }
+}
+
+Results ValidateAll(const Options& options, const std::vector<fs::path>& folders) {
+  const std::unique_ptr<DoorValidator> validator = ValidatorFor(options.profile);
+  Results results{std::vector<std::optional<ValidationReport>>(folders.size()),
+                  std::vector<FixReport>(folders.size()), std::vector<std::string>(folders.size())};
+  Progress progress("validating", folders.size());
+  ParallelFor(folders.size(), options.threads, [&](std::size_t i) {
+    if (StopRequested() != 0) return;
+    if (options.fix) FixOne(options, folders[i], i, results);
+    results.reports[i] = validator->Validate(folders[i]);
+    progress.Advance();
+  });
+  return results;
+}
+
+void PrintFixes(const FixReport& report, bool dry_run) {
+  for (const Fix& fix : report.fixes)
+    std::printf("%s: %s %s: %s: %s\n", report.folder.c_str(), dry_run ? "would fix" : "fixed",
+                fix.code.c_str(), fix.where.c_str(), fix.done.c_str());
+}
+
+nlohmann::ordered_json FixesToJson(const Results& results) {
+  auto fixes = nlohmann::ordered_json::array();
+  for (const FixReport& report : results.fixes) {
+    for (const Fix& fix : report.fixes)
+      fixes.push_back({{"folder", report.folder.string()},
+                       {"code", fix.code},
+                       {"where", fix.where},
+                       {"done", fix.done},
+                       {"written", report.written}});
+  }
+  return fixes;
+}
+
+// Of fixable findings that --fix could not mend, the fix report knows why.
+void ExplainLeft(const FixReport& fixed, ValidationReport& report) {
+  for (Finding& finding : report.findings) {
+    for (const Finding& left : fixed.left) {
+      if (finding.code == left.code && finding.where == left.where) finding.fix = left.fix;
+    }
+  }
+}
+
+void PrintReports(const Options& options, const Results& results,
+                  const std::vector<ValidationReport>& reports) {
+  if (options.json) {
+    nlohmann::ordered_json json = ToJson(reports);
+    json["complete"] = reports.size() == results.reports.size();
+    if (options.fix) json["fixes"] = FixesToJson(results);
+    std::cout << json.dump(2) << '\n';
+    return;
+  }
+  int errors = 0;
+  int warnings = 0;
+  for (const FixReport& fixed : results.fixes) PrintFixes(fixed, options.dry_run);
+  for (const ValidationReport& report : reports) {
+    errors += report.errors;
+    warnings += report.warnings;
+    Print(report);
+  }
+  std::printf("%zu folders: %d errors, %d warnings\n", reports.size(), errors, warnings);
+}
+
+int Finish(const Options& options, Results results) {
+  std::vector<ValidationReport> reports;
+  bool errors = false;
+  bool problems = false;
+  for (std::size_t i = 0; i < results.reports.size(); ++i) {
+    if (!results.reports[i]) continue;
+    ExplainLeft(results.fixes[i], *results.reports[i]);
+    errors = errors || results.reports[i]->errors > 0;
+    reports.push_back(std::move(*results.reports[i]));
+    if (results.problems[i].empty()) continue;
+    std::fprintf(stderr, "doorforge: %s\n", results.problems[i].c_str());
+    problems = true;
+  }
+  PrintReports(options, results, reports);
+  if (StopRequested() != 0) {
+    std::fprintf(stderr, "doorforge: stopped after %zu of %zu folders\n", reports.size(),
+                 results.reports.size());
+    return 128 + StopRequested();
+  }
+  if (problems) return 3;
+  return errors ? 1 : 0;
+}
+
 }  // namespace
 
 int RunValidateVerb(int argc, char** argv) {
   const Options options = Parse(argc, argv);
   if (options.rules) return ListRules();
-  const auto profile =
-      options.profile == "urdf" ? ValidationProfile::kUrdf : ValidationProfile::kPhysics;
   std::vector<fs::path> folders;
   bool unreadable = false;
   for (const std::string& path : options.paths) {
@@ -84,25 +206,8 @@ int RunValidateVerb(int argc, char** argv) {
       unreadable = true;
     }
   }
-  std::vector<ValidationReport> reports(folders.size());
-  Progress progress("validating", folders.size());
-  ParallelFor(folders.size(), options.threads, [&](std::size_t i) {
-    reports[i] = Validate(folders[i], profile);
-    progress.Advance();
-  });
-  int errors = 0;
-  int warnings = 0;
-  for (const ValidationReport& report : reports) {
-    errors += report.errors;
-    warnings += report.warnings;
-    if (!options.json) Print(report);
-  }
-  if (options.json)
-    std::cout << ToJson(reports).dump(2) << '\n';
-  else
-    std::printf("%zu folders: %d errors, %d warnings\n", reports.size(), errors, warnings);
-  if (unreadable) return 3;
-  return errors == 0 ? 0 : 1;
+  const int code = Finish(options, ValidateAll(options, folders));
+  return code <= 1 && unreadable ? 3 : code;
 }
 
 }  // namespace doorforge

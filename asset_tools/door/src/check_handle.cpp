@@ -10,6 +10,7 @@
 #include "findings.h"
 #include "line_hits.h"
 #include "placed_mesh.h"
+#include "record_meshes.h"
 
 namespace doorforge::internal {
 namespace {
@@ -40,30 +41,30 @@ std::vector<Eigen::Vector3d> AreaSamples(const TriangleMesh& mesh) {
 
 /// Handle and leaf in the leaf's frame.
 struct MountedHandle {
-  TriangleMesh leaf;
+  const LeafLines& leaf;
   TriangleMesh grip;
   TriangleMesh handle;  ///< Grip and rose.
   RigidTransform leaf_from_grasp;
   Eigen::Vector3d mount;
 };
 
-MountedHandle Mounted(const DoorAsset& door) {
+MountedHandle Mounted(const DoorAsset& door, const LeafLines& leaf) {
   const RigidTransform& leaf_from_handle = door.handle_joint.parent_from_child_at_zero;
-  std::vector<TriangleMesh> leaf;
   std::vector<TriangleMesh> grip;
   std::vector<TriangleMesh> handle;
-  for (const DoorGeometry& geometry : door.links[kLeafLink].geometry)
-    (geometry.label == PointLabel::kHandle ? handle : leaf).push_back(geometry.mesh);
+  for (const DoorGeometry& geometry : door.links[kLeafLink].geometry) {
+    if (geometry.label == PointLabel::kHandle) handle.push_back(geometry.mesh);
+  }
   for (const DoorGeometry& geometry : door.links[kHandleLink].geometry)
     grip.push_back(Placed(geometry.mesh, leaf_from_handle));
   handle.insert(handle.end(), grip.begin(), grip.end());
-  return {JoinedMeshes(leaf), JoinedMeshes(grip), JoinedMeshes(handle),
-          leaf_from_handle * door.handle_from_grasp, leaf_from_handle.translation()};
+  return {leaf, JoinedMeshes(grip), JoinedMeshes(handle), leaf_from_handle * door.handle_from_grasp,
+          leaf_from_handle.translation()};
 }
 
 // x of the leaf's outer surface in front of (y, z); nothing where the leaf has an opening.
-std::optional<double> SurfaceAt(const TriangleMesh& leaf, const Eigen::Vector3d& point) {
-  const auto hits = HitsAlong(leaf, 0, {point.y(), point.z()});
+std::optional<double> SurfaceAt(const LeafLines& leaf, const Eigen::Vector3d& point) {
+  const auto hits = leaf.lines.At({point.y(), point.z()});
   if (!hits) return std::nullopt;
   return hits->last;
 }
@@ -72,14 +73,14 @@ double BuriedShare(const MountedHandle& mounted) {
   constexpr double kTouchM = 0.0005;
   int inside = 0;
   for (const Eigen::Vector3d& point : AreaSamples(mounted.grip)) {
-    const auto hits = HitsAlong(mounted.leaf, 0, {point.y(), point.z()});
+    const auto hits = mounted.leaf.lines.At({point.y(), point.z()});
     inside += hits && point.x() > hits->first + kTouchM && point.x() < hits->last - kTouchM;
   }
   return static_cast<double>(inside) / kSurfaceSamples;
 }
 
 double BeyondOutline(const MountedHandle& mounted) {
-  const Eigen::AlignedBox3d leaf = BoundsOf(mounted.leaf);
+  const Eigen::AlignedBox3d& leaf = mounted.leaf.bounds;
   const Eigen::AlignedBox3d handle = BoundsOf(mounted.handle);
   double beyond = 0;
   for (const int axis : {1, 2})
@@ -111,27 +112,26 @@ struct CheckedGrasp {
   double leaf_x;  ///< The leaf's surface behind the grasp; -infinity where there is none.
 };
 
+// One fault, one finding: what is asked last makes sense only where the rest holds.
 Findings CheckGrasp(const CheckedGrasp& checked) {
-  Findings findings;
   const GripperShape gripper;
   const Eigen::Vector3d approach = checked.frame_from_grasp.linear().col(2);
   if (-approach.x() < LimitOf("HND005"))
-    findings.push_back(Found("HND005", checked.where, Number(-approach.x())));
+    return {Found("HND005", checked.where, Number(-approach.x()))};
+  const auto material = BetweenFingers(Placed(checked.grip, checked.frame_from_grasp.inverse()));
+  if (!material || material->first > gripper.opening_m / 2 ||
+      material->last < -gripper.opening_m / 2)
+    return {Found("HND004", checked.where, "nothing between the fingers")};
+  Findings findings;
   const double tips = checked.frame_from_grasp.translation().x() + gripper.tip_m * approach.x();
   if (tips - checked.leaf_x < LimitOf("HND006"))
     findings.push_back(Found("HND006", checked.where, Number(tips - checked.leaf_x) + " m"));
-  const auto material = BetweenFingers(Placed(checked.grip, checked.frame_from_grasp.inverse()));
-  if (!material || material->first > gripper.opening_m / 2 ||
-      material->last < -gripper.opening_m / 2) {
-    findings.push_back(Found("HND004", checked.where, "nothing between the fingers"));
-    return findings;
-  }
   const GraspFit fit = MeasureGrasp(checked.grip, checked.handle, checked.frame_from_grasp);
   // what lies beyond the fingers, such as the far side of a wheel, is not between them
   const double width = fit.width_m > 0 ? fit.width_m : material->last - material->first;
   if (width > LimitOf("HND007"))
     findings.push_back(Found("HND007", checked.where, Number(width) + " m"));
-  if (!fit.holds)
+  if (!fit.holds && findings.empty())
     findings.push_back(Found("HND008", checked.where,
                              std::string(fit.fingers_free ? "way free" : "way not free") +
                                  ", contact on " + Number(100 * fit.contact) + " % of the pads"));
@@ -140,21 +140,22 @@ Findings CheckGrasp(const CheckedGrasp& checked) {
 
 }  // namespace
 
-Findings CheckHandle(const DoorAsset& door) {
-  const MountedHandle mounted = Mounted(door);
-  if (mounted.leaf.triangles.empty() || mounted.grip.triangles.empty()) return {};
+Findings CheckHandle(const DoorAsset& door, const LeafLines& leaf) {
+  const MountedHandle mounted = Mounted(door, leaf);
+  if (leaf.bounds.isEmpty() || mounted.grip.triangles.empty()) return {};
   Findings findings;
-  const double surface =
-      SurfaceAt(mounted.leaf, mounted.mount).value_or(BoundsOf(mounted.leaf).max().x());
+  const double surface = SurfaceAt(mounted.leaf, mounted.mount).value_or(leaf.bounds.max().x());
   const double buried = BuriedShare(mounted);
   if (buried > LimitOf("HND001"))
     findings.push_back(Found("HND001", "handle", Number(100 * buried) + " % of the surface"));
   const double protrusion = BoundsOf(mounted.grip).max().x() - surface;
-  if (protrusion < LimitOf("HND002"))
+  if (protrusion < LimitOf("HND002") && buried <= LimitOf("HND001"))
     findings.push_back(Found("HND002", "handle", Number(protrusion) + " m"));
   const double beyond = BeyondOutline(mounted);
   if (beyond > LimitOf("HND003"))
     findings.push_back(Found("HND003", "handle", Number(beyond) + " m"));
+  // nobody grasps what does not stand out
+  if (buried > LimitOf("HND001") || protrusion < LimitOf("HND002")) return findings;
   const RigidTransform frame_from_leaf = Translation({-surface, 0, 0});
   const auto behind = SurfaceAt(mounted.leaf, mounted.leaf_from_grasp.translation());
   const CheckedGrasp grasp{"door.json: handle_from_grasp", Placed(mounted.grip, frame_from_leaf),

@@ -84,8 +84,10 @@ Findings CheckLatch(const DoorAsset& door) {
 // Distance of the hinge line, at the height of the leaf's middle, from the leaf's bounds.
 Findings CheckHingeLine(const DoorAsset& door) {
   Eigen::AlignedBox3d bounds;
-  for (const DoorGeometry& geometry : door.links[kLeafLink].geometry)
+  for (const DoorGeometry& geometry : door.links[kLeafLink].geometry) {
+    if (geometry.mesh.triangles.empty()) return {};  // MSH has said so
     bounds.extend(BoundsOf(geometry.mesh));
+  }
   if (bounds.isEmpty() || door.hinge.axis.norm() < 1e-9) return {};
   const Eigen::Vector3d axis = door.hinge.axis.normalized();
   const double distance = bounds.exteriorDistance(axis * axis.dot(bounds.center()));

@@ -98,33 +98,32 @@ Findings CheckMesh(const CheckedPiece& piece) {
   const int open =
       topology.boundary_edges + topology.non_manifold_edges + topology.inconsistent_edges;
   if (open > 0 || piece.mesh.triangles.empty()) {
-    findings.push_back(Found("MSH005", piece.where,
+    findings.push_back(Found("MSH005", "",
                              std::to_string(topology.boundary_edges) + " boundary, " +
                                  std::to_string(topology.non_manifold_edges) + " non-manifold, " +
                                  std::to_string(topology.inconsistent_edges) +
                                  " inconsistent edges of " +
                                  std::to_string(piece.mesh.triangles.size()) + " triangles"));
   } else if (topology.volume_m3 <= 0) {
-    findings.push_back(Found("MSH006", piece.where, Number(topology.volume_m3) + " m3"));
+    findings.push_back(Found("MSH006", "", Number(topology.volume_m3) + " m3"));
   }
   if (topology.degenerate_triangles > 0)
-    findings.push_back(
-        Found("MSH007", piece.where,
-              std::to_string(topology.degenerate_triangles) + " degenerate triangles"));
+    findings.push_back(Found(
+        "MSH007", "", std::to_string(topology.degenerate_triangles) + " degenerate triangles"));
   return findings;
 }
 
 Findings CheckHulls(const CheckedPiece& piece) {
   Findings findings;
-  if (piece.hulls.empty()) return {Found("COL001", piece.where, "none")};
+  if (piece.hulls.empty()) return {Found("COL001", "", "none")};
   std::vector<HalfSpaces> convex;
   std::size_t most_vertices = 0;
   for (std::size_t i = 0; i < piece.hulls.size(); ++i) {
-    const TriangleMesh& hull = piece.hulls[i];
+    const TriangleMesh& hull = *piece.hulls[i];
     most_vertices = std::max(most_vertices, hull.vertices.size());
     const double bulge = Bulge(hull);
     if (bulge > LimitOf("COL002"))
-      findings.push_back(Found("COL002", piece.where + ", collision shape " + std::to_string(i),
+      findings.push_back(Found("COL002", ", collision shape " + std::to_string(i),
                                std::isinf(bulge) ? "not closed" : Number(bulge) + " m"));
     else
       convex.emplace_back(hull);
@@ -132,13 +131,12 @@ Findings CheckHulls(const CheckedPiece& piece) {
   const char* cover = piece.is_handle ? "COL003" : "COL004";
   if (convex.size() == piece.hulls.size() && !piece.mesh.triangles.empty()) {
     const double uncovered = Uncovered(piece.mesh, convex);
-    if (uncovered > LimitOf(cover))
-      findings.push_back(Found(cover, piece.where, Number(uncovered) + " m"));
+    if (uncovered > LimitOf(cover)) findings.push_back(Found(cover, "", Number(uncovered) + " m"));
   }
   if (static_cast<double>(piece.hulls.size()) > LimitOf("COL005"))
-    findings.push_back(Found("COL005", piece.where, std::to_string(piece.hulls.size())));
+    findings.push_back(Found("COL005", "", std::to_string(piece.hulls.size())));
   if (static_cast<double>(most_vertices) > LimitOf("COL006"))
-    findings.push_back(Found("COL006", piece.where, std::to_string(most_vertices)));
+    findings.push_back(Found("COL006", "", std::to_string(most_vertices)));
   return findings;
 }
 
@@ -164,17 +162,12 @@ Findings CheckMass(const CheckedMass& checked) {
     findings.push_back(Found("INR003", checked.where,
                              Number(moments[2]) + " above " + Number(moments[0]) + " + " +
                                  Number(moments[1]) + " kg m2"));
-  Eigen::AlignedBox3d bounds;
-  double volume = 0;
-  for (const TriangleMesh* mesh : checked.meshes) {
-    bounds.extend(BoundsOf(*mesh));
-    volume += MeasureTopology(*mesh).volume_m3;
-  }
-  if (bounds.isEmpty()) return findings;
-  const double outside = bounds.exteriorDistance(mass.center_of_mass_m);
+  if (checked.bounds.isEmpty()) return findings;
+  const double outside = checked.bounds.exteriorDistance(mass.center_of_mass_m);
   if (outside > LimitOf("INR004"))
     findings.push_back(Found("INR004", checked.where, Number(outside) + " m"));
   constexpr double kHeaviestKgM3 = 20000;  // osmium is 22590
+  const double volume = checked.volume_m3;
   const double density = volume > 0 ? mass.mass_kg / volume : 0;
   if (volume > 0 && mass.mass_kg > 0 && (density < LimitOf("INR005") || density > kHeaviestKgM3))
     findings.push_back(Found("INR005", checked.where, Number(density) + " kg/m3"));

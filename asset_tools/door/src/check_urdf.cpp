@@ -9,6 +9,7 @@
 #include "doorforge/schemas/mesh_pool.h"
 #include "doorforge/schemas/urdf.h"
 
+#include "expected_urdf.h"
 #include "findings.h"
 #include "inside_folder.h"
 
@@ -69,13 +70,11 @@ std::string Difference(const std::set<std::string>& has, const std::set<std::str
   return text;
 }
 
-// Names of files in the pool that the record shares.
-std::set<std::string> PooledFiles(const UrdfLink& link) {
+std::set<std::string> FilesOf(const UrdfLink& link) {
   std::set<std::string> files;
   for (const auto* shapes : {&link.visuals, &link.collisions}) {
     for (const UrdfShape& shape : *shapes) {
-      const auto* mesh = std::get_if<UrdfMeshFile>(&shape.geometry);
-      if (mesh != nullptr && mesh->filename.starts_with(std::string(kMeshPoolPath) + "/"))
+      if (const auto* mesh = std::get_if<UrdfMeshFile>(&shape.geometry))
         files.insert(mesh->filename);
     }
   }
@@ -84,7 +83,7 @@ std::set<std::string> PooledFiles(const UrdfLink& link) {
 
 Findings CheckMeshFiles(const UrdfLink& link, const UrdfLink& expected,
                         const std::filesystem::path& folder) {
-  const std::set<std::string> pooled = PooledFiles(expected);
+  const std::set<std::string> recorded = FilesOf(expected);
   Findings findings;
   const auto check = [&](const std::vector<UrdfShape>& shapes, const char* kind) {
     for (const UrdfShape& shape : shapes) {
@@ -92,8 +91,8 @@ Findings CheckMeshFiles(const UrdfLink& link, const UrdfLink& expected,
       if (mesh == nullptr) continue;
       const std::string where = LinkPath(link.name) + "/" + kind + "/geometry/mesh";
       try {
-        // what lies in the pool is checked against the record, by URD011 and MSH
-        if (!pooled.contains(mesh->filename)) FileInside(folder, mesh->filename, kFile);
+        // the files of the record are checked by MSH: one fault, one finding
+        if (!recorded.contains(mesh->filename)) FileInside(folder, mesh->filename, kFile);
       } catch (const Error&) {
         findings.push_back(Found("URD009", where, "\"" + mesh->filename + "\""));
       }
@@ -128,13 +127,23 @@ Findings CheckInertial(const UrdfLink& link, const UrdfLink& expected) {
                     Number(center) + " m")};
 }
 
+// True where a finding of CheckMeshFiles() is about the path of this file.
+bool NamedBy(const Findings& findings, const std::string& file) {
+  const std::string path = "\"" + file.substr(file.find(' ') + 1) + "\"";
+  return std::any_of(findings.begin(), findings.end(), [&](const Finding& finding) {
+    return finding.code == "URD009" && finding.measured == path;
+  });
+}
+
 Findings CheckLink(const UrdfLink& link, const UrdfLink& expected,
                    const std::filesystem::path& folder) {
   Findings findings = CheckInertial(link, expected);
   const Findings files = CheckMeshFiles(link, expected, folder);
   findings.insert(findings.end(), files.begin(), files.end());
-  const std::set<std::string> has = MeshesOf(link);
+  std::set<std::string> has = MeshesOf(link);
   const std::set<std::string> wants = MeshesOf(expected);
+  // URD009 has said so
+  std::erase_if(has, [&](const std::string& file) { return NamedBy(files, file); });
   if (has != wants) {
     const std::string more = Difference(has, wants);
     const std::string less = Difference(wants, has);
@@ -218,14 +227,17 @@ Findings CheckModel(const UrdfModel& model, const UrdfModel& expected,
 
 }  // namespace
 
-Findings CheckUrdf(const DoorAsset& door, const std::filesystem::path& folder) {
+UrdfModel ExpectedUrdf(const DoorAsset& door, const DoorFiles& files) {
+  const bool shares = std::any_of(files.begin(), files.end(), [](const auto& link) {
+    return !link.empty() && link.front().mesh.starts_with(std::string(kMeshPoolPath) + "/");
+  });
+  return shares ? ToUrdfModel(door, files) : ToUrdfModel(door);
+}
+
+Findings CheckUrdf(const DoorAsset& door, const DoorFiles& files,
+                   const std::filesystem::path& folder) {
   try {
-    const DoorFiles files = ReadDoorFiles(folder);
-    const bool shares = std::any_of(files.begin(), files.end(), [](const auto& link) {
-      return !link.empty() && link.front().mesh.starts_with(std::string(kMeshPoolPath) + "/");
-    });
-    const UrdfModel expected = shares ? ToUrdfModel(door, files) : ToUrdfModel(door);
-    return CheckModel(ReadUrdf(folder / kFile), expected, folder);
+    return CheckModel(ReadUrdf(folder / kFile), ExpectedUrdf(door, files), folder);
   } catch (const Error& error) {
     return {Found("URD001", kFile, error.what())};
   }

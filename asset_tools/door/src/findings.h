@@ -27,20 +27,20 @@ std::string AllowedBy(const ValidationRule& rule);
 /// A finding of a rule: severity, allowed and fix are the rule's.
 Finding Found(std::string_view code, const std::string& where, const std::string& measured);
 
-/// MSH005 to MSH007 and COL: one piece, as the record names it.
+/// MSH005 to MSH007 and COL: one piece. `where` of the findings begins after the piece's name.
 struct CheckedPiece {
-  std::string where;
   const TriangleMesh& mesh;
-  const std::vector<TriangleMesh>& hulls;
+  const std::vector<const TriangleMesh*>& hulls;
   bool is_handle = false;
 };
 Findings CheckPiece(const CheckedPiece& piece);
 
-/// INR: `meshes` are the link's, in the frame of `mass`; may be empty.
+/// INR: `bounds` and volume are those of the link's meshes, in the frame of `mass`.
 struct CheckedMass {
   std::string where;
   const MassProperties& mass;
-  std::vector<const TriangleMesh*> meshes;
+  Eigen::AlignedBox3d bounds = {};  ///< Empty where no mesh could be read.
+  double volume_m3 = 0;             ///< Signed.
 };
 Findings CheckMass(const CheckedMass& checked);
 
@@ -50,10 +50,12 @@ Findings CheckMechanics(const DoorAsset& door);
 Findings CheckPartJoint(const Part& part);
 
 /// URD: model.urdf in the folder against the door.
-Findings CheckUrdf(const DoorAsset& door, const std::filesystem::path& folder);
+Findings CheckUrdf(const DoorAsset& door, const DoorFiles& files,
+                   const std::filesystem::path& folder);
 
-/// HND. Both need meshes; what is empty is left out.
-Findings CheckHandle(const DoorAsset& door);
+/// HND. Both need meshes; what is empty is left out. `leaf` is the leaf's without the handle.
+struct LeafLines;
+Findings CheckHandle(const DoorAsset& door, const LeafLines& leaf);
 Findings CheckPartGrasp(const Part& part);
 
 /// LIC.

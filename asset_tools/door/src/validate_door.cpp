@@ -7,13 +7,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "doorforge/core/closed_mesh.h"
 #include "doorforge/core/error.h"
-#include "doorforge/core/hash.h"
-#include "doorforge/schemas/mesh_file.h"
-#include "doorforge/schemas/mesh_pool.h"
 
 #include "findings.h"
-#include "inside_folder.h"
+#include "placed_mesh.h"
+#include "record_meshes.h"
 
 namespace doorforge {
 namespace {
@@ -21,82 +20,14 @@ namespace {
 namespace fs = std::filesystem;
 using internal::Findings;
 using internal::Found;
+using internal::LeafLines;
+using internal::MeshOnDisk;
+using internal::RecordMeshes;
+using internal::SharedMesh;
+using internal::ValidationMemory;
 
 void Append(Findings& findings, const Findings& more) {
   findings.insert(findings.end(), more.begin(), more.end());
-}
-
-bool IsPooled(const std::string& relative) {
-  return relative.starts_with(std::string(kMeshPoolPath) + "/") &&
-         relative.find("..", 2) == std::string::npos;
-}
-
-/// Reads the meshes of one record. What cannot be read becomes a finding and an empty mesh, so that
-/// the rest of the record is still checked.
-class MeshFindings {
- public:
-  MeshFindings(const fs::path& folder, std::string record)
-      : folder_(folder), record_(std::move(record)) {}
-
-  TriangleMesh Read(const std::string& relative, const std::string& sha256) {
-    const std::string where = record_ + ": " + relative;
-    try {
-      const TriangleMesh mesh = ReadObj(FileOf(relative, sha256));
-      const std::string found = Sha256Hex(ToObj(mesh));
-      if (found != sha256)
-        findings_.push_back(Found(
-            "MSH004", where,
-            "SHA-256 " + found.substr(0, 12) + "..., recorded " + sha256.substr(0, 12) + "..."));
-      if (mesh.triangles.empty()) findings_.push_back(Found("MSH002", where, "no triangles"));
-      return mesh;
-    } catch (const Error& error) {
-      findings_.push_back(Found(CodeOf(relative, error), where, error.what()));
-      return {};
-    }
-  }
-
-  MeshReader Reader() {
-    return [this](const std::string& relative, const std::string& sha256) {
-      return Read(relative, sha256);
-    };
-  }
-
-  const Findings& findings() const { return findings_; }
-
- private:
-  // in the folder, or in the pool that it shares with its neighbours
-  fs::path FileOf(const std::string& relative, const std::string& sha256) const {
-    if (IsPooled(relative)) return MeshPool(folder_, record_).MeshFile(sha256);
-    return internal::FileInside(folder_, relative, record_);
-  }
-
-  const char* CodeOf(const std::string& relative, const Error& error) const {
-    if (error.code() == ErrorCode::kMissing) return "MSH001";
-    if (IsPooled(relative)) return "MSH002";
-    std::error_code ignored;
-    const bool inside = fs::is_regular_file(folder_ / relative, ignored) &&
-                        relative.find("..") == std::string::npos &&
-                        !fs::path(relative).is_absolute() && !LinksOut(relative);
-    return inside ? "MSH002" : "MSH003";
-  }
-
-  bool LinksOut(const std::string& relative) const {
-    std::error_code ignored;
-    const fs::path real = fs::weakly_canonical(folder_ / relative, ignored);
-    const fs::path inside = real.lexically_relative(fs::weakly_canonical(folder_, ignored));
-    return inside.empty() || *inside.begin() == "..";
-  }
-
-  fs::path folder_;
-  std::string record_;
-  Findings findings_;
-};
-
-// What could not be read is empty and has been reported: one fault, not three.
-bool WasRead(const TriangleMesh& mesh, const std::vector<TriangleMesh>& hulls) {
-  return !mesh.triangles.empty() &&
-         std::none_of(hulls.begin(), hulls.end(),
-                      [](const TriangleMesh& hull) { return hull.triangles.empty(); });
 }
 
 Findings CheckNames(const DoorAsset& door) {
@@ -120,33 +51,123 @@ Findings CheckNames(const DoorAsset& door) {
   return findings;
 }
 
-Findings CheckPieces(const DoorAsset& door) {
-  Findings findings;
-  for (const DoorLink& link : door.links) {
-    for (const DoorGeometry& geometry : link.geometry) {
-      if (!WasRead(geometry.mesh, geometry.hulls)) continue;
-      Append(findings, internal::CheckPiece(
-                           {"door.json: link \"" + link.name + "\", \"" + geometry.name + "\"",
-                            geometry.mesh, geometry.hulls, geometry.label == PointLabel::kHandle}));
-    }
+/// A geometry of a door or a piece of a part, as its files hold it.
+struct PieceOnDisk {
+  std::string where;
+  bool is_handle = false;
+  SharedMesh mesh;
+  std::vector<SharedMesh> hulls;
+
+  // what could not be read is empty and has been reported: one fault, not three
+  bool WasRead() const {
+    return !mesh->mesh.triangles.empty() &&
+           std::none_of(hulls.begin(), hulls.end(),
+                        [](const SharedMesh& hull) { return hull->mesh.triangles.empty(); });
   }
+};
+
+bool WereRead(const std::vector<PieceOnDisk>& pieces) {
+  return std::all_of(pieces.begin(), pieces.end(),
+                     [](const PieceOnDisk& piece) { return !piece.mesh->mesh.triangles.empty(); });
+}
+
+/// Hands out what was read in the order of the record: each piece's mesh, then its hulls.
+class ReadPieces {
+ public:
+  explicit ReadPieces(const RecordMeshes& meshes) : next_(meshes.read().begin()) {}
+
+  PieceOnDisk Next(const std::string& where, bool is_handle, std::size_t hulls) {
+    PieceOnDisk piece{where, is_handle, *next_++, {}};
+    for (std::size_t i = 0; i < hulls; ++i) piece.hulls.push_back(*next_++);
+    return piece;
+  }
+
+ private:
+  std::vector<SharedMesh>::const_iterator next_;
+};
+
+std::size_t CountOf(const Findings& findings) { return findings.size() + 1; }
+
+// Rigid motion changes nothing that is checked, so a piece is checked as its files hold it.
+Findings CheckPieceOnce(const PieceOnDisk& piece, ValidationMemory& memory) {
+  if (!piece.WasRead()) return {};
+  std::string key = piece.is_handle ? "handle" : "body";
+  std::vector<const TriangleMesh*> hulls;
+  key += piece.mesh->sha256;
+  for (const SharedMesh& hull : piece.hulls) {
+    key += hull->sha256;
+    hulls.push_back(&hull->mesh);
+  }
+  const auto check = [&] {
+    return internal::CheckPiece({piece.mesh->mesh, hulls, piece.is_handle});
+  };
+  Findings findings = *memory.pieces.Get(key, check, CountOf);
+  for (Finding& finding : findings) finding.where = piece.where + finding.where;
   return findings;
 }
 
-Findings CheckMasses(const DoorAsset& door) {
+double VolumeOf(const MeshOnDisk& mesh, ValidationMemory& memory) {
+  return *memory.volumes.Get(
+      mesh.sha256, [&] { return MeasureTopology(mesh.mesh).volume_m3; },
+      [](double) { return std::size_t{1}; });
+}
+
+/// One record while it is checked.
+struct DoorOnDisk {
+  DoorAsset door;
+  DoorFiles files;
+  std::array<std::vector<PieceOnDisk>, 3> pieces;  ///< As DoorAsset::links.
+};
+
+DoorOnDisk ReadDoorOnDisk(const fs::path& folder, RecordMeshes& meshes) {
+  DoorOnDisk on_disk{ReadDoor(folder, meshes.Reader()), ReadDoorFiles(folder), {}};
+  ReadPieces read(meshes);
+  for (std::size_t i = 0; i < on_disk.pieces.size(); ++i) {
+    const DoorLink& link = on_disk.door.links[i];
+    for (const DoorGeometry& geometry : link.geometry)
+      on_disk.pieces[i].push_back(
+          read.Next("door.json: link \"" + link.name + "\", \"" + geometry.name + "\"",
+                    geometry.label == PointLabel::kHandle, geometry.hulls.size()));
+  }
+  return on_disk;
+}
+
+Findings CheckMasses(const DoorOnDisk& on_disk, ValidationMemory& memory) {
   Findings findings;
-  for (const DoorLink& link : door.links) {
-    internal::CheckedMass checked{"door.json: link \"" + link.name + "\"", link.mass, {}};
-    for (const DoorGeometry& geometry : link.geometry) {
-      if (!geometry.mesh.triangles.empty()) checked.meshes.push_back(&geometry.mesh);
+  for (std::size_t i = 0; i < on_disk.pieces.size(); ++i) {
+    const DoorLink& link = on_disk.door.links[i];
+    internal::CheckedMass checked{"door.json: link \"" + link.name + "\"", link.mass};
+    for (std::size_t k = 0; WereRead(on_disk.pieces[i]) && k < link.geometry.size(); ++k) {
+      checked.bounds.extend(internal::BoundsOf(link.geometry[k].mesh));
+      checked.volume_m3 += VolumeOf(*on_disk.pieces[i][k].mesh, memory);
     }
     Append(findings, internal::CheckMass(checked));
   }
   return findings;
 }
 
+// The leaf's own pieces, whatever handle is on it.
+std::shared_ptr<const LeafLines> LinesOf(const DoorOnDisk& on_disk, ValidationMemory& memory) {
+  std::string key;
+  std::vector<TriangleMesh> leaf;
+  const std::vector<DoorGeometry>& geometry = on_disk.door.links[kLeafLink].geometry;
+  for (std::size_t i = 0; i < geometry.size(); ++i) {
+    if (geometry[i].label == PointLabel::kHandle) continue;
+    leaf.push_back(geometry[i].mesh);
+    const RigidTransform& placed = on_disk.files[kLeafLink].at(i).link_from_files;
+    key += on_disk.pieces[kLeafLink][i].mesh->sha256 + TransformToJson(placed).dump();
+  }
+  return memory.leaves.Get(
+      key, [&] { return LeafLines(internal::JoinedMeshes(leaf)); },
+      [&](const LeafLines&) {
+        std::size_t triangles = 1;
+        for (const TriangleMesh& mesh : leaf) triangles += mesh.triangles.size();
+        return triangles;
+      });
+}
+
 bool Counts(const Finding& finding, ValidationProfile profile) {
-  if (profile == ValidationProfile::kPhysics) return true;
+  if (profile != ValidationProfile::kUrdf) return true;
   const std::string family = finding.code.substr(0, 3);
   return family != "COL" && family != "MEC" && family != "HND";
 }
@@ -165,39 +186,60 @@ ValidationReport Report(const fs::path& folder, const Findings& findings,
   return report;
 }
 
-Findings DoorFindings(const fs::path& folder) {
-  MeshFindings meshes(folder, "door.json");
+bool AnyError(const Findings& findings) {
+  return std::any_of(findings.begin(), findings.end(),
+                     [](const Finding& finding) { return finding.severity == Severity::kError; });
+}
+
+Findings CheckOpening(const DoorAsset& door, const Findings& others, const OpeningCheck& check) {
+  if (!check) return {};
+  if (AnyError(others)) return {Found("OPN007", "door.json", "errors of other families")};
   try {
-    const DoorAsset door = ReadDoor(folder, meshes.Reader());
-    Findings findings = meshes.findings();
+    return check(door);
+  } catch (const Error& error) {
+    return {Found("OPN007", "door.json", error.what())};
+  }
+}
+
+Findings DoorFindings(const fs::path& folder, const OpeningCheck& check, ValidationMemory& memory) {
+  RecordMeshes meshes(folder, "door.json", memory);
+  try {
+    const DoorOnDisk on_disk = ReadDoorOnDisk(folder, meshes);
+    const DoorAsset& door = on_disk.door;
+    Findings findings = meshes.FindingsOfFiles();
     Append(findings, CheckNames(door));
-    Append(findings, CheckPieces(door));
-    Append(findings, CheckMasses(door));
+    for (const std::vector<PieceOnDisk>& pieces : on_disk.pieces) {
+      for (const PieceOnDisk& piece : pieces) Append(findings, CheckPieceOnce(piece, memory));
+    }
+    Append(findings, CheckMasses(on_disk, memory));
     Append(findings, internal::CheckMechanics(door));
-    Append(findings, internal::CheckUrdf(door, folder));
-    Append(findings, internal::CheckHandle(door));
+    Append(findings, internal::CheckUrdf(door, on_disk.files, folder));
+    Append(findings, internal::CheckHandle(door, *LinesOf(on_disk, memory)));
     Append(findings, internal::CheckLicense(door.license, "door.json: license"));
+    Append(findings, CheckOpening(door, findings, check));
     return findings;
   } catch (const Error& error) {
-    Findings findings = meshes.findings();
+    Findings findings = meshes.FindingsOfFiles();
     findings.push_back(Found("REC001", "door.json", error.what()));
     return findings;
   }
 }
 
-Findings PartFindings(const fs::path& folder) {
-  MeshFindings meshes(folder, "part.json");
+Findings PartFindings(const fs::path& folder, ValidationMemory& memory) {
+  RecordMeshes meshes(folder, "part.json", memory);
   try {
     const Part part = ReadPart(folder, meshes.Reader());
-    Findings findings = meshes.findings();
+    Findings findings = meshes.FindingsOfFiles();
+    ReadPieces read(meshes);
     for (const PartPiece& piece : part.pieces) {
-      const std::string where = "part.json: \"" + piece.name + "\"";
-      const bool read = WasRead(piece.mesh, piece.hulls);
-      if (read)
-        Append(findings, internal::CheckPiece(
-                             {where, piece.mesh, piece.hulls, part.role == PartRole::kHandle}));
-      internal::CheckedMass mass{where, piece.mass, {}};
-      if (read) mass.meshes.push_back(&piece.mesh);
+      const PieceOnDisk on_disk = read.Next("part.json: \"" + piece.name + "\"",
+                                            part.role == PartRole::kHandle, piece.hulls.size());
+      Append(findings, CheckPieceOnce(on_disk, memory));
+      internal::CheckedMass mass{on_disk.where, piece.mass};
+      if (on_disk.WasRead()) {
+        mass.bounds = internal::BoundsOf(piece.mesh);
+        mass.volume_m3 = VolumeOf(*on_disk.mesh, memory);
+      }
       Append(findings, internal::CheckMass(mass));
     }
     Append(findings, internal::CheckPartJoint(part));
@@ -205,7 +247,7 @@ Findings PartFindings(const fs::path& folder) {
     Append(findings, internal::CheckLicense(part.license, "part.json: license"));
     return findings;
   } catch (const Error& error) {
-    Findings findings = meshes.findings();
+    Findings findings = meshes.FindingsOfFiles();
     findings.push_back(Found("REC001", "part.json", error.what()));
     return findings;
   }
@@ -220,19 +262,35 @@ void RequireRecord(const fs::path& file) {
 
 }  // namespace
 
-ValidationReport ValidateDoor(const fs::path& folder, ValidationProfile profile) {
+struct DoorValidator::Memory : ValidationMemory {};
+
+DoorValidator::DoorValidator(ValidationProfile profile)
+    : profile_(profile), memory_(std::make_unique<Memory>()) {}
+DoorValidator::DoorValidator(OpeningCheck check) : DoorValidator(ValidationProfile::kOpenable) {
+  opening_check_ = std::move(check);
+}
+DoorValidator::~DoorValidator() = default;
+
+ValidationReport DoorValidator::Door(const fs::path& folder) const {
   RequireRecord(folder / "door.json");
-  return Report(folder, DoorFindings(folder), profile);
+  return Report(folder, DoorFindings(folder, opening_check_, *memory_), profile_);
+}
+
+ValidationReport DoorValidator::Part(const fs::path& folder) const {
+  RequireRecord(folder / "part.json");
+  return Report(folder, PartFindings(folder, *memory_), profile_);
+}
+
+ValidationReport DoorValidator::Validate(const fs::path& folder) const {
+  return fs::exists(folder / "door.json") ? Door(folder) : Part(folder);
+}
+
+ValidationReport ValidateDoor(const fs::path& folder, ValidationProfile profile) {
+  return DoorValidator(profile).Door(folder);
 }
 
 ValidationReport ValidatePart(const fs::path& folder, ValidationProfile profile) {
-  RequireRecord(folder / "part.json");
-  return Report(folder, PartFindings(folder), profile);
-}
-
-ValidationReport Validate(const fs::path& folder, ValidationProfile profile) {
-  return fs::exists(folder / "door.json") ? ValidateDoor(folder, profile)
-                                          : ValidatePart(folder, profile);
+  return DoorValidator(profile).Part(folder);
 }
 
 std::vector<fs::path> FindRecords(const fs::path& path) {
@@ -243,7 +301,12 @@ std::vector<fs::path> FindRecords(const fs::path& path) {
   if (holds_record(path)) return {path};
   std::vector<fs::path> folders;
   for (auto entry = fs::recursive_directory_iterator(path); entry != fs::end(entry); ++entry) {
-    if (!entry->is_directory() || !holds_record(entry->path())) continue;
+    if (!entry->is_directory()) continue;
+    if (entry->path().filename().string().starts_with('.')) {
+      entry.disable_recursion_pending();
+      continue;
+    }
+    if (!holds_record(entry->path())) continue;
     folders.push_back(entry->path());
     entry.disable_recursion_pending();
   }
@@ -268,7 +331,8 @@ nlohmann::ordered_json ToJson(std::span<const ValidationReport> reports) {
                           {"where", finding.where},
                           {"measured", finding.measured},
                           {"allowed", finding.allowed},
-                          {"fix", finding.fix}});
+                          {"fix", finding.fix},
+                          {"fixable", finding.fixable}});
   }
   const int infos = static_cast<int>(findings.size()) - errors - warnings;
   return {{"schema", "doorforge.validation"},

@@ -10,6 +10,7 @@ namespace {
 
 constexpr Severity kError = Severity::kError;
 constexpr Severity kWarning = Severity::kWarning;
+constexpr Severity kInfo = Severity::kInfo;
 
 constexpr ValidationRule kRules[] = {
     {"REC001", kError, "The record can be read and follows its schema", 0,
@@ -28,14 +29,14 @@ constexpr ValidationRule kRules[] = {
      "0 edges that do not join exactly two triangles in opposite directions",
      "run `doorforge repair` on the mesh"},
     {"MSH006", kError, "Visual meshes enclose a volume", 0, "a volume above 0",
-     "turn the triangles inside out"},
+     "turn the triangles inside out", true},
     {"MSH007", kWarning, "Triangles have an area", 0, "0 degenerate triangles",
-     "run `doorforge repair` on the mesh"},
+     "run `doorforge repair` on the mesh", true},
 
     {"COL001", kError, "Every visual piece has collision shapes", 1, "at least {}",
      "import or build the part again"},
     {"COL002", kError, "Collision shapes are closed and convex", 5e-4,
-     "no vertex more than {} m outside a face", "import or build the part again"},
+     "no vertex more than {} m outside a face", "import or build the part again", true},
     {"COL003", kError, "Collision shapes cover a handle's visual mesh", 0.003,
      "at most {} m of it outside", "import the handle with finer convex parts"},
     {"COL004", kError, "Collision shapes cover a leaf's or frame's visual mesh", 0.01,
@@ -45,18 +46,19 @@ constexpr ValidationRule kRules[] = {
     {"COL006", kWarning, "Collision shapes have few vertices", 64, "at most {} each",
      "import the part with coarser convex parts"},
 
-    {"INR001", kError, "Mass is positive", 0, "above 0 kg", "give the piece a density"},
+    {"INR001", kError, "Mass is positive", 0, "above 0 kg", "give the piece a density", true},
     {"INR002", kError, "Inertia is positive definite", 0, "all principal moments above 0 kg m2",
-     "compute it from the mesh"},
+     "compute it from the mesh", true},
     {"INR003", kError, "Inertia satisfies the triangle inequality", 1e-6,
      "no principal moment above the sum of the two others (relative tolerance {})",
-     "compute it from the mesh"},
+     "compute it from the mesh", true},
     {"INR004", kError, "The centre of mass lies within the link's bounds", 0.01,
-     "at most {} m outside", "compute it from the mesh"},
+     "at most {} m outside", "compute it from the mesh", true},
     {"INR005", kWarning, "The link's density is plausible", 20, "{} to 20000 kg/m3",
      "check the density and the scale of the meshes"},
 
-    {"MEC001", kError, "Joint axes have unit length", 1e-6, "1 within {}", "normalise the axis"},
+    {"MEC001", kError, "Joint axes have unit length", 1e-6, "1 within {}", "normalise the axis",
+     true},
     {"MEC002", kError, "Joint limits are ordered, finite and include 0", 6.2832,
      "lower <= 0 <= upper, within {} rad", "set the limits from the hardware"},
     {"MEC003", kError, "The hinge opens wide enough to count as open", 0.7853981634,
@@ -64,7 +66,8 @@ constexpr ValidationRule kRules[] = {
     {"MEC004", kError, "Positive hinge angles move the leaf towards who pulls", 0.2,
      "direction of the leaf's centre at least {} along x",
      "turn the axis round or make it vertical"},
-    {"MEC005", kError, "Joints have effort and velocity limits", 0, "above 0", "set both limits"},
+    {"MEC005", kError, "Joints have effort and velocity limits", 0, "above 0", "set both limits",
+     true},
     {"MEC006", kError, "The latch releases within the handle's range", 0,
      "0 < unlock angle <= done angle <= upper limit of the handle", "lower the unlock angle"},
     {"MEC007", kError, "A latch has a handle that turns", 0, "upper limit above 0 rad",
@@ -74,27 +77,27 @@ constexpr ValidationRule kRules[] = {
     {"MEC009", kWarning, "The hinge line lies at the leaf", 0.1, "at most {} m from its bounds",
      "check the hinge's origin and the scale of the meshes"},
 
-    {"URD001", kError, "model.urdf can be read", 0, "a URDF file", "compose the door again"},
+    {"URD001", kError, "model.urdf can be read", 0, "a URDF file", "compose the door again", true},
     {"URD002", kError, "The URDF has the links of door.json", 0, "each link once",
-     "compose the door again"},
+     "compose the door again", true},
     {"URD003", kError, "The URDF's links form one tree", 0, "one root, one parent each",
-     "compose the door again"},
+     "compose the door again", true},
     {"URD004", kError, "The URDF's joints join what door.json's do", 0,
-     "the same type, parent, child", "compose the door again"},
+     "the same type, parent, child", "compose the door again", true},
     {"URD005", kError, "The URDF's joints agree with door.json in origin, axis and limits", 1e-6,
-     "differences up to {}", "compose the door again"},
+     "differences up to {}", "compose the door again", true},
     {"URD006", kError, "The URDF's axes have unit length", 1e-6, "1 within {}",
-     "normalise the axis"},
+     "normalise the axis", true},
     {"URD007", kError, "The URDF's limits are ordered, with effort and velocity", 0,
-     "lower <= upper, effort and velocity above 0", "write all four attributes of <limit>"},
+     "lower <= upper, effort and velocity above 0", "write all four attributes of <limit>", true},
     {"URD008", kError, "The URDF's inertials agree with door.json", 1e-6,
-     "relative differences up to {}", "compose the door again"},
+     "relative differences up to {}", "compose the door again", true},
     {"URD009", kError, "The URDF's mesh paths stay inside the folder", 0,
-     "a relative path without .. to a file", "move the mesh into the folder"},
+     "a relative path without .. to a file", "move the mesh into the folder", true},
     {"URD010", kError, "Scale is baked into the meshes", 0, "no scale attribute other than 1 1 1",
-     "scale the mesh itself"},
+     "scale the mesh itself", true},
     {"URD011", kError, "The URDF names the meshes of door.json", 0,
-     "the same files on the same links", "compose the door again"},
+     "the same files on the same links", "compose the door again", true},
 
     {"HND001", kError, "The handle is not buried in the leaf", 0.3,
      "at most {} of its surface inside", "raise the handle's seat, or check its mount"},
@@ -113,6 +116,31 @@ constexpr ValidationRule kRules[] = {
     {"HND008", kWarning, "A parallel gripper reaches the grasp and holds it", 0,
      "a free way for open fingers and enough contact on both pads", "use another grasp"},
 
+    {"SWP001", kError, "The opening leaf meets nothing of its frame", 0.003,
+     "collision shapes at most {} m deeper in each other than on the closed door",
+     "set the hinge's origin and upper limit, or cut the frame back"},
+    {"SWP002", kWarning, "The closed leaf does not overlap its frame", 0.01,
+     "collision shapes at most {} m in each other", "leave a gap between leaf and frame"},
+
+    {"OPN001", kError, "The locked door holds", 0.01,
+     "below {} rad under 1.5 times the nominal pull of 50 N at the grasp",
+     "raise the latch's lock effort"},
+    {"OPN002", kError, "The handle unlocks the door", 6,
+     "handle done and latch released by at most {} N m",
+     "lower the unlock and done angles or the handle's spring"},
+    {"OPN003", kError, "The handle springs back", 0.05, "at most {} rad 1 s after it was let go",
+     "give the handle a spring, or less damping"},
+    {"OPN004", kError, "The unlocked door opens", 0.7853981634,
+     "beyond {} rad within 10 s of a pull that grows to 50 N",
+     "lower the leaf's mass, the closer's spring or the damping"},
+    {"OPN005", kError, "The gripper fits the handle", 5, "cost of the best grasp at most {}",
+     "set the grasp frame on the grip, or use another handle"},
+    {"OPN006", kError, "The simulation stays finite", 0, "finite angles, below 90 rad/s",
+     "check masses, inertias and dampings"},
+    {"OPN007", kInfo, "The door has been simulated", 0,
+     "no error of the other families, latch none or effort",
+     "mend the errors; a bolt is simulated by other programs: `doorforge export --format mjcf`"},
+
     {"LIC001", kError, "A licence is stated", 0, "an SPDX expression", "state the licence"},
     {"LIC002", kWarning, "The licence is known", 0, "an SPDX expression without NOASSERTION",
      "ask the author of the source"},
@@ -126,6 +154,12 @@ std::string_view NameOf(Severity severity) {
 }
 
 std::span<const ValidationRule> ValidationRules() { return kRules; }
+
+Finding FindingOf(std::string_view code, const std::string& where, const std::string& measured) {
+  return internal::Found(code, where, measured);
+}
+
+double RuleLimit(std::string_view code) { return internal::LimitOf(code); }
 
 namespace internal {
 
@@ -152,8 +186,8 @@ std::string AllowedBy(const ValidationRule& rule) {
 
 Finding Found(std::string_view code, const std::string& where, const std::string& measured) {
   const ValidationRule& rule = RuleOf(code);
-  return {std::string(code), rule.severity,   where,
-          measured,          AllowedBy(rule), std::string(rule.fix)};
+  return {std::string(code), rule.severity,         where,       measured,
+          AllowedBy(rule),   std::string(rule.fix), rule.fixable};
 }
 
 }  // namespace internal

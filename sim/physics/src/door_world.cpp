@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <span>
 
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
@@ -13,13 +12,13 @@
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyGearConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
-#include <LinearMath/btQuickprof.h>
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/physics/latch_law.h"
 
 #include "bullet_body.h"
+#include "door_body.h"
 
 namespace doorforge {
 namespace {
@@ -28,9 +27,11 @@ using internal::BulletBody;
 using internal::BulletJoint;
 using internal::BulletLink;
 using internal::ContactSide;
+using internal::DampingTorque;
+using internal::DoorLinks;
+using internal::kHandle;
+using internal::kHinge;
 
-constexpr int kHinge = 0;
-constexpr int kHandle = 1;
 constexpr double kTouchDistance = 0.001;
 // Drives as measured to work in docs/design/simulation.md.
 constexpr double kArmPositionGain = 0.2;
@@ -46,15 +47,6 @@ void Check(const PhysicsConfig& config) {
   Require(good, ErrorCode::kInvalidArgument,
           "physics: time_step_s must lie in (0, 0.02], frictions be >= 0, and all other numbers "
           "be positive");
-}
-
-// Bullet times its own functions in global tables, which are not made for several worlds at once.
-void SwitchProfilingOff() {
-  static std::once_flag once;
-  std::call_once(once, [] {
-    btSetCustomEnterProfileZoneFunc([](const char*) {});
-    btSetCustomLeaveProfileZoneFunc([] {});
-  });
 }
 
 std::vector<BulletLink> RobotLinks(const RobotModel& robot, double finger_friction) {
@@ -78,48 +70,6 @@ std::vector<BulletLink> RobotLinks(const RobotModel& robot, double finger_fricti
     links[static_cast<std::size_t>(finger)].friction = finger_friction;
   links[kArmJointCount - 1].friction = 0.3;
   return links;
-}
-
-std::vector<TriangleMesh> HullsOf(const DoorLink& link) {
-  std::vector<TriangleMesh> hulls;
-  for (const DoorGeometry& geometry : link.geometry)
-    hulls.insert(hulls.end(), geometry.hulls.begin(), geometry.hulls.end());
-  return hulls;
-}
-
-BulletLink DoorBulletLink(const DoorJoint& joint, const DoorLink& link) {
-  BulletLink result;
-  const bool turns = joint.upper_rad > joint.lower_rad;
-  result.joint = turns ? BulletJoint::kRevolute : BulletJoint::kFixed;
-  result.parent_from_joint = joint.parent_from_child_at_zero;
-  result.axis = joint.axis;
-  result.lower = joint.lower_rad;
-  result.upper = joint.upper_rad;
-  result.mass = link.mass;
-  result.hulls = HullsOf(link);
-  return result;
-}
-
-std::vector<BulletLink> DoorLinks(const DoorAsset& door, double handle_friction) {
-  BulletLink leaf = DoorBulletLink(door.hinge, door.links[kLeafLink]);
-  leaf.least_inertia_kg_m2 = 1e-2;
-  BulletLink handle = DoorBulletLink(door.handle_joint, door.links[kHandleLink]);
-  handle.parent = kHinge;
-  handle.least_inertia_kg_m2 = 5e-4;
-  handle.friction = handle_friction;
-  return {leaf, handle};
-}
-
-// Viscous torque that one explicit step cannot turn into acceleration.
-double DampingTorque(double damping, double velocity, double inertia, double time_step) {
-  return -std::min(damping, 0.5 * inertia / time_step) * velocity;
-}
-
-double InertiaAbout(const DoorJoint& joint, const MassProperties& mass, double least) {
-  const Eigen::Vector3d arm =
-      mass.center_of_mass_m - joint.axis * joint.axis.dot(mass.center_of_mass_m);
-  return std::max(joint.axis.dot(mass.inertia_kg_m2 * joint.axis), least) +
-         mass.mass_kg * arm.squaredNorm();
 }
 
 }  // namespace
@@ -168,8 +118,7 @@ class DoorWorld::Runtime {
   std::vector<btMultiBodyJointMotor*> arm_motors_;
   std::array<btMultiBodyJointMotor*, 2> finger_motors_{};
   std::vector<btMatrix3x3> rotation_before_;  // of every collision object, before the step
-  double hinge_inertia_;
-  double handle_inertia_;
+  internal::DoorInertia inertia_;
   LatchState latch_;
 };
 
@@ -177,7 +126,7 @@ DoorWorld::Runtime::Runtime(const Scene& the_scene, const DoorAsset& the_door,
                             const RobotModel& the_robot, const JointVector& start)
     : scene(the_scene), door(the_door), robot(the_robot) {
   Check(scene.physics);
-  SwitchProfilingOff();
+  internal::SwitchProfilingOff();
   ConfigureSolver();
   robot_body_ = std::make_unique<BulletBody>(world_, scene.world_from_robot_base,
                                              RobotLinks(robot, scene.physics.finger_friction),
@@ -193,8 +142,7 @@ DoorWorld::Runtime::Runtime(const Scene& the_scene, const DoorAsset& the_door,
   }
   robot_body_->SyncColliders();
   door_body_->SyncColliders();
-  hinge_inertia_ = InertiaAbout(door.hinge, door.links[kLeafLink].mass, 1e-2);
-  handle_inertia_ = InertiaAbout(door.handle_joint, door.links[kHandleLink].mass, 5e-4);
+  inertia_ = internal::InertiaOf(door);
   latch_ = UpdatedLatch(scene.latch, {}, 0, 0);
   ReadState();
 }
@@ -219,7 +167,7 @@ void DoorWorld::Runtime::ConfigureSolver() {
 }
 
 void DoorWorld::Runtime::AddFrame() {
-  for (const TriangleMesh& mesh : HullsOf(door.links[kBaseLink])) {
+  for (const TriangleMesh& mesh : internal::HullsOf(door.links[kBaseLink])) {
     frame_hulls_.push_back(internal::MakeHull(mesh, RigidTransform::Identity()));
     frame_shape_.addChildShape(btTransform::getIdentity(), frame_hulls_.back().get());
   }
@@ -282,10 +230,10 @@ void DoorWorld::Runtime::ApplyDoorTorques() {
   const LatchTorques law = TorquesOf(scene.latch, latch_, state.hinge_rad, state.handle_rad);
   const double hinge =
       law.hinge_nm + extra_hinge_torque +
-      DampingTorque(door.hinge.damping_nm_s, state.hinge_rad_s, hinge_inertia_, dt);
+      DampingTorque(door.hinge.damping_nm_s, state.hinge_rad_s, inertia_.hinge, dt);
   const double handle =
       law.handle_nm + extra_handle_torque +
-      DampingTorque(door.handle_joint.damping_nm_s, state.handle_rad_s, handle_inertia_, dt);
+      DampingTorque(door.handle_joint.damping_nm_s, state.handle_rad_s, inertia_.handle, dt);
   // Bullet forgets joint torques after each step
   btMultiBody& body = door_body_->multibody();
   if (body.getLink(kHinge).m_dofCount > 0) body.addJointTorque(kHinge, hinge);

@@ -4,59 +4,21 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <vector>
 
-#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
-#include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
-#include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
-#include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
-#include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
-
-#include "bullet_body.h"
+#include "convex_probe.h"
 
 namespace doorforge {
 namespace {
 
-struct Hull {
-  std::unique_ptr<btConvexHullShape> shape;
-  Eigen::AlignedBox3d box;  ///< In the frame of its owner.
-};
+using internal::Separate;
+using internal::Separation;
+using Hull = internal::ProbeHull;
+
+constexpr double kMargin = 0.001;
 
 Hull MakeProbeHull(const TriangleMesh& mesh, const RigidTransform& owner_from_mesh) {
-  Hull hull;
-  hull.shape = std::make_unique<btConvexHullShape>();
-  for (const Eigen::Vector3d& vertex : mesh.vertices) {
-    const Eigen::Vector3d point = owner_from_mesh * vertex;
-    hull.shape->addPoint(internal::ToBullet(point), false);
-    hull.box.extend(point);
-  }
-  hull.shape->setMargin(0.001);
-  hull.shape->recalcLocalAabb();
-  return hull;
-}
-
-Eigen::Vector3d FromBullet(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
-
-struct Separation {
-  double distance = std::numeric_limits<double>::infinity();
-  Eigen::Vector3d point_on_door = Eigen::Vector3d::Zero();  ///< In the door's frame.
-  Eigen::Vector3d normal_of_door = Eigen::Vector3d::Zero();
-};
-
-Separation Separate(const Hull& gripper, const RigidTransform& door_from_gripper,
-                    const Hull& door) {
-  btVoronoiSimplexSolver simplex;
-  btGjkEpaPenetrationDepthSolver penetration;
-  btGjkPairDetector detector(gripper.shape.get(), door.shape.get(), &simplex, &penetration);
-  btGjkPairDetector::ClosestPointInput input;
-  input.m_transformA = internal::ToBullet(door_from_gripper);
-  input.m_transformB.setIdentity();
-  btPointCollector result;
-  detector.getClosestPoints(input, result, nullptr);
-  if (!result.m_hasResult) return {};
-  return {result.m_distance, FromBullet(result.m_pointInWorld),
-          FromBullet(result.m_normalOnBInWorld)};
+  return internal::MakeProbeHull(mesh, owner_from_mesh, kMargin);
 }
 
 }  // namespace
@@ -157,8 +119,8 @@ std::optional<PadContact> GraspProbe::Close(const RigidTransform& door_from_tcp,
     }
     if (nearest.distance < 2e-4) {
       const RigidTransform tcp_from_door = door_from_tcp.inverse();
-      return PadContact{position, tcp_from_door * nearest.point_on_door,
-                        tcp_from_door.linear() * nearest.normal_of_door};
+      return PadContact{position, tcp_from_door * nearest.point,
+                        tcp_from_door.linear() * nearest.normal};
     }
     position -= nearest.distance;
   }

@@ -180,4 +180,10 @@ GraspPlan PlanGrasp(const Scene& scene, const DoorAsset& door, const RobotModel&
   return best.plan;
 }
 
+double GraspCost(const DoorAsset& door, const RobotModel& robot) {
+  const RigidTransform door_from_grasp =
+      DoorFromLinks(door, 0, 0)[kHandleLink] * door.handle_from_grasp;
+  return SearchGrasp(GraspProbe(door, robot), door_from_grasp, door.mechanism).cost;
+}
+
 }  // namespace doorforge

@@ -3,12 +3,16 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
+
+#include "doorforge/schemas/door_asset.h"
 
 namespace doorforge {
 
@@ -20,7 +24,8 @@ enum class Severity {
 std::string_view NameOf(Severity severity);  ///< "error", "warning", "info".
 
 /// One rule. Codes are never reused. Families: REC records, MSH meshes, COL collision shapes,
-/// INR mass and inertia, MEC joints and latch, URD the URDF, HND handle and grasp, LIC licences.
+/// INR mass and inertia, MEC joints and latch, URD the URDF, HND handle and grasp, SWP the moving
+/// leaf, OPN the simulated opening, LIC licences.
 struct ValidationRule {
   std::string_view code;
   Severity severity;
@@ -28,6 +33,7 @@ struct ValidationRule {
   double limit;              ///< In SI units; 0 where `allowed` has none.
   std::string_view allowed;  ///< The allowed values; "{}" stands for the limit.
   std::string_view fix;      ///< What to do.
+  bool fixable = false;      ///< FixFolder() can do it, see fix_door.h.
 };
 
 /// All rules, by family. docs/validation-rules.md lists the same.
@@ -41,13 +47,24 @@ struct Finding {
   std::string measured;  ///< With unit.
   std::string allowed;
   std::string fix;
+  bool fixable = false;
 };
+
+/// A finding of a rule: severity, allowed and fix are the rule's. For the checks that a program
+/// hands in. Both throw Error(kInvalidArgument) on an unknown code.
+Finding FindingOf(std::string_view code, const std::string& where, const std::string& measured);
+double RuleLimit(std::string_view code);
 
 /// Which rules count.
 enum class ValidationProfile {
-  kUrdf,     ///< REC, MSH, INR, URD, LIC: what a simulator needs to load the door.
-  kPhysics,  ///< All rules.
+  kUrdf,      ///< REC, MSH, INR, URD, LIC: what a simulator needs to load the door.
+  kPhysics,   ///< All rules but SWP and OPN.
+  kOpenable,  ///< All rules.
 };
+
+/// SWP and OPN: what a simulation of the door finds. This room may not simulate, so the program
+/// that can hands the check in. It must be a pure function and bear several threads.
+using OpeningCheck = std::function<std::vector<Finding>(const DoorAsset&)>;
 
 struct ValidationReport {
   std::filesystem::path folder;
@@ -56,22 +73,51 @@ struct ValidationReport {
   int warnings = 0;
 };
 
-/// Checks a folder written by WriteDoorFolder() or WritePart(), or changed by hand since: reads
-/// what can be read, and reports every fault that can be told from it. Deterministic; never throws
-/// on what the folder holds. Throws Error(kMissing) if it has neither door.json nor part.json.
+/// Checks folders written by WriteDoorFolder(), WriteSharedDoors() or WritePart(), or changed by
+/// hand since: reads what can be read, and reports every fault that can be told from it.
+///
+/// What many doors have in common is read and measured once: a mesh of a pool, a piece with its
+/// convex pieces, a leaf. It is remembered by content, so that a report does not depend on the
+/// folders before it, nor on how many threads share a validator. Files of a pool that change while
+/// it lives may go unnoticed; take a new one then.
+class DoorValidator {
+ public:
+  explicit DoorValidator(ValidationProfile profile = ValidationProfile::kPhysics);
+  /// Profile kOpenable. Doors with errors are not simulated: OPN007 says so.
+  explicit DoorValidator(OpeningCheck check);
+  ~DoorValidator();
+  DoorValidator(const DoorValidator&) = delete;
+  DoorValidator& operator=(const DoorValidator&) = delete;
+
+  /// By the record that the folder holds. Deterministic; never throws on what the folder holds.
+  /// Throws Error(kMissing) if it has neither door.json nor part.json. May be called from several
+  /// threads at once.
+  ValidationReport Validate(const std::filesystem::path& folder) const;
+  /// The same where the kind is known; throw Error(kMissing) if its record is missing.
+  ValidationReport Door(const std::filesystem::path& folder) const;
+  ValidationReport Part(const std::filesystem::path& folder) const;
+
+ private:
+  struct Memory;
+
+  ValidationProfile profile_;
+  OpeningCheck opening_check_;
+  std::unique_ptr<Memory> memory_;
+};
+
+/// One folder, with a validator of its own.
 ValidationReport ValidateDoor(const std::filesystem::path& folder,
                               ValidationProfile profile = ValidationProfile::kPhysics);
 ValidationReport ValidatePart(const std::filesystem::path& folder,
                               ValidationProfile profile = ValidationProfile::kPhysics);
 
-/// ValidateDoor() or ValidatePart(), by the record that the folder holds.
-ValidationReport Validate(const std::filesystem::path& folder, ValidationProfile profile);
-
-/// Folders of doors and parts at or below `path`, sorted. Throws Error(kMissing) if there is none.
+/// Folders of doors and parts at or below `path`, sorted; those whose name begins with a dot are
+/// left out: what a killed program left. Throws Error(kMissing) if there is none.
 std::vector<std::filesystem::path> FindRecords(const std::filesystem::path& path);
 
 /// {"schema": "doorforge.validation", "findings": [{"folder", "code", "severity", "where",
-/// "measured", "allowed", "fix"}], "counts": {"folders", "errors", "warnings", "infos"}}.
+/// "measured", "allowed", "fix", "fixable"}], "counts": {"folders", "errors", "warnings",
+/// "infos"}}.
 nlohmann::ordered_json ToJson(std::span<const ValidationReport> reports);
 
 }  // namespace doorforge

@@ -28,4 +28,8 @@ inline constexpr double kPregraspDistance = 0.12;  ///< [m], back along the appr
 /// Privileged: uses the door's geometry. Deterministic.
 GraspPlan PlanGrasp(const Scene& scene, const DoorAsset& door, const RobotModel& robot);
 
+/// GraspPlan::cost of the best grasp near the door's own, noise and the arm's reach aside: below
+/// 0.3 good; above 5 a pad finds no hold, or the open gripper is blocked. Any side and opening.
+double GraspCost(const DoorAsset& door, const RobotModel& robot);
+
 }  // namespace doorforge

@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/physics/opening_trial.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
+#include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
+#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
+
+#include "doorforge/core/error.h"
+#include "doorforge/physics/latch_law.h"
+
+#include "bullet_body.h"
+#include "door_body.h"
+
+namespace doorforge {
+namespace {
+
+using internal::BulletBody;
+using internal::DampingTorque;
+using internal::kHandle;
+using internal::kHinge;
+
+constexpr double kAjarRad = 0.01;  // as the latch law has it
+constexpr double kRampS = 1;
+constexpr double kHoldS = 0.5;       // at the full force
+constexpr double kReturnS = 1;       // for the handle to spring back
+constexpr double kOpeningS = 10;     // at most
+constexpr double kFastestRadS = 90;  // Bullet cuts at 100
+
+/// A closed door at rest, in a world of its own.
+class LoneDoor {
+ public:
+  LoneDoor(const DoorAsset& door, double time_step_s)
+      : door_(door), dt_(time_step_s), inertia_(internal::InertiaOf(door)) {
+    internal::SwitchProfilingOff();
+    world_.setGravity(btVector3(0, 0, 0));
+    world_.getSolverInfo().m_numIterations = 50;
+    world_.getSolverInfo().m_globalCfm = 0;
+    body_ =
+        std::make_unique<BulletBody>(world_, RigidTransform::Identity(),
+                                     internal::DoorLinks(door, 1), internal::ContactSide::kDoor);
+    body_->SyncColliders();
+    latch_ = UpdatedLatch(door.latch, {}, 0, 0);
+  }
+
+  double hinge_rad() const { return body_->Position(kHinge); }
+  double handle_rad() const { return body_->Position(kHandle); }
+  const LatchState& latch() const { return latch_; }
+
+  bool Finite() const {
+    const double fastest =
+        std::max(std::abs(body_->Velocity(kHinge)), std::abs(body_->Velocity(kHandle)));
+    return std::isfinite(hinge_rad()) && std::isfinite(handle_rad()) && fastest < kFastestRadS;
+  }
+
+  /// Torques of a hand, besides those of latch, springs and damping [N m].
+  void Step(double hinge_nm, double handle_nm) {
+    const LatchTorques law = TorquesOf(door_.latch, latch_, hinge_rad(), handle_rad());
+    Turn(kHinge,
+         law.hinge_nm + hinge_nm +
+             DampingTorque(door_.hinge.damping_nm_s, body_->Velocity(kHinge), inertia_.hinge, dt_));
+    Turn(kHandle, law.handle_nm + handle_nm +
+                      DampingTorque(door_.handle_joint.damping_nm_s, body_->Velocity(kHandle),
+                                    inertia_.handle, dt_));
+    world_.stepSimulation(dt_, 0);
+    latch_ = UpdatedLatch(door_.latch, latch_, hinge_rad(), handle_rad());
+  }
+
+ private:
+  void Turn(int link, double torque_nm) {
+    if (body_->multibody().getLink(link).m_dofCount > 0)
+      body_->multibody().addJointTorque(link, torque_nm);
+  }
+
+  const DoorAsset& door_;
+  double dt_;
+  internal::DoorInertia inertia_;
+  btDefaultCollisionConfiguration collision_configuration_;
+  btCollisionDispatcher dispatcher_{&collision_configuration_};
+  btDbvtBroadphase broadphase_;
+  btMultiBodyConstraintSolver solver_;
+  btMultiBodyDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &collision_configuration_};
+  std::unique_ptr<BulletBody> body_;
+  LatchState latch_;
+};
+
+// Radius of the grasp's circle about the hinge line.
+double ArmOf(const DoorAsset& door) {
+  const Eigen::Vector3d grasp =
+      door.handle_joint.parent_from_child_at_zero * door.handle_from_grasp.translation();
+  return (grasp - door.hinge.axis * door.hinge.axis.dot(grasp)).norm();
+}
+
+/// The hand of a trial: how hard it turns and pulls by now.
+class Hand {
+ public:
+  Hand(const DoorAsset& door, const OpeningTrialConfig& config)
+      : config_(config), arm_m_(ArmOf(door)) {}
+
+  // It stops turning harder once the handle is done.
+  double Turning(const LoneDoor& door) {
+    if (!door.latch().handle_done) turning_ += config_.time_step_s / kRampS;
+    return config_.handle_torque_nm * std::min(turning_, 1.0);
+  }
+
+  double Pulling(double times) {
+    pulling_ += config_.time_step_s / kRampS;
+    return times * config_.pull_n * arm_m_ * std::min(pulling_, 1.0);
+  }
+
+ private:
+  const OpeningTrialConfig& config_;
+  double arm_m_;
+  double turning_ = 0;
+  double pulling_ = 0;
+};
+
+int StepsOf(double seconds, const OpeningTrialConfig& config) {
+  return static_cast<int>(std::lround(seconds / config.time_step_s));
+}
+
+void TryLocked(const DoorAsset& door, const OpeningTrialConfig& config, OpeningTrial& trial) {
+  LoneDoor lone(door, config.time_step_s);
+  Hand hand(door, config);
+  for (int i = StepsOf(kRampS + kHoldS, config); i > 0 && lone.Finite(); --i) {
+    lone.Step(hand.Pulling(config.overload), 0);
+    trial.given_rad = std::max(trial.given_rad, lone.hinge_rad());
+  }
+  trial.held = lone.latch().locked && trial.given_rad < kAjarRad;
+  trial.finite = trial.finite && lone.Finite();
+}
+
+void TryHandle(const DoorAsset& door, const OpeningTrialConfig& config, OpeningTrial& trial) {
+  LoneDoor lone(door, config.time_step_s);
+  Hand hand(door, config);
+  for (int i = StepsOf(kRampS + kHoldS, config); i > 0 && lone.Finite(); --i) {
+    lone.Step(0, hand.Turning(lone));
+    trial.turned_rad = std::max(trial.turned_rad, lone.handle_rad());
+    trial.unlocked = lone.latch().handle_done && !lone.latch().locked;
+  }
+  for (int i = StepsOf(kReturnS, config); i > 0 && lone.Finite(); --i) lone.Step(0, 0);
+  trial.returned_rad = lone.handle_rad();
+  trial.finite = trial.finite && lone.Finite();
+}
+
+void TryPull(const DoorAsset& door, const OpeningTrialConfig& config, OpeningTrial& trial) {
+  LoneDoor lone(door, config.time_step_s);
+  Hand hand(door, config);
+  for (int i = StepsOf(kRampS + kHoldS, config);
+       i > 0 && trial.latched && !lone.latch().handle_done && lone.Finite(); --i)
+    lone.Step(0, hand.Turning(lone));
+  for (int i = 1; i <= StepsOf(kOpeningS, config) && lone.Finite(); ++i) {
+    lone.Step(hand.Pulling(1), trial.latched ? hand.Turning(lone) : 0);
+    trial.opened_rad = std::max(trial.opened_rad, lone.hinge_rad());
+    trial.opened_s = i * config.time_step_s;
+    if (lone.hinge_rad() > config.open_rad) break;
+  }
+  trial.finite = trial.finite && lone.Finite();
+}
+
+}  // namespace
+
+OpeningTrial TryOpening(const DoorAsset& door, const OpeningTrialConfig& config) {
+  Require(door.latch.type != LatchType::kBolt, ErrorCode::kInvalidArgument,
+          "the latch law knows no bolt; export the door to MJCF, where the bolt is hardware");
+  OpeningTrial trial;
+  trial.latched = door.latch.type != LatchType::kNone;
+  if (trial.latched) {
+    TryLocked(door, config, trial);
+    TryHandle(door, config, trial);
+  }
+  TryPull(door, config, trial);
+  return trial;
+}
+
+}  // namespace doorforge

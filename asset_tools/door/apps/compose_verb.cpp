@@ -30,6 +30,7 @@
 
 #include "mesh_options.h"
 #include "own_part.h"
+#include "validate_verb.h"
 #include "verb_options.h"
 #ifdef DOORFORGE_WITH_PREVIEW
 #include "preview_verb.h"
@@ -112,7 +113,8 @@ void AddOptions(CLI::App& app, Options& options) {
   app.add_flag("--standalone", options.standalone,
                "many doors: each with its own copy of the meshes");
   app.add_flag("--validate", options.validate,
-               "one door: validate it and write validation.json; with imported parts always");
+               "one door: validate and simulate it, write validation.json; always with imported "
+               "parts");
 #ifdef DOORFORGE_WITH_PREVIEW
   app.add_flag("--preview", options.preview, "one door: write its picture thumb.png");
 #endif
@@ -536,7 +538,9 @@ class OneDoor {
   int Check() const {
     int errors = 0;
     if (options_.validate || own_body_ || own_handle_) {
-      const ValidationReport report = ValidateDoor(options_.out);
+      const std::unique_ptr<DoorValidator> openable = OpenableValidator();
+      const ValidationReport report =
+          openable ? openable->Door(options_.out) : ValidateDoor(options_.out);
       WriteJsonFile(fs::path(options_.out) / "validation.json", ToJson(std::span(&report, 1)));
       errors = report.errors;
       for (const Finding& finding : report.findings)

@@ -83,12 +83,11 @@ void Print(const ValidationReport& report) {
 std::unique_ptr<DoorValidator> ValidatorFor(const std::string& profile) {
   if (profile == "urdf") return std::make_unique<DoorValidator>(ValidationProfile::kUrdf);
   if (profile == "physics") return std::make_unique<DoorValidator>(ValidationProfile::kPhysics);
-#ifdef DOORFORGE_WITH_OPENABLE
-  return std::make_unique<DoorValidator>(OpenableCheck());
-#else
-  throw Error(ErrorCode::kInvalidArgument,
-              "--profile openable: this build lacks the simulation (sim/rollout)");
-#endif
+  auto validator = OpenableValidator();
+  if (validator == nullptr)
+    throw Error(ErrorCode::kInvalidArgument,
+                "--profile openable: this build lacks the simulation (sim/rollout)");
+  return validator;
 }
 
 /// What came of the folders; empty where a stop request came first.
@@ -192,6 +191,14 @@ int Finish(const Options& options, Results results) {
 }
 
 }  // namespace
+
+std::unique_ptr<DoorValidator> OpenableValidator() {
+#ifdef DOORFORGE_WITH_OPENABLE
+  return std::make_unique<DoorValidator>(OpenableCheck());
+#else
+  return nullptr;
+#endif
+}
 
 int RunValidateVerb(int argc, char** argv) {
   const Options options = Parse(argc, argv);

@@ -8,139 +8,94 @@
 //
 // Parts are centred on their bounding box and scaled to a diagonal of 1; the distance is the mean,
 // over both directions, of the distance from 4,096 points spread evenly over one surface to the
-// nearest of the other's. Parts made from the same source count once.
+// nearest of the other's. Parts made from the same source count once, and so do parts whose
+// normalised surfaces lie within 1e-3 of each other: the same thing at another size. A body whose
+// frame or shell is missing is not compared with whole ones; of cars, whose released objects mostly
+// lack the shell, the leaves are compared too.
+//
+// The nearest neighbour is the nearer the more parts there are. The second table therefore draws
+// 500 random subsets of the larger collection, as many parts as the smaller has, and gives the
+// median over them of their medians.
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
-#include <filesystem>
 #include <map>
-#include <memory>
 #include <set>
 #include <string>
-#include <tuple>
 #include <vector>
-
-#include <Eigen/Geometry>
-#include <nanoflann.hpp>
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/rng.h"
-#include "doorforge/core/triangle_mesh.h"
-#include "doorforge/schemas/part.h"
+
+#include "part_shapes.h"
 
 namespace doorforge {
 namespace {
 
 namespace fs = std::filesystem;
-using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
-using Tree = nanoflann::KDTreeEigenMatrixAdaptor<Points, 3>;
 
-constexpr int kPoints = 4096;
+constexpr double kSameSurface = 1e-3;
+constexpr double kMayBeSame = 0.02;  // two samples of one surface are never farther apart
+constexpr int kSubsets = 500;
 
-struct Shape {
-  std::string id;
-  Points points;
-  std::unique_ptr<Tree> tree;
+using Matrix = std::vector<std::vector<double>>;  // symmetric
+
+struct Group {
+  std::vector<PartShape> shapes;
+  Matrix distances;
+  std::size_t copies = 0;  ///< Left out.
 };
-// collection, category, role
-using Shapes = std::map<std::tuple<std::string, std::string, std::string>, std::vector<Shape>>;
+// "category role" -> collection
+using Groups = std::map<std::string, std::map<std::string, Group>>;
 
-// Evenly over the area: the i-th point lies at (i + 0.5) / n of the running area, at a random place
-// of its triangle.
-Points SampledSurface(const std::vector<std::array<Eigen::Vector3d, 3>>& triangles) {
-  std::vector<double> running;
-  double area = 0;
-  for (const auto& [a, b, c] : triangles)
-    running.push_back(area += 0.5 * (b - a).cross(c - a).norm());
-  Points points(kPoints, 3);
-  Rng rng(0, "diversity");
-  for (int i = 0; i < kPoints; ++i) {
-    const double at = (i + 0.5) / kPoints * area;
-    const auto index = static_cast<std::size_t>(
-        std::upper_bound(running.begin(), running.end() - 1, at) - running.begin());
-    const auto& [a, b, c] = triangles[index];
-    double u = rng.Uniform();
-    double v = rng.Uniform();
-    if (u + v > 1) {
-      u = 1 - u;
-      v = 1 - v;
-    }
-    points.row(i) = (a + u * (b - a) + v * (c - a)).transpose();
-  }
-  return points;
-}
-
-Shape ShapeOf(const Part& part) {
-  std::vector<std::array<Eigen::Vector3d, 3>> triangles;
-  Eigen::AlignedBox3d box;
-  for (const PartPiece& piece : part.pieces) {
-    for (const Eigen::Vector3i& t : piece.mesh.triangles) {
-      auto& corners = triangles.emplace_back();
-      for (std::size_t k = 0; k < 3; ++k) {
-        const int vertex = t[static_cast<Eigen::Index>(k)];
-        corners[k] = piece.mesh.vertices[static_cast<std::size_t>(vertex)];
-        box.extend(corners[k]);
-      }
-    }
-  }
-  Shape shape{part.id, SampledSurface(triangles), nullptr};
-  const Eigen::RowVector3d center = box.center().transpose();
-  shape.points = (shape.points.rowwise() - center) / box.diagonal().norm();
-  return shape;
-}
-
-double MeanDistance(const Points& from, const Tree& to) {
-  double sum = 0;
-  for (Eigen::Index i = 0; i < from.rows(); ++i) {
-    const std::array<double, 3> point = {from(i, 0), from(i, 1), from(i, 2)};
-    Eigen::Index index = 0;
-    double squared = 0;
-    to.index->knnSearch(point.data(), 1, &index, &squared);
-    sum += std::sqrt(squared);
-  }
-  return sum / static_cast<double>(from.rows());
-}
-
-double Chamfer(const Shape& a, const Shape& b) {
-  return 0.5 * (MeanDistance(a.points, *b.tree) + MeanDistance(b.points, *a.tree));
-}
-
-struct Neighbour {
-  double distance = 1e300;
-  std::size_t index = 0;
-};
-
-std::vector<Neighbour> NearestNeighbours(const std::vector<Shape>& shapes) {
-  std::vector<std::vector<double>> rows(shapes.size());
+Matrix Distances(const std::vector<PartShape>& shapes) {
+  Matrix rows(shapes.size(), std::vector<double>(shapes.size(), 1e300));
   ParallelFor(shapes.size(), 0, [&](std::size_t i) {
-    for (std::size_t j = 0; j < i; ++j) rows[i].push_back(Chamfer(shapes[i], shapes[j]));
+    for (std::size_t j = 0; j < i; ++j) rows[i][j] = 1000 * Chamfer(shapes[i], shapes[j]);
   });
-  std::vector<Neighbour> nearest(shapes.size());
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (rows[i][j] < nearest[i].distance) nearest[i] = {rows[i][j], j};
-      if (rows[i][j] < nearest[j].distance) nearest[j] = {rows[i][j], i};
-    }
+    for (std::size_t j = 0; j < i; ++j) rows[j][i] = rows[i][j];
   }
-  return nearest;
+  return rows;
 }
 
-void ReadShapes(const std::string& label, const fs::path& folder, Shapes& shapes) {
-  Require(fs::is_directory(folder), ErrorCode::kMissing, folder.string() + ": no such folder");
-  std::vector<fs::path> parts;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.path().filename() == "part.json") parts.push_back(entry.path().parent_path());
+// Without the parts that repeat an earlier one at another size.
+void DropCopies(Group& group) {
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < group.shapes.size(); ++i) {
+    const bool copy = std::any_of(kept.begin(), kept.end(), [&](std::size_t j) {
+      return group.distances[i][j] <= 1000 * kMayBeSame &&
+             SameSurface(group.shapes[i], group.shapes[j], kSameSurface);
+    });
+    if (!copy) kept.push_back(i);
   }
-  std::sort(parts.begin(), parts.end());
+  group.copies += group.shapes.size() - kept.size();
+  Group unique;
+  for (const std::size_t i : kept) {
+    unique.shapes.push_back(std::move(group.shapes[i]));
+    std::vector<double>& row = unique.distances.emplace_back();
+    for (const std::size_t j : kept) row.push_back(group.distances[i][j]);
+  }
+  unique.copies = group.copies;
+  group = std::move(unique);
+}
+
+void ReadShapes(const std::string& label, const fs::path& folder, Groups& groups) {
   std::set<std::string> sources;
-  for (const fs::path& path : parts) {
+  for (const fs::path& path : PartFolders(folder)) {
     const Part part = ReadPart(path);
-    if (!sources.insert(part.source_sha256).second) continue;
-    shapes[{label, std::string(NameOf(part.category)), std::string(NameOf(part.role))}].push_back(
-        ShapeOf(part));
+    const std::string category(NameOf(part.category));
+    const bool body = part.role == PartRole::kBody;
+    Group& group = groups[category + (body ? " body" : " handle")][label];
+    if (!sources.insert(part.source_sha256).second) {
+      ++group.copies;
+      continue;
+    }
+    if (!body || FindPiece(part, "frame") != nullptr) group.shapes.push_back(ShapeOf(part, ""));
+    if (body && part.category == Category::kCar)
+      groups[category + " leaf"][label].shapes.push_back(ShapeOf(part, "leaf"));
   }
 }
 
@@ -148,35 +103,104 @@ double Quantile(const std::vector<double>& sorted, double share) {
   return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1) + 0.5)];
 }
 
+std::vector<double> NearestOf(const Matrix& distances, const std::vector<std::size_t>& chosen) {
+  std::vector<double> nearest;
+  for (const std::size_t i : chosen) {
+    double least = 1e300;
+    for (const std::size_t j : chosen) {
+      if (i != j) least = std::min(least, distances[i][j]);
+    }
+    nearest.push_back(least);
+  }
+  std::sort(nearest.begin(), nearest.end());
+  return nearest;
+}
+
+std::vector<std::size_t> AllOf(const Group& group) {
+  std::vector<std::size_t> all(group.shapes.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  return all;
+}
+
+double MedianAtNumber(const Group& group, std::size_t number) {
+  Rng rng(0, "diversity subsets");
+  std::vector<double> medians;
+  for (int k = 0; k < kSubsets; ++k) {
+    std::vector<std::size_t> order = AllOf(group);
+    for (std::size_t i = 0; i < number; ++i) {
+      const auto rest = static_cast<double>(order.size() - i);
+      std::swap(order[i], order[i + static_cast<std::size_t>(rng.Uniform() * rest)]);
+    }
+    order.resize(number);
+    medians.push_back(Quantile(NearestOf(group.distances, order), 0.5));
+  }
+  std::sort(medians.begin(), medians.end());
+  return Quantile(medians, 0.5);
+}
+
+void PrintAll(const Groups& groups) {
+  std::printf(
+      "Chamfer distance to the nearest neighbour, 1/1000 of the diagonal\n%-24s %-10s %5s %6s %7s "
+      "%7s %7s %7s %7s  closest pair\n",
+      "category, role", "collection", "parts", "copies", "least", "25 %", "median", "75 %", "most");
+  for (const auto& [kind, collections] : groups) {
+    for (const auto& [label, group] : collections) {
+      std::printf("%-24s %-10s %5zu %6zu", kind.c_str(), label.c_str(), group.shapes.size(),
+                  group.copies);
+      if (group.shapes.size() > 1) {
+        const std::vector<double> nearest = NearestOf(group.distances, AllOf(group));
+        for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0})
+          std::printf(" %7.2f", Quantile(nearest, share));
+        for (std::size_t i = 0; i < group.shapes.size(); ++i) {
+          const auto& row = group.distances[i];
+          const auto least = std::min_element(row.begin(), row.end());
+          if (*least > nearest.front()) continue;
+          std::printf("  %s %s", group.shapes[i].id.c_str(),
+                      group.shapes[static_cast<std::size_t>(least - row.begin())].id.c_str());
+          break;
+        }
+      }
+      std::printf("\n");
+    }
+  }
+}
+
+void PrintAtEqualNumber(const Groups& groups) {
+  std::printf("\nthe medians of both at the number of parts of the smaller collection\n");
+  for (const auto& [kind, collections] : groups) {
+    for (const auto& [small, few] : collections) {
+      for (const auto& [large, many] : collections) {
+        const std::size_t number = few.shapes.size();
+        const bool order =
+            many.shapes.size() > number || (many.shapes.size() == number && large < small);
+        if (large == small || number < 2 || !order) continue;
+        std::printf("%-24s %4zu parts: %s %.2f, %s %.2f\n", kind.c_str(), number, large.c_str(),
+                    MedianAtNumber(many, number), small.c_str(),
+                    Quantile(NearestOf(few.distances, AllOf(few)), 0.5));
+      }
+    }
+  }
+}
+
 int Run(int argc, char** argv) {
-  Shapes shapes;
+  const char* usage = "usage: diversity LABEL=FOLDER...";
+  Groups groups;
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
     const std::size_t equals = argument.find('=');
-    Require(equals != std::string::npos, ErrorCode::kInvalidArgument,
-            "usage: diversity LABEL=FOLDER...");
-    ReadShapes(argument.substr(0, equals), argument.substr(equals + 1), shapes);
+    Require(equals != std::string::npos, ErrorCode::kInvalidArgument, usage);
+    ReadShapes(argument.substr(0, equals), argument.substr(equals + 1), groups);
   }
-  Require(!shapes.empty(), ErrorCode::kInvalidArgument, "usage: diversity LABEL=FOLDER...");
-  std::printf(
-      "Chamfer distance to the nearest neighbour, 1/1000 of the diagonal\n%-12s %-17s %-7s "
-      "%6s %7s %7s %7s %7s %7s  closest pair\n",
-      "collection", "category", "role", "parts", "least", "25 %", "median", "75 %", "most");
-  for (auto& [key, group] : shapes) {
-    const auto& [label, category, role] = key;
-    if (group.size() < 2) continue;
-    for (Shape& shape : group) shape.tree = std::make_unique<Tree>(3, std::cref(shape.points));
-    const std::vector<Neighbour> nearest = NearestNeighbours(group);
-    std::vector<double> sorted;
-    for (const Neighbour& neighbour : nearest) sorted.push_back(1000 * neighbour.distance);
-    const auto closest =
-        static_cast<std::size_t>(std::min_element(sorted.begin(), sorted.end()) - sorted.begin());
-    std::sort(sorted.begin(), sorted.end());
-    std::printf("%-12s %-17s %-7s %6zu %7.2f %7.2f %7.2f %7.2f %7.2f  %s %s\n", label.c_str(),
-                category.c_str(), role.c_str(), group.size(), sorted.front(),
-                Quantile(sorted, 0.25), Quantile(sorted, 0.5), Quantile(sorted, 0.75),
-                sorted.back(), group[closest].id.c_str(), group[nearest[closest].index].id.c_str());
+  Require(!groups.empty(), ErrorCode::kInvalidArgument, usage);
+  for (auto& [kind, collections] : groups) {
+    for (auto& [label, group] : collections) {
+      BuildTrees(group.shapes);
+      group.distances = Distances(group.shapes);
+      DropCopies(group);
+    }
   }
+  PrintAll(groups);
+  PrintAtEqualNumber(groups);
   return 0;
 }
 

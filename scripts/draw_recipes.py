@@ -6,12 +6,15 @@
     scripts/draw_recipes.py            writes the recipes that are missing
     scripts/draw_recipes.py --redraw   writes all anew
     scripts/draw_recipes.py --check    writes nothing; exit code 1 if a recipe is missing or would differ
+    scripts/draw_recipes.py --candidates 8 --category safe --out DIR
+                                       draws every recipe 8 times, as DIR/catalog/.../ID--0.yaml to ID--7.yaml
 
 data/families/CATEGORY_ROLE.yaml (ROLE: bodies or handles) is a list of entries:
 
     - family: lever_straight
       stem: interior_lever_tube    # ids are interior_lever_tube_01, _02, ...
       count: 12
+      first: 3                     # optional: the first number, 1 if left out
       kept: 1                      # optional: the first so many are written by hand and stay
       parameters:
         length_m: {uniform: [0.11, 0.14]}      # rounded to 0.1 mm
@@ -21,6 +24,13 @@ data/families/CATEGORY_ROLE.yaml (ROLE: bodies or handles) is a list of entries:
 
 Every parameter has a stream of its own, from the recipe's id and the parameter's place: adding a
 parameter or an entry leaves the other values as they are.
+
+data/families/draws.yaml says which draw of a recipe is taken where it is not the first, 0. They are
+chosen so that parts differ (benchmarks/choose_recipes.cpp):
+
+    scripts/draw_recipes.py --candidates 8 --out build/candidates
+    DOORFORGE_DATA=build/candidates doorforge catalog build --out build/candidates/parts
+    choose_recipes build/candidates/parts
 """
 import argparse
 import hashlib
@@ -32,7 +42,7 @@ import yaml
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 HEADER = ("# SPDX-FileCopyrightText: 2026 The doorforge authors\n"
           "# SPDX-License-Identifier: CC0-1.0\n")
-ENTRY_KEYS = {"family", "stem", "count", "kept", "parameters"}
+ENTRY_KEYS = {"family", "stem", "count", "first", "kept", "parameters"}
 
 
 def unit(stream):
@@ -57,15 +67,17 @@ def draw(value, stream):
     return {key: draw(item, f"{stream}/{key}") for key, item in value.items()}
 
 
-def recipe_text(entry, recipe_id):
-    recipe = {"schema": "doorforge.recipe", "schema_version": 1, "id": recipe_id,
+def recipe_text(entry, recipe_id, number, name=None):
+    """Draw `number` of a recipe; the file and its id are called `name` if it is given."""
+    stream = f"{recipe_id}--{number}" if number else recipe_id
+    recipe = {"schema": "doorforge.recipe", "schema_version": 1, "id": name or recipe_id,
               "family": entry["family"], "license": "CC0-1.0",
-              "parameters": draw(entry.get("parameters", {}), recipe_id)}
+              "parameters": draw(entry.get("parameters", {}), stream)}
     return HEADER + yaml.safe_dump(recipe, sort_keys=False, default_flow_style=None, width=100)
 
 
 def recipes(families_file):
-    """Path and text of each recipe; the text is None for those written by hand."""
+    """Category, role, id and entry of each recipe; the entry is None for those written by hand."""
     category, role = families_file.stem.rsplit("_", 1)
     if role not in ("bodies", "handles"):
         sys.exit(f"{families_file}: expected a name like window_bodies.yaml")
@@ -73,10 +85,29 @@ def recipes(families_file):
         unknown = set(entry) - ENTRY_KEYS
         if unknown:
             sys.exit(f"{families_file}: unknown key {sorted(unknown)[0]!r}; allowed: {sorted(ENTRY_KEYS)}")
-        for number in range(1, entry["count"] + 1):
-            recipe_id = f"{entry['stem']}_{number:02d}"
-            path = ROOT / "data/catalog" / category / role / f"{recipe_id}.yaml"
-            yield path, None if number <= entry.get("kept", 0) else recipe_text(entry, recipe_id)
+        first = entry.get("first", 1)
+        for number in range(first, first + entry["count"]):
+            kept = number < first + entry.get("kept", 0)
+            yield f"{category}/{role}", f"{entry['stem']}_{number:02d}", None if kept else entry
+
+
+def families_files(category):
+    return sorted((ROOT / "data/families").glob(f"{category or '*'}_*.yaml"))
+
+
+def write_candidates(category, count, out):
+    """`count` draws of every recipe, and those written by hand as they are."""
+    for families_file in families_files(category):
+        for folder, recipe_id, entry in recipes(families_file):
+            place = out / "catalog" / folder
+            place.mkdir(parents=True, exist_ok=True)
+            if entry is None:
+                (place / f"{recipe_id}.yaml").write_text(
+                    (ROOT / "data/catalog" / folder / f"{recipe_id}.yaml").read_text())
+                continue
+            for number in range(count):
+                name = f"{recipe_id}--{number}"
+                (place / f"{name}.yaml").write_text(recipe_text(entry, recipe_id, number, name))
 
 
 def main():
@@ -84,13 +115,24 @@ def main():
     mode = parser.add_mutually_exclusive_group()
     mode.add_argument("--redraw", action="store_true")
     mode.add_argument("--check", action="store_true")
+    mode.add_argument("--candidates", type=int, metavar="N")
     parser.add_argument("--category", help="only this one, such as window")
+    parser.add_argument("--out", type=pathlib.Path, help="folder for the candidates")
     args = parser.parse_args()
+    if args.candidates:
+        if args.out is None:
+            parser.error("--candidates needs --out")
+        write_candidates(args.category, args.candidates, args.out)
+        return 0
+    draws_file = ROOT / "data/families/draws.yaml"
+    draws = yaml.safe_load(draws_file.read_text()) or {}
     problems = written = total = 0
-    for families_file in sorted((ROOT / "data/families").glob(f"{args.category or '*'}_*.yaml")):
-        for path, text in recipes(families_file):
+    for families_file in families_files(args.category):
+        for folder, recipe_id, entry in recipes(families_file):
             total += 1
+            path = ROOT / "data/catalog" / folder / f"{recipe_id}.yaml"
             there = path.read_text() if path.exists() else None
+            text = recipe_text(entry, recipe_id, draws.get(recipe_id, 0)) if entry else None
             if text is None or there == text:
                 if there is None:
                     print(f"{path}: is to be written by hand", file=sys.stderr)

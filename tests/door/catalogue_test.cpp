@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/door/catalogue.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -20,6 +21,8 @@
 #include "doorforge/door/grasp.h"
 #include "doorforge/door/validate_door.h"
 #include "doorforge/mesh/convex_parts.h"
+#include "doorforge/schemas/part_identity.h"
+#include "doorforge/schemas/split.h"
 
 #include "scratch_folder.h"
 
@@ -376,6 +379,68 @@ TEST(QuickstartSplit, PutsEveryPartOnExactlyOneSide) {
     }
   }
   EXPECT_EQ(kinds["train"], kinds["test"]) << "every kind is trained on and tested";
+}
+
+Split FullSplit() { return ReadSplit(DataOfSource() / "splits" / "full.yaml"); }
+
+Part AtAnotherSize(Part part, double scale) {
+  for (PartPiece& piece : part.pieces) {
+    for (Eigen::Vector3d& vertex : piece.mesh.vertices) vertex *= scale;
+  }
+  part.id += "_copy";
+  return part;
+}
+
+TEST(FullSplitFile, HoldsEveryPartOnceAndTheUnseenCategoriesApart) {
+  const Split split = FullSplit();
+  std::map<std::string, int> count;
+  for (const std::string& id : PartsOf(split)) ++count[id];
+  for (const Part& part : AllParts()) EXPECT_EQ(count[part.id], 1) << part.id;
+  EXPECT_EQ(count.size(), AllParts().size());
+  const auto unseen = [](const std::string& id) {
+    const Category category = PartNamed(id).category;
+    return category == Category::kStorageFurniture || category == Category::kRefrigerator;
+  };
+  EXPECT_EQ(std::ranges::count_if(split.unseen_categories, unseen), 160 + 8 + 10 + 9);
+  EXPECT_EQ(split.unseen_categories.size(), 160u + 8 + 10 + 9);
+  EXPECT_TRUE(std::ranges::none_of(split.train, unseen));
+  EXPECT_TRUE(std::ranges::none_of(split.test, unseen));
+}
+
+TEST(FullSplitFile, TestsWhatItTrainsOnWithAThirdOfTheParts) {
+  const Split split = FullSplit();
+  std::map<std::string, std::pair<int, int>> kinds;  // trained on, tested
+  const auto kind = [](const Part& part) {
+    return std::string(NameOf(part.category)) + " " + std::string(NameOf(part.role)) + " " +
+           std::string(NameOf(part.mechanism));
+  };
+  for (const std::string& id : split.train) ++kinds[kind(PartNamed(id))].first;
+  for (const std::string& id : split.test) ++kinds[kind(PartNamed(id))].second;
+  EXPECT_EQ(kinds.size(), 10u);  // 4 categories of bodies, 6 kinds of handles
+  for (const auto& [name, sides] : kinds) {
+    EXPECT_EQ(sides.second, (sides.first + sides.second) / 3) << name;
+  }
+}
+
+TEST(FullSplitFile, NoSideHasACopyOfAnotherSidesPartEvenAtAnotherSize) {
+  const Split split = FullSplit();
+  std::vector<std::pair<int, PartIdentity>> sided;
+  const std::vector<const std::vector<std::string>*> sides = {&split.train, &split.test,
+                                                              &split.unseen_categories};
+  for (int side = 0; side < 3; ++side) {
+    for (const std::string& id : *sides[static_cast<std::size_t>(side)])
+      sided.emplace_back(side, IdentityOf(PartNamed(id)));
+  }
+  for (std::size_t i = 0; i < sided.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (sided[i].first == sided[j].first) continue;
+      EXPECT_FALSE(sided[i].second.SameAs(sided[j].second))
+          << sided[i].second.id << " and " << sided[j].second.id;
+    }
+  }
+  // a copy would be found
+  const Part& part = PartNamed(split.train.front());
+  EXPECT_TRUE(IdentityOf(AtAnotherSize(part, 1.37)).SameAs(IdentityOf(part)));
 }
 
 }  // namespace

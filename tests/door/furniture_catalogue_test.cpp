@@ -10,8 +10,11 @@
 #include <gtest/gtest.h>
 
 #include "doorforge/core/closed_mesh.h"
+#include "doorforge/core/committed_file.h"
 #include "doorforge/door/catalogue.h"
 #include "doorforge/door/grasp.h"
+
+#include "scratch_folder.h"
 
 namespace doorforge {
 namespace {
@@ -189,6 +192,47 @@ TEST(FurnitureCatalogue, AParallelGripperHoldsEveryHandleAtItsGraspFrame) {
     EXPECT_TRUE(fit.holds) << part.id;
     EXPECT_LE(fit.width_m, 0.076) << part.id;
   }
+}
+
+// How often the line through (x, z) along y crosses the frame of a cabinet with this carcass, and
+// how often the line through (y, z) along x.
+std::pair<int, int> CrossingsOfFrame(const std::string& carcass) {
+  const std::filesystem::path data = ScratchFolder("furniture") / "data";
+  std::filesystem::remove_all(data);
+  CommitFile(data / "catalog/storagefurniture/bodies/a.yaml",
+             "schema: doorforge.recipe\nschema_version: 1\nid: a\nfamily: storage_slab\n"
+             "license: CC0-1.0\nparameters: {leaf_width_m: 0.6, leaf_height_m: 0.7, thickness_m: "
+             "0.03, mount_height_m: 0.35, carcass: {depth_m: 0.5, shelves: 0, " +
+                 carcass + "}}\n");
+  const Part part = BuildCataloguePart(data, "a");
+  const TriangleMesh& mesh = FindPiece(part, "frame")->mesh;
+  const auto crossings = [&](int along, const Eigen::Vector2d& at) {
+    const int u = (along + 1) % 3;
+    const int v = (along + 2) % 3;
+    int count = 0;
+    for (const Eigen::Vector3i& t : mesh.triangles) {
+      int left = 0;
+      int right = 0;
+      for (int k = 0; k < 3; ++k) {
+        const Eigen::Vector3d& a = mesh.vertices[static_cast<std::size_t>(t[k])];
+        const Eigen::Vector3d& b = mesh.vertices[static_cast<std::size_t>(t[(k + 1) % 3])];
+        const double area = (a[u] - at.x()) * (b[v] - at.y()) - (a[v] - at.y()) * (b[u] - at.x());
+        (area > 0 ? left : right) += 1;
+      }
+      count += left == 3 || right == 3;
+    }
+    return count;
+  };
+  // off the middle, where no triangle has an edge
+  return {crossings(1, {0.4321, -0.2718}), crossings(0, {0.2917, 0.4321})};
+}
+
+TEST(FurnitureCatalogue, OpenSidesAndBacksOfCabinetsCanBeLookedThrough) {
+  // two walls, two surfaces each; one back
+  EXPECT_EQ(CrossingsOfFrame("sides: panel"), std::pair(4, 2));
+  EXPECT_EQ(CrossingsOfFrame("sides: open"), std::pair(0, 2));
+  EXPECT_EQ(CrossingsOfFrame("sides: open, back: false"), std::pair(0, 0));
+  EXPECT_EQ(CrossingsOfFrame("sides: panel, back: false"), std::pair(4, 0));
 }
 
 TEST(FurnitureCatalogue, SafesAreUnlockedByAKeyOrAValveAndRefrigeratorsByALever) {

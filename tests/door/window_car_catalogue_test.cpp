@@ -97,6 +97,15 @@ std::vector<Convex> ConvexOf(const PartPiece& piece) {
   return convex;
 }
 
+// The released ones are scaled to 0.15 m; those of the catalogue may be a little larger.
+TEST(WindowsAndCars, HandlesAreAsTallAsTheMeasuredOnes) {
+  for (const Part& handle : PartsOf(Category::kWindow, PartRole::kHandle)) {
+    const double height = BoundsOf(handle).sizes().z();
+    EXPECT_GE(height, 0.1475) << handle.id;
+    EXPECT_LE(height, 0.18) << handle.id;
+  }
+}
+
 TEST(WindowsAndCars, AreAsManyAsThePapersAndOfManyFamilies) {
   EXPECT_EQ(EntriesOf(Category::kWindow, PartRole::kBody).size(), 18u);
   EXPECT_EQ(EntriesOf(Category::kWindow, PartRole::kHandle).size(), 37u);

@@ -39,7 +39,7 @@ void RequireOneOf(const std::string& path, const std::string& found,
 bool Has(const Bay& bay) { return bay.kind != "none"; }
 
 void CheckBay(const Bay& bay, const std::string& path, double least_m, double most_m) {
-  RequireOneOf(path + ".kind", bay.kind, {"none", "drawers", "doors", "niche"});
+  RequireOneOf(path + ".kind", bay.kind, {"none", "drawers", "doors", "niche", "grid"});
   if (!Has(bay)) return;
   RequireRange(path, "size_m", bay.size_m, least_m, most_m);
   RequireRange(path, "count", bay.count, 1, 5);
@@ -63,6 +63,7 @@ class Frame {
   Polygon Plan() const;
   void Add(Solid solid) { solids_.push_back(std::move(solid)); }
   void AddWalls();
+  void AddOpenSide(double y0);
   void AddLevel(double z, const Interval& y);
   void AddUpright(double y, const Interval& z);
   void AddFront(const Interval& y, const Interval& z);
@@ -72,12 +73,17 @@ class Frame {
   void AddBase();
   void AddLeg(const Eigen::Vector2d& at);
   void AddSled();
+  void AddEnds();
+  void AddPedestal();
   void AddTop();
   void AddBoardOnTop(double overhang, const Interval& z);
   void AddHutch();
   void AddGallery();
   void AddSlope();
   void AddPediment();
+  void AddMirror();
+  void AddRail();
+  void AddBarrel();
 
   const Carcass& carcass_;
   double leaf_width_;
@@ -150,9 +156,32 @@ Polygon Frame::Plan() const {
   return plan;
 }
 
+// Posts at the corners, rails between them, and slats.
+void Frame::AddOpenSide(double y0) {
+  const double b = carcass_.board_m - kJointM;
+  const double x0 = x1_ - carcass_.depth_m;
+  // the back's board stands between the rear posts' inner faces and what is behind them
+  const double rear = carcass_.back ? x0 + kBackM + kJointM : x0;
+  for (const double x : {rear, x1_ - b})
+    Add(ChamferedBox({x, y0, z_.low}, {x + b, y0 + b, z_.high}, kBoardEdgeM));
+  const int bars = carcass_.sides == "slatted" ? 6 : 2;
+  const double high = 0.045;
+  for (int i = 0; i < bars; ++i) {
+    const double z = z_.low + (z_.size() - high) * i / (bars - 1);
+    Add(ChamferedBox({rear + b + kJointM, y0, z}, {x1_ - b - kJointM, y0 + b, z + high},
+                     kBoardEdgeM));
+  }
+}
+
 void Frame::AddWalls() {
+  if (carcass_.sides != "panel") {
+    AddOpenSide(y_.low);
+    AddOpenSide(y_.high - carcass_.board_m + kJointM);
+  }
   for (std::size_t i = 1; i < plan_.size(); ++i) {
     const std::size_t next = (i + 1) % plan_.size();
+    const bool is_back = std::abs(plan_[next].x() - plan_[i].x()) < 1e-9;
+    if (is_back ? !carcass_.back : carcass_.sides != "panel") continue;
     const Polygon wall = {plan_[i], plan_[next], inner_[next], inner_[i]};
     Add(ConvexPrism(Inset(wall, kJointM), PrismAxis::kZ, {z_.low, z_.high}, kBoardEdgeM));
   }
@@ -201,8 +230,17 @@ void Frame::AddSideBay(const Bay& bay, const Interval& y) {
                                   : Interval{leaf_width_ + kLeafToBayM / 2 + half, y_.high};
   for (int i = 0; i < bay.count; ++i) {
     const Interval z = Share(leaf_z_, i, bay.count, kBetweenFrontsM);
-    if (bay.kind != "niche") AddFront(y, z);
-    if (bay.kind == "niche" && i > 0) AddLevel(z.low - kBetweenFrontsM / 2, inside);
+    const bool open = bay.kind == "niche" || bay.kind == "grid";
+    if (!open) AddFront(y, z);
+    if (open && i > 0) AddLevel(z.low - kBetweenFrontsM / 2, inside);
+    if (bay.kind == "grid") {
+      const double clear = half + kJointM;
+      const bool lowest = i == 0;
+      const bool highest = i == bay.count - 1;
+      AddUpright((inside.low + inside.high) / 2,
+                 {lowest ? leaf_z_.low + 2 * clear : z.low - kBetweenFrontsM / 2 + clear,
+                  highest ? leaf_z_.high - 2 * clear : z.high + kBetweenFrontsM / 2 - clear});
+    }
   }
 }
 
@@ -214,10 +252,16 @@ void Frame::AddWideBay(const Bay& bay, const Interval& z) {
   for (int i = 0; i < bay.count; ++i) {
     const Interval y =
         Share({y_.low + kMarginM, y_.high - kMarginM}, i, bay.count, kBetweenFrontsM);
-    if (bay.kind != "niche") AddFront(y, fronts);
-    if (bay.kind == "niche" && i > 0)
-      AddUpright(y.low - kBetweenFrontsM / 2, {z.low + board, z.high - board});
+    const bool open = bay.kind == "niche" || bay.kind == "grid";
+    if (!open) AddFront(y, fronts);
+    if (!open || i == 0) continue;
+    const double middle = (z.low + z.high) / 2;
+    const double clear = bay.kind == "grid" ? board / 2 : 0;
+    const double at = y.low - kBetweenFrontsM / 2;
+    AddUpright(at, {z.low + board, clear > 0 ? middle - clear : z.high - board});
+    if (clear > 0) AddUpright(at, {middle + clear, z.high - board});
   }
+  if (bay.kind == "grid") AddLevel((z.low + z.high) / 2, y_);
 }
 
 // Bottom, top, the boards between the zones and the shelves behind the leaf.
@@ -231,6 +275,10 @@ void Frame::AddLevels() {
                         Has(carcass_.right) ? leaf_width_ + kLeafToBayM / 2 - half : y_.high};
   for (int i = 1; i <= carcass_.shelves; ++i)
     AddLevel(leaf_z_.low + leaf_z_.size() * i / (carcass_.shelves + 1), inside);
+  // a board's thickness below and above is taken by what closes the room
+  for (int i = 1; i <= carcass_.dividers; ++i)
+    AddUpright(leaf_width_ * i / (carcass_.dividers + 1),
+               {leaf_z_.low + carcass_.board_m, leaf_z_.high - carcass_.board_m});
 }
 
 // Up to four corners of the plan that lie far apart.
@@ -260,7 +308,14 @@ Ring SquareRing(const Eigen::Vector2d& at, double half, double z) {
 
 void Frame::AddLeg(const Eigen::Vector2d& at) {
   const double top = base_ - kJointM;
-  if (carcass_.base == "legs") {
+  if (carcass_.base == "stand") {
+    const double half = 0.02;
+    const double shelf = 0.28 * base_;
+    Add(ChamferedBox({at.x() - half, at.y() - half, 0},
+                     {at.x() + half, at.y() + half, shelf - kJointM}, 0.002));
+    Add(ChamferedBox({at.x() - half, at.y() - half, shelf + 0.018 + kJointM},
+                     {at.x() + half, at.y() + half, top}, 0.002));
+  } else if (carcass_.base == "legs") {
     const double half = 0.0225;
     Add(ChamferedBox({at.x() - half, at.y() - half, 0}, {at.x() + half, at.y() + half, top},
                      0.006));
@@ -302,6 +357,45 @@ void Frame::AddSled() {
   }
 }
 
+// A board under each end, or an upright on a foot.
+void Frame::AddEnds() {
+  const double x0 = x1_ - carcass_.depth_m;
+  const double top = base_ - kJointM;
+  const double half = 0.014;
+  for (const double y : {y_.low + 0.04, y_.high - 0.04}) {
+    if (carcass_.base == "panels") {
+      Add(ChamferedBox({x0 + 0.01, y - half, 0}, {x1_ - 0.03, y + half, top}, 0.002));
+      continue;
+    }
+    const double middle = (x0 + x1_) / 2;
+    Add(ChamferedBox({x0 + 0.02, y - 0.025, 0}, {x1_ - 0.02, y + 0.025, 0.04}, 0.006));
+    Add(ChamferedBox({middle - 0.09, y - half, 0.04 + kJointM},
+                     {middle + 0.09, y + half, top - 0.03 - kJointM}, 0.004));
+    Add(ChamferedBox({x0 + 0.04, y - 0.02, top - 0.03}, {x1_ - 0.04, y + 0.02, top}, 0.004));
+  }
+  if (carcass_.base == "trestle") {
+    const double middle = (x0 + x1_) / 2;
+    const double z = 0.04 + 0.5 * (top - 0.07);
+    Add(ChamferedBox({middle - 0.012, y_.low + 0.04 + half + kJointM, z - 0.02},
+                     {middle + 0.012, y_.high - 0.04 - half - kJointM, z + 0.02}, 0.003));
+  }
+}
+
+// A column on a plate.
+void Frame::AddPedestal() {
+  const double x0 = x1_ - carcass_.depth_m;
+  const double top = base_ - kJointM;
+  const Eigen::Vector2d middle((x0 + x1_) / 2, (y_.low + y_.high) / 2);
+  const Eigen::Vector2d half(0.42 * carcass_.depth_m, 0.38 * y_.size());
+  const auto block = [&](double share, double low, double high) {
+    const Eigen::Vector2d reach = share * half;
+    Add(ChamferedBox({middle.x() - reach.x(), middle.y() - reach.y(), low},
+                     {middle.x() + reach.x(), middle.y() + reach.y(), high}, 0.004));
+  };
+  block(1, 0, 0.025);
+  block(0.4, 0.025 + kJointM, top);
+}
+
 void Frame::AddBase() {
   if (carcass_.base == "none") return;
   if (carcass_.base == "plinth") {
@@ -310,8 +404,15 @@ void Frame::AddBase() {
     Add(ConvexPrism(InsetEach(plan_, in), PrismAxis::kZ, {0, base_ - kJointM}, 0.002));
   } else if (carcass_.base == "sled") {
     AddSled();
+  } else if (carcass_.base == "panels" || carcass_.base == "trestle") {
+    AddEnds();
+  } else if (carcass_.base == "pedestal") {
+    AddPedestal();
   } else {
     for (const Eigen::Vector2d& at : FootPlaces(Inset(plan_, 0.045))) AddLeg(at);
+    const double shelf = 0.28 * base_;
+    if (carcass_.base == "stand")
+      Add(ConvexPrism(Inset(plan_, 0.02), PrismAxis::kZ, {shelf, shelf + 0.018}, kBoardEdgeM));
   }
 }
 
@@ -381,6 +482,57 @@ void Frame::AddPediment() {
                   PrismAxis::kX, {x1_ - 0.05, x1_ - 0.01}, 0.003));
 }
 
+// A framed panel that leans against the wall.
+void Frame::AddMirror() {
+  AddBoardOnTop(0.01, {z_.high, z_.high + 0.022});
+  const double z0 = z_.high + 0.022 + kJointM;
+  const double in = 0.08 * y_.size();
+  ReliefSlab slab;
+  slab.outline = {{y_.low + in, z0}, {y_.high - in, z0 + carcass_.top_height_m}};
+  slab.thickness_m = 0.024;
+  slab.edge_radius_m = 0.003;
+  const double border = 0.04;
+  slab.fields = {{{slab.outline.min_m.array() + border, slab.outline.max_m.array() - border},
+                  SunkPanel(0.008, 0.004),
+                  ReliefSide::kFront}};
+  Add(Moved(ReliefSolid(slab, kHullToleranceM), {x1_ - carcass_.depth_m + 0.024, 0, 0}));
+}
+
+// Posts at the corners and rods between them, open in front.
+void Frame::AddRail() {
+  const double b = 0.018;
+  const double x0 = x1_ - carcass_.depth_m;
+  const double front = x1_ - 0.02;
+  const double z0 = z_.high + 0.022;
+  const double z1 = z0 + carcass_.top_height_m;
+  AddBoardOnTop(0.01, {z_.high, z0});
+  const auto rod = [&](const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+    Add(ChamferedBox(low.array() + kJointM, high.array() - kJointM, 0.003));
+  };
+  for (const double y : {y_.low, y_.high - b}) {
+    for (const double x : {x0, front - b}) rod({x, y, z0}, {x + b, y + b, z1 - b});
+    rod({x0, y, z1 - b}, {front, y + b, z1});
+  }
+  rod({x0, y_.low + b, z1 - b}, {x0 + b, y_.high - b, z1});
+}
+
+// The arch runs from side to side.
+void Frame::AddBarrel() {
+  AddBoardOnTop(0.008, {z_.high, z_.high + 0.02});
+  const double z0 = z_.high + 0.02 + kJointM;
+  constexpr int kSteps = 12;
+  const double half = y_.size() / 2;
+  Polygon arch;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double angle = std::numbers::pi * (0.04 + 0.92 * i / kSteps);
+    arch.emplace_back((y_.low + y_.high) / 2 + half * std::cos(angle),
+                      z0 + carcass_.top_height_m * std::sin(angle));
+  }
+  arch.emplace_back(y_.low, z0);
+  arch.emplace_back(y_.high, z0);
+  Add(ConvexPrism(arch, PrismAxis::kX, {x1_ - carcass_.depth_m, x1_}, 0.003));
+}
+
 void Frame::AddTop() {
   const std::string& top = carcass_.top;
   if (top == "board") AddBoardOnTop(0.015, {z_.high, z_.high + 0.026});
@@ -392,6 +544,9 @@ void Frame::AddTop() {
   if (top == "slope") AddSlope();
   if (top == "pediment") AddPediment();
   if (top == "hutch") AddHutch();
+  if (top == "mirror") AddMirror();
+  if (top == "rail") AddRail();
+  if (top == "barrel") AddBarrel();
 }
 
 Solid Frame::Build() {
@@ -412,19 +567,27 @@ void CheckCarcass(const Carcass& carcass, const std::string& path) {
   RequireRange(path, "depth_m", carcass.depth_m, 0.28, 0.9);
   RequireRange(path, "board_m", carcass.board_m, 0.012, 0.035);
   RequireRange(path, "shelves", carcass.shelves, 0, 4);
-  RequireRange(path, "base_height_m", carcass.base_height_m, 0.03, 0.35);
+  RequireRange(path, "dividers (without shelves)", carcass.dividers, 0,
+               carcass.shelves > 0 ? 0 : 3);
+  RequireOneOf(path + ".sides", carcass.sides, {"panel", "open", "slatted"});
+  RequireRange(path, "base_height_m", carcass.base_height_m, 0.03, 0.55);
   RequireRange(path, "form_m", carcass.form_m, 0.02, 0.4);
   RequireRange(path, "top_height_m", carcass.top_height_m, 0.03, 0.6);
   RequireOneOf(path + ".form", carcass.form, {"box", "corner", "tapered", "flared", "rounded"});
   RequireOneOf(path + ".base", carcass.base,
-               {"plinth", "legs", "tapered", "buns", "sled", "feet", "none"});
+               {"plinth", "legs", "tapered", "buns", "sled", "feet", "stand", "panels", "trestle",
+                "pedestal", "none"});
   RequireOneOf(path + ".top", carcass.top,
-               {"flush", "board", "cornice", "gallery", "slope", "pediment", "hutch"});
+               {"flush", "board", "cornice", "gallery", "slope", "pediment", "hutch", "mirror",
+                "rail", "barrel"});
   RequireOneOf(path + ".fronts", carcass.fronts, {"plain", "sunk"});
-  const bool needs_box =
-      carcass.top == "gallery" || carcass.top == "slope" || carcass.top == "hutch";
+  const bool needs_box = carcass.top == "gallery" || carcass.top == "slope" ||
+                         carcass.top == "hutch" || carcass.top == "mirror" ||
+                         carcass.top == "rail" || carcass.top == "barrel";
   if (needs_box)
     RequireOneOf(path + ".form (under top " + carcass.top + ")", carcass.form, {"box"});
+  if (carcass.sides != "panel" || !carcass.back)
+    RequireOneOf(path + ".form (with open sides or back)", carcass.form, {"box"});
   CheckBay(carcass.left, path + ".left", 0.18, 0.8);
   CheckBay(carcass.right, path + ".right", 0.18, 0.8);
   CheckBay(carcass.below, path + ".below", 0.12, 0.5);

@@ -11,8 +11,9 @@ namespace doorforge::internal {
 
 /// A part of a cabinet's front beside, below or above the leaf.
 struct Bay {
-  std::string kind = "none";  ///< "none", "drawers", "doors", "niche" (open).
-  double size_m = 0.4;        ///< Width of a bay beside the leaf, height of one below or above.
+  std::string kind =
+      "none";           ///< "none", "drawers", "doors", "niche" (open), "grid" (open, halved).
+  double size_m = 0.4;  ///< Width of a bay beside the leaf, height of one below or above.
   /// Beside the leaf: drawers, doors or compartments on top of each other. Below and above: side by
   /// side.
   int count = 3;
@@ -29,17 +30,24 @@ struct Bay {
 struct Carcass {
   double depth_m = 0.5;
   double board_m = 0.018;
-  int shelves = 1;  ///< Behind the leaf.
+  int shelves = 1;   ///< Behind the leaf.
+  int dividers = 0;  ///< Upright boards behind the leaf, in place of shelves.
+  /// "panel", "open" (posts with rails), "slatted"; of a box only.
+  std::string sides = "panel";
+  bool back = true;  ///< Whether a board closes the back of a box.
   /// Plan: "box", "corner" (sides at 45 degrees and a right angle behind), "tapered" (narrower
   /// behind by `form_m` a side), "flared" (wider behind), "rounded" (sides run back in an arc).
   std::string form = "box";
   double form_m = 0.1;
-  std::string base = "plinth";  ///< "plinth", "legs", "tapered", "buns", "sled", "feet", "none".
+  /// "plinth", "legs", "tapered", "buns", "sled", "feet", "stand" (legs with a shelf), "panels"
+  /// (one at each end), "trestle", "pedestal", "none".
+  std::string base = "plinth";
   double base_height_m = 0.09;
   /// "flush", "board", "cornice", "gallery" (upstand at the back and the sides), "slope" (rises to
-  /// the back), "pediment", "hutch" (open shelves on top).
+  /// the back), "pediment", "hutch" (open shelves on top), "mirror" (an upright panel at the back),
+  /// "rail" (a low railing), "barrel" (rises to an arch).
   std::string top = "flush";
-  double top_height_m = 0.2;  ///< Of gallery, slope, pediment and hutch.
+  double top_height_m = 0.2;  ///< Of all but flush, board and cornice.
   Bay left, right, below, above;
   std::string fronts = "sunk";  ///< Of drawers and doors that do not move: "plain", "sunk".
   std::string finish = "chipboard_white";
@@ -49,6 +57,9 @@ struct Carcass {
     visit("depth_m", self.depth_m);
     visit("board_m", self.board_m);
     visit("shelves", self.shelves);
+    visit("dividers", self.dividers);
+    visit("sides", self.sides);
+    visit("back", self.back);
     visit("form", self.form);
     visit("form_m", self.form_m);
     visit("base", self.base);

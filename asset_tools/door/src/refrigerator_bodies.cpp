@@ -9,6 +9,7 @@
 #include "family.h"
 #include "leaf_layout.h"
 #include "prism.h"
+#include "relief.h"
 #include "sweep.h"
 
 namespace doorforge::internal {
@@ -17,6 +18,7 @@ namespace {
 constexpr double kJointM = 0.0002;         // between solids that touch
 constexpr double kLeafToCabinetM = 0.004;  // the seal behind the leaf
 constexpr double kBetweenLeavesM = 0.01;
+constexpr double kBinDepthM = 0.08;
 
 /// What all refrigerators share: an insulated cabinet with a cavity, and a thick leaf before it.
 struct Refrigerator {
@@ -33,6 +35,11 @@ struct Refrigerator {
   int shelves = 3;
   std::string other = "none";   ///< A second front: "none", "above", "below", "beside".
   double other_m = 0.3;         ///< Its height or width.
+  int drawers = 0;              ///< Across the whole front, below everything else.
+  double drawers_m = 0.3;       ///< Height of all of them.
+  int bins = 0;                 ///< Trays on the leaf's inner side.
+  bool dispenser = false;       ///< A niche for ice and water in the front beside the leaf.
+  bool condenser = false;       ///< Tubes behind the cabinet.
   std::string base = "plinth";  ///< "plinth", "feet", "legs".
   double base_height_m = 0.05;
   std::string finish = "sheet_white";
@@ -53,6 +60,11 @@ struct Refrigerator {
     visit("shelves", self.shelves);
     visit("other", self.other);
     visit("other_m", self.other_m);
+    visit("drawers", self.drawers);
+    visit("drawers_m", self.drawers_m);
+    visit("bins", self.bins);
+    visit("dispenser", self.dispenser);
+    visit("condenser", self.condenser);
     visit("base", self.base);
     visit("base_height_m", self.base_height_m);
     visit("finish", self.finish);
@@ -96,39 +108,58 @@ void Check(const Refrigerator& body, const std::string& path) {
   RequireRange(path, "shelves", body.shelves, 0, 5);
   RequireRange(path, "base_height_m", body.base_height_m, 0.02, 0.3);
   if (body.other != "none") RequireRange(path, "other_m", body.other_m, 0.15, 0.5);
+  RequireRange(path, "drawers", body.drawers, 0, 3);
+  if (body.drawers > 0) RequireRange(path, "drawers_m", body.drawers_m, 0.14 * body.drawers, 0.6);
+  RequireRange(path, "bins", body.bins, 0, 4);
 }
 
 /// The whole front and the leaf in it, in (y, z).
 struct FrontLayout {
-  Eigen::Vector2d min_m, max_m;
-  Eigen::Vector2d leaf_min_m, leaf_max_m;
-  Eigen::Vector2d other_min_m, other_max_m;
+  Rectangle whole;
+  Rectangle leaf;
+  std::vector<Rectangle> others;   ///< Fronts that stand still.
+  std::vector<double> levels_m;    ///< Between the rooms of the cabinet.
+  std::vector<double> uprights_m;  ///< Likewise, places along y.
 };
 
-FrontLayout LayoutOf(const Refrigerator& body, const std::string& path) {
-  const double z = body.base_height_m;
-  FrontLayout front{{0, z}, {body.leaf_width_m, z + body.leaf_height_m}, {}, {}, {}, {}};
-  front.leaf_min_m = front.min_m;
-  front.leaf_max_m = front.max_m;
+void AddOther(const Refrigerator& body, const std::string& path, FrontLayout& front) {
   const double more = body.other_m + kBetweenLeavesM;
-  if (body.other == "none") return front;
+  const double z = front.leaf.min_m.y();
+  Rectangle other = front.leaf;
   if (body.other == "below") {
-    front.leaf_min_m.y() += more;
-    front.leaf_max_m.y() += more;
-    front.other_min_m = front.min_m;
-    front.other_max_m = {front.max_m.x(), z + body.other_m};
-    front.max_m.y() += more;
+    front.leaf.min_m.y() += more;
+    front.leaf.max_m.y() += more;
+    other.max_m.y() = z + body.other_m;
+    front.levels_m.push_back(other.max_m.y() + kBetweenLeavesM / 2);
   } else if (body.other == "above") {
-    front.max_m.y() += more;
-    front.other_min_m = {0, front.max_m.y() - body.other_m};
-    front.other_max_m = front.max_m;
+    other.min_m.y() = front.leaf.max_m.y() + kBetweenLeavesM;
+    other.max_m.y() = other.min_m.y() + body.other_m;
+    front.levels_m.push_back(other.min_m.y() - kBetweenLeavesM / 2);
   } else if (body.other == "beside") {
-    front.max_m.x() += more;
-    front.other_min_m = {front.max_m.x() - body.other_m, z};
-    front.other_max_m = front.max_m;
+    other.min_m.x() = front.leaf.max_m.x() + kBetweenLeavesM;
+    other.max_m.x() = other.min_m.x() + body.other_m;
+    front.uprights_m.push_back(other.min_m.x() - kBetweenLeavesM / 2);
   } else {
     throw Error(ErrorCode::kInvalidConfig,
                 path + ".other: found \"" + body.other + "\", allowed none, above, below, beside");
+  }
+  front.others.push_back(other);
+}
+
+FrontLayout LayoutOf(const Refrigerator& body, const std::string& path) {
+  const double base = body.base_height_m;
+  const double z = base + (body.drawers > 0 ? body.drawers_m + kBetweenLeavesM : 0);
+  FrontLayout front;
+  front.leaf = {{0, z}, {body.leaf_width_m, z + body.leaf_height_m}};
+  if (body.other != "none") AddOther(body, path, front);
+  front.whole = {{0, base}, front.leaf.max_m};
+  for (const Rectangle& other : front.others)
+    front.whole.max_m = front.whole.max_m.cwiseMax(other.max_m);
+  const double height = (z - base) / std::max(1, body.drawers);
+  for (int i = 0; i < body.drawers; ++i) {
+    const double low = base + i * height;
+    front.others.push_back({{0, low}, {front.whole.max_m.x(), low + height - kBetweenLeavesM}});
+    front.levels_m.push_back(low + height - kBetweenLeavesM / 2);
   }
   return front;
 }
@@ -163,39 +194,100 @@ Solid Cabinet(const Refrigerator& body, const Polygon& outline, const Polygon& c
 
 Polygon CavityOf(const Refrigerator& body, const FrontLayout& front) {
   const double in = std::max(body.wall_m, 0.35 * body.corner_radius_m);
-  return BoxPolygon(front.min_m.array() + in, front.max_m.array() - in);
+  return BoxPolygon(front.whole.min_m.array() + in, front.whole.max_m.array() - in);
 }
 
 void AddInside(const Refrigerator& body, const FrontLayout& front, const Polygon& cavity,
                std::vector<Solid>& solids) {
   const double front_x = -body.thickness_m - kLeafToCabinetM;
   const double back = front_x - body.depth_m + body.wall_m;
-  const double z0 = std::max(front.leaf_min_m.y(), cavity[0].y());
-  const double z1 = std::min(front.leaf_max_m.y(), cavity[2].y());
-  for (int i = 1; i <= body.shelves; ++i) {
-    const double z = z0 + (z1 - z0) * i / (body.shelves + 1);
-    solids.push_back(ChamferedBox({back + kJointM, cavity[0].x() + kJointM, z - 0.003},
-                                  {front_x - 0.04, cavity[2].x() - kJointM, z + 0.003}, 0.001));
-  }
-  if (body.other == "above" || body.other == "below") {
-    const double z = body.other == "above" ? front.other_min_m.y() - kBetweenLeavesM / 2
-                                           : front.other_max_m.y() + kBetweenLeavesM / 2;
-    solids.push_back(ChamferedBox({back + kJointM, cavity[0].x() + kJointM, z - 0.015},
-                                  {front_x, cavity[2].x() - kJointM, z + 0.015}, 0.001));
-  } else if (body.other == "beside") {
-    const double y = front.leaf_max_m.x() + kBetweenLeavesM / 2;
-    // the shelves reach across; the wall between the two rooms is a low one at the front
-    solids.push_back(ChamferedBox({front_x - 0.035, y - 0.015, cavity[0].y() + kJointM},
+  const auto level = [&](double z, double half, double to_x) {
+    solids.push_back(ChamferedBox({back + kJointM, cavity[0].x() + kJointM, z - half},
+                                  {to_x, cavity[2].x() - kJointM, z + half}, 0.001));
+  };
+  const double z0 = std::max(front.leaf.min_m.y(), cavity[0].y());
+  const double z1 = std::min(front.leaf.max_m.y(), cavity[2].y());
+  // the trays on the leaf need room
+  const double shelf_front = front_x - (body.bins > 0 ? kBinDepthM + 0.05 : 0.04);
+  for (int i = 1; i <= body.shelves; ++i)
+    level(z0 + (z1 - z0) * i / (body.shelves + 1), 0.003, shelf_front);
+  for (const double z : front.levels_m) level(z, 0.015, front_x);
+  const double bottom = body.drawers > 0 ? front.leaf.min_m.y() + 0.015 : cavity[0].y();
+  // the shelves reach across; the wall between the two rooms is a low one at the front
+  for (const double y : front.uprights_m)
+    solids.push_back(ChamferedBox({front_x - 0.035, y - 0.015, bottom + kJointM},
                                   {front_x, y + 0.015, cavity[2].y() - kJointM}, 0.001));
+}
+
+// A tray is a floor with a lip before it; what stands in them belongs to the leaf's mass.
+std::vector<Solid> Bins(const Refrigerator& body, const FrontLayout& front, const Polygon& cavity) {
+  std::vector<Solid> solids;
+  const double x1 = -body.thickness_m - kJointM;
+  const double y0 = std::max(front.leaf.min_m.x(), cavity[0].x()) + 0.03;
+  const double y1 = std::min(front.leaf.max_m.x(), cavity[2].x()) - 0.05;
+  const double z0 = std::max(front.leaf.min_m.y(), cavity[0].y()) + 0.05;
+  const double z1 = std::min(front.leaf.max_m.y(), cavity[2].y()) - 0.16;
+  for (int i = 0; i < body.bins; ++i) {
+    const double z = z0 + (z1 - z0) * i / std::max(1, body.bins - 1);
+    solids.push_back(ChamferedBox({x1 - kBinDepthM, y0, z}, {x1, y1, z + 0.006 - kJointM}, 0.001));
+    solids.push_back(ChamferedBox({x1 - kBinDepthM, y0, z + 0.006},
+                                  {x1 - kBinDepthM + 0.006, y1, z + 0.07}, 0.001));
   }
+  return solids;
+}
+
+// A bezel with a sunk field and a tray that stands out below it.
+void AddDispenser(const Rectangle& front, std::vector<Solid>& solids) {
+  const Eigen::Vector2d center = (front.min_m + front.max_m) / 2;
+  const Eigen::Vector2d half(0.09, 0.14);
+  ReliefSlab bezel;
+  bezel.outline = {center - half, center + half};
+  bezel.thickness_m = 0.016;
+  bezel.edge_radius_m = 0.004;
+  bezel.fields = {{{bezel.outline.min_m.array() + 0.016, bezel.outline.max_m.array() - 0.016},
+                   SunkPanel(0.012, 0.004),
+                   ReliefSide::kFront}};
+  solids.push_back(Moved(ReliefSolid(bezel, 0.006), {0.016 + kJointM, 0, 0}));
+  solids.push_back(ChamferedBox({0.0165, center.x() - 0.07, center.y() - 0.135},
+                                {0.045, center.x() + 0.07, center.y() - 0.122}, 0.003));
+}
+
+// A ladder of tubes: two uprights and what runs between them.
+void AddCondenser(const Refrigerator& body, const FrontLayout& front, std::vector<Solid>& solids) {
+  constexpr double kTubeM = 0.005;
+  constexpr int kTubes = 8;
+  const double x = -body.thickness_m - kLeafToCabinetM - body.depth_m - kTubeM - kJointM;
+  const double y0 = front.whole.min_m.x() + 0.06;
+  const double y1 = front.whole.max_m.x() - 0.06;
+  const double z0 = front.whole.min_m.y() + 0.1;
+  const double z1 = front.whole.max_m.y() - 0.2;
+  for (const double y : {y0, y1})
+    solids.push_back(ConvexPrism(CirclePolygon({x, y}, kTubeM, 10), PrismAxis::kZ, {z0, z1}, 0));
+  for (int i = 0; i < kTubes; ++i) {
+    const double z = z0 + (z1 - z0) * (i + 0.5) / kTubes;
+    solids.push_back(ConvexPrism(CirclePolygon({z, x - 2 * kTubeM - kJointM}, kTubeM, 10),
+                                 PrismAxis::kY, {y0 - 0.01, y1 + 0.01}, 0));
+  }
+}
+
+// A bar in front of a drawer, near its upper edge.
+void AddDrawerPull(const Rectangle& front, std::vector<Solid>& solids) {
+  const double y = (front.min_m.x() + front.max_m.x()) / 2;
+  const double half = 0.32 * (front.max_m.x() - front.min_m.x());
+  const double z = front.max_m.y() - 0.035;
+  for (const double side : {-0.85, 0.85})
+    solids.push_back(ChamferedBox({kJointM, y + side * half - 0.008, z - 0.006},
+                                  {0.022, y + side * half + 0.008, z + 0.006}, 0.001));
+  solids.push_back(ConvexPrism(RoundedBoxPolygon({z - 0.008, 0.0222}, {z + 0.008, 0.034}, 0.004),
+                               PrismAxis::kY, {y - half, y + half}, 0.002));
 }
 
 void AddBase(const Refrigerator& body, const std::string& path, const FrontLayout& front,
              std::vector<Solid>& solids) {
   const double x1 = -body.thickness_m - 0.04;
   const double x0 = x1 + 0.04 - body.depth_m + 0.02;
-  const double y0 = front.min_m.x() + 0.02 + 0.3 * body.corner_radius_m;
-  const double y1 = front.max_m.x() - 0.02 - 0.3 * body.corner_radius_m;
+  const double y0 = front.whole.min_m.x() + 0.02 + 0.3 * body.corner_radius_m;
+  const double y1 = front.whole.max_m.x() - 0.02 - 0.3 * body.corner_radius_m;
   const double top = body.base_height_m - kJointM;
   if (body.base == "plinth") {
     solids.push_back(ChamferedBox({x0, y0, 0}, {x1, y1, top}, 0.004));
@@ -230,37 +322,47 @@ struct BuiltShapes {
   Polygon leaf;
 };
 
+void AddFronts(const Refrigerator& body, const FrontLayout& front, std::vector<Solid>& solids) {
+  for (std::size_t i = 0; i < front.others.size(); ++i) {
+    const Rectangle& other = front.others[i];
+    const double radius =
+        std::min(body.corner_radius_m, 0.3 * (other.max_m - other.min_m).minCoeff());
+    solids.push_back(Slab(RoundedBoxPolygon(other.min_m, other.max_m, radius), body.thickness_m,
+                          body.edge_radius_m));
+    const bool beside = body.other == "beside" && i == 0;
+    if (beside && body.dispenser) AddDispenser(other, solids);
+    if (other.max_m.y() < front.leaf.min_m.y()) AddDrawerPull(other, solids);
+  }
+}
+
 Part RefrigeratorPart(const Refrigerator& body, const std::string& path, const FrontLayout& front,
                       const BuiltShapes& shapes, const std::vector<Solid>& more) {
   const Polygon cavity = CavityOf(body, front);
   std::vector<Solid> frame = {Cabinet(body, shapes.outline, cavity)};
   AddInside(body, front, cavity, frame);
   AddBase(body, path, front, frame);
-  if (body.other != "none") {
-    const double radius =
-        std::min(body.corner_radius_m, 0.3 * (front.other_max_m - front.other_min_m).minCoeff());
-    frame.push_back(Slab(RoundedBoxPolygon(front.other_min_m, front.other_max_m, radius),
-                         body.thickness_m, body.edge_radius_m));
-  }
+  AddFronts(body, front, frame);
+  if (body.condenser) AddCondenser(body, front, frame);
   frame.insert(frame.end(), more.begin(), more.end());
   Part part;
   part.joint = BodyHinge(0);
   part.pieces.push_back(MakePiece("frame", Joined(frame), body.finish, path + ".finish"));
-  PartPiece leaf = MakePiece("leaf", Slab(shapes.leaf, body.thickness_m, body.edge_radius_m),
-                             body.leaf_finish, path + ".leaf_finish");
+  std::vector<Solid> door = {Slab(shapes.leaf, body.thickness_m, body.edge_radius_m)};
+  for (Solid& bin : Bins(body, front, cavity)) door.push_back(std::move(bin));
+  PartPiece leaf = MakePiece("leaf", Joined(door), body.leaf_finish, path + ".leaf_finish");
   // skins, foam and what stands in the leaf: its volume says little
   leaf.mass.inertia_kg_m2 *= body.leaf_mass_kg / leaf.mass.mass_kg;
   leaf.mass.mass_kg = body.leaf_mass_kg;
   part.pieces.push_back(std::move(leaf));
   part.part_from_mount =
       Translation({0, body.leaf_width_m - body.mount_to_edge_m,
-                   front.leaf_min_m.y() + body.mount_height * body.leaf_height_m});
+                   front.leaf.min_m.y() + body.mount_height * body.leaf_height_m});
   return part;
 }
 
 BuiltShapes RoundedShapes(const Refrigerator& body, const FrontLayout& front) {
-  return {RoundedBoxPolygon(front.min_m, front.max_m, body.corner_radius_m),
-          RoundedBoxPolygon(front.leaf_min_m, front.leaf_max_m, body.corner_radius_m)};
+  return {RoundedBoxPolygon(front.whole.min_m, front.whole.max_m, body.corner_radius_m),
+          RoundedBoxPolygon(front.leaf.min_m, front.leaf.max_m, body.corner_radius_m)};
 }
 
 // The corners of the leaf follow those of the cabinet.
@@ -299,10 +401,10 @@ Part BuildArched(const nlohmann::ordered_json& json, const std::string& path) {
                 path + ".other: found \"" + body.other + "\", allowed none, below under an arch");
   FrontLayout front = LayoutOf(body, path);
   const BuiltShapes shapes = {
-      Arched(front.min_m, front.max_m, body.rise_m, body.corner_radius_m),
-      Arched(front.leaf_min_m, front.leaf_max_m, body.rise_m, body.corner_radius_m)};
+      Arched(front.whole.min_m, front.whole.max_m, body.rise_m, body.corner_radius_m),
+      Arched(front.leaf.min_m, front.leaf.max_m, body.rise_m, body.corner_radius_m)};
   // the cavity stays below the arch
-  front.max_m.y() -= body.rise_m;
+  front.whole.max_m.y() -= body.rise_m;
   return RefrigeratorPart(body, path, front, shapes, {});
 }
 
@@ -313,8 +415,8 @@ Part BuildIcebox(const nlohmann::ordered_json& json, const std::string& path) {
   RequireRange(path, "drum_height_m", body.drum_height_m, 0.04, 0.25);
   const FrontLayout front = LayoutOf(body, path);
   const double x = -body.thickness_m - kLeafToCabinetM - body.depth_m / 2;
-  const double y = (front.min_m.x() + front.max_m.x()) / 2;
-  const double z = front.max_m.y() + kJointM;
+  const double y = (front.whole.min_m.x() + front.whole.max_m.x()) / 2;
+  const double z = front.whole.max_m.y() + kJointM;
   const auto ring = [&](double radius, double up) {
     Ring points;
     for (const Eigen::Vector2d& p : CirclePolygon({x, y}, radius, 28))
@@ -333,13 +435,13 @@ Part BuildIcebox(const nlohmann::ordered_json& json, const std::string& path) {
 Part BuildFramed(const nlohmann::ordered_json& json, const std::string& path) {
   const auto body = ReadParameters<Refrigerator>(json, path);
   Check(body, path);
-  FrontLayout front = LayoutOf(body, path);
+  const FrontLayout front = LayoutOf(body, path);
   constexpr double kBorderM = 0.03;
-  const Eigen::Vector2d low(-kBorderM, front.min_m.y());
-  const Eigen::Vector2d high = front.max_m.array() + kBorderM;
+  const Eigen::Vector2d low(-kBorderM, front.whole.min_m.y());
+  const Eigen::Vector2d high = front.whole.max_m.array() + kBorderM;
   const BuiltShapes shapes = {
       RoundedBoxPolygon(low, high, body.corner_radius_m),
-      RoundedBoxPolygon(front.leaf_min_m, front.leaf_max_m, 0.5 * body.corner_radius_m)};
+      RoundedBoxPolygon(front.leaf.min_m, front.leaf.max_m, 0.5 * body.corner_radius_m)};
   // a grille of ribs on top at the back
   std::vector<Solid> ribs;
   const double back = -body.thickness_m - kLeafToCabinetM - body.depth_m;

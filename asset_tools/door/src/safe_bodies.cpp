@@ -32,8 +32,15 @@ struct SafeBody {
   double mount_forward = 0.55;  ///< Of the leaf's width, from the hinge.
   double mount_height = 0.5;    ///< Of the leaf's height.
   std::string face = "sunk";    ///< Of the leaf: "plain", "sunk", "raised", "framed".
+  /// Of the box, seen from the front: "box", "arched" (its top is a flat arch), "octagon" (its
+  /// corners are cut), "trapezoid" (wider below).
+  std::string outline = "box";
+  double outline_m = 0.05;   ///< Rise of the arch, cut of a corner, lean of a side.
+  std::string top = "none";  ///< "none", "hopper" (for deposits), "dome", "lid", "handle".
   int shelves = 1;
-  std::string base = "feet";  ///< "feet", "legs", "plinth", "wheels", "none".
+  bool till = false;  ///< A locked drawer below the cavity's top.
+  std::string base =
+      "feet";  ///< "feet", "legs", "stand" (legs with a shelf), "plinth", "wheels", "none".
   double base_height_m = 0.04;
   double hinges_apart = 0.64;  ///< Of the leaf's height.
   std::string finish = "sheet_grey";
@@ -51,7 +58,11 @@ struct SafeBody {
     visit("mount_forward", self.mount_forward);
     visit("mount_height", self.mount_height);
     visit("face", self.face);
+    visit("outline", self.outline);
+    visit("outline_m", self.outline_m);
+    visit("top", self.top);
     visit("shelves", self.shelves);
+    visit("till", self.till);
     visit("base", self.base);
     visit("base_height_m", self.base_height_m);
     visit("hinges_apart", self.hinges_apart);
@@ -131,7 +142,8 @@ void Check(const SafeBody& body, const std::string& path) {
   RequireRange(path, "corner_radius_m", body.corner_radius_m, 0.002, 0.06);
   RequireRange(path, "leaf_mass_kg", body.leaf_mass_kg, 5, 40);
   RequireRange(path, "shelves", body.shelves, 0, 3);
-  RequireRange(path, "base_height_m", body.base_height_m, 0.015, 0.3);
+  RequireRange(path, "base_height_m", body.base_height_m, 0.015, 0.4);
+  RequireRange(path, "outline_m", body.outline_m, 0.01, 0.16);
   RequireRange(path, "hinges_apart", body.hinges_apart, 0.3, 0.75);
   const double across = kHandleRoomM / body.leaf_width_m;
   RequireRange(path, "mount_forward", body.mount_forward, across, 1 - across);
@@ -174,10 +186,38 @@ Polygon PolygonOf(const Rectangle& r, double radius_m) {
   return RoundedBoxPolygon(r.min_m, r.max_m, radius_m);
 }
 
+// Around the box; what the outline adds lies outside it.
+Polygon OuterPolygon(const SafeBody& body, const Rectangle& box, const std::string& path) {
+  const double by = body.outline_m;
+  const Eigen::Vector2d& low = box.min_m;
+  const Eigen::Vector2d& high = box.max_m;
+  if (body.outline == "box") return PolygonOf(box, body.corner_radius_m);
+  if (body.outline == "trapezoid")
+    return {{low.x() - by, low.y()}, {high.x() + by, low.y()}, high, {low.x(), high.y()}};
+  if (body.outline == "octagon") {
+    RequireRange(path, "outline_m (of an octagon)", by, 0.01, 1.2 * body.wall_m);
+    return {{low.x() + by, low.y()},   {high.x() - by, low.y()},  {high.x(), low.y() + by},
+            {high.x(), high.y() - by}, {high.x() - by, high.y()}, {low.x() + by, high.y()},
+            {low.x(), high.y() - by},  {low.x(), low.y() + by}};
+  }
+  if (body.outline != "arched")
+    throw Error(ErrorCode::kInvalidConfig, path + ".outline: found \"" + body.outline +
+                                               "\", allowed box, arched, octagon, trapezoid");
+  constexpr int kSteps = 14;
+  Polygon arch = {low, {high.x(), low.y()}};
+  const double half = (high.x() - low.x()) / 2;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double t = 1 - 2.0 * i / kSteps;
+    arch.emplace_back((low.x() + high.x()) / 2 + half * t, high.y() + by * (1 - t * t));
+  }
+  return arch;
+}
+
 // The box with its cavity; the front is x = front_x.
-Solid Shell(const SafeBody& body, const SafeLayout& layout, double front_x_m) {
+Solid Shell(const SafeBody& body, const SafeLayout& layout, double front_x_m,
+            const std::string& path) {
   CupShape cup;
-  cup.outer = PolygonOf(layout.box, body.corner_radius_m);
+  cup.outer = OuterPolygon(body, layout.box, path);
   cup.inner = BoxPolygon(layout.opening.min_m, layout.opening.max_m);
   cup.outer_hull = cup.outer;
   cup.inner_hull = cup.inner;
@@ -197,6 +237,58 @@ void AddShelves(const SafeBody& body, const Rectangle& room, double front_x_m,
     const double z = room.min_m.y() + (room.max_m.y() - room.min_m.y()) * i / (body.shelves + 1.0);
     solids.push_back(ChamferedBox({back + kJointM, room.min_m.x() + kJointM, z - 0.004},
                                   {front, room.max_m.x() - kJointM, z + 0.004}, 0.001));
+  }
+  if (body.till)
+    solids.push_back(ChamferedBox({back + kJointM, room.min_m.x() + 0.03, room.max_m.y() - 0.08},
+                                  {front + 0.01, room.max_m.x() - 0.03, room.max_m.y() - kJointM},
+                                  0.003));
+}
+
+// What stands on a box with a flat top.
+void AddTop(const SafeBody& body, const std::string& path, const Rectangle& box, double front_x_m,
+            std::vector<Solid>& solids) {
+  if (body.top == "none") return;
+  if (body.outline == "arched")
+    throw Error(ErrorCode::kInvalidConfig,
+                path + ".top: found \"" + body.top + "\", allowed none on an arch");
+  const double z = box.max_m.y() + kJointM;
+  const double x0 = front_x_m - body.depth_m;
+  const double y = (box.min_m.x() + box.max_m.x()) / 2;
+  const double width = box.max_m.x() - box.min_m.x();
+  const double in = 0.012 + (body.outline == "octagon" ? body.outline_m : body.corner_radius_m);
+  if (body.top == "hopper") {
+    const double x1 = front_x_m - 0.2 * body.depth_m;
+    const double x_back = x0 + 0.012;
+    solids.push_back(ConvexPrism(
+        {{z, x_back}, {z + 0.11, x_back}, {z + 0.11, 0.5 * (x_back + x1)}, {z + 0.04, x1}, {z, x1}},
+        PrismAxis::kY, {y - 0.36 * width, y + 0.36 * width}, 0.004));
+  } else if (body.top == "dome") {
+    std::vector<Ring> rings;
+    const Eigen::Vector2d low(x0 + 0.012, box.min_m.x() + in);
+    const Eigen::Vector2d high(front_x_m - 0.012, box.max_m.x() - in);
+    for (const double t : {0.0, 0.3, 0.55, 0.8, 1.0}) {
+      Ring ring;
+      const double inset = 0.3 * t * t * (high - low).minCoeff();
+      for (const Eigen::Vector2d& p :
+           RoundedBoxPolygon(low.array() + inset, high.array() - inset, 0.02))
+        ring.emplace_back(p.x(), p.y(), z + 0.09 * t);
+      rings.push_back(ring);
+    }
+    solids.push_back(LoftSolid(rings, 0.004));
+  } else if (body.top == "lid") {
+    solids.push_back(ChamferedBox({x0 - 0.012, box.min_m.x() - 0.015, z},
+                                  {front_x_m - 0.004, box.max_m.x() + 0.015, z + 0.03}, 0.006));
+  } else if (body.top == "handle") {
+    const double half = std::min(0.09, 0.3 * width);
+    const double x = front_x_m - body.depth_m / 2;
+    for (const double side : {-1.0, 1.0})
+      solids.push_back(ChamferedBox({x - 0.012, y + side * half - 0.009, z},
+                                    {x + 0.012, y + side * half + 0.009, z + 0.05}, 0.002));
+    solids.push_back(ChamferedBox({x - 0.012, y - half - 0.009, z + 0.05 + kJointM},
+                                  {x + 0.012, y + half + 0.009, z + 0.07}, 0.006));
+  } else {
+    throw Error(ErrorCode::kInvalidConfig,
+                path + ".top: found \"" + body.top + "\", allowed none, hopper, dome, lid, handle");
   }
 }
 
@@ -218,6 +310,9 @@ void AddBase(const SafeBody& body, const std::string& path, const Rectangle& box
     return;
   }
   const double size = std::min(0.045, 0.3 * (y1 - y0));
+  if (body.base == "stand")
+    solids.push_back(ChamferedBox({x0 + 0.004, y0 + 0.004, 0.3 * h},
+                                  {x1 - 0.004, y1 - 0.004, 0.3 * h + 0.016}, 0.002));
   for (const double x : {x0, x1 - size}) {
     for (const double y : {y0, y1 - size}) {
       const Eigen::Vector3d middle(x + size / 2, y + size / 2, 0);
@@ -226,14 +321,20 @@ void AddBase(const SafeBody& body, const std::string& path, const Rectangle& box
         solids.push_back(ConvexPrism(circle, PrismAxis::kZ, {0, h - kJointM}, 0.004));
       } else if (body.base == "legs") {
         solids.push_back(ChamferedBox({x, y, 0}, {x + size, y + size, h - kJointM}, 0.006));
+      } else if (body.base == "stand") {
+        // below and above the shelf
+        solids.push_back(ChamferedBox({x, y, 0}, {x + size, y + size, 0.3 * h - kJointM}, 0.003));
+        solids.push_back(ChamferedBox({x, y, 0.3 * h + 0.016 + kJointM},
+                                      {x + size, y + size, h - kJointM}, 0.003));
       } else if (body.base == "wheels") {
         const double r = std::max(0.012, 0.5 * h - 0.004);
         solids.push_back(Wheel({middle.x(), middle.y(), r}, r));
         solids.push_back(
             ChamferedBox({x, y, 2 * r + kJointM}, {x + size, y + size, h - kJointM}, 0.001));
       } else {
-        throw Error(ErrorCode::kInvalidConfig, path + ".base: found \"" + body.base +
-                                                   "\", allowed feet, legs, plinth, wheels, none");
+        throw Error(ErrorCode::kInvalidConfig,
+                    path + ".base: found \"" + body.base +
+                        "\", allowed feet, legs, stand, plinth, wheels, none");
       }
     }
   }
@@ -251,9 +352,21 @@ void AddFace(const SafeBody& body, const std::string& path, ReliefSlab& slab) {
   } else if (body.face == "framed") {
     slab.fields = {
         {inner(0.016), {{0, 0}, {0.003, -0.005}, {0.009, -0.005}, {0.012, 0}}, ReliefSide::kFront}};
+  } else if (body.face == "split") {
+    // two fields, one above and one below the handle
+    const Rectangle all = inner(0.02);
+    const double z = slab.outline.min_m.y() +
+                     body.mount_height * (slab.outline.max_m.y() - slab.outline.min_m.y());
+    for (const auto& [low, high] : {std::pair{all.min_m.y(), z - kHandleRoomM + 0.06},
+                                    std::pair{z + kHandleRoomM - 0.06, all.max_m.y()}}) {
+      if (high - low > 0.03)
+        slab.fields.push_back({{{all.min_m.x(), low}, {all.max_m.x(), high}},
+                               SunkPanel(0.006, 0.004),
+                               ReliefSide::kFront});
+    }
   } else if (body.face != "plain") {
-    throw Error(ErrorCode::kInvalidConfig,
-                path + ".face: found \"" + body.face + "\", allowed plain, sunk, raised, framed");
+    throw Error(ErrorCode::kInvalidConfig, path + ".face: found \"" + body.face +
+                                               "\", allowed plain, sunk, raised, framed, split");
   }
 }
 
@@ -293,8 +406,9 @@ Part BuildBox(const nlohmann::ordered_json& json, const std::string& path) {
   const auto body = ReadParameters<SafeBody>(json, path);
   Check(body, path);
   const SafeLayout layout = LayoutOf(body, 0, 0, 0);
-  std::vector<Solid> frame = {Shell(body, layout, 0)};
+  std::vector<Solid> frame = {Shell(body, layout, 0, path)};
   AddShelves(body, layout.opening, 0, frame);
+  AddTop(body, path, layout.box, 0, frame);
   AddBase(body, path, layout.box, 0, frame);
   return SafePart(body, path, layout.leaf, frame, LeafSolid(body, path, layout.leaf));
 }
@@ -314,7 +428,8 @@ Part BuildWall(const nlohmann::ordered_json& json, const std::string& path) {
   layout.box = {layout.opening.min_m.array() - body.wall_m,
                 layout.opening.max_m.array() + body.wall_m};
   const double front = -body.flange_thickness_m - kJointM;
-  std::vector<Solid> frame = {ReliefSolid(flange, kHullToleranceM), Shell(body, layout, front)};
+  std::vector<Solid> frame = {ReliefSolid(flange, kHullToleranceM),
+                              Shell(body, layout, front, path)};
   AddShelves(body, layout.opening, front, frame);
   return SafePart(body, path, layout.leaf, frame, LeafSolid(body, path, layout.leaf));
 }
@@ -373,7 +488,7 @@ Part BuildVault(const nlohmann::ordered_json& json, const std::string& path) {
   cup.back_x_m = -body.depth_m;
   cup.floor_x_m = -body.depth_m + 0.6 * body.wall_m;
   cup.front_x_m = 0;
-  cup.edge_radius_m = 0.006;
+  cup.edge_radius_m = body.drum ? 0.006 : std::min(0.006, 0.6 * body.corner_radius_m);
   // the block's hulls reach to the front of the collar, which has none of its own
   const std::vector<TriangleMesh> hulls = CupSolid(cup).hulls;
   cup.front_x_m = -0.007;
@@ -435,13 +550,14 @@ Part BuildTiered(const nlohmann::ordered_json& json, const std::string& path) {
   const double more = body.tier_m + body.wall_m;
   const SafeLayout layout =
       LayoutOf(body, body.tier_below ? more : 0, body.tier_below ? 0 : more, 0);
-  std::vector<Solid> frame = {Shell(body, layout, 0)};
+  std::vector<Solid> frame = {Shell(body, layout, 0, path)};
   const double z0 =
       body.tier_below ? layout.box.min_m.y() + body.wall_m : layout.opening.max_m.y() + body.wall_m;
   AddFixedFronts(body.tier,
                  {{layout.opening.min_m.x(), z0}, {layout.opening.max_m.x(), z0 + body.tier_m}},
                  path, frame);
   AddShelves(body, layout.opening, 0, frame);
+  AddTop(body, path, layout.box, 0, frame);
   AddBase(body, path, layout.box, 0, frame);
   return SafePart(body, path, layout.leaf, frame, LeafSolid(body, path, layout.leaf));
 }
@@ -451,7 +567,7 @@ Part BuildHotel(const nlohmann::ordered_json& json, const std::string& path) {
   Check(body, path);
   RequireRange(path, "panel_m", body.panel_m, 0.09, 0.3);
   const SafeLayout layout = LayoutOf(body, 0, 0, body.panel_m);
-  std::vector<Solid> frame = {Shell(body, layout, 0)};
+  std::vector<Solid> frame = {Shell(body, layout, 0, path)};
   const double y = layout.opening.max_m.x() + body.panel_m / 2 + body.wall_m / 2;
   const double z = CenterOf(layout.leaf).y();
   // display above, three by four keys below
@@ -466,6 +582,7 @@ Part BuildHotel(const nlohmann::ordered_json& json, const std::string& path) {
     }
   }
   AddShelves(body, layout.opening, 0, frame);
+  AddTop(body, path, layout.box, 0, frame);
   AddBase(body, path, layout.box, 0, frame);
   return SafePart(body, path, layout.leaf, frame, LeafSolid(body, path, layout.leaf));
 }
@@ -480,7 +597,7 @@ Part BuildAntique(const nlohmann::ordered_json& json, const std::string& path) {
   const Rectangle outside = layout.box;
   layout.box.min_m.y() += mouldings;
   layout.box.max_m.y() -= mouldings;
-  std::vector<Solid> frame = {Shell(body, layout, 0)};
+  std::vector<Solid> frame = {Shell(body, layout, 0, path)};
   for (int i = 0; i < body.steps; ++i) {
     const double out = body.step_m * (i + 1);
     const double up = layout.box.max_m.y() + i * body.step_m;

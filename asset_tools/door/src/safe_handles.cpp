@@ -22,8 +22,12 @@ constexpr double kJointM = 0.0002;  // between solids that touch
 
 /// The plate on the leaf under every handle of a safe.
 struct SafePlate {
-  std::string shape = "round";  ///< "round", "square", "shield" (tall, rounded).
+  /// "round" (a stadium if it is not as high as wide), "square", "shield" (tall, rounded),
+  /// "octagon", "diamond".
+  std::string shape = "round";
   double width_m = 0.106;
+  double height_m = 0;   ///< 0: as high as wide; a shield 1.25 times.
+  bool stepped = false;  ///< A smaller plate of half the thickness lies on it.
   double thickness_m = 0.006;
   std::string finish = "satin_aluminium";
 
@@ -31,6 +35,8 @@ struct SafePlate {
   static void VisitFields(Self& self, Visitor&& visit) {
     visit("shape", self.shape);
     visit("width_m", self.width_m);
+    visit("height_m", self.height_m);
+    visit("stepped", self.stepped);
     visit("thickness_m", self.thickness_m);
     visit("finish", self.finish);
   }
@@ -41,7 +47,7 @@ struct SafeKey {
   double bow_depth_m = 0.034;  ///< Along x.
   double bow_thickness_m = 0.006;
   double reach_m = 0.042;    ///< From the leaf to the middle of the bow.
-  std::string bow = "oval";  ///< "oval", "square", "clover", "triangle".
+  std::string bow = "oval";  ///< "oval", "square", "clover", "triangle", "butterfly".
   double barrel_radius_m = 0.013;
   double barrel_m = 0.012;  ///< Of the lock's barrel, along x, in front of the plate.
   SafePlate plate;
@@ -91,33 +97,41 @@ struct SafeBars {
 
 struct SafeTee : SafeBars {
   double sweep_m = 0;  ///< How far the bar's ends bend towards the leaf.
+  double vee_m = 0;    ///< How far they bend up, in the plane of the leaf.
+  double ball_m = 0;   ///< Diameter of a ball at each end; 0 for none.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
     SafeBars::VisitFields(self, visit);
     visit("sweep_m", self.sweep_m);
+    visit("vee_m", self.vee_m);
+    visit("ball_m", self.ball_m);
   }
 };
 
 struct SafeEll : SafeBars {
   double ball_m = 0;  ///< Diameter of a ball at the tip; 0 for none.
+  double post_m = 0;  ///< Length of a post at the tip that stands out of the leaf: a crank.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
     SafeBars::VisitFields(self, visit);
     visit("ball_m", self.ball_m);
+    visit("post_m", self.post_m);
   }
 };
 
 struct SafeDialLever : SafeEll {
   double dial_diameter_m = 0.056;
   double dial_height_m = 0.085;  ///< Of the dial's axis above the lever's.
+  double dial_shift_m = 0;       ///< Likewise, towards the free edge.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
     SafeEll::VisitFields(self, visit);
     visit("dial_diameter_m", self.dial_diameter_m);
     visit("dial_height_m", self.dial_height_m);
+    visit("dial_shift_m", self.dial_shift_m);
   }
 };
 
@@ -139,6 +153,8 @@ struct SafeWheel : SafeBars {
   int spokes = 3;
   double rim_width_m = 0.014;  ///< Of the rim's section, along the radius.
   double rim_depth_m = 0.014;
+  double over_m = 0;  ///< How far the spokes stand out beyond the rim, as on a ship's wheel.
+  double dish_m = 0;  ///< How much farther out than the hub the rim is.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -146,6 +162,8 @@ struct SafeWheel : SafeBars {
     visit("spokes", self.spokes);
     visit("rim_width_m", self.rim_width_m);
     visit("rim_depth_m", self.rim_depth_m);
+    visit("over_m", self.over_m);
+    visit("dish_m", self.dish_m);
   }
 };
 
@@ -156,32 +174,50 @@ void Check(const SafeBars& bars, const std::string& path) {
   RequireRange(path, "bar_depth_m", bars.bar_depth_m, 0.007, 0.026);
   RequireRange(path, "squareness", bars.squareness, 2, 10);
   RequireRange(path, "tip_scale", bars.tip_scale, 0.5, 1.6);
-  RequireRange(path, "hub_diameter_m", bars.hub_diameter_m, 0.016, 0.06);
+  RequireRange(path, "hub_diameter_m", bars.hub_diameter_m, 0.016, 0.09);
   RequireRange(path, "angle_deg", bars.angle_deg, -90, 90);
+}
+
+// A plate of this half size and thickness.
+Solid PlateOf(const SafePlate& plate, const std::string& path, const Eigen::Vector2d& half,
+              double thickness) {
+  const double edge = 0.4 * thickness;
+  const double least = half.minCoeff();
+  if (plate.shape == "square") return PlateSolid({half, 0.008, thickness, edge}, {0, 0});
+  if (plate.shape == "shield") return PlateSolid({half, 0.5 * least, thickness, edge}, {0, 0});
+  if (plate.shape == "round") return PlateSolid({half, least, thickness, edge}, {0, 0});
+  Polygon outline;
+  if (plate.shape == "diamond") {
+    outline = {{half.x(), 0}, {0, half.y()}, {-half.x(), 0}, {0, -half.y()}};
+  } else if (plate.shape == "octagon") {
+    for (const Eigen::Vector2d& p : CirclePolygon({0, 0}, 1 / std::cos(kPi / 8), 8))
+      outline.emplace_back(p.cwiseProduct(half));
+  } else {
+    throw Error(ErrorCode::kInvalidConfig,
+                path + ".shape: found \"" + plate.shape +
+                    "\", allowed round, square, shield, octagon, diamond");
+  }
+  // its one hull has no chamfer, so a sharp corner allows only a small one
+  return ConvexPrism(outline, PrismAxis::kX, {0, thickness}, 0.2 * thickness);
 }
 
 // The plate as "rose"; returns where the grip may begin.
 double AddPlate(const SafePlate& plate, const std::string& path, const std::vector<Solid>& on_it,
                 Part& part) {
-  RequireRange(path, "width_m", plate.width_m, 0.04, 0.14);
+  RequireRange(path, "width_m", plate.width_m, 0.04, 0.22);
+  if (plate.height_m != 0) RequireRange(path, "height_m", plate.height_m, 0.04, 0.21);
   RequireRange(path, "thickness_m", plate.thickness_m, 0.003, 0.012);
-  const double half = plate.width_m / 2;
-  const double edge = 0.4 * plate.thickness_m;
-  PlateShape shape{{half, half}, half, plate.thickness_m, edge};
-  if (plate.shape == "square") {
-    shape.corner_radius_m = 0.008;
-  } else if (plate.shape == "shield") {
-    shape.half_size_m.y() = 1.25 * half;
-    shape.corner_radius_m = 0.5 * half;
-  } else if (plate.shape != "round") {
-    throw Error(ErrorCode::kInvalidConfig,
-                path + ".shape: found \"" + plate.shape + "\", allowed round, square, shield");
+  Eigen::Vector2d half(plate.width_m / 2, plate.height_m / 2);
+  if (plate.height_m == 0) half.y() = (plate.shape == "shield" ? 1.25 : 1) * half.x();
+  std::vector<Solid> solids = {PlateOf(plate, path, half, plate.thickness_m)};
+  double top = plate.thickness_m + kJointM;
+  if (plate.stepped) {
+    solids.push_back(Moved(PlateOf(plate, path, 0.72 * half, plate.thickness_m / 2), {top, 0, 0}));
+    top += plate.thickness_m / 2 + kJointM;
   }
-  std::vector<Solid> solids = {PlateSolid(shape, {0, 0})};
-  for (const Solid& solid : on_it)
-    solids.push_back(Moved(solid, {plate.thickness_m + kJointM, 0, 0}));
+  for (const Solid& solid : on_it) solids.push_back(Moved(solid, {top, 0, 0}));
   part.pieces.push_back(MakePiece("rose", Joined(solids), plate.finish, path));
-  return plate.thickness_m + 2 * kJointM;
+  return top + kJointM;
 }
 
 Solid Lathed(const std::vector<LathePoint>& profile, int sides = 28) {
@@ -261,6 +297,10 @@ Part Finished(Part part, const GripParts& grip, const SafeBars& bars, const std:
   return part;
 }
 
+void CheckBall(const SafeBars& bars, double ball_m, const std::string& path) {
+  if (ball_m > 0) RequireRange(path, "ball_m", ball_m, bars.bar_width_m, 0.034);
+}
+
 Polygon BowOutline(const SafeKey& key, const std::string& path) {
   // in (z, x) around the origin
   const Eigen::Vector2d half(key.bow_height_m / 2, key.bow_depth_m / 2);
@@ -274,11 +314,29 @@ Polygon BowOutline(const SafeKey& key, const std::string& path) {
   if (key.bow == "clover") return RoundedRectangle(half, 0.85 * half.minCoeff(), 6);
   if (key.bow != "oval")
     throw Error(ErrorCode::kInvalidConfig,
-                path + ".bow: found \"" + key.bow + "\", allowed oval, square, clover, triangle");
+                path + ".bow: found \"" + key.bow +
+                    "\", allowed oval, square, clover, triangle, butterfly");
   Polygon oval;
   for (const Eigen::Vector2d& p : CirclePolygon({0, 0}, 1, 24))
     oval.emplace_back(p.cwiseProduct(half));
   return oval;
+}
+
+// Two round wings beside a waist; the polygons are in (z, x).
+std::vector<Polygon> BowPolygons(const SafeKey& key, const std::string& path) {
+  if (key.bow != "butterfly") return {BowOutline(key, path)};
+  const double waist = 0.1 * key.bow_height_m;
+  const double depth = 0.3 * key.bow_depth_m;
+  std::vector<Polygon> bow = {BoxPolygon({-waist, -depth}, {waist, depth})};
+  for (const double side : {-1.0, 1.0}) {
+    Polygon wing;
+    const Eigen::Vector2d half(0.21 * key.bow_height_m, key.bow_depth_m / 2);
+    for (const Eigen::Vector2d& p : CirclePolygon({0, 0}, 1, 20))
+      wing.emplace_back(p.cwiseProduct(half) + Eigen::Vector2d(side * 0.29 * key.bow_height_m, 0));
+    const Eigen::Vector2d inwards(-side, 0);
+    bow.push_back(Clipped(wing, {side * (waist + kJointM), 0}, inwards));
+  }
+  return bow;
 }
 
 Part BuildKey(const nlohmann::ordered_json& json, const std::string& path) {
@@ -288,7 +346,8 @@ Part BuildKey(const nlohmann::ordered_json& json, const std::string& path) {
   RequireRange(path, "bow_thickness_m", key.bow_thickness_m, 0.003, 0.014);
   RequireRange(path, "barrel_radius_m", key.barrel_radius_m, 0.008, 0.03);
   RequireRange(path, "barrel_m", key.barrel_m, 0.004, 0.02);
-  const double barrel_end = key.plate.thickness_m + key.barrel_m;
+  const double plate_m = key.plate.thickness_m * (key.plate.stepped ? 1.5 : 1);
+  const double barrel_end = plate_m + key.barrel_m;
   RequireRange(path, "reach_m", key.reach_m, barrel_end + 0.006 + key.bow_depth_m / 2, 0.07);
   Part part;
   const double r = key.barrel_radius_m;
@@ -299,14 +358,15 @@ Part BuildKey(const nlohmann::ordered_json& json, const std::string& path) {
                     {key.barrel_m - 0.001, r},
                     {key.barrel_m, r - 0.001}})},
            part);
-  Polygon bow = BowOutline(key, path);
-  for (Eigen::Vector2d& p : bow) p.y() += key.reach_m;
   const double half = key.bow_thickness_m / 2;
-  const double bow_begin = key.reach_m - key.bow_depth_m / 2;
+  const double bow_begin = key.reach_m - key.bow_depth_m * (key.bow == "butterfly" ? 0.3 : 0.5);
   const double shaft = 0.55 * half + 0.0015;
-  const std::vector<Solid> solids = {
-      ConvexPrism(bow, PrismAxis::kY, {-half, half}, 0.3 * half),
-      Lathed({{barrel_end + 3 * kJointM, shaft}, {bow_begin - 2 * kJointM, shaft}}, 16)};
+  std::vector<Solid> solids = {
+      Lathed({{barrel_end + 4 * kJointM, shaft}, {bow_begin - 2 * kJointM, shaft}}, 16)};
+  for (Polygon bow : BowPolygons(key, path)) {
+    for (Eigen::Vector2d& p : bow) p.y() += key.reach_m;
+    solids.push_back(ConvexPrism(bow, PrismAxis::kY, {-half, half}, 0.3 * half));
+  }
   part.pieces.push_back(MakePiece("grip", Joined(solids), key.finish, path + ".finish"));
   part.joint = HandleJoint(true);
   part.part_from_grasp = GraspAt({key.reach_m, 0, 0}, Closing::kHorizontal);
@@ -317,14 +377,16 @@ Part BuildKey(const nlohmann::ordered_json& json, const std::string& path) {
 Part BuildTee(const nlohmann::ordered_json& json, const std::string& path) {
   const auto tee = ReadParameters<SafeTee>(json, path);
   Check(tee, path);
+  CheckBall(tee, tee.ball_m, path);
   RequireRange(path, "sweep_m", tee.sweep_m, -0.01, 0.016);
+  RequireRange(path, "vee_m", tee.vee_m, -0.03, 0.03);
   Part part;
   const double start = AddPlate(tee.plate, path + ".plate", {}, part);
-  const double half = tee.length_m / 2;
+  const double half = tee.length_m / 2 - (tee.ball_m > 0 ? tee.ball_m - 0.004 : 0);
   std::vector<Eigen::Vector3d> points;
   for (int i = 0; i <= 12; ++i) {
     const double t = -1 + i / 6.0;
-    points.emplace_back(tee.projection_m - tee.sweep_m * t * t, -half * t, 0);
+    points.emplace_back(tee.projection_m - tee.sweep_m * t * t, -half * t, tee.vee_m * t * t);
   }
   const auto section = [&](double fraction) {
     const double away = std::abs(2 * fraction - 1);
@@ -335,35 +397,53 @@ Part BuildTee(const nlohmann::ordered_json& json, const std::string& path) {
   const Eigen::Vector3d last = (points[12] - points[11]).normalized();
   const auto rings =
       SweepRings(SmoothPath(points, first, last), Eigen::Vector3d::UnitX(), section, 0.004);
+  std::vector<Solid> solids = {LoftSolid(rings, kHullToleranceM)};
+  if (tee.ball_m > 0) {
+    const double away = 0.004 + kJointM + tee.ball_m / 2;
+    solids.push_back(Ball(points[0] - away * first, tee.ball_m / 2));
+    solids.push_back(Ball(points[12] + away * last, tee.ball_m / 2));
+  }
   const double neck = tee.hub_diameter_m / 2;
   const double end = tee.projection_m - tee.bar_depth_m / 2 - kJointM;
-  const GripParts grip{
-      {LoftSolid(rings, kHullToleranceM), Lathed({{start, 1.3 * neck},
-                                                  {start + 0.3 * (end - start), neck},
-                                                  {end, std::min(neck, 0.8 * tee.bar_width_m)}})},
-      {tee.projection_m, 0, 0},
-      Eigen::Vector3d::UnitZ(),
-      {0.006, 0.004, tee.bar_depth_m / 2}};
+  solids.push_back(Lathed({{start, 1.3 * neck},
+                           {start + 0.3 * (end - start), neck},
+                           {end, std::min(neck, 0.8 * tee.bar_width_m)}}));
+  const GripParts grip{solids,
+                       {tee.projection_m, 0, 0},
+                       Eigen::Vector3d::UnitZ(),
+                       {0.006, 0.004, tee.bar_depth_m / 2}};
   return Finished(std::move(part), grip, tee, path);
 }
 
 GripParts EllGrip(const SafeEll& ell, double start) {
   std::vector<Solid> solids = Arm(ell, DirectionAt(0), 0, ell.ball_m);
   solids.push_back(Hub(ell.hub_diameter_m / 2, start, ell.projection_m + 0.7 * ell.bar_depth_m));
+  if (ell.post_m > 0) {
+    // on the bar, near its tip
+    const double r = 0.42 * ell.bar_width_m * std::min(1.0, ell.tip_scale);
+    const double x = ell.projection_m + ell.bar_depth_m / 2 * std::max(1.0, ell.tip_scale);
+    const Eigen::Vector3d at = DirectionAt(0) * (ell.length_m - 1.6 * r);
+    solids.push_back(Moved(Lathed({{x + kJointM, 0.8 * r},
+                                   {x + 0.3 * ell.post_m, 0.7 * r},
+                                   {x + 0.7 * ell.post_m, 1.25 * r},
+                                   {x + ell.post_m, 0.8 * r}},
+                                  20),
+                           at));
+  }
   return {solids,
           {ell.projection_m, -0.6 * ell.length_m, 0},
           Eigen::Vector3d::UnitZ(),
           {0.12 * ell.length_m, 0.004, ell.bar_depth_m / 2 + 0.002}};
 }
 
-void CheckBall(const SafeBars& bars, double ball_m, const std::string& path) {
-  if (ball_m > 0) RequireRange(path, "ball_m", ball_m, bars.bar_width_m, 0.034);
-}
-
 Part BuildEll(const nlohmann::ordered_json& json, const std::string& path) {
   const auto ell = ReadParameters<SafeEll>(json, path);
   Check(ell, path);
   CheckBall(ell, ell.ball_m, path);
+  if (ell.post_m > 0) {
+    RequireRange(path, "post_m", ell.post_m, 0.012, 0.03);
+    RequireRange(path, "ball_m (with a post)", ell.ball_m, 0, 0);
+  }
   Part part;
   const double start = AddPlate(ell.plate, path + ".plate", {}, part);
   return Finished(std::move(part), EllGrip(ell, start), ell, path);
@@ -375,8 +455,10 @@ Part BuildDialLever(const nlohmann::ordered_json& json, const std::string& path)
   Check(lever, path);
   CheckBall(lever, lever.ball_m, path);
   RequireRange(path, "dial_diameter_m", lever.dial_diameter_m, 0.04, 0.08);
+  const double plate = std::max(lever.plate.width_m, lever.plate.height_m) / 2;
   RequireRange(path, "dial_height_m", lever.dial_height_m,
-               lever.plate.width_m / 2 + lever.dial_diameter_m / 2 + 0.004, 0.13);
+               plate + lever.dial_diameter_m / 2 + 0.004, 0.13);
+  RequireRange(path, "dial_shift_m", lever.dial_shift_m, -0.06, 0.06);
   Part part;
   const double r = lever.dial_diameter_m / 2;
   const Solid numbered = Lathed({{0, r}, {0.004, r}, {0.0075, 0.8 * r}, {0.008, 0.78 * r}}, 40);
@@ -384,8 +466,10 @@ Part BuildDialLever(const nlohmann::ordered_json& json, const std::string& path)
       Moved(LatheSolid({{0, 0.5 * r}, {0.004, 0.55 * r}, {0.018, 0.5 * r}, {0.02, 0.42 * r}},
                        {48, 0.0012, 12}),
             {0.008 + kJointM, 0, 0});
-  const double down = -lever.plate.thickness_m - kJointM;
-  const Solid dial = Moved(Joined({numbered, knob}), {down, 0, lever.dial_height_m});
+  const double down = -lever.plate.thickness_m * (lever.plate.stepped ? 1.5 : 1) -
+                      (lever.plate.stepped ? 2 : 1) * kJointM;
+  const Solid dial =
+      Moved(Joined({numbered, knob}), {down, lever.dial_shift_m, lever.dial_height_m});
   const double start = AddPlate(lever.plate, path + ".plate", {dial}, part);
   return Finished(std::move(part), EllGrip(lever, start), lever, path);
 }
@@ -417,21 +501,29 @@ Part BuildWheel(const nlohmann::ordered_json& json, const std::string& path) {
   const auto wheel = ReadParameters<SafeWheel>(json, path);
   Check(wheel, path);
   RequireRange(path, "spokes", wheel.spokes, 3, 6);
-  RequireRange(path, "length_m (radius of the rim)", wheel.length_m, 0.08, 0.119);
+  RequireRange(path, "length_m (radius of the rim)", wheel.length_m, 0.06, 0.119);
+  RequireRange(path, "over_m", wheel.over_m, 0, 0.04);
+  RequireRange(path, "dish_m", wheel.dish_m, -0.012, 0.02);
   RequireRange(path, "rim_width_m", wheel.rim_width_m, 0.01, 0.024);
   RequireRange(path, "rim_depth_m", wheel.rim_depth_m, 0.01, 0.024);
   Part part;
   const double start = AddPlate(wheel.plate, path + ".plate", {}, part);
   const double x = wheel.projection_m;
   const HoopShape rim{wheel.length_m, wheel.rim_width_m / 2, wheel.rim_depth_m / 2, 2, 48};
-  std::vector<Solid> solids = {Hub(wheel.hub_diameter_m / 2, start, x + 0.8 * wheel.bar_depth_m),
-                               HoopSolid(rim, {x, 0, 0})};
+  const double hub_x = x - wheel.dish_m;
+  std::vector<Solid> solids = {
+      Hub(wheel.hub_diameter_m / 2, start, hub_x + 0.8 * wheel.bar_depth_m),
+      HoopSolid(rim, {x, 0, 0})};
   for (int i = 0; i < wheel.spokes; ++i) {
     const Eigen::Vector3d direction = DirectionAt(2 * kPi * (i + 0.5) / wheel.spokes);
     const Eigen::Vector3d at(x, 0, 0);
-    solids.push_back(Bar(wheel, at + direction * (wheel.hub_diameter_m / 2 + kJointM),
-                         at + direction * (wheel.length_m - wheel.rim_width_m / 2 - kJointM),
-                         false));
+    const auto along = [&](double from) { return at + direction * (wheel.length_m + from); };
+    const double border = wheel.rim_width_m / 2 + kJointM;
+    solids.push_back(
+        Bar(wheel, Eigen::Vector3d(hub_x, 0, 0) + direction * (wheel.hub_diameter_m / 2 + kJointM),
+            along(-border), false));
+    if (wheel.over_m > 0)
+      solids.push_back(Bar(wheel, along(border), along(border + wheel.over_m), true));
   }
   const GripParts grip{solids,
                        Eigen::Vector3d(x, 0, 0) + wheel.length_m * DirectionAt(0),

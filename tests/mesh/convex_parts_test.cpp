@@ -96,6 +96,25 @@ TEST(ConvexParts, KeepWallsThatAreThinnerThanTheConcavity) {
   EXPECT_FALSE(IsInAPart(parts, size / 2));
 }
 
+// A foil of a twentieth of a millimetre floats beside a lever, as it does in real handles.
+TEST(ConvexParts, CoverASliverThatFloatsBesideTheRest) {
+  const ClosedMesh lever = Closed(Together(
+      Lever(), Box(Eigen::Vector3d(0.08, 0.10, -0.004), Eigen::Vector3d(0.08005, 0.13, 0.004))));
+  for (const int max_parts : {32, 3}) {
+    SCOPED_TRACE(max_parts);
+    const auto parts = ConvexParts(lever, {.max_parts = max_parts, .max_concavity_m = 0.002});
+    EXPECT_LE(parts.size(), static_cast<std::size_t>(max_parts));
+    const ConvexPartsFit fit = MeasureConvexParts(lever, parts);
+    EXPECT_LE(fit.uncovered_m, 0.001);
+    if (max_parts == 32) EXPECT_LE(fit.protrusion_m, 0.002);
+    // twice its volume is the area of a plate times its thickness
+    for (const TriangleMesh& part : parts) {
+      const MeshTopology topology = MeasureTopology(part);
+      EXPECT_GE(2 * topology.volume_m3, 1.9e-4 * topology.area_m2);
+    }
+  }
+}
+
 TEST(ConvexParts, KeepToTheirNumberAndVertices) {
   const ClosedMesh torus = Closed(Torus(0.05, 0.01, 48, 16));
   const auto parts =

@@ -162,6 +162,12 @@ TEST(RepairMesh, UnitesPiecesThatOverlapOrOnlyTouch) {
     EXPECT_NEAR(VolumeAfter(result), one.volume_m3, 2e-3 * one.volume_m3);
     EXPECT_LT(result.report.visible_input_to_output.max_m, 1e-3);
     EXPECT_LT(result.report.output_to_input.max_m, 1e-3);
+    // no triangle loses its area, or the mesh its closedness, at the precision of mesh files
+    TriangleMesh rounded = result.mesh->mesh();
+    for (Eigen::Vector3d& vertex : rounded.vertices)
+      vertex = vertex.cast<float>().cast<double>().eval();
+    EXPECT_TRUE(ClosedMesh::From(rounded));
+    EXPECT_EQ(MeasureTopology(rounded).degenerate_triangles, 0);
   }
 }
 

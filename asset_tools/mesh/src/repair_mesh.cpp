@@ -26,7 +26,6 @@ constexpr double kFlatAreaShare = 0.01;  // of all area: less than this may be l
 constexpr double kFreeErrorShare = 0.25;  // of the offset: error of a wrap that costs nothing
 constexpr double kShiftFraction = 3e-5;   // of D: how far pieces move so that nothing only touches
 
-constexpr double kFinestAlpha = 0.004;    // of D: a finer wrap would take a minute
 constexpr double kGoodFraction = 0.01;    // of D: an exact result farther off competes with a wrap
 constexpr std::size_t kBudgetFactor = 3;  // triangles of the output for one of the input,
 constexpr std::size_t kBudget = 5000;     // and besides
@@ -96,27 +95,15 @@ class Repair {
     else
       mesh = KeptExactly();
     if (mesh.triangles.empty())
-      return config_.wrap == "never" ? Failed(report_.reason) : NearWrap();
+      return config_.wrap == "never" ? Failed(report_.reason) : Finished(WithinBudget(Wrapped()));
     const RepairReport begun = report_;
     RepairResult exact = Finished(WithinBudget(std::move(mesh)));
     if (config_.wrap == "never" || IsGood(exact)) return exact;
     report_ = begun;
     report_.reason = "the union of its pieces and walls is farther off or has more triangles";
-    RepairResult wrap = NearWrap();
+    RepairResult wrap = Finished(WithinBudget(Wrapped()));
     const bool nearer = wrap.mesh && WorstOf(wrap.report) < WorstOf(exact.report);
     return nearer || IsGood(wrap) ? wrap : exact;
-  }
-
-  // A wrap that leaves out too much is tried once more with half the alpha, which takes four times
-  // as long.
-  RepairResult NearWrap() {
-    const RepairReport begun = report_;
-    RepairResult coarse = Finished(WithinBudget(Wrapped(config_.alpha_fraction)));
-    const bool has_fine = 0.5 * config_.alpha_fraction >= kFinestAlpha;
-    if (config_.wrap == "always" || !has_fine || IsGood(coarse)) return coarse;
-    report_ = begun;
-    RepairResult fine = Finished(WithinBudget(Wrapped(0.5 * config_.alpha_fraction)));
-    return fine.mesh && WorstOf(fine.report) < WorstOf(coarse.report) ? fine : coarse;
   }
 
   static double WorstOf(const RepairReport& report) {
@@ -285,8 +272,8 @@ class Repair {
     return Joined(separation.solids);
   }
 
-  TriangleMesh Wrapped(double alpha_fraction) {
-    const double alpha_m = alpha_fraction * diagonal_m_;
+  TriangleMesh Wrapped() {
+    const double alpha_m = config_.alpha_fraction * diagonal_m_;
     const double offset_m = config_.offset_fraction * diagonal_m_;
     TriangleMesh wrap = AlphaWrap(surface_, alpha_m, offset_m);
     Did("wrapped with alpha " + std::to_string(1000 * alpha_m) + " mm and offset " +

@@ -125,9 +125,11 @@ std::optional<TriangleMesh> SimpleUnion(const std::vector<TriangleMesh>& solids,
     const std::optional<TriangleMesh> whole =
         United(solids, (1 + 0.5 * repeat) * shift_m, kRepeats * attempt + repeat);
     if (!whole) continue;
-    TriangleMesh simple = Simplified(*whole, std::numeric_limits<int>::max() / 4, 0.5 * shift_m);
-    if (ClosedMesh::From(simple) && !SelfIntersects(simple)) return simple;
-    if (!SelfIntersects(*whole)) return whole;
+    const TriangleMesh simple =
+        Simplified(*whole, std::numeric_limits<int>::max() / 4, 0.5 * shift_m);
+    for (const TriangleMesh& mesh : {simple, *whole}) {
+      if (ClosedMesh::From(mesh) && !SelfIntersects(mesh)) return mesh;
+    }
   }
   return std::nullopt;
 }

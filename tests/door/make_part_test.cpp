@@ -81,7 +81,7 @@ TEST(MakePart, DoesNotDependOnTheNumberOfThreads) {
 
 TEST(MakePart, AMeshThatCannotBeClosedIsAnOutcomeWithAReason) {
   PartDraft draft = BoxBody();
-  draft.pieces[0].mesh = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+  draft.pieces[0].mesh = {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}};
   MakePartConfig config;
   config.repair.wrap = "never";
   const MadePart made = MakePart(draft, config);

@@ -69,7 +69,6 @@ Json PartToJson(const Part& part) {
                {"license", part.license},
                {"source", part.source},
                {"source_sha256", part.source_sha256},
-               {"shape", ShapeOf(part)},
                {"joint", JointToJson(part.joint)}};
   if (part.role == PartRole::kBody) {
     json["part_from_mount"] = TransformToJson(part.part_from_mount);
@@ -95,7 +94,12 @@ Enum Named(std::optional<Enum> (*find)(std::string_view), const Json& json, cons
 
 ShapeDescriptor ShapeOf(const Part& part) {
   std::vector<TriangleMesh> meshes;
-  for (const PartPiece& piece : part.pieces) meshes.push_back(piece.mesh);
+  for (const PartPiece& piece : part.pieces) {
+    meshes.push_back(piece.mesh);
+    // as the file holds them, so that a part that is read back has the same numbers
+    for (Eigen::Vector3d& vertex : meshes.back().vertices)
+      vertex = vertex.cast<float>().cast<double>();
+  }
   return DescribeShape(meshes);
 }
 
@@ -105,7 +109,9 @@ void WritePart(const Part& part, const std::filesystem::path& folder) {
     for (std::size_t i = 0; i < piece.hulls.size(); ++i)
       CommitFile(folder / HullPath(piece, i), ToObj(piece.hulls[i]));
   }
-  WriteJsonFile(folder / "part.json", PartToJson(part));
+  Json json = PartToJson(part);
+  json["shape"] = ShapeOf(part);
+  WriteJsonFile(folder / "part.json", json);
 }
 
 Part ReadPart(const std::filesystem::path& folder) {

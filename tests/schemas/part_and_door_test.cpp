@@ -90,6 +90,7 @@ TEST_F(Records, APartReadsBackWithTheSameContent) {
   EXPECT_EQ(again.pieces[0].hulls.size(), 2U);
   EXPECT_TRUE(again.pieces[0].mass.inertia_kg_m2.isApprox(part.pieces[0].mass.inertia_kg_m2));
   EXPECT_TRUE(again.part_from_grasp.isApprox(part.part_from_grasp, 1e-12));
+  EXPECT_EQ(ShapeOf(again), ShapeOf(part));
   EXPECT_EQ(ContentHash(again), ContentHash(part));
 }
 

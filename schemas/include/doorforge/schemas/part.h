@@ -76,7 +76,8 @@ Part ReadPart(const std::filesystem::path& folder, const MeshReader& read_mesh);
 /// Of all pieces; part.json holds it as "shape", so that copies are found without reading meshes.
 ShapeDescriptor ShapeOf(const Part& part);
 
-/// SHA-256 over part.json's fields and the mesh bytes: the part's identity for later values.
+/// SHA-256 over part.json's fields but "shape", and the mesh bytes: the part's identity for later
+/// values.
 std::string ContentHash(const Part& part);
 
 const PartPiece* FindPiece(const Part& part, std::string_view name);

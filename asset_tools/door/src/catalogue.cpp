@@ -113,6 +113,14 @@ bool ReadsBackTheSame(const RigidTransform& pose, const std::string& path) {
   return TransformToJson(TransformFromJson(filed, path)) == filed;
 }
 
+// Reading and writing again moves the last bits, in general towards a pose that stays.
+RigidTransform ReadAgain(RigidTransform pose, const std::string& path) {
+  constexpr int kMostTimes = 16;
+  for (int i = 0; i < kMostTimes && !ReadsBackTheSame(pose, path); ++i)
+    pose = TransformFromJson(TransformToJson(pose), path);
+  return pose;
+}
+
 // A pose that part.json holds to the last bit, so that a part read back equals the part in memory:
 // the quaternion is rounded, ever coarser, until it survives becoming a matrix and back.
 RigidTransform AsFiled(const RigidTransform& pose, const std::string& path) {
@@ -125,6 +133,7 @@ RigidTransform AsFiled(const RigidTransform& pose, const std::string& path) {
     for (double& value : coefficients)
       value = std::ldexp(std::round(std::ldexp(value, bits)), -bits);
     rounded.linear() = Eigen::Quaterniond(coefficients).normalized().toRotationMatrix();
+    rounded = ReadAgain(rounded, path);
   }
   return rounded;
 }

@@ -8,20 +8,12 @@
 
 #include "doorforge/core/error.h"
 
+#include "box_mesh.h"
+
 namespace doorforge {
 namespace {
 
-TriangleMesh Box(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
-  TriangleMesh mesh;
-  for (int i = 0; i < 8; ++i)
-    mesh.vertices.emplace_back((i & 1 ? high : low).x(), (i & 2 ? high : low).y(),
-                               (i & 4 ? high : low).z());
-  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  return mesh;
-}
-
-TriangleMesh UnitBox() { return Box(Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()); }
+TriangleMesh UnitBox() { return BoxMesh(Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()); }
 
 void Append(const TriangleMesh& more, TriangleMesh& mesh) {
   const int offset = static_cast<int>(mesh.vertices.size());
@@ -32,7 +24,7 @@ void Append(const TriangleMesh& more, TriangleMesh& mesh) {
 
 TEST(MeshTopology, MeasuresABox) {
   const MeshTopology topology =
-      MeasureTopology(Box(Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(2, 4, 6)));
+      MeasureTopology(BoxMesh(Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(2, 4, 6)));
   EXPECT_EQ(topology.boundary_edges, 0);
   EXPECT_EQ(topology.non_manifold_edges, 0);
   EXPECT_EQ(topology.non_manifold_vertices, 0);
@@ -66,7 +58,7 @@ TEST(MeshTopology, CountsTheEdgesOfADoubledTriangleAsNonManifold) {
 
 TEST(MeshTopology, SeesTwoBoxesThatShareACornerAsTwoComponentsPinchedOnce) {
   TriangleMesh mesh = UnitBox();
-  Append(Box(Eigen::Vector3d::Ones(), Eigen::Vector3d::Constant(2)), mesh);
+  Append(BoxMesh(Eigen::Vector3d::Ones(), Eigen::Vector3d::Constant(2)), mesh);
   for (Eigen::Vector3i& t : mesh.triangles) {
     for (int& index : t) index = index == 8 ? 7 : index;
   }
@@ -112,7 +104,7 @@ TEST(MeshTopology, OfNothingIsZero) {
 
 TEST(ClosedMesh, KeepsTheVolumeOfAMeshFarFromTheOrigin) {
   const Eigen::Vector3d far(1e6, -1e6, 1e6);
-  EXPECT_NEAR(MeasureTopology(Box(far, far + Eigen::Vector3d::Ones())).volume_m3, 1.0, 1e-9);
+  EXPECT_NEAR(MeasureTopology(BoxMesh(far, far + Eigen::Vector3d::Ones())).volume_m3, 1.0, 1e-9);
 }
 
 TEST(ClosedMesh, AcceptsABoxAndRefusesItInsideOut) {
@@ -126,7 +118,7 @@ TEST(ClosedMesh, AcceptsABoxAndRefusesItInsideOut) {
 TEST(ClosedMesh, RefusesABalancedEdgeOfFourTriangles) {
   // two boxes that share an edge: each direction is used twice
   TriangleMesh mesh = UnitBox();
-  Append(Box(Eigen::Vector3d(1, 1, 0), Eigen::Vector3d(2, 2, 1)), mesh);
+  Append(BoxMesh(Eigen::Vector3d(1, 1, 0), Eigen::Vector3d(2, 2, 1)), mesh);
   for (Eigen::Vector3i& t : mesh.triangles) {
     for (int& index : t) index = index == 8 ? 3 : index == 12 ? 7 : index;
   }
@@ -136,7 +128,7 @@ TEST(ClosedMesh, RefusesABalancedEdgeOfFourTriangles) {
 
 TEST(ClosedMesh, AcceptsACavity) {
   TriangleMesh mesh = UnitBox();
-  TriangleMesh hole = Box(Eigen::Vector3d::Constant(0.25), Eigen::Vector3d::Constant(0.75));
+  TriangleMesh hole = BoxMesh(Eigen::Vector3d::Constant(0.25), Eigen::Vector3d::Constant(0.75));
   for (Eigen::Vector3i& t : hole.triangles) std::swap(t[0], t[1]);
   Append(hole, mesh);
   ASSERT_TRUE(ClosedMesh::From(mesh));

@@ -8,22 +8,14 @@
 
 #include "doorforge/core/error.h"
 
+#include "box_mesh.h"
+
 namespace doorforge {
 namespace {
 
-TriangleMesh Box(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
-  TriangleMesh mesh;
-  for (int i = 0; i < 8; ++i)
-    mesh.vertices.emplace_back((i & 1 ? high : low).x(), (i & 2 ? high : low).y(),
-                               (i & 4 ? high : low).z());
-  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  return mesh;
-}
-
 // an L of two boxes, `foot` long
 std::vector<TriangleMesh> Bracket(double foot) {
-  return {Box({0, 0, 0}, {0.02, 0.03, 0.2}), Box({0.02, 0, 0}, {0.02 + foot, 0.03, 0.03})};
+  return {BoxMesh({0, 0, 0}, {0.02, 0.03, 0.2}), BoxMesh({0.02, 0, 0}, {0.02 + foot, 0.03, 0.03})};
 }
 
 std::vector<TriangleMesh> Changed(std::vector<TriangleMesh> meshes, const Eigen::Vector3d& scale,
@@ -38,7 +30,7 @@ std::vector<TriangleMesh> Changed(std::vector<TriangleMesh> meshes, const Eigen:
 }
 
 TEST(ShapeDescriptor, OfABoxIsKnownInClosedForm) {
-  const std::array boxes{Box({1, 2, 3}, {3, 4, 4})};
+  const std::array boxes{BoxMesh({1, 2, 3}, {3, 4, 4})};
   const ShapeDescriptor numbers = DescribeShape(boxes);
   const double second = 1.0 / 12;  // of a unit cube about its centre
   const std::vector<double> expected = {2.0 / 3, 2.0 / 3, 1.0 / 3, 1,      0, 0,     0,
@@ -57,7 +49,7 @@ TEST(ShapeDescriptor, OtherProportionsOrPartsAreAnotherShape) {
   const ShapeDescriptor shape = DescribeShape(Bracket(0.1));
   EXPECT_FALSE(SameShape(shape, DescribeShape(Changed(Bracket(0.1), {1, 1, 1.05}, {0, 0, 0}))));
   EXPECT_FALSE(SameShape(shape, DescribeShape(Bracket(0.104))));
-  const std::array bounds{Box({0, 0, 0}, {0.12, 0.03, 0.2})};  // the same box around it
+  const std::array bounds{BoxMesh({0, 0, 0}, {0.12, 0.03, 0.2})};  // the same box around it
   EXPECT_FALSE(SameShape(shape, DescribeShape(bounds)));
 }
 

@@ -94,6 +94,12 @@ TEST_F(DatasetFolder, WithoutARecordIsCalledUnfinished) {
   }
 }
 
+DatasetDoor TrainingDoor() {
+  return {
+      "d",       "1",    "interior", "lever", {"b", "2", ShapeDescriptor(13, 0.25)}, {"h", "3", {}},
+      "CC0-1.0", "train"};
+}
+
 TEST(DatasetProvenance, SurvivesARoundTrip) {
   DatasetProvenance provenance;
   provenance.code_version = "0.1.0+abc";
@@ -101,28 +107,14 @@ TEST(DatasetProvenance, SurvivesARoundTrip) {
   provenance.libraries = {{"Embree", "3.13.5"}, {"Bullet", "3.24"}};
   provenance.config_sha256 = "00";
   provenance.seed = 18446744073709551615U;
-  provenance.doors = {{"d",
-                       "1",
-                       "interior",
-                       "lever",
-                       {"b", "2", ShapeDescriptor(13, 0.25)},
-                       {"h", "3", {}},
-                       "CC0-1.0",
-                       "train"}};
+  provenance.doors = {TrainingDoor()};
   const nlohmann::ordered_json json = ProvenanceToJson(provenance);
   EXPECT_EQ(ProvenanceToJson(ProvenanceFromJson(json, "provenance")), json);
 }
 
 TEST(DatasetCard, NamesTheLicenceAndTheCounts) {
   DatasetProvenance provenance;
-  provenance.doors = {{"d",
-                       "1",
-                       "interior",
-                       "lever",
-                       {"b", "2", ShapeDescriptor(13, 0.25)},
-                       {"h", "3", {}},
-                       "CC0-1.0",
-                       "train"}};
+  provenance.doors = {TrainingDoor()};
   DatasetRecord record;
   record.parts = {{"open", "train", 1, 12, 3, 150, 9 << 20}};
   const std::string card = DatasetCard(record, provenance);

@@ -17,6 +17,7 @@
 #include "doorforge/schemas/mesh_pool.h"
 
 #include "compose_settings.h"
+#include "joint_limits.h"
 #include "mapped_part.h"
 #include "placed_mesh.h"
 #include "prepared_part.h"
@@ -26,10 +27,6 @@ namespace {
 
 using Shape = PreparedPart::State::Shape;
 
-constexpr double kHingeEffort = 300;       // [N m] above the latch's 150 and a strong closer
-constexpr double kHingeVelocity = 6;       // [rad/s] a slammed door
-constexpr double kHandleEffort = 30;       // [N m] a person's strong twist
-constexpr double kHandleVelocity = 12;     // [rad/s]
 constexpr double kOutlineOverhang = 0.01;  // [m] as rule HND003 of validate
 constexpr double kOutOfLeaf = 0.9;         // |axis.x| above this: the axis runs out of the leaf
 constexpr double kLongestSlide = 0.1;      // [m] what is further off is not what the handle sits on
@@ -219,14 +216,14 @@ void AddJoints(const Pair& pair, const RigidTransform& body_from_handle, DoorAss
   const internal::JointNumbers numbers =
       internal::JointNumbersOf(pair.config, pair.body.part.id + "__" + pair.handle.part.id);
   door.hinge = MakeJoint("hinge", hinge, hinge.origin_m);
-  door.hinge.effort_limit_nm = kHingeEffort;
-  door.hinge.velocity_limit_rad_s = kHingeVelocity;
+  door.hinge.effort_limit_nm = internal::kHingeLimits.effort_nm;
+  door.hinge.velocity_limit_rad_s = internal::kHingeLimits.velocity_rad_s;
   door.hinge.damping_nm_s = numbers.hinge_damping_nm_s;
   door.handle_joint =
       MakeJoint("handle_joint", handle, body_from_handle * handle.origin_m - hinge.origin_m);
   door.handle_joint.axis = body_from_handle.linear() * door.handle_joint.axis;
-  door.handle_joint.effort_limit_nm = kHandleEffort;
-  door.handle_joint.velocity_limit_rad_s = kHandleVelocity;
+  door.handle_joint.effort_limit_nm = internal::kHandleLimits.effort_nm;
+  door.handle_joint.velocity_limit_rad_s = internal::kHandleLimits.velocity_rad_s;
   door.handle_joint.damping_nm_s = numbers.handle_damping_nm_s;
 }
 

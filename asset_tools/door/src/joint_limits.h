@@ -10,7 +10,7 @@ struct JointLimits {
   double velocity_rad_s;
 };
 
-inline constexpr JointLimits kHingeLimits{300, 6};  ///< Above the latch's 150 and a strong closer.
-inline constexpr JointLimits kHandleLimits{30, 12};
+inline constexpr JointLimits kHingeLimits{300, 6};   ///< Above the latch's 150 and a strong closer.
+inline constexpr JointLimits kHandleLimits{30, 12};  ///< A person's strong twist.
 
 }  // namespace doorforge::internal

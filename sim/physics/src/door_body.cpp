@@ -13,6 +13,13 @@ namespace {
 constexpr double kLeastLeafInertia = 1e-2;
 constexpr double kLeastHandleInertia = 5e-4;
 
+std::vector<TriangleMesh> HullsOf(const DoorLink& link) {
+  std::vector<TriangleMesh> hulls;
+  for (const DoorGeometry& geometry : link.geometry)
+    hulls.insert(hulls.end(), geometry.hulls.begin(), geometry.hulls.end());
+  return hulls;
+}
+
 BulletLink DoorBulletLink(const DoorJoint& joint, const DoorLink& link) {
   BulletLink result;
   const bool turns = joint.upper_rad > joint.lower_rad;
@@ -33,6 +40,11 @@ double InertiaAbout(const DoorJoint& joint, const MassProperties& mass, double l
          mass.mass_kg * arm.squaredNorm();
 }
 
+// Viscous torque that one explicit step cannot turn into acceleration.
+double DampingTorque(double damping, double velocity, double inertia, double time_step) {
+  return -std::min(damping, 0.5 * inertia / time_step) * velocity;
+}
+
 }  // namespace
 
 void SwitchProfilingOff() {
@@ -43,14 +55,25 @@ void SwitchProfilingOff() {
   });
 }
 
-std::vector<TriangleMesh> HullsOf(const DoorLink& link) {
-  std::vector<TriangleMesh> hulls;
-  for (const DoorGeometry& geometry : link.geometry)
-    hulls.insert(hulls.end(), geometry.hulls.begin(), geometry.hulls.end());
-  return hulls;
+DoorBody::DoorBody(btMultiBodyDynamicsWorld& world, const RigidTransform& world_from_door,
+                   const DoorAsset& door, const Latch& latch, double handle_friction)
+    : world_(world),
+      door_(door),
+      latch_(latch),
+      body_(world, world_from_door, LinksOf(door, handle_friction), ContactSide::kDoor),
+      hinge_inertia_(InertiaAbout(door.hinge, door.links[kLeafLink].mass, kLeastLeafInertia)),
+      handle_inertia_(
+          InertiaAbout(door.handle_joint, door.links[kHandleLink].mass, kLeastHandleInertia)) {
+  AddFrame(world_from_door);
+  body_.SyncColliders();
+  UpdateLatch();
 }
 
-std::vector<BulletLink> DoorLinks(const DoorAsset& door, double handle_friction) {
+DoorBody::~DoorBody() {
+  if (!frame_hulls_.empty()) world_.removeCollisionObject(&frame_);
+}
+
+std::vector<BulletLink> DoorBody::LinksOf(const DoorAsset& door, double handle_friction) {
   BulletLink leaf = DoorBulletLink(door.hinge, door.links[kLeafLink]);
   leaf.least_inertia_kg_m2 = kLeastLeafInertia;
   BulletLink handle = DoorBulletLink(door.handle_joint, door.links[kHandleLink]);
@@ -60,13 +83,35 @@ std::vector<BulletLink> DoorLinks(const DoorAsset& door, double handle_friction)
   return {leaf, handle};
 }
 
-DoorInertia InertiaOf(const DoorAsset& door) {
-  return {InertiaAbout(door.hinge, door.links[kLeafLink].mass, kLeastLeafInertia),
-          InertiaAbout(door.handle_joint, door.links[kHandleLink].mass, kLeastHandleInertia)};
+void DoorBody::AddFrame(const RigidTransform& world_from_door) {
+  for (const TriangleMesh& mesh : HullsOf(door_.links[kBaseLink])) {
+    frame_hulls_.push_back(MakeHull(mesh, RigidTransform::Identity()));
+    frame_shape_.addChildShape(btTransform::getIdentity(), frame_hulls_.back().get());
+  }
+  if (frame_hulls_.empty()) return;
+  frame_.setCollisionShape(&frame_shape_);
+  frame_.setWorldTransform(ToBullet(world_from_door));
+  frame_.setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT);
+  world_.addCollisionObject(&frame_, static_cast<int>(ContactSide::kDoor),
+                            static_cast<int>(ContactSide::kRobot));
 }
 
-double DampingTorque(double damping, double velocity, double inertia, double time_step) {
-  return -std::min(damping, 0.5 * inertia / time_step) * velocity;
+void DoorBody::ApplyTorques(double hinge_nm, double handle_nm, double time_step_s) {
+  const LatchTorques law = TorquesOf(latch_, state_, hinge_rad(), handle_rad());
+  Turn(kHinge,
+       law.hinge_nm + hinge_nm +
+           DampingTorque(door_.hinge.damping_nm_s, hinge_rad_s(), hinge_inertia_, time_step_s));
+  Turn(kHandle, law.handle_nm + handle_nm +
+                    DampingTorque(door_.handle_joint.damping_nm_s, handle_rad_s(), handle_inertia_,
+                                  time_step_s));
 }
+
+// Bullet forgets joint torques after each step.
+void DoorBody::Turn(int link, double torque_nm) {
+  if (body_.multibody().getLink(link).m_dofCount > 0)
+    body_.multibody().addJointTorque(link, torque_nm);
+}
+
+void DoorBody::UpdateLatch() { state_ = UpdatedLatch(latch_, state_, hinge_rad(), handle_rad()); }
 
 }  // namespace doorforge::internal

@@ -2,35 +2,65 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include <BulletCollision/CollisionShapes/btCompoundShape.h>
+
+#include "doorforge/physics/latch_law.h"
 #include "doorforge/schemas/door_asset.h"
 
 #include "bullet_body.h"
 
 namespace doorforge::internal {
 
-// Links of a door's multibody.
-inline constexpr int kHinge = 0;
-inline constexpr int kHandle = 1;
-
 /// Bullet times its own functions in global tables, which are not made for several worlds at once.
 void SwitchProfilingOff();
 
-/// Convex pieces of a link, in its frame.
-std::vector<TriangleMesh> HullsOf(const DoorLink& link);
+/// A door in a world: frame, leaf, handle, and what acts on the joints by itself. Closed and at
+/// rest at the beginning.
+class DoorBody {
+ public:
+  /// @param door Must outlive this; its own latch is not looked at.
+  DoorBody(btMultiBodyDynamicsWorld& world, const RigidTransform& world_from_door,
+           const DoorAsset& door, const Latch& latch, double handle_friction);
+  ~DoorBody();
+  DoorBody(const DoorBody&) = delete;
+  DoorBody& operator=(const DoorBody&) = delete;
 
-/// Leaf and handle on a fixed base.
-std::vector<BulletLink> DoorLinks(const DoorAsset& door, double handle_friction);
+  /// Torques of latch, springs and damping for the next step, and these besides [N m]. To be called
+  /// before each step.
+  void ApplyTorques(double hinge_nm, double handle_nm, double time_step_s);
+  /// To be called after each step.
+  void UpdateLatch();
 
-/// Moments of inertia about the joints' axes, as the multibody has them [kg m^2].
-struct DoorInertia {
-  double hinge = 0;
-  double handle = 0;
+  double hinge_rad() const { return body_.Position(kHinge); }
+  double hinge_rad_s() const { return body_.Velocity(kHinge); }
+  double handle_rad() const { return body_.Position(kHandle); }
+  double handle_rad_s() const { return body_.Velocity(kHandle); }
+  const LatchState& latch() const { return state_; }
+
+  const btCollisionObject* handle_collider() const { return body_.collider(kHandle); }
+  const btCollisionObject* leaf_collider() const { return body_.collider(kHinge); }
+
+ private:
+  static constexpr int kHinge = 0;
+  static constexpr int kHandle = 1;
+
+  static std::vector<BulletLink> LinksOf(const DoorAsset& door, double handle_friction);
+  void AddFrame(const RigidTransform& world_from_door);
+  void Turn(int link, double torque_nm);
+
+  btMultiBodyDynamicsWorld& world_;
+  const DoorAsset& door_;
+  Latch latch_;
+  LatchState state_;
+  BulletBody body_;
+  double hinge_inertia_ = 0;   // about the joint's axis, as the multibody has it [kg m^2]
+  double handle_inertia_ = 0;  // the same
+  btCompoundShape frame_shape_;
+  std::vector<std::unique_ptr<btCollisionShape>> frame_hulls_;
+  btCollisionObject frame_;
 };
-DoorInertia InertiaOf(const DoorAsset& door);
-
-/// Viscous torque that one explicit step cannot turn into acceleration.
-double DampingTorque(double damping, double velocity, double inertia, double time_step);
 
 }  // namespace doorforge::internal

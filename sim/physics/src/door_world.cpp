@@ -2,42 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/physics/door_world.h"
 
-#include <algorithm>
 #include <cmath>
 #include <span>
 
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
-#include <BulletCollision/CollisionShapes/btCompoundShape.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
-#include <BulletDynamics/Featherstone/btMultiBodyGearConstraint.h>
-#include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
-#include "doorforge/physics/latch_law.h"
 
-#include "bullet_body.h"
+#include "contact_report.h"
 #include "door_body.h"
+#include "robot_body.h"
 
 namespace doorforge {
 namespace {
-
-using internal::BulletBody;
-using internal::BulletJoint;
-using internal::BulletLink;
-using internal::ContactSide;
-using internal::DampingTorque;
-using internal::DoorLinks;
-using internal::kHandle;
-using internal::kHinge;
-
-constexpr double kTouchDistance = 0.001;
-// Drives as measured to work in docs/design/simulation.md.
-constexpr double kArmPositionGain = 0.2;
-constexpr double kFingerSpeed = 0.1;
-constexpr double kFingerOpenForce = 100;
-constexpr double kGearForce = 200;
 
 void Check(const PhysicsConfig& config) {
   const bool good = config.time_step_s > 0 && config.time_step_s <= 0.02 &&
@@ -49,36 +29,12 @@ void Check(const PhysicsConfig& config) {
           "be positive");
 }
 
-std::vector<BulletLink> RobotLinks(const RobotModel& robot, double finger_friction) {
-  std::vector<BulletLink> links;
-  for (const RobotJoint& joint : robot.joints()) {
-    BulletLink link;
-    link.joint = joint.prismatic ? BulletJoint::kPrismatic : BulletJoint::kRevolute;
-    link.parent = joint.parent;
-    link.parent_from_joint = joint.parent_from_joint;
-    link.axis = joint.axis;
-    link.lower = joint.lower;
-    link.upper = joint.upper;
-    link.mass = joint.mass;
-    link.least_inertia_kg_m2 = joint.prismatic ? 1e-3 : 1e-2;
-    links.push_back(link);
-  }
-  for (const RobotPiece& piece : robot.hulls()) {
-    if (piece.joint >= 0) links[static_cast<std::size_t>(piece.joint)].hulls.push_back(piece.mesh);
-  }
-  for (const int finger : {kLeftFinger, kRightFinger})
-    links[static_cast<std::size_t>(finger)].friction = finger_friction;
-  links[kArmJointCount - 1].friction = 0.3;
-  return links;
-}
-
 }  // namespace
 
 class DoorWorld::Runtime {
  public:
   Runtime(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
           const JointVector& start);
-  ~Runtime();
   Runtime(const Runtime&) = delete;
   Runtime& operator=(const Runtime&) = delete;
 
@@ -95,31 +51,18 @@ class DoorWorld::Runtime {
 
  private:
   void ConfigureSolver();
-  void AddFrame();
-  void AddDrives(const JointVector& start);
-  void CommandDrives(const RobotCommand& command);
-  void ApplyDoorTorques();
   void ReadState();
+  void RememberRotations();
   void TurnCachedNormals();
-  void AddContact(const btPersistentManifold& manifold, DoorContacts& contacts) const;
-  std::string NameOfRobotPart(const btCollisionObject* object) const;
-  std::string NameOfDoorPart(const btCollisionObject* object) const;
 
   btDefaultCollisionConfiguration collision_configuration_;
-  btCollisionDispatcher dispatcher_{&collision_configuration_};
+  mutable btCollisionDispatcher dispatcher_{&collision_configuration_};
   btDbvtBroadphase broadphase_;
   btMultiBodyConstraintSolver solver_;
   btMultiBodyDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &collision_configuration_};
-  btCompoundShape frame_shape_;
-  std::vector<std::unique_ptr<btCollisionShape>> frame_hulls_;
-  btCollisionObject frame_;
-  std::unique_ptr<BulletBody> robot_body_;
-  std::unique_ptr<BulletBody> door_body_;
-  std::vector<btMultiBodyJointMotor*> arm_motors_;
-  std::array<btMultiBodyJointMotor*, 2> finger_motors_{};
+  std::unique_ptr<internal::RobotBody> robot_body_;
+  std::unique_ptr<internal::DoorBody> door_body_;
   std::vector<btMatrix3x3> rotation_before_;  // of every collision object, before the step
-  internal::DoorInertia inertia_;
-  LatchState latch_;
 };
 
 DoorWorld::Runtime::Runtime(const Scene& the_scene, const DoorAsset& the_door,
@@ -128,27 +71,10 @@ DoorWorld::Runtime::Runtime(const Scene& the_scene, const DoorAsset& the_door,
   Check(scene.physics);
   internal::SwitchProfilingOff();
   ConfigureSolver();
-  robot_body_ = std::make_unique<BulletBody>(world_, scene.world_from_robot_base,
-                                             RobotLinks(robot, scene.physics.finger_friction),
-                                             ContactSide::kRobot);
-  door_body_ = std::make_unique<BulletBody>(world_, scene.world_from_door,
-                                            DoorLinks(door, scene.physics.handle_friction),
-                                            ContactSide::kDoor);
-  AddFrame();
-  AddDrives(start);
-  for (int i = 0; i < kRobotJointCount; ++i) {
-    const btScalar position = start[i];
-    robot_body_->multibody().setJointPosMultiDof(i, &position);
-  }
-  robot_body_->SyncColliders();
-  door_body_->SyncColliders();
-  inertia_ = internal::InertiaOf(door);
-  latch_ = UpdatedLatch(scene.latch, {}, 0, 0);
+  robot_body_ = std::make_unique<internal::RobotBody>(world_, scene, robot, start);
+  door_body_ = std::make_unique<internal::DoorBody>(world_, scene.world_from_door, door,
+                                                    scene.latch, scene.physics.handle_friction);
   ReadState();
-}
-
-DoorWorld::Runtime::~Runtime() {
-  if (frame_shape_.getNumChildShapes() > 0) world_.removeCollisionObject(&frame_);
 }
 
 void DoorWorld::Runtime::ConfigureSolver() {
@@ -166,94 +92,24 @@ void DoorWorld::Runtime::ConfigureSolver() {
   info.m_solverMode = SOLVER_USE_WARMSTARTING | SOLVER_SIMD | SOLVER_USE_2_FRICTION_DIRECTIONS;
 }
 
-void DoorWorld::Runtime::AddFrame() {
-  for (const TriangleMesh& mesh : internal::HullsOf(door.links[kBaseLink])) {
-    frame_hulls_.push_back(internal::MakeHull(mesh, RigidTransform::Identity()));
-    frame_shape_.addChildShape(btTransform::getIdentity(), frame_hulls_.back().get());
-  }
-  if (frame_hulls_.empty()) return;
-  frame_.setCollisionShape(&frame_shape_);
-  frame_.setWorldTransform(internal::ToBullet(scene.world_from_door));
-  frame_.setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT);
-  world_.addCollisionObject(&frame_, static_cast<int>(ContactSide::kDoor),
-                            static_cast<int>(ContactSide::kRobot));
-}
-
-void DoorWorld::Runtime::AddDrives(const JointVector& start) {
-  btMultiBody* body = &robot_body_->multibody();
-  const double dt = scene.physics.time_step_s;
-  for (int i = 0; i < kArmJointCount; ++i) {
-    const double effort = robot.joints()[static_cast<std::size_t>(i)].effort;
-    auto& motor =
-        robot_body_->Add(std::make_unique<btMultiBodyJointMotor>(body, i, 0, effort * dt));
-    motor.setErp(1);
-    motor.setPositionTarget(start[i], kArmPositionGain);
-    motor.setVelocityTarget(0, 1);
-    arm_motors_.push_back(&motor);
-  }
-  for (const int side : {0, 1}) {
-    auto& motor = robot_body_->Add(std::make_unique<btMultiBodyJointMotor>(
-        body, kLeftFinger + side, 0, kFingerOpenForce * dt));
-    motor.setErp(1);
-    finger_motors_.at(static_cast<std::size_t>(side)) = &motor;
-  }
-  // couples the fingers: load on one alone would push the pair sideways
-  auto& gear = robot_body_->Add(std::make_unique<btMultiBodyGearConstraint>(
-      body, kLeftFinger, body, kRightFinger, btVector3(0, 0, 0), btVector3(0, 0, 0),
-      btMatrix3x3::getIdentity(), btMatrix3x3::getIdentity()));
-  gear.setGearRatio(-1);
-  gear.setErp(0.1);
-  gear.setMaxAppliedImpulse(kGearForce * dt);
-}
-
-void DoorWorld::Runtime::CommandDrives(const RobotCommand& command) {
-  const double dt = scene.physics.time_step_s;
-  for (int i = 0; i < kArmJointCount; ++i)
-    arm_motors_[static_cast<std::size_t>(i)]->setPositionTarget(command.arm_position[i],
-                                                                kArmPositionGain);
-  for (btMultiBodyJointMotor* motor : finger_motors_) {
-    if (command.close_fingers) {
-      // a velocity drive that stalls on the handle presses with just this force
-      motor->setPositionTarget(0, 0);
-      motor->setVelocityTarget(-kFingerSpeed, 1);
-      motor->setMaxAppliedImpulse(scene.physics.finger_force_n * dt);
-    } else {
-      motor->setPositionTarget(robot.joints()[kLeftFinger].upper, 0.3);
-      motor->setVelocityTarget(0, 1);
-      motor->setMaxAppliedImpulse(kFingerOpenForce * dt);
-    }
-  }
-}
-
-void DoorWorld::Runtime::ApplyDoorTorques() {
-  const double dt = scene.physics.time_step_s;
-  const LatchTorques law = TorquesOf(scene.latch, latch_, state.hinge_rad, state.handle_rad);
-  const double hinge =
-      law.hinge_nm + extra_hinge_torque +
-      DampingTorque(door.hinge.damping_nm_s, state.hinge_rad_s, inertia_.hinge, dt);
-  const double handle =
-      law.handle_nm + extra_handle_torque +
-      DampingTorque(door.handle_joint.damping_nm_s, state.handle_rad_s, inertia_.handle, dt);
-  // Bullet forgets joint torques after each step
-  btMultiBody& body = door_body_->multibody();
-  if (body.getLink(kHinge).m_dofCount > 0) body.addJointTorque(kHinge, hinge);
-  if (body.getLink(kHandle).m_dofCount > 0) body.addJointTorque(kHandle, handle);
-  extra_hinge_torque = 0;
-  extra_handle_torque = 0;
-}
-
 void DoorWorld::Runtime::ReadState() {
-  for (int i = 0; i < kRobotJointCount; ++i) {
-    state.robot_position[i] = robot_body_->Position(i);
-    state.robot_velocity[i] = robot_body_->Velocity(i);
+  state.robot_position = robot_body_->Positions();
+  state.robot_velocity = robot_body_->Velocities();
+  state.hinge_rad = door_body_->hinge_rad();
+  state.hinge_rad_s = door_body_->hinge_rad_s();
+  state.handle_rad = door_body_->handle_rad();
+  state.handle_rad_s = door_body_->handle_rad_s();
+  state.locked = door_body_->latch().locked;
+  state.handle_done = door_body_->latch().handle_done;
+}
+
+void DoorWorld::Runtime::RememberRotations() {
+  const btCollisionObjectArray& objects = world_.getCollisionObjectArray();
+  rotation_before_.clear();
+  for (int i = 0; i < objects.size(); ++i) {
+    objects[i]->setUserIndex(i);
+    rotation_before_.push_back(objects[i]->getWorldTransform().getBasis());
   }
-  state.hinge_rad = door_body_->Position(kHinge);
-  state.hinge_rad_s = door_body_->Velocity(kHinge);
-  state.handle_rad = door_body_->Position(kHandle);
-  state.handle_rad_s = door_body_->Velocity(kHandle);
-  latch_ = UpdatedLatch(scene.latch, latch_, state.hinge_rad, state.handle_rad);
-  state.locked = latch_.locked;
-  state.handle_done = latch_.handle_done;
 }
 
 // Bullet keeps a contact point for many steps and moves it with its bodies, but not its normal. On
@@ -274,76 +130,21 @@ void DoorWorld::Runtime::TurnCachedNormals() {
 }
 
 void DoorWorld::Runtime::Step(const RobotCommand& command) {
-  CommandDrives(command);
-  ApplyDoorTorques();
-  const btCollisionObjectArray& objects = world_.getCollisionObjectArray();
-  rotation_before_.clear();
-  for (int i = 0; i < objects.size(); ++i) {
-    objects[i]->setUserIndex(i);
-    rotation_before_.push_back(objects[i]->getWorldTransform().getBasis());
-  }
+  robot_body_->Command(command);
+  door_body_->ApplyTorques(extra_hinge_torque, extra_handle_torque, scene.physics.time_step_s);
+  extra_hinge_torque = 0;
+  extra_handle_torque = 0;
+  RememberRotations();
   world_.stepSimulation(scene.physics.time_step_s, 0);
   TurnCachedNormals();
+  door_body_->UpdateLatch();
   state.time_s += scene.physics.time_step_s;
   ReadState();
 }
 
-std::string DoorWorld::Runtime::NameOfRobotPart(const btCollisionObject* object) const {
-  for (int i = 0; i < kRobotJointCount; ++i) {
-    if (object != robot_body_->collider(i)) continue;
-    if (i >= kArmJointCount) return "finger";
-    if (i == kArmJointCount - 1) return "hand";
-    return i < kSliderCount ? "platform" : "link" + std::to_string(i - 1);
-  }
-  return {};
-}
-
-std::string DoorWorld::Runtime::NameOfDoorPart(const btCollisionObject* object) const {
-  if (object == door_body_->collider(kHinge)) return "leaf";
-  if (object == door_body_->collider(kHandle)) return "handle";
-  return "frame";
-}
-
-void DoorWorld::Runtime::AddContact(const btPersistentManifold& manifold,
-                                    DoorContacts& contacts) const {
-  const btCollisionObject* first = manifold.getBody0();
-  const btCollisionObject* second = manifold.getBody1();
-  if (NameOfRobotPart(first).empty()) std::swap(first, second);
-  const bool handle = second == door_body_->collider(kHandle);
-  const bool left = first == robot_body_->collider(kLeftFinger);
-  const bool right = first == robot_body_->collider(kRightFinger);
-  const bool pad = handle && (left || right);
-  const auto side = static_cast<std::size_t>(right ? 1 : 0);
-  bool touches = false;
-  for (int i = 0; i < manifold.getNumContacts(); ++i) {
-    const btManifoldPoint& point = manifold.getContactPoint(i);
-    if (pad)
-      contacts.pad_distance_m = std::clamp<double>(point.getDistance(), 0, contacts.pad_distance_m);
-    if (point.getDistance() >= kTouchDistance) continue;
-    touches = true;
-    const double force = point.getAppliedImpulse() / scene.physics.time_step_s;
-    if (pad) {
-      ++contacts.pad_points[side];
-      contacts.pad_force_n[side] += force;
-      contacts.deepest_m = std::max(contacts.deepest_m, -static_cast<double>(point.getDistance()));
-    } else {
-      ++contacts.arm_points;
-      contacts.arm_force_n += force;
-    }
-  }
-  if (!touches || pad) return;
-  if (!contacts.arm_touches.empty()) contacts.arm_touches += ", ";
-  contacts.arm_touches += NameOfRobotPart(first) + "-" + NameOfDoorPart(second);
-}
-
 DoorContacts DoorWorld::Runtime::Contacts() const {
-  DoorContacts contacts;
-  for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
-    const btPersistentManifold* manifold =
-        const_cast<btCollisionDispatcher&>(dispatcher_).getManifoldByIndexInternal(i);
-    if (manifold->getNumContacts() > 0) AddContact(*manifold, contacts);
-  }
-  return contacts;
+  return internal::ReportContacts(dispatcher_, *robot_body_, *door_body_,
+                                  scene.physics.time_step_s);
 }
 
 bool DoorWorld::Runtime::Healthy() const {

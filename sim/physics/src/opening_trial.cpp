@@ -10,18 +10,11 @@
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 
 #include "doorforge/core/error.h"
-#include "doorforge/physics/latch_law.h"
 
-#include "bullet_body.h"
 #include "door_body.h"
 
 namespace doorforge {
 namespace {
-
-using internal::BulletBody;
-using internal::DampingTorque;
-using internal::kHandle;
-using internal::kHinge;
 
 constexpr double kAjarRad = 0.01;  // as the latch law has it
 constexpr double kRampS = 1;
@@ -33,58 +26,40 @@ constexpr double kFastestRadS = 90;  // Bullet cuts at 100
 /// A closed door at rest, in a world of its own.
 class LoneDoor {
  public:
-  LoneDoor(const DoorAsset& door, double time_step_s)
-      : door_(door), dt_(time_step_s), inertia_(internal::InertiaOf(door)) {
+  LoneDoor(const DoorAsset& door, double time_step_s) : dt_(time_step_s) {
     internal::SwitchProfilingOff();
     world_.setGravity(btVector3(0, 0, 0));
     world_.getSolverInfo().m_numIterations = 50;
     world_.getSolverInfo().m_globalCfm = 0;
-    body_ =
-        std::make_unique<BulletBody>(world_, RigidTransform::Identity(),
-                                     internal::DoorLinks(door, 1), internal::ContactSide::kDoor);
-    body_->SyncColliders();
-    latch_ = UpdatedLatch(door.latch, {}, 0, 0);
+    body_ = std::make_unique<internal::DoorBody>(world_, RigidTransform::Identity(), door,
+                                                 door.latch, 1);
   }
 
-  double hinge_rad() const { return body_->Position(kHinge); }
-  double handle_rad() const { return body_->Position(kHandle); }
-  const LatchState& latch() const { return latch_; }
+  double hinge_rad() const { return body_->hinge_rad(); }
+  double handle_rad() const { return body_->handle_rad(); }
+  const LatchState& latch() const { return body_->latch(); }
 
   bool Finite() const {
     const double fastest =
-        std::max(std::abs(body_->Velocity(kHinge)), std::abs(body_->Velocity(kHandle)));
+        std::max(std::abs(body_->hinge_rad_s()), std::abs(body_->handle_rad_s()));
     return std::isfinite(hinge_rad()) && std::isfinite(handle_rad()) && fastest < kFastestRadS;
   }
 
   /// Torques of a hand, besides those of latch, springs and damping [N m].
   void Step(double hinge_nm, double handle_nm) {
-    const LatchTorques law = TorquesOf(door_.latch, latch_, hinge_rad(), handle_rad());
-    Turn(kHinge,
-         law.hinge_nm + hinge_nm +
-             DampingTorque(door_.hinge.damping_nm_s, body_->Velocity(kHinge), inertia_.hinge, dt_));
-    Turn(kHandle, law.handle_nm + handle_nm +
-                      DampingTorque(door_.handle_joint.damping_nm_s, body_->Velocity(kHandle),
-                                    inertia_.handle, dt_));
+    body_->ApplyTorques(hinge_nm, handle_nm, dt_);
     world_.stepSimulation(dt_, 0);
-    latch_ = UpdatedLatch(door_.latch, latch_, hinge_rad(), handle_rad());
+    body_->UpdateLatch();
   }
 
  private:
-  void Turn(int link, double torque_nm) {
-    if (body_->multibody().getLink(link).m_dofCount > 0)
-      body_->multibody().addJointTorque(link, torque_nm);
-  }
-
-  const DoorAsset& door_;
   double dt_;
-  internal::DoorInertia inertia_;
   btDefaultCollisionConfiguration collision_configuration_;
   btCollisionDispatcher dispatcher_{&collision_configuration_};
   btDbvtBroadphase broadphase_;
   btMultiBodyConstraintSolver solver_;
   btMultiBodyDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &collision_configuration_};
-  std::unique_ptr<BulletBody> body_;
-  LatchState latch_;
+  std::unique_ptr<internal::DoorBody> body_;
 };
 
 // Radius of the grasp's circle about the hinge line.

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "robot_body.h"
+
+#include <BulletDynamics/Featherstone/btMultiBodyGearConstraint.h>
+
+namespace doorforge::internal {
+namespace {
+
+// Drives as measured to work in docs/design/simulation.md.
+constexpr double kArmPositionGain = 0.2;
+constexpr double kFingerSpeed = 0.1;
+constexpr double kFingerOpenForce = 100;
+constexpr double kGearForce = 200;
+constexpr double kHandFriction = 0.3;
+
+std::vector<BulletLink> LinksOf(const RobotModel& robot, double finger_friction) {
+  std::vector<BulletLink> links;
+  for (const RobotJoint& joint : robot.joints()) {
+    BulletLink link;
+    link.joint = joint.prismatic ? BulletJoint::kPrismatic : BulletJoint::kRevolute;
+    link.parent = joint.parent;
+    link.parent_from_joint = joint.parent_from_joint;
+    link.axis = joint.axis;
+    link.lower = joint.lower;
+    link.upper = joint.upper;
+    link.mass = joint.mass;
+    link.least_inertia_kg_m2 = joint.prismatic ? 1e-3 : 1e-2;
+    links.push_back(link);
+  }
+  for (const RobotPiece& piece : robot.hulls()) {
+    if (piece.joint >= 0) links[static_cast<std::size_t>(piece.joint)].hulls.push_back(piece.mesh);
+  }
+  for (const int finger : {kLeftFinger, kRightFinger})
+    links[static_cast<std::size_t>(finger)].friction = finger_friction;
+  links[kArmJointCount - 1].friction = kHandFriction;
+  return links;
+}
+
+}  // namespace
+
+RobotBody::RobotBody(btMultiBodyDynamicsWorld& world, const Scene& scene, const RobotModel& robot,
+                     const JointVector& start)
+    : robot_(robot),
+      time_step_s_(scene.physics.time_step_s),
+      finger_force_n_(scene.physics.finger_force_n),
+      body_(world, scene.world_from_robot_base, LinksOf(robot, scene.physics.finger_friction),
+            ContactSide::kRobot) {
+  AddArmMotors(start);
+  AddFingers();
+  for (int i = 0; i < kRobotJointCount; ++i) {
+    const btScalar position = start[i];
+    body_.multibody().setJointPosMultiDof(i, &position);
+  }
+  body_.SyncColliders();
+}
+
+void RobotBody::AddArmMotors(const JointVector& start) {
+  for (int i = 0; i < kArmJointCount; ++i) {
+    const double effort = robot_.joints()[static_cast<std::size_t>(i)].effort;
+    auto& motor = body_.Add(
+        std::make_unique<btMultiBodyJointMotor>(&body_.multibody(), i, 0, effort * time_step_s_));
+    motor.setErp(1);
+    motor.setPositionTarget(start[i], kArmPositionGain);
+    motor.setVelocityTarget(0, 1);
+    arm_motors_.push_back(&motor);
+  }
+}
+
+void RobotBody::AddFingers() {
+  btMultiBody* body = &body_.multibody();
+  for (const int side : {0, 1}) {
+    auto& motor = body_.Add(std::make_unique<btMultiBodyJointMotor>(
+        body, kLeftFinger + side, 0, kFingerOpenForce * time_step_s_));
+    motor.setErp(1);
+    finger_motors_.at(static_cast<std::size_t>(side)) = &motor;
+  }
+  // couples the fingers: load on one alone would push the pair sideways
+  auto& gear = body_.Add(std::make_unique<btMultiBodyGearConstraint>(
+      body, kLeftFinger, body, kRightFinger, btVector3(0, 0, 0), btVector3(0, 0, 0),
+      btMatrix3x3::getIdentity(), btMatrix3x3::getIdentity()));
+  gear.setGearRatio(-1);
+  gear.setErp(0.1);
+  gear.setMaxAppliedImpulse(kGearForce * time_step_s_);
+}
+
+void RobotBody::Command(const RobotCommand& command) {
+  for (int i = 0; i < kArmJointCount; ++i)
+    arm_motors_[static_cast<std::size_t>(i)]->setPositionTarget(command.arm_position[i],
+                                                                kArmPositionGain);
+  for (btMultiBodyJointMotor* motor : finger_motors_) {
+    if (command.close_fingers) {
+      // a velocity drive that stalls on the handle presses with just this force
+      motor->setPositionTarget(0, 0);
+      motor->setVelocityTarget(-kFingerSpeed, 1);
+      motor->setMaxAppliedImpulse(finger_force_n_ * time_step_s_);
+    } else {
+      motor->setPositionTarget(robot_.joints()[kLeftFinger].upper, 0.3);
+      motor->setVelocityTarget(0, 1);
+      motor->setMaxAppliedImpulse(kFingerOpenForce * time_step_s_);
+    }
+  }
+}
+
+JointVector RobotBody::Positions() const {
+  JointVector positions;
+  for (int i = 0; i < kRobotJointCount; ++i) positions[i] = body_.Position(i);
+  return positions;
+}
+
+JointVector RobotBody::Velocities() const {
+  JointVector velocities;
+  for (int i = 0; i < kRobotJointCount; ++i) velocities[i] = body_.Velocity(i);
+  return velocities;
+}
+
+std::string RobotBody::NameOf(const btCollisionObject* object) const {
+  for (int i = 0; i < kRobotJointCount; ++i) {
+    if (object != body_.collider(i)) continue;
+    if (i >= kArmJointCount) return "finger";
+    if (i == kArmJointCount - 1) return "hand";
+    return i < kSliderCount ? "platform" : "link" + std::to_string(i - 1);
+  }
+  return {};
+}
+
+}  // namespace doorforge::internal

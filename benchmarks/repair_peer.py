@@ -14,14 +14,15 @@ def with_open3d(source, target):
     import open3d
 
     mesh = open3d.io.read_triangle_mesh(source)
-    mesh.merge_close_vertices(1e-6 * float(mesh.get_max_bound().max() - mesh.get_min_bound().min()))
+    mesh.remove_duplicated_vertices()
     mesh.remove_duplicated_triangles()
     mesh.remove_degenerate_triangles()
     mesh.remove_non_manifold_edges()
     mesh.orient_triangles()
-    filled = open3d.t.geometry.TriangleMesh.from_legacy(mesh).fill_holes(hole_size=1e6)
-    mesh = filled.to_legacy()
-    mesh.compute_vertex_normals()
+    # named, since the filled mesh shares its memory (0.20): freed early, its vertices are garbage
+    unfilled = open3d.t.geometry.TriangleMesh.from_legacy(mesh)
+    mesh = unfilled.fill_holes(hole_size=1e6).to_legacy()
+    mesh.compute_triangle_normals()  # which STL needs
     open3d.io.write_triangle_mesh(target, mesh)
 
 

@@ -2,41 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/schemas/mesh_file.h"
 
-#include <charconv>
 #include <cmath>
 
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 
+#include "number_text.h"
+
 namespace doorforge {
 namespace {
 
-void AppendNumber(std::string& text, float number) {
-  char digits[32];
-  // + 0.0F turns -0 into 0
-  const auto end = std::to_chars(digits, digits + sizeof digits, number + 0.0F).ptr;
-  text.append(digits, end);
-}
-
-// Walks over one line; every Next... returns false on a mismatch.
-class LineCursor {
- public:
-  explicit LineCursor(std::string_view line) : rest_(line) {}
-
-  template <class Number>
-  bool NextNumber(Number& number) {
-    while (rest_.starts_with(' ')) rest_.remove_prefix(1);
-    const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), number);
-    if (error != std::errc{}) return false;
-    rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
-    return true;
-  }
-
-  bool AtEnd() const { return rest_.find_first_not_of(" \r") == std::string_view::npos; }
-
- private:
-  std::string_view rest_;
-};
+using internal::AppendNumber;
+using internal::LineCursor;
 
 bool ReadVertex(std::string_view line, TriangleMesh& mesh) {
   float x = 0;

@@ -41,7 +41,7 @@ class BudgetAndCost {
   double max_cost_;
 };
 
-// Edges that a collapse must leave alone.
+// Edges that a collapse must leave alone: those with an end that lay in a box from the start.
 struct KeptEdges {
   using key_type = SurfaceMesh::Edge_index;
   using value_type = bool;
@@ -49,19 +49,26 @@ struct KeptEdges {
   using category = boost::readable_property_map_tag;
 
   const SurfaceMesh* surface = nullptr;
-  const std::vector<Eigen::AlignedBox3d>* boxes = nullptr;
+  const std::vector<char>* is_kept = nullptr;  // for each vertex; none where it is empty
 
-  bool IsKept(SurfaceMesh::Vertex_index vertex) const {
-    const Point& p = surface->point(vertex);
-    const Eigen::Vector3d position(p.x(), p.y(), p.z());
-    return std::any_of(boxes->begin(), boxes->end(),
-                       [&](const Eigen::AlignedBox3d& box) { return box.contains(position); });
-  }
   friend bool get(const KeptEdges& kept, SurfaceMesh::Edge_index edge) {
-    if (kept.boxes->empty()) return false;
-    return kept.IsKept(kept.surface->vertex(edge, 0)) || kept.IsKept(kept.surface->vertex(edge, 1));
+    if (kept.is_kept->empty()) return false;
+    return (*kept.is_kept)[kept.surface->vertex(edge, 0)] != 0 ||
+           (*kept.is_kept)[kept.surface->vertex(edge, 1)] != 0;
   }
 };
+
+std::vector<char> VerticesIn(const std::vector<Eigen::AlignedBox3d>& boxes,
+                             const TriangleMesh& mesh) {
+  std::vector<char> is_in;
+  if (boxes.empty()) return is_in;
+  for (const Eigen::Vector3d& vertex : mesh.vertices) {
+    is_in.push_back(std::any_of(boxes.begin(), boxes.end(), [&](const Eigen::AlignedBox3d& box) {
+      return box.contains(vertex);
+    }));
+  }
+  return is_in;
+}
 
 // ---- one triangulation for one hull -----------------------------------------------------------
 
@@ -190,11 +197,12 @@ TriangleMesh Simplified(const TriangleMesh& mesh, int max_triangles, double free
                            free_error_m * free_error_m);
   const sms::GarlandHeckbert_plane_policies<SurfaceMesh, Kernel> policies(surface);
   const sms::Bounded_normal_change_filter<> filter;
+  const std::vector<char> is_kept = VerticesIn(kept, mesh);
   sms::edge_collapse(surface, stop,
                      CGAL::parameters::get_cost(policies.get_cost())
                          .get_placement(policies.get_placement())
                          .filter(filter)
-                         .edge_is_constrained_map(KeptEdges{&surface, &kept}));
+                         .edge_is_constrained_map(KeptEdges{&surface, &is_kept}));
   surface.collect_garbage();
   return TrianglesOf(surface);
 }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "doorforge/schemas/mesh_file.h"
 #include "doorforge/schemas/names.h"
 #include "doorforge/schemas/part_identity.h"
+#include "doorforge/schemas/visual_mesh.h"
 
 namespace doorforge {
 
@@ -23,10 +25,12 @@ inline constexpr int kDoorSchemaVersion = 2;
 /// A mesh fixed to a link, in the link's frame.
 struct DoorGeometry {
   std::string name;                 ///< Unique in the door, such as "leaf" or "grip".
-  TriangleMesh mesh;                ///< Closed; what the camera sees.
+  TriangleMesh mesh;                ///< Closed; what the depth camera sees.
   std::vector<TriangleMesh> hulls;  ///< Convex; what touches.
   Eigen::Vector4d color_rgba{0.7, 0.7, 0.7, 1.0};
   PointLabel label = PointLabel::kBody;
+  /// What its author drew, for renderers, in the link's frame; empty: `mesh` in its colour.
+  VisualMesh visual = {};
 };
 
 struct DoorLink {
@@ -110,20 +114,25 @@ void RequireSimulatable(const DoorAsset& door, std::string_view user);
 std::array<RigidTransform, 3> DoorFromLinks(const DoorAsset& door, double hinge_rad,
                                             double handle_rad);
 
-/// Writes `door.json` and `meshes/{visual,collision}/*.obj` into an existing folder. The URDF
-/// beside it is written by ComposeDoor's exporter (asset_tools/door).
+/// Writes `door.json`, `meshes/{visual,collision}/*.obj` and the visual meshes of authors in
+/// `meshes/authored` into an existing folder. The URDF beside it is written by ComposeDoor's exporter (asset_tools/door).
 void WriteDoor(const DoorAsset& door, const std::filesystem::path& folder);
 
 /// Reads a door's folder. Throws Error(kMissing) or Error(kFormat); mesh paths that leave the
 /// folder are refused. The one way out of it is the mesh pool beside it, see mesh_pool.h.
 DoorAsset ReadDoor(const std::filesystem::path& folder);
-/// The same with meshes from `read_mesh`, which also decides which paths it accepts.
-DoorAsset ReadDoor(const std::filesystem::path& folder, const MeshReader& read_mesh);
+/// The same with meshes from readers, which also decide which paths they accept. Visual meshes are
+/// read as by ReadDoor(folder), which refuses changed files, unless `read_visual` is given.
+DoorAsset ReadDoor(const std::filesystem::path& folder, const MeshReader& read_mesh,
+                   const VisualReader& read_visual = {});
 
 /// File of a mesh relative to the door's folder: "meshes/visual/<name>.obj" and
 /// "meshes/collision/<name>_<index>.obj".
 std::string VisualMeshPath(const DoorGeometry& geometry);
 std::string CollisionMeshPath(const DoorGeometry& geometry, std::size_t hull_index);
+
+/// Writes the files of all meshes that OwnFilesOf() names.
+void WriteMeshFiles(const DoorAsset& door, const std::filesystem::path& folder);
 
 /// Where the files of one geometry lie, relative to the door's folder.
 struct GeometryFiles {
@@ -131,6 +140,7 @@ struct GeometryFiles {
   std::vector<std::string> hulls;
   /// What the files hold is in a frame of its own where doors share them.
   RigidTransform link_from_files = RigidTransform::Identity();
+  std::optional<VisualFiles> visual = {};  ///< Of what its author drew.
 };
 /// Indexed as DoorAsset::links and the geometry of each.
 using DoorFiles = std::array<std::vector<GeometryFiles>, 3>;
@@ -146,7 +156,7 @@ DoorFiles ReadDoorFiles(const std::filesystem::path& folder);
 std::string PooledDoorText(const DoorAsset& door, const DoorFiles& files,
                            const std::array<std::vector<std::string>, 3>& shapes);
 
-/// SHA-256 of door.json's text with all mesh bytes: the door's identity in later records. The same
+/// SHA-256 of door.json's text with the bytes of all files: the door's identity in later records. The same
 /// whether the door has its own meshes or shares them.
 std::string ContentHash(const DoorAsset& door);
 

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "doorforge/core/triangle_mesh.h"
+#include "doorforge/schemas/visual_mesh.h"
 
 namespace doorforge {
 
@@ -16,7 +18,9 @@ inline constexpr int kMeshPoolSchemaVersion = 1;
 ///
 ///     doors/pool/pool.json                    marks the pool: schema doorforge.mesh_pool
 ///     doors/pool/<20 digits>.obj              a canonical mesh
-///     doors/pool/<20 digits>.json             a shape: one visual mesh and its convex pieces
+///     doors/pool/<20 digits>.{mtl,png,jpg}    of the meshes that authors drew
+///     doors/pool/<20 digits>.json             a shape: one mesh, its convex pieces, what its author
+///                                             drew
 ///     doors/<id>/door.json                    "mesh_pool": "../pool", shapes by their hash
 ///
 /// Files are named by the first 20 hexadecimal digits of the SHA-256 of their bytes. Records give
@@ -24,11 +28,15 @@ inline constexpr int kMeshPoolSchemaVersion = 1;
 /// nothing but pool files, and nobody can change one unnoticed.
 inline constexpr const char* kMeshPoolPath = "../pool";
 
-/// A visual mesh with its convex pieces, as the pool keeps them.
+/// A closed mesh with its convex pieces, as the pool keeps them.
 struct PooledShape {
   std::string mesh;                ///< SHA-256 of the canonical text.
   std::vector<std::string> hulls;  ///< The same, in order.
+  std::optional<VisualFiles> visual = {};  ///< Of what its author drew, as PooledVisualFiles().
 };
+
+/// The files of a visual mesh as a pool holds them. Throws as ToTexts().
+VisualFiles PooledVisualFiles(const VisualMesh& mesh);
 
 /// "../pool/<20 digits>.obj". Throws Error(kFormat) unless `sha256` is 64 lower-case hexadecimal
 /// digits.
@@ -53,6 +61,8 @@ class MeshPool {
   /// what its hash says, or does not follow its format.
   PooledShape ReadShape(const std::string& sha256) const;
   TriangleMesh ReadMesh(const std::string& sha256) const;
+  /// The bytes of a file that ReadShape() names; `path` gives its ending alone.
+  std::string ReadRecorded(const RecordedFile& file) const;
 
   /// The mesh's file. Throws as ReadMesh(), but does not look into it.
   std::filesystem::path MeshFile(const std::string& sha256) const;

@@ -12,6 +12,7 @@
 #include "doorforge/core/triangle_mesh.h"
 #include "doorforge/schemas/mesh_file.h"
 #include "doorforge/schemas/names.h"
+#include "doorforge/schemas/visual_mesh.h"
 
 namespace doorforge {
 
@@ -26,6 +27,8 @@ struct PartPiece {
   std::vector<TriangleMesh> hulls;  ///< Convex, closed; together they stand for the piece.
   Eigen::Vector4d color_rgba{0.7, 0.7, 0.7, 1.0};
   MassProperties mass;  ///< In the part's frame.
+  /// What its author drew, in the part's frame; empty: `mesh` in its colour.
+  VisualMesh visual = {};
 };
 
 /// A revolute joint of a part, in the part's frame. Positive angles open (body) or unlock (handle).
@@ -63,20 +66,23 @@ struct Part {
   std::string source_sha256;
 };
 
-/// Writes `part.json` and `meshes/` (canonical files) into an existing folder, in general that of a
-/// StagedFolder.
+/// Writes `part.json` and `meshes/` (canonical files, visual meshes in `meshes/authored`) into an
+/// existing folder, in general that of a StagedFolder.
 void WritePart(const Part& part, const std::filesystem::path& folder);
 
 /// Reads a part's folder. Throws Error(kMissing) or Error(kFormat); mesh paths that leave the
 /// folder are refused. Closedness is not checked here: that is `doorforge validate`.
 Part ReadPart(const std::filesystem::path& folder);
-/// The same with meshes from `read_mesh`, which also decides which paths it accepts.
-Part ReadPart(const std::filesystem::path& folder, const MeshReader& read_mesh);
+/// The same with meshes from readers, which also decide which paths they accept. Visual meshes are
+/// read as by ReadPart(folder), which refuses changed files, unless `read_visual` is given.
+Part ReadPart(const std::filesystem::path& folder, const MeshReader& read_mesh,
+              const VisualReader& read_visual = {});
 
 /// Of all pieces; part.json holds it as "shape", so that copies are found without reading meshes.
 ShapeDescriptor ShapeOf(const Part& part);
 
-/// SHA-256 over part.json's fields but "shape", and the mesh bytes: the part's identity for later
+/// SHA-256 over part.json's fields but "shape", and the bytes of meshes and
+/// visual meshes: the part's identity for later
 /// values.
 std::string ContentHash(const Part& part);
 

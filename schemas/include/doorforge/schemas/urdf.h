@@ -73,6 +73,9 @@ struct UrdfModel {
   std::string name;
   std::vector<UrdfLink> links;
   std::vector<UrdfJoint> joints;
+  /// Whether MuJoCo is told to load the visuals, too. It takes no mesh whose faces disagree about
+  /// what is outside.
+  bool mujoco_reads_visuals = true;
 };
 
 /// Parses a URDF. Lenient where the released data sets are (missing inertia, effort, velocity),

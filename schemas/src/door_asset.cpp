@@ -34,11 +34,15 @@ Json GeometryToJson(const DoorGeometry& geometry) {
   Json hulls = Json::array();
   for (std::size_t i = 0; i < geometry.hulls.size(); ++i)
     hulls.push_back(internal::MeshReference(CollisionMeshPath(geometry, i), geometry.hulls[i]));
-  return {{"name", geometry.name},
-          {"label", kLabelNames.at(static_cast<std::size_t>(geometry.label))},
-          {"color_rgba", internal::ColorToJson(geometry.color_rgba)},
-          {"mesh", internal::MeshReference(VisualMeshPath(geometry), geometry.mesh)},
-          {"hulls", hulls}};
+  Json json = {{"name", geometry.name},
+               {"label", kLabelNames.at(static_cast<std::size_t>(geometry.label))},
+               {"color_rgba", internal::ColorToJson(geometry.color_rgba)},
+               {"mesh", internal::MeshReference(VisualMeshPath(geometry), geometry.mesh)},
+               {"hulls", hulls}};
+  if (!geometry.visual.empty())
+    json["visual"] = internal::VisualToJson(
+        VisualFilesIn(internal::kAuthoredFolder, geometry.name, geometry.visual));
+  return json;
 }
 
 Json PooledGeometryToJson(const DoorGeometry& geometry, const GeometryFiles& files,
@@ -77,6 +81,7 @@ class DoorSource {
     Mesh mesh;
     std::vector<Mesh> hulls;
     RigidTransform link_from_files = RigidTransform::Identity();
+    std::optional<VisualFiles> visual = {};
   };
 
   Names NamesOf(const Json& geometry, const std::string& path) const {
@@ -92,6 +97,8 @@ class DoorSource {
     Names names{Reference(MemberOf(geometry, "mesh", path), path), {}};
     for (const Json& hull : MemberOf(geometry, "hulls", path))
       names.hulls.push_back(Reference(hull, path));
+    if (geometry.contains("visual"))
+      names.visual = internal::VisualFromJson(geometry["visual"], path + ".visual");
     return names;
   }
 
@@ -101,6 +108,7 @@ class DoorSource {
     const PooledShape shape = pool_->ReadShape(ValueOf<std::string>(geometry, "shape", path));
     Names names{{PooledMeshPath(shape.mesh), shape.mesh}, {}};
     for (const std::string& hull : shape.hulls) names.hulls.push_back({PooledMeshPath(hull), hull});
+    names.visual = shape.visual;
     if (geometry.contains("link_from_shape"))
       names.link_from_files =
           TransformFromJson(geometry["link_from_shape"], path + ".link_from_shape");
@@ -110,28 +118,36 @@ class DoorSource {
   std::optional<MeshPool> pool_;
 };
 
-DoorGeometry GeometryFromJson(const Json& json, const DoorSource& source,
-                              const MeshReader& read_mesh, const std::string& path) {
+/// Of meshes and of visual meshes.
+struct Readers {
+  MeshReader mesh;
+  VisualReader visual;
+};
+
+DoorGeometry GeometryFromJson(const Json& json, const DoorSource& source, const Readers& readers,
+                              const std::string& path) {
   DoorGeometry geometry;
   geometry.name = ValueOf<std::string>(json, "name", path);
   geometry.label = LabelNamed(ValueOf<std::string>(json, "label", path), path);
   geometry.color_rgba = internal::ColorFromJson(MemberOf(json, "color_rgba", path), path);
   const DoorSource::Names names = source.NamesOf(json, path);
   const auto read = [&](const DoorSource::Names::Mesh& mesh) {
-    return PlacedAsFiled(read_mesh(mesh.path, mesh.sha256), names.link_from_files);
+    return PlacedAsFiled(readers.mesh(mesh.path, mesh.sha256), names.link_from_files);
   };
   geometry.mesh = read(names.mesh);
   for (const auto& hull : names.hulls) geometry.hulls.push_back(read(hull));
+  if (names.visual)
+    geometry.visual = PlacedAsFiled(readers.visual(*names.visual), names.link_from_files);
   return geometry;
 }
 
-DoorLink LinkFromJson(const Json& json, const DoorSource& source, const MeshReader& read_mesh,
+DoorLink LinkFromJson(const Json& json, const DoorSource& source, const Readers& readers,
                       const std::string& path) {
   DoorLink link;
   link.name = ValueOf<std::string>(json, "name", path);
   link.mass = internal::MassFromJson(MemberOf(json, "mass", path), path);
   for (const Json& piece : MemberOf(json, "geometry", path))
-    link.geometry.push_back(GeometryFromJson(piece, source, read_mesh, path));
+    link.geometry.push_back(GeometryFromJson(piece, source, readers, path));
   return link;
 }
 
@@ -238,14 +254,19 @@ std::string CollisionMeshPath(const DoorGeometry& geometry, std::size_t hull_ind
   return "meshes/collision/" + geometry.name + "_" + std::to_string(hull_index) + ".obj";
 }
 
-void WriteDoor(const DoorAsset& door, const std::filesystem::path& folder) {
+void WriteMeshFiles(const DoorAsset& door, const std::filesystem::path& folder) {
   for (const DoorLink& link : door.links) {
     for (const DoorGeometry& geometry : link.geometry) {
       CommitFile(folder / VisualMeshPath(geometry), ToObj(geometry.mesh));
       for (std::size_t i = 0; i < geometry.hulls.size(); ++i)
         CommitFile(folder / CollisionMeshPath(geometry, i), ToObj(geometry.hulls[i]));
+      internal::WriteVisual(geometry.visual, geometry.name, folder);
     }
   }
+}
+
+void WriteDoor(const DoorAsset& door, const std::filesystem::path& folder) {
+  WriteMeshFiles(door, folder);
   WriteJsonFile(folder / "door.json", DoorToJson(door));
 }
 
@@ -258,6 +279,15 @@ Json ReadRecord(const std::filesystem::path& folder, const std::string& path) {
   if (!links.is_array() || links.size() != std::tuple_size_v<decltype(DoorAsset::links)>)
     throw Error(ErrorCode::kFormat, path + ".links: expected base, leaf and handle");
   return json;
+}
+
+// Empty where it is no hash: then it is no file of a pool either.
+std::string PooledPathOf(const std::string& sha256) {
+  try {
+    return PooledMeshPath(sha256);
+  } catch (const Error&) {
+    return {};
+  }
 }
 
 // Own files by path below the folder, pooled ones by hash.
@@ -273,14 +303,27 @@ MeshReader ReaderOf(const std::filesystem::path& folder, const std::string& path
   };
 }
 
+VisualReader VisualReaderOf(const std::filesystem::path& folder, const std::string& path) {
+  const VisualReader own = internal::VisualReaderBelow(folder, path);
+  const auto pool = std::make_shared<std::optional<MeshPool>>();
+  return [folder, path, own, pool](const VisualFiles& files) {
+    if (files.mesh.path != PooledPathOf(files.mesh.sha256)) return own(files);
+    if (!*pool) pool->emplace(folder, path);
+    return ReadVisualMesh(files,
+                          [&](const RecordedFile& file) { return (*pool)->ReadRecorded(file); });
+  };
+}
+
 }  // namespace
 
 DoorAsset ReadDoor(const std::filesystem::path& folder) {
   return ReadDoor(folder, ReaderOf(folder, (folder / "door.json").string()));
 }
 
-DoorAsset ReadDoor(const std::filesystem::path& folder, const MeshReader& read_mesh) {
+DoorAsset ReadDoor(const std::filesystem::path& folder, const MeshReader& read_mesh,
+                   const VisualReader& read_visual) {
   const std::string path = (folder / "door.json").string();
+  const Readers readers{read_mesh, read_visual ? read_visual : VisualReaderOf(folder, path)};
   const Json json = ReadRecord(folder, path);
   DoorAsset door;
   ReadIdentity(json, path, door);
@@ -291,7 +334,7 @@ DoorAsset ReadDoor(const std::filesystem::path& folder, const MeshReader& read_m
   door.grasp_half_extent_m = Vector3FromJson(MemberOf(json, "grasp_half_extent_m", path), path);
   const DoorSource source(json, folder, path);
   for (std::size_t i = 0; i < door.links.size(); ++i)
-    door.links[i] = LinkFromJson(json["links"][i], source, read_mesh, path + ".links");
+    door.links[i] = LinkFromJson(json["links"][i], source, readers, path + ".links");
   return door;
 }
 
@@ -302,6 +345,8 @@ DoorFiles OwnFilesOf(const DoorAsset& door) {
       GeometryFiles own{VisualMeshPath(geometry), {}};
       for (std::size_t hull = 0; hull < geometry.hulls.size(); ++hull)
         own.hulls.push_back(CollisionMeshPath(geometry, hull));
+      if (!geometry.visual.empty())
+        own.visual = VisualFilesIn(internal::kAuthoredFolder, geometry.name, geometry.visual);
       files[i].push_back(std::move(own));
     }
   }
@@ -318,6 +363,7 @@ DoorFiles ReadDoorFiles(const std::filesystem::path& folder) {
       const DoorSource::Names names = source.NamesOf(geometry, path + ".links");
       GeometryFiles named{names.mesh.path, {}, names.link_from_files};
       for (const auto& hull : names.hulls) named.hulls.push_back(hull.path);
+      named.visual = names.visual;
       files[i].push_back(std::move(named));
     }
   }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/schemas/mesh_pool.h"
 
+#include <array>
+
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
@@ -39,11 +41,49 @@ std::string PooledMeshPath(const std::string& sha256) {
   return std::string(kMeshPoolPath) + "/" + PooledFileName(sha256, ".obj");
 }
 
+VisualFiles PooledVisualFiles(const VisualMesh& mesh) {
+  VisualFiles files = VisualFilesIn(kMeshPoolPath, "mesh", mesh);
+  files.mesh.path = PooledMeshPath(files.mesh.sha256);
+  return files;
+}
+
+namespace {
+
+constexpr std::array<const char*, 2> kPictureEndings = {".png", ".jpg"};
+
+RecordedFile Pooled(const std::string& sha256, const std::string& ending) {
+  return {std::string(kMeshPoolPath) + "/" + PooledFileName(sha256, ending), sha256};
+}
+
+Json VisualToJson(const VisualFiles& visual) {
+  Json json = {{"mesh", visual.mesh.sha256}, {"materials", visual.materials.sha256}};
+  for (const char* ending : kPictureEndings) json[ending + 1] = Json::array();
+  for (const RecordedFile& file : visual.textures)
+    json[fs::path(file.path).extension().string().substr(1)].push_back(file.sha256);
+  return json;
+}
+
+VisualFiles VisualFromJson(const Json& json, const std::string& path) {
+  VisualFiles visual;
+  visual.mesh = Pooled(ValueOf<std::string>(json, "mesh", path), ".obj");
+  visual.materials = Pooled(ValueOf<std::string>(json, "materials", path), ".mtl");
+  for (const char* ending : kPictureEndings) {
+    for (const Json& file : MemberOf(json, ending + 1, path)) {
+      if (!file.is_string()) throw Error(ErrorCode::kFormat, path + ": expected strings");
+      visual.textures.push_back(Pooled(file.get<std::string>(), ending));
+    }
+  }
+  return visual;
+}
+
+}  // namespace
+
 std::string ShapeText(const PooledShape& shape) {
-  const Json json = {{"schema", kShapeSchema},
-                     {"schema_version", kMeshPoolSchemaVersion},
-                     {"mesh", shape.mesh},
-                     {"hulls", shape.hulls}};
+  Json json = {{"schema", kShapeSchema},
+               {"schema_version", kMeshPoolSchemaVersion},
+               {"mesh", shape.mesh},
+               {"hulls", shape.hulls}};
+  if (shape.visual) json["visual"] = VisualToJson(*shape.visual);
   return json.dump() + "\n";
 }
 
@@ -97,11 +137,16 @@ PooledShape MeshPool::ReadShape(const std::string& sha256) const {
     if (!hull.is_string()) throw Error(ErrorCode::kFormat, path + ".hulls: expected strings");
     shape.hulls.push_back(hull.get<std::string>());
   }
+  if (json.contains("visual")) shape.visual = VisualFromJson(json["visual"], path + ".visual");
   return shape;
 }
 
 TriangleMesh MeshPool::ReadMesh(const std::string& sha256) const {
   return ParseObj(Read(sha256, ".obj"), (pool_ / PooledFileName(sha256, ".obj")).string());
+}
+
+std::string MeshPool::ReadRecorded(const RecordedFile& file) const {
+  return Read(file.sha256, fs::path(file.path).extension().string());
 }
 
 }  // namespace doorforge

@@ -25,14 +25,19 @@ Json PieceToJson(const PartPiece& piece) {
   Json hulls = Json::array();
   for (std::size_t i = 0; i < piece.hulls.size(); ++i)
     hulls.push_back(internal::MeshReference(HullPath(piece, i), piece.hulls[i]));
-  return {{"name", piece.name},
-          {"mesh", internal::MeshReference(MeshPath(piece), piece.mesh)},
-          {"hulls", hulls},
-          {"color_rgba", internal::ColorToJson(piece.color_rgba)},
-          {"mass", internal::MassToJson(piece.mass)}};
+  Json json = {{"name", piece.name},
+               {"mesh", internal::MeshReference(MeshPath(piece), piece.mesh)},
+               {"hulls", hulls},
+               {"color_rgba", internal::ColorToJson(piece.color_rgba)},
+               {"mass", internal::MassToJson(piece.mass)}};
+  if (!piece.visual.empty())
+    json["visual"] =
+        internal::VisualToJson(VisualFilesIn(internal::kAuthoredFolder, piece.name, piece.visual));
+  return json;
 }
 
-PartPiece PieceFromJson(const Json& json, const MeshReader& read_mesh, const std::string& path) {
+PartPiece PieceFromJson(const Json& json, const MeshReader& read_mesh,
+                        const VisualReader& read_visual, const std::string& path) {
   PartPiece piece;
   piece.name = ValueOf<std::string>(json, "name", path);
   piece.mesh = internal::ReadReferencedMesh(MemberOf(json, "mesh", path), read_mesh, path);
@@ -40,6 +45,8 @@ PartPiece PieceFromJson(const Json& json, const MeshReader& read_mesh, const std
     piece.hulls.push_back(internal::ReadReferencedMesh(hull, read_mesh, path));
   piece.color_rgba = internal::ColorFromJson(MemberOf(json, "color_rgba", path), path);
   piece.mass = internal::MassFromJson(MemberOf(json, "mass", path), path);
+  if (json.contains("visual"))
+    piece.visual = read_visual(internal::VisualFromJson(json["visual"], path + ".visual"));
   return piece;
 }
 
@@ -108,6 +115,7 @@ void WritePart(const Part& part, const std::filesystem::path& folder) {
     CommitFile(folder / MeshPath(piece), ToObj(piece.mesh));
     for (std::size_t i = 0; i < piece.hulls.size(); ++i)
       CommitFile(folder / HullPath(piece, i), ToObj(piece.hulls[i]));
+    internal::WriteVisual(piece.visual, piece.name, folder);
   }
   Json json = PartToJson(part);
   json["shape"] = ShapeOf(part);
@@ -118,8 +126,11 @@ Part ReadPart(const std::filesystem::path& folder) {
   return ReadPart(folder, internal::ReaderBelow(folder, (folder / "part.json").string()));
 }
 
-Part ReadPart(const std::filesystem::path& folder, const MeshReader& read_mesh) {
+Part ReadPart(const std::filesystem::path& folder, const MeshReader& read_mesh,
+              const VisualReader& read_visual) {
   const std::string path = (folder / "part.json").string();
+  const VisualReader visual_reader =
+      read_visual ? read_visual : internal::VisualReaderBelow(folder, path);
   const Json json = ReadJsonFile(path);
   RequireSchema(json, "doorforge.part", kPartSchemaVersion, path);
   Part part;
@@ -141,7 +152,7 @@ Part ReadPart(const std::filesystem::path& folder, const MeshReader& read_mesh) 
         Vector3FromJson(MemberOf(json, "grasp_half_extent_m", path), path + ".grasp_half_extent_m");
   }
   for (const Json& piece : MemberOf(json, "pieces", path))
-    part.pieces.push_back(PieceFromJson(piece, read_mesh, path + ".pieces"));
+    part.pieces.push_back(PieceFromJson(piece, read_mesh, visual_reader, path + ".pieces"));
   return part;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record_json.h"
 
+#include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
@@ -13,15 +14,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::uint64_t kMaxFileBytes = 1ULL << 30;
+
 fs::path PathInside(const std::string& relative, const fs::path& folder, const std::string& path) {
   const fs::path root = fs::weakly_canonical(folder);
   fs::path full = fs::weakly_canonical(root / relative);
   const fs::path inside = full.lexically_relative(root);
   if (fs::path(relative).is_absolute() || inside.empty() || *inside.begin() == "..")
-    throw Error(ErrorCode::kFormat, path + ": mesh path \"" + relative +
+    throw Error(ErrorCode::kFormat, path + ": path \"" + relative +
                                         "\" leaves the folder; only files below " +
                                         folder.string() + " are read");
   return full;
+}
+
+}  // namespace
+
+namespace {
+
+Json FileToJson(const RecordedFile& file) { return {{"path", file.path}, {"sha256", file.sha256}}; }
+
+RecordedFile FileFromJson(const Json& json, const std::string& path) {
+  return {ValueOf<std::string>(json, "path", path), ValueOf<std::string>(json, "sha256", path)};
 }
 
 }  // namespace
@@ -76,6 +89,48 @@ TriangleMesh ReadReferencedMesh(const Json& reference, const MeshReader& read_me
 MeshReader ReaderBelow(const fs::path& folder, const std::string& path) {
   return [folder, path](const std::string& relative, const std::string&) {
     return ReadObj(PathInside(relative, folder, path));
+  };
+}
+
+Json VisualToJson(const VisualFiles& files) {
+  Json json = FileToJson(files.mesh);
+  json["materials"] = FileToJson(files.materials);
+  json["textures"] = Json::array();
+  for (const RecordedFile& file : files.textures) json["textures"].push_back(FileToJson(file));
+  return json;
+}
+
+VisualFiles VisualFromJson(const Json& json, const std::string& path) {
+  VisualFiles files;
+  files.mesh = FileFromJson(json, path);
+  files.materials = FileFromJson(MemberOf(json, "materials", path), path + ".materials");
+  for (const Json& texture : MemberOf(json, "textures", path))
+    files.textures.push_back(FileFromJson(texture, path + ".textures"));
+  return files;
+}
+
+void WriteVisual(const VisualMesh& mesh, const std::string& name, const fs::path& folder) {
+  if (mesh.empty()) return;
+  const VisualTexts texts = ToTexts(mesh);
+  const VisualFiles files = VisualFilesIn(kAuthoredFolder, name, mesh);
+  CommitFile(folder / files.mesh.path, texts.mesh);
+  CommitFile(folder / files.materials.path, texts.materials);
+  for (const auto& texture : TexturesOf(mesh))
+    CommitFile(folder / kAuthoredFolder / FileNameOf(*texture), texture->bytes);
+}
+
+VisualReader VisualReaderBelow(const fs::path& folder, const std::string& path) {
+  return [folder, path](const VisualFiles& files) {
+    return ReadVisualMesh(files, [&](const RecordedFile& file) {
+      std::string bytes = ReadFile(PathInside(file.path, folder, path), kMaxFileBytes);
+      const std::string found = Sha256Hex(bytes);
+      if (found != file.sha256)
+        throw Error(ErrorCode::kFormat, (folder / file.path).string() + ": SHA-256 " +
+                                            found.substr(0, 12) + "..., recorded " +
+                                            file.sha256.substr(0, 12) +
+                                            "...; make the part or door again");
+      return bytes;
+    });
   };
 }
 

@@ -10,6 +10,7 @@
 #include "doorforge/core/mass_properties.h"
 #include "doorforge/core/triangle_mesh.h"
 #include "doorforge/schemas/mesh_file.h"
+#include "doorforge/schemas/visual_mesh.h"
 
 // Pieces that the codecs of parts and doors share.
 
@@ -32,5 +33,17 @@ TriangleMesh ReadReferencedMesh(const Json& reference, const MeshReader& read_me
 
 /// Reads canonical files below `folder`. Refuses absolute paths, "..", and links out of the folder.
 MeshReader ReaderBelow(const std::filesystem::path& folder, const std::string& path);
+
+/// {"path", "sha256", "materials": {...}, "textures": [{...}]}
+Json VisualToJson(const VisualFiles& files);
+VisualFiles VisualFromJson(const Json& json, const std::string& path);
+
+/// Where records keep visual meshes.
+inline constexpr const char* kAuthoredFolder = "meshes/authored";
+void WriteVisual(const VisualMesh& mesh, const std::string& name,
+                 const std::filesystem::path& folder);
+
+/// Reads visual meshes below `folder`. Refuses what ReaderBelow() refuses, and changed files.
+VisualReader VisualReaderBelow(const std::filesystem::path& folder, const std::string& path);
 
 }  // namespace doorforge::internal

@@ -443,7 +443,7 @@ std::string Printed(const UrdfModel& model, bool compact) {
   // MuJoCo alone strips folders from mesh paths and drops visuals unless told otherwise
   XMLElement& compiler = Add(Add(*robot, "mujoco"), "compiler");
   Set(compiler, "strippath", "false");
-  Set(compiler, "discardvisual", "false");
+  Set(compiler, "discardvisual", model.mujoco_reads_visuals ? "false" : "true");
   for (const UrdfLink& link : model.links) AddLink(*robot, link);
   for (const UrdfJoint& joint : model.joints) AddJoint(*robot, joint);
   tinyxml2::XMLPrinter printer(nullptr, compact);

@@ -115,7 +115,8 @@ std::array<RigidTransform, 3> DoorFromLinks(const DoorAsset& door, double hinge_
                                             double handle_rad);
 
 /// Writes `door.json`, `meshes/{visual,collision}/*.obj` and the visual meshes of authors in
-/// `meshes/authored` into an existing folder. The URDF beside it is written by ComposeDoor's exporter (asset_tools/door).
+/// `meshes/authored` into an existing folder. The URDF beside it is written by ComposeDoor's
+/// exporter (asset_tools/door).
 void WriteDoor(const DoorAsset& door, const std::filesystem::path& folder);
 
 /// Reads a door's folder. Throws Error(kMissing) or Error(kFormat); mesh paths that leave the
@@ -156,8 +157,8 @@ DoorFiles ReadDoorFiles(const std::filesystem::path& folder);
 std::string PooledDoorText(const DoorAsset& door, const DoorFiles& files,
                            const std::array<std::vector<std::string>, 3>& shapes);
 
-/// SHA-256 of door.json's text with the bytes of all files: the door's identity in later records. The same
-/// whether the door has its own meshes or shares them.
+/// SHA-256 of door.json's text with the bytes of all files: the door's identity in later records.
+/// The same whether the door has its own meshes or shares them.
 std::string ContentHash(const DoorAsset& door);
 
 }  // namespace doorforge

@@ -19,7 +19,8 @@ inline constexpr int kMeshPoolSchemaVersion = 1;
 ///     doors/pool/pool.json                    marks the pool: schema doorforge.mesh_pool
 ///     doors/pool/<20 digits>.obj              a canonical mesh
 ///     doors/pool/<20 digits>.{mtl,png,jpg}    of the meshes that authors drew
-///     doors/pool/<20 digits>.json             a shape: one mesh, its convex pieces, what its author
+///     doors/pool/<20 digits>.json             a shape: one mesh, its convex pieces, what its
+///     author
 ///                                             drew
 ///     doors/<id>/door.json                    "mesh_pool": "../pool", shapes by their hash
 ///
@@ -30,8 +31,8 @@ inline constexpr const char* kMeshPoolPath = "../pool";
 
 /// A closed mesh with its convex pieces, as the pool keeps them.
 struct PooledShape {
-  std::string mesh;                ///< SHA-256 of the canonical text.
-  std::vector<std::string> hulls;  ///< The same, in order.
+  std::string mesh;                        ///< SHA-256 of the canonical text.
+  std::vector<std::string> hulls;          ///< The same, in order.
   std::optional<VisualFiles> visual = {};  ///< Of what its author drew, as PooledVisualFiles().
 };
 

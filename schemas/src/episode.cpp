@@ -14,8 +14,8 @@ namespace {
 
 constexpr int kEpisodeSchemaVersion = 1;
 constexpr std::array<std::string_view, kEpisodeOutcomeCount> kOutcomes = {
-    "opened",       "not_reached", "grasp_missed", "handle_slipped",
-    "handle_stuck", "grip_lost",   "door_stuck",   "diverged"};
+    "opened",    "not_reached", "grasp_missed", "handle_slipped", "handle_stuck",
+    "grip_lost", "door_stuck",  "joint_limit",  "collision",      "diverged"};
 
 }  // namespace
 

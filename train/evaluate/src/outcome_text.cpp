@@ -20,6 +20,10 @@ OutcomeText TextOf(EpisodeOutcome outcome) {
       return {"Grip lost", "The door was unlocked, but the grasp was lost before 45°."};
     case EpisodeOutcome::kDoorStuck:
       return {"Door stayed below 45°", "The grasp held, but the actions ran out before 45°."};
+    case EpisodeOutcome::kJointLimit:
+      return {"Joint limit", "A joint of the arm was at its limit, so the hand could not follow."};
+    case EpisodeOutcome::kCollision:
+      return {"Collision", "The arm or the hand met the door and could not go on."};
     case EpisodeOutcome::kDiverged:
       return {"Physics diverged", "The simulated state stopped being plausible."};
   }

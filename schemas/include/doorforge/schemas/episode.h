@@ -14,21 +14,23 @@
 
 namespace doorforge {
 
-/// How an episode ended. Everything but kOpened is a failure with its cause.
+/// How an episode ended. Everything but kOpened is a failure with its one cause.
 enum class EpisodeOutcome {
   kOpened,         ///< The hinge passed 45 degrees with the gripper still on the handle.
-  kNotReached,     ///< The gripper did not get to the grasp pose (kinematics or collision).
+  kNotReached,     ///< The gripper did not get to the grasp pose.
   kGraspMissed,    ///< The fingers closed on nothing, or only one of them touches.
   kHandleSlipped,  ///< The grasp was lost while turning the handle.
   kHandleStuck,    ///< The grasp held, but the handle did not reach the unlock angle.
   kGripLost,       ///< The grasp was lost while opening, before 45 degrees.
   kDoorStuck,      ///< The grasp held, but the door stayed below 45 degrees in the budget.
-  kDiverged,       ///< The physics state stopped being finite or gained energy.
+  kJointLimit,     ///< One of these, because an arm joint was at its limit.
+  kCollision,      ///< One of these, because the arm or the hand met the door.
+  kDiverged,       ///< The physics became impossible, see StateWatch.
 };
 std::string_view NameOf(EpisodeOutcome outcome);  ///< "opened", "not_reached", ...
 /// Inverse of NameOf; nothing if the name is unknown.
 std::optional<EpisodeOutcome> EpisodeOutcomeNamed(std::string_view name);
-inline constexpr int kEpisodeOutcomeCount = 8;
+inline constexpr int kEpisodeOutcomeCount = 10;
 
 /// One decision point of a stage: what was seen, what was asked for, what came of it.
 struct Decision {

@@ -254,6 +254,14 @@ std::string CollisionMeshPath(const DoorGeometry& geometry, std::size_t hull_ind
   return "meshes/collision/" + geometry.name + "_" + std::to_string(hull_index) + ".obj";
 }
 
+std::string AuthoredMeshPath(const DoorGeometry& geometry) {
+  return std::string(internal::kAuthoredFolder) + "/" + geometry.name + ".obj";
+}
+
+std::string AuthoredTexturePath(const VisualTexture& texture) {
+  return std::string(internal::kAuthoredFolder) + "/" + FileNameOf(texture);
+}
+
 void WriteMeshFiles(const DoorAsset& door, const std::filesystem::path& folder) {
   for (const DoorLink& link : door.links) {
     for (const DoorGeometry& geometry : link.geometry) {
@@ -281,15 +289,6 @@ Json ReadRecord(const std::filesystem::path& folder, const std::string& path) {
   return json;
 }
 
-// Empty where it is no hash: then it is no file of a pool either.
-std::string PooledPathOf(const std::string& sha256) {
-  try {
-    return PooledMeshPath(sha256);
-  } catch (const Error&) {
-    return {};
-  }
-}
-
 // Own files by path below the folder, pooled ones by hash.
 MeshReader ReaderOf(const std::filesystem::path& folder, const std::string& path) {
   const MeshReader own = internal::ReaderBelow(folder, path);
@@ -303,17 +302,6 @@ MeshReader ReaderOf(const std::filesystem::path& folder, const std::string& path
   };
 }
 
-VisualReader VisualReaderOf(const std::filesystem::path& folder, const std::string& path) {
-  const VisualReader own = internal::VisualReaderBelow(folder, path);
-  const auto pool = std::make_shared<std::optional<MeshPool>>();
-  return [folder, path, own, pool](const VisualFiles& files) {
-    if (files.mesh.path != PooledPathOf(files.mesh.sha256)) return own(files);
-    if (!*pool) pool->emplace(folder, path);
-    return ReadVisualMesh(files,
-                          [&](const RecordedFile& file) { return (*pool)->ReadRecorded(file); });
-  };
-}
-
 }  // namespace
 
 DoorAsset ReadDoor(const std::filesystem::path& folder) {
@@ -323,7 +311,7 @@ DoorAsset ReadDoor(const std::filesystem::path& folder) {
 DoorAsset ReadDoor(const std::filesystem::path& folder, const MeshReader& read_mesh,
                    const VisualReader& read_visual) {
   const std::string path = (folder / "door.json").string();
-  const Readers readers{read_mesh, read_visual ? read_visual : VisualReaderOf(folder, path)};
+  const Readers readers{read_mesh, read_visual ? read_visual : DoorVisualReader(folder, path)};
   const Json json = ReadRecord(folder, path);
   DoorAsset door;
   ReadIdentity(json, path, door);

@@ -3,6 +3,7 @@
 #include "doorforge/schemas/mesh_pool.h"
 
 #include <array>
+#include <memory>
 
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
@@ -147,6 +148,30 @@ TriangleMesh MeshPool::ReadMesh(const std::string& sha256) const {
 
 std::string MeshPool::ReadRecorded(const RecordedFile& file) const {
   return Read(file.sha256, fs::path(file.path).extension().string());
+}
+
+namespace {
+
+// Empty where it is no hash: then it is no file of a pool either.
+std::string PooledPathOf(const std::string& sha256) {
+  try {
+    return PooledMeshPath(sha256);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+}  // namespace
+
+VisualReader DoorVisualReader(const fs::path& folder, const std::string& record) {
+  const VisualReader own = internal::VisualReaderBelow(folder, record);
+  const auto pool = std::make_shared<std::optional<MeshPool>>();
+  return [folder, record, own, pool](const VisualFiles& files) {
+    if (files.mesh.path != PooledPathOf(files.mesh.sha256)) return own(files);
+    if (!*pool) pool->emplace(folder, record);
+    return ReadVisualMesh(files,
+                          [&](const RecordedFile& file) { return (*pool)->ReadRecorded(file); });
+  };
 }
 
 }  // namespace doorforge

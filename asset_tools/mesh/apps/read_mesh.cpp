@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
 
-// doorforge-read-mesh PATH MAX_FILE_BYTES MAX_TRIANGLES MEMORY_BYTES SECONDS
+// doorforge-read-mesh PATH MAX_FILE_BYTES MAX_TRIANGLES MEMORY_BYTES SECONDS MAX_PICTURE_BYTES
+//     FILES_BELOW
 //
 // Reads one mesh file on behalf of ImportMesh() and writes the result to file descriptor 3. It is
 // a program of its own so that a hostile file can neither crash nor hang the caller, and so that
@@ -80,7 +81,7 @@ bool Send(std::string_view message) {
 
 int main(int argc, char** argv) {
   using namespace doorforge;  // NOLINT
-  if (argc != 6) {
+  if (argc != 8) {
     std::fprintf(stderr, "doorforge-read-mesh is started by the other doorforge programs\n");
     return 2;
   }
@@ -88,6 +89,8 @@ int main(int argc, char** argv) {
   limits.max_file_bytes = std::strtoull(argv[2], nullptr, 10);
   limits.max_triangles = std::strtoull(argv[3], nullptr, 10);
   limits.memory_bytes = std::strtoull(argv[4], nullptr, 10);
+  limits.max_picture_bytes = std::strtoull(argv[6], nullptr, 10);
+  limits.files_below = argv[7];
   LimitProcess(limits.memory_bytes, std::strtoull(argv[5], nullptr, 10));
   return Send(MessageFor(argv[1], limits)) ? 0 : 3;
 }

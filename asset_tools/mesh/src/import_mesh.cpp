@@ -129,7 +129,8 @@ std::string HowItEnded(int status, const MeshImportLimits& limits) {
 ImportedMesh ReadInChild(const fs::path& path, const MeshImportLimits& limits) {
   Reader reader({ReaderProgram().string(), path.string(), std::to_string(limits.max_file_bytes),
                  std::to_string(limits.max_triangles), std::to_string(limits.memory_bytes),
-                 std::to_string(std::llround(std::ceil(limits.timeout_s)))});
+                 std::to_string(std::llround(std::ceil(limits.timeout_s))),
+                 std::to_string(limits.max_picture_bytes), limits.files_below.string()});
   const auto deadline =
       Clock::now() + std::chrono::milliseconds(std::llround(limits.timeout_s * 1000));
   std::string message;
@@ -169,7 +170,7 @@ void CheckEnding(const fs::path& path) {
 
 ImportedMesh ImportMesh(const fs::path& path, const MeshImportLimits& limits) {
   Require(limits.max_file_bytes > 0 && limits.max_triangles > 0 && limits.memory_bytes > 0 &&
-              limits.timeout_s > 0,
+              limits.timeout_s > 0 && limits.max_picture_bytes > 0,
           ErrorCode::kInvalidArgument, "limits of a mesh import must be positive");
   try {
     CheckFile(path);

@@ -2,15 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesh_message.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace doorforge {
 namespace {
 
-constexpr std::uint64_t kMeshMark = 0x314853454D464F44;    // "DOFMESH1"
+constexpr std::uint64_t kMeshMark = 0x324853454D464F44;    // "DOFMESH2"
 constexpr std::uint64_t kErrorMark = 0x31525245'4D464F44;  // "DOFMERR1"
 
-static_assert(sizeof(Eigen::Vector3d) == 24 && sizeof(Eigen::Vector3i) == 12);
+static_assert(sizeof(Eigen::Vector2d) == 16 && sizeof(Eigen::Vector3d) == 24 &&
+              sizeof(Eigen::Vector3i) == 12);
 
 template <class Value>
 void Put(std::string& message, const Value& value) {
@@ -21,6 +23,11 @@ template <class Element>
 void PutArray(std::string& message, const Element* elements, std::size_t count) {
   Put(message, std::uint64_t{count});
   message.append(reinterpret_cast<const char*>(elements), count * sizeof(Element));
+}
+
+void PutTexts(std::string& message, const std::vector<std::string>& texts) {
+  Put(message, std::uint64_t{texts.size()});
+  for (const std::string& text : texts) PutArray(message, text.data(), text.size());
 }
 
 // Takes values off the front; `ok` turns false where the message is too short.
@@ -47,6 +54,13 @@ class Source {
     TakeBytes(elements.data(), count * sizeof(Element));
   }
 
+  std::vector<std::string> TakeTexts() {
+    std::vector<std::string> texts;
+    const auto count = Take<std::uint64_t>();
+    for (std::uint64_t i = 0; i < count && ok_; ++i) TakeArray(texts.emplace_back());
+    return texts;
+  }
+
   bool ok() const { return ok_; }
   bool AtEnd() const { return ok_ && rest_.empty(); }
 
@@ -62,14 +76,44 @@ class Source {
   bool ok_ = true;
 };
 
-bool IsSound(const TriangleMesh& mesh) {
-  for (const Eigen::Vector3d& vertex : mesh.vertices) {
-    if (!vertex.allFinite()) return false;
+template <class Element>
+bool AllFinite(const std::vector<Element>& elements) {
+  return std::all_of(elements.begin(), elements.end(),
+                     [](const Element& element) { return element.allFinite(); });
+}
+
+bool AllWithin(const std::vector<Eigen::Vector3i>& triangles, std::size_t count) {
+  return std::all_of(triangles.begin(), triangles.end(), [&](const Eigen::Vector3i& t) {
+    return t.minCoeff() >= 0 && static_cast<std::size_t>(t.maxCoeff()) < count;
+  });
+}
+
+bool IsColor(const Eigen::Vector4d& rgba) {
+  return rgba.allFinite() && rgba.minCoeff() >= 0 && rgba.maxCoeff() <= 1;
+}
+
+bool IsNumberOf(int number, std::size_t count) {
+  return number >= -1 && number < static_cast<std::int64_t>(count);
+}
+
+bool IsSound(const ImportedPiece& piece) {
+  const auto& coordinates = piece.texcoord_triangles;
+  return !piece.mesh.triangles.empty() && AllFinite(piece.mesh.vertices) &&
+         AllWithin(piece.mesh.triangles, piece.mesh.vertices.size()) &&
+         AllFinite(piece.texcoords) && AllWithin(coordinates, piece.texcoords.size()) &&
+         (coordinates.empty() || coordinates.size() == piece.mesh.triangles.size()) &&
+         IsColor(piece.color_rgba);
+}
+
+bool IsSound(const ImportedMesh& mesh) {
+  for (const ImportedPiece& piece : mesh.pieces) {
+    if (!IsSound(piece) || !IsNumberOf(piece.material, mesh.materials.size())) return false;
   }
-  for (const Eigen::Vector3i& t : mesh.triangles) {
-    if (t.minCoeff() < 0 || t.maxCoeff() >= static_cast<int>(mesh.vertices.size())) return false;
+  for (const ImportedMaterial& material : mesh.materials) {
+    if (!IsColor(material.color_rgba) || !IsNumberOf(material.picture, mesh.pictures.size()))
+      return false;
   }
-  return !mesh.triangles.empty();
+  return !mesh.pieces.empty();
 }
 
 [[noreturn]] void ThrowSent(Source& source) {
@@ -92,7 +136,18 @@ std::string Encoded(const ImportedMesh& mesh) {
     PutArray(message, piece.mesh.vertices.data(), piece.mesh.vertices.size());
     PutArray(message, piece.mesh.triangles.data(), piece.mesh.triangles.size());
     Put(message, piece.color_rgba);
+    Put(message, piece.material);
+    PutArray(message, piece.texcoords.data(), piece.texcoords.size());
+    PutArray(message, piece.texcoord_triangles.data(), piece.texcoord_triangles.size());
   }
+  Put(message, std::uint64_t{mesh.materials.size()});
+  for (const ImportedMaterial& material : mesh.materials) {
+    PutArray(message, material.name.data(), material.name.size());
+    Put(message, material.color_rgba);
+    Put(message, material.picture);
+  }
+  PutTexts(message, mesh.pictures);
+  PutTexts(message, mesh.notes);
   return message;
 }
 
@@ -118,9 +173,20 @@ std::optional<ImportedMesh> DecodedMesh(std::string_view message) {
     source.TakeArray(piece.mesh.vertices);
     source.TakeArray(piece.mesh.triangles);
     piece.color_rgba = source.Take<Eigen::Vector4d>();
-    if (!IsSound(piece.mesh)) return std::nullopt;
+    piece.material = source.Take<int>();
+    source.TakeArray(piece.texcoords);
+    source.TakeArray(piece.texcoord_triangles);
   }
-  if (!source.AtEnd() || mesh.pieces.empty()) return std::nullopt;
+  const auto materials = source.Take<std::uint64_t>();
+  for (std::uint64_t i = 0; i < materials && source.ok(); ++i) {
+    ImportedMaterial& material = mesh.materials.emplace_back();
+    source.TakeArray(material.name);
+    material.color_rgba = source.Take<Eigen::Vector4d>();
+    material.picture = source.Take<int>();
+  }
+  mesh.pictures = source.TakeTexts();
+  mesh.notes = source.TakeTexts();
+  if (!source.AtEnd() || !IsSound(mesh)) return std::nullopt;
   return mesh;
 }
 

@@ -61,6 +61,14 @@ bool ComesBefore(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
 }
 
+// The polygon from its first corner in that order on.
+template <class Corner>
+std::vector<Corner> Rotated(std::span<const Corner> corners, std::ptrdiff_t first) {
+  std::vector<Corner> ring(corners.begin(), corners.end());
+  std::rotate(ring.begin(), ring.begin() + first, ring.end());
+  return ring;
+}
+
 std::array<int, 3> SortedCorners(const Eigen::Vector3i& t) {
   std::array<int, 3> corners{t[0], t[1], t[2]};
   std::sort(corners.begin(), corners.end());
@@ -89,11 +97,12 @@ std::vector<Eigen::Vector3i> Triangulated(std::span<const Eigen::Vector3d> corne
   return triangles;
 }
 
-void PolygonSoup::BeginPiece(std::string name, const Eigen::Vector4d& color_rgba) {
-  pieces_.push_back({std::move(name), color_rgba.cwiseMax(0.0).cwiseMin(1.0), {}});
+void PolygonSoup::BeginPiece(std::string name, const Eigen::Vector4d& color_rgba, int material) {
+  pieces_.push_back({std::move(name), color_rgba.cwiseMax(0.0).cwiseMin(1.0), material, {}, {}});
 }
 
-void PolygonSoup::AddPolygon(std::span<const Eigen::Vector3d> corners) {
+void PolygonSoup::AddPolygon(std::span<const Eigen::Vector3d> corners,
+                             std::span<const Eigen::Vector2d> texcoords) {
   if (corners.size() < 3) return;
   for (const Eigen::Vector3d& corner : corners) {
     if (!corner.allFinite())
@@ -106,12 +115,31 @@ void PolygonSoup::AddPolygon(std::span<const Eigen::Vector3d> corners) {
   if (pieces_.empty()) BeginPiece("", ImportedPiece{}.color_rgba);
   // from a corner that does not depend on where the file begins, so that a repeated face is split
   // along the same diagonal
-  std::vector<Eigen::Vector3d> ring(corners.begin(), corners.end());
-  std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end(), ComesBefore), ring.end());
+  const std::ptrdiff_t first =
+      std::min_element(corners.begin(), corners.end(), ComesBefore) - corners.begin();
+  const std::vector<Eigen::Vector3d> ring = Rotated(corners, first);
+  std::vector<Eigen::Vector2d> coordinates;
+  if (!texcoords.empty()) coordinates = Rotated(texcoords, first);
+  Piece& piece = pieces_.back();
   for (const Eigen::Vector3i& t : Triangulated(ring)) {
-    Eigen::Matrix3d& triangle = pieces_.back().triangles.emplace_back();
+    Eigen::Matrix3d& triangle = piece.triangles.emplace_back();
     for (int k = 0; k < 3; ++k) triangle.col(k) = ring[static_cast<std::size_t>(t[k])];
+    if (coordinates.empty()) continue;
+    piece.texcoords.resize(piece.triangles.size(), Texcoords::Zero());
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector2d& at = coordinates[static_cast<std::size_t>(t[k])];
+      if (at.allFinite()) piece.texcoords.back().col(k) = at;
+    }
   }
+}
+
+ImportedPiece PolygonSoup::Begun(Piece& piece) {
+  ImportedPiece begun;
+  begun.name = std::move(piece.name);
+  begun.color_rgba = piece.color_rgba;
+  begun.material = piece.material;
+  if (!piece.texcoords.empty()) piece.texcoords.resize(piece.triangles.size(), Texcoords::Zero());
+  return begun;
 }
 
 ImportedMesh PolygonSoup::Finish() && {
@@ -120,16 +148,24 @@ ImportedMesh PolygonSoup::Finish() && {
   std::set<std::array<int, 3>> seen;
   for (Piece& piece : pieces_) {
     PositionTable here;
-    ImportedPiece imported{std::move(piece.name), {}, piece.color_rgba};
-    for (const Eigen::Matrix3d& corners : piece.triangles) {
+    PositionTable coordinates;
+    ImportedPiece imported = Begun(piece);
+    for (std::size_t i = 0; i < piece.triangles.size(); ++i) {
+      const Eigen::Matrix3d& corners = piece.triangles[i];
       Eigen::Vector3i t;
       for (int k = 0; k < 3; ++k) t[k] = everywhere.IndexOf(corners.col(k));
       if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
       if (!seen.insert(SortedCorners(t)).second) continue;
       for (int k = 0; k < 3; ++k) t[k] = here.IndexOf(corners.col(k));
       imported.mesh.triangles.push_back(t);
+      if (piece.texcoords.empty()) continue;
+      for (int k = 0; k < 3; ++k)
+        t[k] = coordinates.IndexOf({piece.texcoords[i](0, k), piece.texcoords[i](1, k), 0});
+      imported.texcoord_triangles.push_back(t);
     }
     imported.mesh.vertices = std::move(here.positions());
+    for (const Eigen::Vector3d& at : coordinates.positions())
+      imported.texcoords.emplace_back(at.head<2>());
     if (!imported.mesh.triangles.empty()) mesh.pieces.push_back(std::move(imported));
   }
   if (mesh.pieces.empty()) throw Error(ErrorCode::kFormat, "no triangle in the file");

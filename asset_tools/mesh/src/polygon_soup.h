@@ -22,20 +22,28 @@ class PolygonSoup {
   explicit PolygonSoup(const MeshImportLimits& limits) : max_triangles_(limits.max_triangles) {}
 
   /// Further polygons belong to this piece; a piece without triangles is dropped in the end.
-  void BeginPiece(std::string name, const Eigen::Vector4d& color_rgba);
-  /// Fewer than three corners: nothing. Throws Error(kFormat) if a corner is not finite or the
-  /// triangles become too many.
-  void AddPolygon(std::span<const Eigen::Vector3d> corners);
+  void BeginPiece(std::string name, const Eigen::Vector4d& color_rgba, int material = -1);
+  /// Fewer than three corners: nothing. `texcoords` is empty or as long as `corners`; what is not
+  /// finite in it becomes zero. Throws Error(kFormat) if a corner is not finite or the triangles
+  /// become too many.
+  void AddPolygon(std::span<const Eigen::Vector3d> corners,
+                  std::span<const Eigen::Vector2d> texcoords = {});
 
   /// Throws Error(kFormat) if there is no triangle.
   ImportedMesh Finish() &&;
 
  private:
+  using Texcoords = Eigen::Matrix<double, 2, 3>;
+
   struct Piece {
     std::string name;
     Eigen::Vector4d color_rgba;
+    int material = -1;
     std::vector<Eigen::Matrix3d> triangles;  // a corner a column
+    std::vector<Texcoords> texcoords;        // of the first triangles; of the others there are none
   };
+
+  static ImportedPiece Begun(Piece& piece);
 
   std::vector<Piece> pieces_;
   std::uint64_t triangle_count_ = 0;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
 #include <cctype>
+#include <cmath>
 #include <string>
 
 #include <Eigen/LU>
@@ -14,6 +15,7 @@
 #include "doorforge/core/error.h"
 
 #include "mesh_readers.h"
+#include "picture_files.h"
 #include "polygon_soup.h"
 
 namespace doorforge {
@@ -24,24 +26,18 @@ namespace fs = std::filesystem;
 // Opens files below one folder only: a mesh may not point at files elsewhere.
 class FolderIo : public Assimp::DefaultIOSystem {
  public:
-  explicit FolderIo(const fs::path& folder) : folder_(fs::weakly_canonical(folder)) {}
+  FolderIo(const fs::path& mesh, const MeshImportLimits& limits) : files_(mesh, limits) {}
 
   bool Exists(const char* file) const override {
-    return IsBelow(file) && Assimp::DefaultIOSystem::Exists(file);
+    return files_.IsBelow(file) && Assimp::DefaultIOSystem::Exists(file);
   }
 
   Assimp::IOStream* Open(const char* file, const char* mode) override {
-    return IsBelow(file) ? Assimp::DefaultIOSystem::Open(file, mode) : nullptr;
+    return files_.IsBelow(file) ? Assimp::DefaultIOSystem::Open(file, mode) : nullptr;
   }
 
  private:
-  bool IsBelow(const char* file) const {
-    std::error_code error;
-    const fs::path relative = fs::weakly_canonical(file, error).lexically_relative(folder_);
-    return !error && !relative.empty() && *relative.begin() != "..";
-  }
-
-  fs::path folder_;
+  NamedFiles files_;
 };
 
 Eigen::Matrix4d MatrixOf(const aiMatrix4x4& m) {
@@ -53,10 +49,15 @@ Eigen::Matrix4d MatrixOf(const aiMatrix4x4& m) {
   return matrix;
 }
 
-Eigen::Vector4d ColorOf(const aiScene& scene, const aiMesh& mesh) {
+// glTF states linear light (its specification, 3.9.2); the others what a screen shows.
+double Srgb(double linear) {
+  return linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
+
+bool IsGltf(const std::string& ending) { return ending == ".gltf" || ending == ".glb"; }
+
+Eigen::Vector4d ColorOf(const aiMaterial& material, const std::string& ending) {
   Eigen::Vector4d color = ImportedPiece{}.color_rgba;
-  if (mesh.mMaterialIndex >= scene.mNumMaterials) return color;
-  const aiMaterial& material = *scene.mMaterials[mesh.mMaterialIndex];
   aiColor4D diffuse;
   if (material.Get(AI_MATKEY_BASE_COLOR, diffuse) != aiReturn_SUCCESS &&
       material.Get(AI_MATKEY_COLOR_DIFFUSE, diffuse) != aiReturn_SUCCESS)
@@ -64,19 +65,78 @@ Eigen::Vector4d ColorOf(const aiScene& scene, const aiMesh& mesh) {
   color = {diffuse.r, diffuse.g, diffuse.b, diffuse.a};
   ai_real opacity = 1;
   if (material.Get(AI_MATKEY_OPACITY, opacity) == aiReturn_SUCCESS) color.w() *= opacity;
-  return color.allFinite() ? color : ImportedPiece{}.color_rgba;
+  if (!color.allFinite()) return ImportedPiece{}.color_rgba;
+  color = color.cwiseMax(0.0).cwiseMin(1.0);
+  if (IsGltf(ending)) color.head<3>() = color.head<3>().unaryExpr(&Srgb);
+  if (color.w() == 0) color.w() = 1;
+  return color;
 }
 
-void AddMesh(const aiScene& scene, const aiMesh& mesh, const Eigen::Matrix4d& file_from_node,
-             PolygonSoup& soup) {
+/// The materials of a scene, each as often as the scene has it.
+class SceneMaterials {
+ public:
+  SceneMaterials(const aiScene& scene, std::string ending, PictureFiles& pictures)
+      : scene_(scene), ending_(std::move(ending)), pictures_(pictures) {}
+
+  std::vector<ImportedMaterial> Read() {
+    std::vector<ImportedMaterial> materials;
+    for (unsigned i = 0; i < scene_.mNumMaterials; ++i)
+      materials.push_back(Read(*scene_.mMaterials[i]));
+    return materials;
+  }
+
+ private:
+  ImportedMaterial Read(const aiMaterial& material) {
+    ImportedMaterial read;
+    aiString name;
+    if (material.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS) read.name = name.C_Str();
+    read.color_rgba = ColorOf(material, ending_);
+    aiString picture;
+    if (material.GetTexture(aiTextureType_BASE_COLOR, 0, &picture) != aiReturn_SUCCESS &&
+        material.GetTexture(aiTextureType_DIFFUSE, 0, &picture) != aiReturn_SUCCESS)
+      return read;
+    read.picture = PictureFor(picture.C_Str());
+    // in COLLADA a picture stands in place of the colour; others may state black beside it
+    if (read.picture >= 0 && (ending_ == ".dae" || read.color_rgba.head<3>().isZero(0)))
+      read.color_rgba.head<3>().setOnes();
+    return read;
+  }
+
+  int PictureFor(const std::string& name) {
+    const aiTexture* embedded = scene_.GetEmbeddedTexture(name.c_str());
+    if (embedded == nullptr) return pictures_.Add(name);
+    // a height stands for raw pixels, which no file of these formats has
+    if (embedded->mHeight > 0) return pictures_.AddEmbedded(name, {});
+    return pictures_.AddEmbedded(
+        name, {reinterpret_cast<const char*>(embedded->pcData), embedded->mWidth});
+  }
+
+  const aiScene& scene_;
+  std::string ending_;
+  PictureFiles& pictures_;
+};
+
+/// What a scene's meshes are added to.
+struct SceneSoup {
+  PolygonSoup polygons;
+  std::vector<ImportedMaterial> materials;
+};
+
+void AddMesh(const aiMesh& mesh, const Eigen::Matrix4d& file_from_node, SceneSoup& soup) {
   const std::string name = mesh.mName.C_Str();
-  soup.BeginPiece(name, ColorOf(scene, mesh));
+  const bool stated = mesh.mMaterialIndex < soup.materials.size();
+  soup.polygons.BeginPiece(
+      name, stated ? soup.materials[mesh.mMaterialIndex].color_rgba : ImportedPiece{}.color_rgba,
+      stated ? static_cast<int>(mesh.mMaterialIndex) : -1);
+  const aiVector3D* texcoords = mesh.mTextureCoords[0];
   // a mirrored node turns its faces inside out
   const bool mirrored = file_from_node.topLeftCorner<3, 3>().determinant() < 0;
   std::vector<Eigen::Vector3d> corners;
+  std::vector<Eigen::Vector2d> coordinates;
   for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
     const aiFace& face = mesh.mFaces[i];
     corners.clear();
+    coordinates.clear();
     for (unsigned k = 0; k < face.mNumIndices; ++k) {
       const unsigned index = face.mIndices[mirrored ? face.mNumIndices - 1 - k : k];
       if (index >= mesh.mNumVertices)
@@ -85,8 +145,9 @@ void AddMesh(const aiScene& scene, const aiMesh& mesh, const Eigen::Matrix4d& fi
                                             std::to_string(mesh.mNumVertices - 1));
       const aiVector3D& v = mesh.mVertices[index];
       corners.push_back((file_from_node * Eigen::Vector4d(v.x, v.y, v.z, 1)).head<3>());
+      if (texcoords != nullptr) coordinates.emplace_back(texcoords[index].x, texcoords[index].y);
     }
-    soup.AddPolygon(corners);
+    soup.polygons.AddPolygon(corners, coordinates);
   }
 }
 
@@ -100,8 +161,14 @@ double MetresPerUnit(const aiScene& scene, const std::string& ending) {
   return 0.01;
 }
 
-ImportedMesh MeshOf(const aiScene& scene, const std::string& ending,
-                    const MeshImportLimits& limits) {
+std::string LowerEnding(const fs::path& path) {
+  std::string ending = path.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
+
+ImportedMesh MeshOf(const aiScene& scene, const fs::path& path, const MeshImportLimits& limits) {
+  const std::string ending = LowerEnding(path);
   struct Visit {
     const aiNode* node;
     Eigen::Matrix4d file_from_parent;
@@ -110,7 +177,8 @@ ImportedMesh MeshOf(const aiScene& scene, const std::string& ending,
   scale.topLeftCorner<3, 3>() *= MetresPerUnit(scene, ending);
   // assimp turns 3DS to y up in the root; the raw frame is wanted
   if (ending == ".3ds") scale = MatrixOf(scene.mRootNode->mTransformation).inverse();
-  PolygonSoup soup(limits);
+  PictureFiles pictures(path, limits);
+  SceneSoup soup{PolygonSoup(limits), SceneMaterials(scene, ending, pictures).Read()};
   std::vector<Visit> pending{{scene.mRootNode, scale}};
   while (!pending.empty()) {
     const Visit visit = pending.back();
@@ -118,11 +186,14 @@ ImportedMesh MeshOf(const aiScene& scene, const std::string& ending,
     const Eigen::Matrix4d file_from_node =
         visit.file_from_parent * MatrixOf(visit.node->mTransformation);
     for (unsigned i = 0; i < visit.node->mNumMeshes; ++i)
-      AddMesh(scene, *scene.mMeshes[visit.node->mMeshes[i]], file_from_node, soup);
+      AddMesh(*scene.mMeshes[visit.node->mMeshes[i]], file_from_node, soup);
     for (unsigned i = visit.node->mNumChildren; i-- > 0;)
       pending.push_back({visit.node->mChildren[i], file_from_node});
   }
-  return std::move(soup).Finish();
+  ImportedMesh mesh = std::move(soup.polygons).Finish();
+  mesh.materials = std::move(soup.materials);
+  pictures.MoveTo(mesh);
+  return mesh;
 }
 
 void RefuseDoctype(const fs::path& path, const MeshImportLimits& limits) {
@@ -131,26 +202,20 @@ void RefuseDoctype(const fs::path& path, const MeshImportLimits& limits) {
     throw Error(ErrorCode::kFormat, "a DOCTYPE or entity declaration is not allowed");
 }
 
-std::string LowerEnding(const fs::path& path) {
-  std::string ending = path.extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return ending;
-}
-
 }  // namespace
 
 ImportedMesh ReadWithAssimp(const fs::path& path, const MeshImportLimits& limits) {
   const std::string ending = LowerEnding(path);
   if (ending == ".dae") RefuseDoctype(path, limits);
   Assimp::Importer importer;
-  importer.SetIOHandler(new FolderIo(fs::absolute(path).parent_path()));  // the importer owns it
+  importer.SetIOHandler(new FolderIo(path, limits));  // the importer owns it
   // keep the frame of the file: assimp would turn a Z_UP file to y up
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = importer.ReadFile(path.string(), 0);
   if (scene == nullptr || scene->mRootNode == nullptr)
     throw Error(ErrorCode::kFormat,
                 std::string("assimp cannot read it: ") + importer.GetErrorString());
-  return MeshOf(*scene, ending, limits);
+  return MeshOf(*scene, path, limits);
 }
 
 }  // namespace doorforge

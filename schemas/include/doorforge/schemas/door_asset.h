@@ -132,6 +132,10 @@ DoorAsset ReadDoor(const std::filesystem::path& folder, const MeshReader& read_m
 std::string VisualMeshPath(const DoorGeometry& geometry);
 std::string CollisionMeshPath(const DoorGeometry& geometry, std::size_t hull_index);
 
+/// Files of what authors drew: "meshes/authored/<name>.obj" and "meshes/authored/<20 digits>.png".
+std::string AuthoredMeshPath(const DoorGeometry& geometry);
+std::string AuthoredTexturePath(const VisualTexture& texture);
+
 /// Writes the files of all meshes that OwnFilesOf() names.
 void WriteMeshFiles(const DoorAsset& door, const std::filesystem::path& folder);
 

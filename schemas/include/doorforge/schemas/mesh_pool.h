@@ -76,4 +76,9 @@ class MeshPool {
   std::string record_;
 };
 
+/// Reads what authors drew for a door in `folder`: files below it, or of the pool beside it.
+/// `record` begins the messages. Refuses changed files, paths that leave the folder, and links out
+/// of it.
+VisualReader DoorVisualReader(const std::filesystem::path& folder, const std::string& record);
+
 }  // namespace doorforge

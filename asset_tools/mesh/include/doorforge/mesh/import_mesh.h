@@ -13,26 +13,47 @@
 
 namespace doorforge {
 
-/// What a mesh file may cost before it is refused. All limits are positive.
+/// What a mesh file may cost before it is refused, and where it may look. All limits are positive.
 struct MeshImportLimits {
   std::uint64_t max_file_bytes = 512ULL << 20;
   std::uint64_t max_triangles = 5'000'000;  ///< Before duplicates are dropped.
   std::uint64_t memory_bytes = 4ULL << 30;  ///< Address space of the reading process.
   double timeout_s = 60;                    ///< Wall clock and processor time of that process.
+  std::uint64_t max_picture_bytes = 32ULL << 20;  ///< Of a texture; larger ones are left out.
+  /// Materials, textures and buffers that the file names must lie below this folder, which holds
+  /// the file; empty: the file's own folder.
+  std::filesystem::path files_below = {};
+};
+
+/// A material that the file states.
+struct ImportedMaterial {
+  std::string name;  ///< May be empty.
+  /// Diffuse colour and opacity as on a screen (sRGB), each in [0, 1]; what a texture is multiplied
+  /// by.
+  Eigen::Vector4d color_rgba{0.8, 0.8, 0.8, 1.0};
+  int picture = -1;  ///< Into ImportedMesh::pictures; -1: no texture.
 };
 
 /// The triangles of one material of one object in the file.
 struct ImportedPiece {
   std::string name;   ///< Name of the object or node; empty where the file gives none.
   TriangleMesh mesh;  ///< Every vertex is used; no two vertices have the same position.
-  /// Diffuse colour of the material, linear as in the file, each in [0, 1]; grey (0.8) where the
-  /// file gives none. Textures are not read.
+  /// Colour of the material or, of PLY, the mean of the vertices'; grey (0.8) where the file gives
+  /// none.
   Eigen::Vector4d color_rgba{0.8, 0.8, 0.8, 1.0};
+  int material = -1;  ///< Into ImportedMesh::materials; -1: the file states none.
+  /// Finite, (0, 0) at the picture's lower left; empty where the file gives none.
+  std::vector<Eigen::Vector2d> texcoords = {};
+  /// Into `texcoords`, one for each of mesh.triangles; empty where the file gives none.
+  std::vector<Eigen::Vector3i> texcoord_triangles = {};
 };
 
 /// A mesh file's triangles in metres, in the raw frame of the file.
 struct ImportedMesh {
   std::vector<ImportedPiece> pieces;  ///< At least one, none empty, in the order of the file.
+  std::vector<ImportedMaterial> materials = {};
+  std::vector<std::string> pictures = {};  ///< Bytes of PNG or JPEG files, without repetition.
+  std::vector<std::string> notes = {};     ///< What of materials and textures was left out.
 };
 
 /// Reads OBJ, STL, PLY, DAE, glTF, GLB, FBX, 3DS or OFF, chosen by the file's ending (any case).
@@ -43,6 +64,11 @@ struct ImportedMesh {
 /// metres by the unit that the file states (DAE, FBX; glTF is in metres by definition); OBJ, STL,
 /// PLY, 3DS and OFF state none and are taken as metres. Axes stay exactly as in the file: a DAE
 /// with Z_UP stays z up.
+///
+/// Materials and the textures of their diffuse colour come along from OBJ with its MTL and from
+/// everything that assimp reads, with the first set of texture coordinates. A fault in them costs
+/// no triangle: what is missing, broken, too large or no PNG or JPEG is left out and noted. An
+/// opacity of zero is taken for one, since exporters write it for what is meant to be seen.
 ///
 /// Files from outside never run in this process: the program doorforge-read-mesh reads them, under
 /// limits on memory and time, and sends the triangles through a pipe, so a file that crashes or

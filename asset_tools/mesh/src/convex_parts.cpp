@@ -17,7 +17,11 @@
 namespace doorforge {
 namespace {
 
-constexpr double kCoverShare = 0.5;  // of the concavity: what the parts may leave out
+constexpr double kCoverShare = 0.5;   // of the concavity: what the parts may leave out
+constexpr double kHeldSkins = 2;      // how far surface may stand out of a hull that holds it
+constexpr int kRounds = 4;            // of cutting and joining
+constexpr double kSurplus = 2;        // regions, against those that may stay, to join from
+constexpr double kWorthwhile = 0.97;  // less of the depth must be left for another round
 
 // A piece of the surface, or a point that was noted for a region.
 struct Polygon {
@@ -61,6 +65,7 @@ struct Region {
   TriangleMesh hull;
   Concavity concavity;
   bool indivisible = false;  // no cut separates anything
+  bool trimmed = false;      // of what others hold as well
 };
 
 std::vector<Eigen::Vector3d> PointsOf(const std::vector<Polygon>& polygons) {
@@ -178,11 +183,12 @@ class Decomposition {
 
   std::vector<TriangleMesh> Run() {
     // joining frees parts for further cuts
-    for (int round = 0; round < 4; ++round) {
-      const bool cut = CutWorst();
-      const bool joined = JoinAll();
+    for (int round = 0; round < kRounds; ++round) {
+      const bool cut = CutWorst(config_.max_parts);
+      const bool joined = JoinWithin(allowed_m_, 1);
       if (!cut || !joined) break;
     }
+    if (WorstDepth() > allowed_m_) SpendBetter();
     std::vector<TriangleMesh> parts;
     for (const Region& region : regions_)
       parts.push_back(ReducedHull(region.hull, config_.max_vertices));
@@ -216,19 +222,85 @@ class Decomposition {
     return true;
   }
 
-  bool CutWorst() {
+  double WorstDepth() const {
+    double worst_m = 0;
+    for (const Region& region : regions_) worst_m = std::max(worst_m, region.concavity.depth_m);
+    return worst_m;
+  }
+
+  // The parts did not suffice, since a cut is never taken back. So the worst regions are cut into
+  // more than may stay, and those whose common hull is least deep are joined, until they are few
+  // enough. Kept while the worst depth falls.
+  void SpendBetter() {
+    for (int round = 0; round < kRounds / 2; ++round) {
+      const double before_m = WorstDepth();
+      std::vector<Region> before = regions_;
+      CutWorst(static_cast<int>(kSurplus * config_.max_parts));
+      JoinWithin(allowed_m_, 1);
+      JoinWithin(before_m, config_.max_parts);
+      const bool fits = static_cast<int>(regions_.size()) <= config_.max_parts;
+      if (!fits || WorstDepth() >= before_m) regions_ = std::move(before);
+      if (WorstDepth() <= allowed_m_ || WorstDepth() > kWorthwhile * before_m) break;
+    }
+  }
+
+  // Until there are `max_regions`, or none is too deep.
+  bool CutWorst(int max_regions) {
     bool any = false;
-    while (static_cast<int>(regions_.size()) < config_.max_parts) {
+    while (static_cast<int>(regions_.size()) < max_regions) {
       const auto worst = std::max_element(
           regions_.begin(), regions_.end(),
           [](const Region& a, const Region& b) { return UrgencyOf(a) < UrgencyOf(b); });
       if (worst == regions_.end() || UrgencyOf(*worst) <= allowed_m_) break;
+      if (Trim(static_cast<std::size_t>(worst - regions_.begin()))) continue;
       if (Split(static_cast<std::size_t>(worst - regions_.begin())))
         any = true;
       else
         worst->indivisible = true;
     }
     return any;
+  }
+
+  // A deep region gives up the surface that the hulls of others hold as well: strips along a cut,
+  // which would span the air between them and take many cuts to no avail. True if it changed.
+  bool Trim(std::size_t index) {
+    Region& region = regions_[index];
+    if (region.trimmed) return false;
+    region.trimmed = true;
+    std::vector<std::vector<HalfSpace>> others;
+    for (std::size_t i = 0; i < regions_.size(); ++i) {
+      if (i != index && regions_[i].box.exteriorDistance(region.box) <= kHeldSkins * SkinM())
+        others.push_back(HalfSpacesOf(regions_[i].hull));
+    }
+    std::vector<Polygon> kept;
+    for (const Polygon& polygon : region.surface) {
+      if (polygon.IsNotedPoint() || !IsHeldBy(others, polygon)) kept.push_back(polygon);
+    }
+    if (kept.size() == region.surface.size()) return false;
+    const bool only_points =
+        std::all_of(kept.begin(), kept.end(), [](const Polygon& p) { return p.IsNotedPoint(); });
+    std::optional<TriangleMesh> hull = HullOf(PointsOf(kept));
+    if (only_points || !hull || !(VolumeOf(*hull) > smallest_m3_)) {
+      regions_.erase(regions_.begin() + static_cast<std::ptrdiff_t>(index));
+      return true;
+    }
+    region.id = next_id_++;
+    region.surface = std::move(kept);
+    region.hull = *std::move(hull);
+    region.concavity = ConcavityOf(region.hull, solid_);
+    return true;
+  }
+
+  // Wholly in one of the hulls, but for a skin.
+  bool IsHeldBy(const std::vector<std::vector<HalfSpace>>& hulls, const Polygon& polygon) const {
+    return std::any_of(hulls.begin(), hulls.end(), [&](const std::vector<HalfSpace>& hull) {
+      return std::all_of(hull.begin(), hull.end(), [&](const HalfSpace& face) {
+        return std::all_of(polygon.corners.begin(), polygon.corners.end(),
+                           [&](const Eigen::Vector3d& p) {
+                             return face.normal.dot(p) <= face.offset + kHeldSkins * SkinM();
+                           });
+      });
+    });
   }
 
   static double UrgencyOf(const Region& region) {
@@ -335,25 +407,28 @@ class Decomposition {
   // What a part may lack of the solid near a cut.
   double SkinM() const { return 0.1 * allowed_m_; }
 
-  // Joins pairs whose common hull stays within the bound, the one that encloses least air first.
-  bool JoinAll() {
+  // Joins pairs whose common hull is no deeper than `depth_m` until `enough` regions are left:
+  // those that enclose least air first within the bound, else the least deep.
+  bool JoinWithin(double depth_m, int enough) {
     bool any = false;
-    while (JoinBestPair()) any = true;
+    while (static_cast<int>(regions_.size()) > enough && JoinBestPair(depth_m)) any = true;
     return any;
   }
 
-  bool JoinBestPair() {
-    double least_air = 1e300;
-    std::pair<std::size_t, std::size_t> best;
+  bool JoinBestPair(double depth_m) {
+    std::pair<double, double> least{depth_m, 1e300};
+    std::pair<std::size_t, std::size_t> best{0, 0};
     for (std::size_t a = 0; a < regions_.size(); ++a) {
       for (std::size_t b = a + 1; b < regions_.size(); ++b) {
-        const double air = AirBetween(regions_[a], regions_[b]);
-        if (air >= least_air) continue;
-        least_air = air;
+        const Between between = BetweenOf(regions_[a], regions_[b], depth_m);
+        const std::pair<double, double> cost{between.depth_m <= allowed_m_ ? 0 : between.depth_m,
+                                             between.air_m3};
+        if (between.depth_m > depth_m || cost >= least) continue;
+        least = cost;
         best = {a, b};
       }
     }
-    if (least_air == 1e300) return false;
+    if (best.second == 0) return false;
     Region joined = std::move(regions_[best.first]);
     const Region& other = regions_[best.second];
     joined.id = next_id_++;
@@ -361,6 +436,8 @@ class Decomposition {
     joined.surface.insert(joined.surface.end(), other.surface.begin(), other.surface.end());
     joined.hull = *CommonHull(joined, other);
     joined.concavity = ConcavityOf(joined.hull, solid_);
+    joined.indivisible = false;
+    joined.trimmed = false;
     regions_[best.first] = std::move(joined);
     regions_.erase(regions_.begin() + static_cast<std::ptrdiff_t>(best.second));
     return true;
@@ -372,14 +449,26 @@ class Decomposition {
     return HullOf(points);
   }
 
-  // Volume of the common hull beyond the two hulls; 1e300 where it protrudes too far.
-  double AirBetween(const Region& a, const Region& b) {
-    const auto [entry, is_new] = air_between_.try_emplace({a.id, b.id}, 1e300);
-    if (!is_new || a.box.exteriorDistance(b.box) > solid_.grid().cell_m) return entry->second;
+  // The common hull of two regions: its depth and its volume beyond the two hulls. Asked with a
+  // bound on the depth, it may stop at any depth beyond.
+  struct Between {
+    double depth_m = 1e300;
+    double air_m3 = 1e300;
+    double asked_m = 0;
+  };
+
+  const Between& BetweenOf(const Region& a, const Region& b, double bound_m) {
+    Between& between = between_[{a.id, b.id}];
+    // what lies within the bound that was asked for is exact, what lies beyond stays beyond
+    if (between.asked_m > 0 && (between.depth_m <= between.asked_m || bound_m <= between.asked_m))
+      return between;
+    between.asked_m = bound_m;
+    if (a.box.exteriorDistance(b.box) > solid_.grid().cell_m) return between;
     const std::optional<TriangleMesh> hull = CommonHull(a, b);
-    if (hull && StaysWithin(*hull, solid_, allowed_m_))
-      entry->second = VolumeOf(*hull) - VolumeOf(a.hull) - VolumeOf(b.hull);
-    return entry->second;
+    if (!hull) return between;
+    between.depth_m = DepthWithin(*hull, solid_, bound_m);
+    between.air_m3 = VolumeOf(*hull) - VolumeOf(a.hull) - VolumeOf(b.hull);
+    return between;
   }
 
   const ClosedMesh* mesh_;
@@ -390,7 +479,7 @@ class Decomposition {
   double smallest_m3_ = 0;
   std::vector<Region> regions_;
   int next_id_ = 0;
-  std::map<std::pair<int, int>, double> air_between_;
+  std::map<std::pair<int, int>, Between> between_;
 };
 
 void CheckConfig(const ConvexPartsConfig& config) {

@@ -202,10 +202,14 @@ Concavity ConcavityOf(const TriangleMesh& hull, const DistanceGrid& solid, int s
   return Deepest(hull, solid, stride, 1e300);
 }
 
-bool StaysWithin(const TriangleMesh& hull, const DistanceGrid& solid, double allowed_m) {
+double DepthWithin(const TriangleMesh& hull, const DistanceGrid& solid, double allowed_m) {
   // most hulls that protrude do so in many rows, so a few rows settle it
-  return Deepest(hull, solid, 8, allowed_m).depth_m <= allowed_m &&
-         Deepest(hull, solid, 1, allowed_m).depth_m <= allowed_m;
+  const double coarse_m = Deepest(hull, solid, 8, allowed_m).depth_m;
+  return coarse_m > allowed_m ? coarse_m : Deepest(hull, solid, 1, allowed_m).depth_m;
+}
+
+bool StaysWithin(const TriangleMesh& hull, const DistanceGrid& solid, double allowed_m) {
+  return DepthWithin(hull, solid, allowed_m) <= allowed_m;
 }
 
 }  // namespace doorforge

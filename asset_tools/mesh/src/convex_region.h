@@ -40,6 +40,9 @@ struct Concavity {
 /// Looks at every `stride`-th row of cells along both axes across the rows.
 Concavity ConcavityOf(const TriangleMesh& hull, const DistanceGrid& solid, int stride = 1);
 
+/// Depth of the concavity where that is no more than `allowed_m`, else any depth beyond.
+double DepthWithin(const TriangleMesh& hull, const DistanceGrid& solid, double allowed_m);
+
 /// Whether no cell inside the hull is farther from the solid than `allowed_m`.
 bool StaysWithin(const TriangleMesh& hull, const DistanceGrid& solid, double allowed_m);
 

@@ -12,10 +12,11 @@
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/datagen/describe_dataset.h"
-#include "doorforge/schemas/urdf.h"
+#include "doorforge/rollout/run_episode.h"
 
 #include "door_folder.h"
 #include "open_stage.h"
+#include "robot_meshes.h"
 #include "verb_options.h"
 
 namespace doorforge {
@@ -63,24 +64,21 @@ OpenStageConfig LoadOpenConfig(const Options& options) {
   auto config = LoadConfig<OpenStageConfig>(options.config, options.settings);
   if (options.episodes) config.episodes = *options.episodes;
   if (options.seed) config.seed = *options.seed;
+  if (!options.robot.empty()) config.scene.robot = options.robot;
   Require(config.cloud.point_count >= 1 && config.cloud.point_count <= 1000000,
           ErrorCode::kInvalidConfig, "config.cloud.point_count: out of 1..1000000");
   CheckDepthNoise(config.cloud.noise);
   return config;
 }
 
-RobotModel LoadRobot(const std::string& path) {
-  if (path.empty()) return LoadMobileFranka();
-  return RobotModel(ReadUrdf(path), fs::path(path).parent_path());
-}
-
 // The effective config. A comment names what else decides the bytes, so that a run on other doors
 // or with another build is noticed when it is resumed.
 std::string ConfigText(const OpenStageConfig& config, const DoorFolder& doors,
-                       const std::string& robot) {
+                       const RobotModel& robot) {
   return "# doorforge datagen open, " + CodeVersion() + "\n# " +
          std::to_string(doors.doors.size()) + " doors, sha256 " + ContentHash(doors) +
-         "\n# robot " + (robot.empty() ? "embedded" : fs::path(robot).filename().string()) +
+         "\n# robot " +
+         (robot.name().empty() ? "embedded" : robot.name() + ", sha256 " + robot.sha256()) +
          ", rays by " + RayCasterVersion() + "\n" + ToJson(config).dump(2) + "\n";
 }
 
@@ -129,13 +127,17 @@ int Finish(const CollectSummary& summary, const Options& options) {
 int CollectOpenStage(const Options& options) {
   const OpenStageConfig config = LoadOpenConfig(options);
   const DoorFolder doors = ReadDoorFolder(options.doors, options.threads);
-  const RobotModel robot = LoadRobot(options.robot);
+  const RobotModel robot =
+      LoadRobot(config.scene.robot, RobotBaseNamed(config.scene.physics.base), RobotMeshes());
+  Require(HasProprioception(robot), ErrorCode::kInvalidArgument,
+          "config.scene: data are recorded for robots with two sliders or a fixed base, seven arm "
+          "joints and two fingers; let others open doors with `doorforge simulate`");
   const CollectionPlan plan =
       MakePlan(PartsOf(doors), config.episodes, config.seed, config.collection);
   PrepareFolder(options);
   CollectRequest request;
   request.folder = options.out;
-  request.config_text = ConfigText(config, doors, options.robot);
+  request.config_text = ConfigText(config, doors, robot);
   request.provenance = ProvenanceOf(config, doors);
   request.threads = options.threads;
   const CollectSummary summary = Collect(

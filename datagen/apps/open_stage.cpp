@@ -9,6 +9,7 @@
 #include "doorforge/core/config_io.h"
 #include "doorforge/rollout/occlusion.h"
 #include "doorforge/rollout/run_episode.h"
+#include "doorforge/rollout/standing_place.h"
 #include "doorforge/sensor/picture.h"
 
 namespace doorforge {
@@ -92,7 +93,8 @@ nlohmann::ordered_json DoorRecord(const DoorAsset& door) {
 
 CollectedEpisode RunOpenEpisode(const PlannedEpisode& planned, const DoorAsset& door,
                                 const RobotModel& robot, const OpenStageConfig& config) {
-  const Scene scene = SampleScene(door, config.seed, planned.number, config.scene);
+  const Scene scene =
+      SceneFor(robot, SampleScene(door, config.seed, planned.number, config.scene), door);
   OpeningExpert expert(config.expert);
   RecordingCamera camera(scene, door, robot, config.cloud);
   CollectedEpisode collected;

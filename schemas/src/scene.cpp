@@ -17,6 +17,16 @@ void Scale(MassProperties& mass, double factor) {
   mass.inertia_kg_m2 *= factor;
 }
 
+// Records of before do not have these, and those that follow the defaults shall not change.
+nlohmann::ordered_json PhysicsToJson(const PhysicsConfig& physics) {
+  const PhysicsConfig standard;
+  nlohmann::ordered_json json = ToJson(physics);
+  if (physics.base == standard.base) json.erase("base");
+  if (physics.controller == standard.controller) json.erase("controller");
+  if (physics.operational_space == standard.operational_space) json.erase("operational_space");
+  return json;
+}
+
 }  // namespace
 
 DoorAsset Varied(const DoorAsset& door, const DoorVariation& variation) {
@@ -29,18 +39,22 @@ DoorAsset Varied(const DoorAsset& door, const DoorVariation& variation) {
 }
 
 nlohmann::ordered_json SceneToJson(const Scene& scene) {
-  return {{"door_id", scene.door_id},
-          {"door_sha256", scene.door_sha256},
-          {"seed", scene.seed},
-          {"episode", scene.episode},
-          {"world_from_door", TransformToJson(scene.world_from_door)},
-          {"world_from_robot_base", TransformToJson(scene.world_from_robot_base)},
-          {"latch", internal::LatchToJson(scene.latch)},
-          {"variation", ToJson(scene.variation)},
-          {"arm_start_offset_rad", scene.arm_start_offset_rad},
-          {"grasp_from_noisy_grasp", TransformToJson(scene.grasp_from_noisy_grasp)},
-          {"physics", ToJson(scene.physics)},
-          {"camera", CameraToJson(scene.camera)}};
+  nlohmann::ordered_json json = {
+      {"door_id", scene.door_id},
+      {"door_sha256", scene.door_sha256},
+      {"seed", scene.seed},
+      {"episode", scene.episode},
+      {"world_from_door", TransformToJson(scene.world_from_door)},
+      {"world_from_robot_base", TransformToJson(scene.world_from_robot_base)},
+      {"latch", internal::LatchToJson(scene.latch)},
+      {"variation", ToJson(scene.variation)},
+      {"arm_start_offset_rad", scene.arm_start_offset_rad},
+      {"grasp_from_noisy_grasp", TransformToJson(scene.grasp_from_noisy_grasp)},
+      {"physics", PhysicsToJson(scene.physics)},
+      {"camera", CameraToJson(scene.camera)}};
+  if (scene.robot != RobotIdentity{})
+    json["robot"] = {{"name", scene.robot.name}, {"sha256", scene.robot.sha256}};
+  return json;
 }
 
 Scene SceneFromJson(const nlohmann::ordered_json& json, const std::string& path) {
@@ -54,6 +68,11 @@ Scene SceneFromJson(const nlohmann::ordered_json& json, const std::string& path)
   scene.episode = ValueOf<std::uint64_t>(json, "episode", path);
   scene.world_from_door = transform("world_from_door");
   scene.world_from_robot_base = transform("world_from_robot_base");
+  if (json.contains("robot")) {
+    const auto& robot = json["robot"];
+    scene.robot = {ValueOf<std::string>(robot, "name", path + ".robot"),
+                   ValueOf<std::string>(robot, "sha256", path + ".robot")};
+  }
   scene.latch = internal::LatchFromJson(MemberOf(json, "latch", path), path + ".latch");
   if (json.contains("variation")) {  // scenes of before had none
     Assign(json["variation"], scene.variation, path + ".variation");

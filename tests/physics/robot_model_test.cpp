@@ -10,13 +10,14 @@
 #include "doorforge/core/closed_mesh.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/rng.h"
+#include "doorforge/physics/load_robot.h"
 
 namespace doorforge {
 namespace {
 
 JointVector RandomPosition(const RobotModel& robot, std::uint64_t index) {
   Rng rng(3, "robot/" + std::to_string(index));
-  JointVector position;
+  JointVector position(robot.joint_count());
   for (int i = 0; i < kRobotJointCount; ++i) {
     const RobotJoint& joint = robot.joints()[static_cast<std::size_t>(i)];
     position[i] = rng.Uniform(joint.lower, joint.upper);
@@ -97,7 +98,8 @@ TEST(RobotModel, LimitsAndEffortsAreThePublishedOnes) {
 
 TEST(RobotModel, PadsMeetInTheMiddleAtFingerPositionZero) {
   const RobotModel robot = LoadMobileFranka();
-  const RobotPose pose = robot.PoseAt(JointVector::Zero(), RigidTransform::Identity());
+  const RobotPose pose =
+      robot.PoseAt(JointVector::Zero(robot.joint_count()), RigidTransform::Identity());
   const RigidTransform tcp_from_world = pose.world_from_tcp.inverse();
   for (const RobotPiece& piece : robot.hulls()) {
     if (piece.joint < kArmJointCount) continue;
@@ -136,7 +138,7 @@ TEST(RobotModel, RefusesARobotOfAnotherKind) {
   urdf.name = "stick";
   urdf.links.resize(1);
   urdf.links[0].name = "base";
-  EXPECT_THROW(RobotModel(urdf, "."), Error);
+  EXPECT_THROW(BuildRobot(urdf, {}, RobotBase::kSliders), Error);
 }
 
 }  // namespace

@@ -53,6 +53,14 @@ std::unique_ptr<btCollisionShape> MakeHull(const TriangleMesh& mesh,
   return hull;
 }
 
+MassProperties WithLeastInertia(MassProperties mass, double least_kg_m2) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(mass.inertia_kg_m2);
+  mass.inertia_kg_m2 = solver.eigenvectors() *
+                       solver.eigenvalues().cwiseMax(least_kg_m2).asDiagonal() *
+                       solver.eigenvectors().transpose();
+  return mass;
+}
+
 BulletBody::BulletBody(btMultiBodyDynamicsWorld& world, const RigidTransform& world_from_base,
                        const std::vector<BulletLink>& links, ContactSide side)
     : world_(world) {
@@ -95,7 +103,7 @@ BulletBody::BulletBody(btMultiBodyDynamicsWorld& world, const RigidTransform& wo
   }
   multibody_->finalizeMultiDof();
   multibody_->setCanSleep(false);
-  multibody_->setHasSelfCollision(false);
+  multibody_->setHasSelfCollision(side == ContactSide::kRobot);
   multibody_->setLinearDamping(0);
   multibody_->setAngularDamping(0);
   multibody_->setMaxAppliedImpulse(1000);
@@ -143,8 +151,10 @@ void BulletBody::AddCollider(int index, const BulletLink& link,
   collider->setActivationState(DISABLE_DEACTIVATION);
   multibody_->getLink(index).m_collider = collider.get();
   const int group = static_cast<int>(side);
+  constexpr int kBoth =
+      static_cast<int>(ContactSide::kRobot) | static_cast<int>(ContactSide::kDoor);
   const int mask = link.hulls.empty()            ? 0
-                   : side == ContactSide::kRobot ? static_cast<int>(ContactSide::kDoor)
+                   : side == ContactSide::kRobot ? kBoth
                                                  : static_cast<int>(ContactSide::kRobot);
   world_.addCollisionObject(collider.get(), group, mask);
   colliders_.push_back(std::move(collider));

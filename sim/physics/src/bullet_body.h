@@ -38,7 +38,8 @@ struct BulletLink {
   double friction = 0.5;
 };
 
-/// Which side of the contact filter a body is on: the two sides collide, a side not with itself.
+/// Which side of the contact filter a body is on: the two sides collide, and the robot with itself
+/// as a SelfCollisionFilter says.
 enum class ContactSide : int { kRobot = 2, kDoor = 4 };
 
 /// A multibody with colliders on a fixed base, and all that Bullet wants to be kept alive for it.
@@ -83,6 +84,9 @@ class BulletBody {
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
   std::vector<std::unique_ptr<btMultiBodyConstraint>> constraints_;
 };
+
+/// Mass as the links of a multibody have it: no principal moment below the least one.
+MassProperties WithLeastInertia(MassProperties mass, double least_kg_m2);
 
 /// A hull as Bullet holds it: margin 1 mm instead of the default 4 cm.
 std::unique_ptr<btCollisionShape> MakeHull(const TriangleMesh& mesh,

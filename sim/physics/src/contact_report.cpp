@@ -15,14 +15,35 @@ std::string NameOfDoorPart(const DoorBody& door, const btCollisionObject* object
   return "frame";
 }
 
+void AddName(const std::string& name, std::string& names) {
+  if (!names.empty()) names += ", ";
+  names += name;
+}
+
+void AddSelfContact(const btPersistentManifold& manifold, const RobotBody& robot,
+                    double time_step_s, DoorContacts& contacts) {
+  bool touches = false;
+  for (int i = 0; i < manifold.getNumContacts(); ++i) {
+    const btManifoldPoint& point = manifold.getContactPoint(i);
+    if (point.getDistance() >= kTouchDistance) continue;
+    touches = true;
+    ++contacts.self_points;
+    contacts.self_force_n += point.getAppliedImpulse() / time_step_s;
+  }
+  if (touches)
+    AddName(robot.NameOf(manifold.getBody0()) + "-" + robot.NameOf(manifold.getBody1()),
+            contacts.self_touches);
+}
+
 void AddContact(const btPersistentManifold& manifold, const RobotBody& robot, const DoorBody& door,
                 double time_step_s, DoorContacts& contacts) {
   const btCollisionObject* first = manifold.getBody0();
   const btCollisionObject* second = manifold.getBody1();
   if (robot.NameOf(first).empty()) std::swap(first, second);
+  if (!robot.NameOf(second).empty()) return AddSelfContact(manifold, robot, time_step_s, contacts);
   const bool handle = second == door.handle_collider();
-  const bool left = first == robot.collider(kLeftFinger);
-  const bool right = first == robot.collider(kRightFinger);
+  const bool left = first == robot.finger(0);
+  const bool right = first == robot.finger(1);
   const bool pad = handle && (left || right);
   const auto side = static_cast<std::size_t>(right ? 1 : 0);
   bool touches = false;
@@ -43,8 +64,7 @@ void AddContact(const btPersistentManifold& manifold, const RobotBody& robot, co
     }
   }
   if (!touches || pad) return;
-  if (!contacts.arm_touches.empty()) contacts.arm_touches += ", ";
-  contacts.arm_touches += robot.NameOf(first) + "-" + NameOfDoorPart(door, second);
+  AddName(robot.NameOf(first) + "-" + NameOfDoorPart(door, second), contacts.arm_touches);
 }
 
 }  // namespace

@@ -15,18 +15,36 @@
 #include "contact_report.h"
 #include "door_body.h"
 #include "robot_body.h"
+#include "self_collision.h"
 
 namespace doorforge {
 namespace {
 
 void Check(const PhysicsConfig& config) {
-  const bool good = config.time_step_s > 0 && config.time_step_s <= 0.02 &&
-                    config.solver_iterations > 0 && config.steps_per_action > 0 &&
-                    config.finger_friction >= 0 && config.handle_friction >= 0 &&
-                    config.finger_force_n > 0;
+  const bool good =
+      config.time_step_s > 0 && config.time_step_s <= 0.02 && config.solver_iterations > 0 &&
+      config.steps_per_action > 0 && config.finger_friction >= 0 && config.handle_friction >= 0 &&
+      config.finger_force_n > 0 && config.operational_space.kp > 0 &&
+      config.operational_space.posture_kp > 0 && config.operational_space.armature >= 0 &&
+      config.operational_space.lead_m > 0 && config.operational_space.lead_rad > 0;
   Require(good, ErrorCode::kInvalidArgument,
           "physics: time_step_s must lie in (0, 0.02], frictions be >= 0, and all other numbers "
           "be positive");
+  Require(config.controller == "joint_motors" || config.controller == "operational_space",
+          ErrorCode::kInvalidConfig,
+          "physics.controller: found \"" + config.controller +
+              "\", allowed joint_motors, operational_space");
+}
+
+// The scene's robot stands as the robot is made, and is this one.
+void Check(const Scene& scene, const RobotModel& robot) {
+  Require(RobotBaseNamed(scene.physics.base) == robot.base(), ErrorCode::kInvalidArgument,
+          "the scene has physics.base: " + scene.physics.base + ", but the robot was loaded with " +
+              NameOf(robot.base()));
+  Require(scene.robot.sha256.empty() || scene.robot.sha256 == robot.sha256(),
+          ErrorCode::kInvalidArgument,
+          "the scene is of robot \"" + scene.robot.name + "\" with another hash than this \"" +
+              robot.name() + '"');
 }
 
 }  // namespace
@@ -57,6 +75,7 @@ class DoorWorld::Runtime {
 
   btDefaultCollisionConfiguration collision_configuration_;
   mutable btCollisionDispatcher dispatcher_{&collision_configuration_};
+  std::unique_ptr<internal::SelfCollisionFilter> self_collisions_;
   btDbvtBroadphase broadphase_;
   btMultiBodyConstraintSolver solver_;
   btMultiBodyDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &collision_configuration_};
@@ -69,8 +88,11 @@ DoorWorld::Runtime::Runtime(const Scene& the_scene, const DoorAsset& the_door,
                             const RobotModel& the_robot, const JointVector& start)
     : scene(the_scene), door(the_door), robot(the_robot) {
   Check(scene.physics);
+  Check(scene, robot);
   internal::SwitchProfilingOff();
   ConfigureSolver();
+  self_collisions_ = std::make_unique<internal::SelfCollisionFilter>(robot);
+  world_.getPairCache()->setOverlapFilterCallback(self_collisions_.get());
   robot_body_ = std::make_unique<internal::RobotBody>(world_, scene, robot, start);
   door_body_ = std::make_unique<internal::DoorBody>(world_, scene.world_from_door, door,
                                                     scene.latch, scene.physics.handle_friction);

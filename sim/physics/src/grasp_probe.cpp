@@ -35,6 +35,7 @@ class GraspProbe::Runtime {
   std::array<std::vector<Hull>, 2> finger;  ///< The same, at finger position 0.
   std::array<Eigen::Vector3d, 2> opening;   ///< Direction in which each finger opens.
   double most_open;
+  int left_finger;
 
  private:
   std::vector<Hull> door_;  ///< All of the closed door, in its frame.
@@ -43,12 +44,13 @@ class GraspProbe::Runtime {
 
 GraspProbe::Runtime::Runtime(const DoorAsset& door, const RobotModel& robot) {
   const RigidTransform tcp_from_body = robot.tcp().body_from_frame.inverse();
-  most_open = robot.joints()[kLeftFinger].upper;
+  left_finger = robot.left_finger();
+  most_open = robot.joint(left_finger).upper;
   for (const RobotPiece& piece : robot.hulls()) {
-    if (piece.joint == kArmJointCount - 1) hand.push_back(MakeProbeHull(piece.mesh, tcp_from_body));
-    if (piece.joint < kArmJointCount) continue;
+    if (piece.joint == left_finger - 1) hand.push_back(MakeProbeHull(piece.mesh, tcp_from_body));
+    if (piece.joint < left_finger) continue;
     const RobotJoint& joint = robot.joints()[static_cast<std::size_t>(piece.joint)];
-    const auto side = static_cast<std::size_t>(piece.joint - kLeftFinger);
+    const auto side = static_cast<std::size_t>(piece.joint - left_finger);
     const RigidTransform tcp_from_joint = tcp_from_body * joint.parent_from_joint;
     opening.at(side) = tcp_from_joint.linear() * joint.axis;
     finger.at(side).push_back(MakeProbeHull(piece.mesh, tcp_from_joint));
@@ -106,7 +108,7 @@ double GraspProbe::Clearance(const RigidTransform& door_from_tcp, double cutoff_
 }
 
 std::optional<PadContact> GraspProbe::Close(const RigidTransform& door_from_tcp, int finger) const {
-  const auto side = static_cast<std::size_t>(finger - kLeftFinger);
+  const auto side = static_cast<std::size_t>(finger - runtime_->left_finger);
   double position = runtime_->most_open;
   // conservative advancement: a hull cannot be reached before the distance is travelled
   for (int i = 0; i < 40 && position > 0; ++i) {

@@ -67,32 +67,33 @@ void HandController::AdvancePose(double time_step_s) {
 
 RobotCommand HandController::CommandOf(const JointVector& measured) {
   // the drives must not wind up against a handle stop or a locked door
-  for (int i = 0; i < kArmJointCount; ++i)
+  for (int i = 0; i < robot_->arm_count(); ++i)
     reference_[i] = std::clamp(reference_[i], measured[i] - config_.max_joint_lead,
                                measured[i] + config_.max_joint_lead);
-  return {reference_.head<kArmJointCount>(), close_fingers};
+  return {reference_.head(robot_->arm_count()), close_fingers, std::nullopt};
 }
 
 RobotCommand HandController::Step(const JointVector& measured, double time_step_s) {
   AdvancePose(time_step_s);
   const JointVector next = StepTowards(*robot_, world_from_base_, goal_, reference_);
-  for (int i = 0; i < kArmJointCount; ++i) {
-    const double most = robot_->joints()[static_cast<std::size_t>(i)].velocity * time_step_s;
+  for (int i = 0; i < robot_->arm_count(); ++i) {
+    const double most = robot_->joint(i).velocity * time_step_s;
     reference_[i] += std::clamp(next[i] - reference_[i], -most, most);
   }
-  return CommandOf(measured);
+  RobotCommand command = CommandOf(measured);
+  command.world_from_tcp = goal_.world_from_tcp;
+  return command;
 }
 
 RobotCommand HandController::StepJoints(const JointVector& target, const JointVector& measured,
                                         double time_step_s, double speed_fraction) {
   // all joints arrive together: the one that needs longest sets the pace
   double steps = 1;
-  for (int i = 0; i < kArmJointCount; ++i) {
-    const double most =
-        speed_fraction * robot_->joints()[static_cast<std::size_t>(i)].velocity * time_step_s;
+  for (int i = 0; i < robot_->arm_count(); ++i) {
+    const double most = speed_fraction * robot_->joint(i).velocity * time_step_s;
     steps = std::max(steps, std::abs(target[i] - reference_[i]) / most);
   }
-  reference_.head<kArmJointCount>() += (target - reference_).head<kArmJointCount>() / steps;
+  reference_.head(robot_->arm_count()) += (target - reference_).head(robot_->arm_count()) / steps;
   goal_.world_from_tcp = robot_->PoseAt(reference_, world_from_base_).world_from_tcp;
   target_ = CommandedHand();
   remaining_s_ = 0;

@@ -58,17 +58,17 @@ JointVector StepTowards(const RobotModel& robot, const RigidTransform& world_fro
   const ArmJacobian jacobian = robot.TcpJacobian(pose);
   const Twist twist =
       config.gain * Shortened(ErrorTo(goal.world_from_tcp, pose.world_from_tcp), config);
-  ArmVector posture_step = config.posture_gain * (goal.posture - position).head<kArmJointCount>();
-  posture_step.head<kSliderCount>().setZero();
+  ArmVector posture_step = config.posture_gain * (goal.posture - position).head(robot.arm_count());
+  posture_step.head(robot.base_count()).setZero();
 
-  ArmVector weight = ArmVector::Ones();
-  ArmVector step = ArmVector::Zero();
+  ArmVector weight = ArmVector::Ones(robot.arm_count());
+  ArmVector step = ArmVector::Zero(robot.arm_count());
   // each pass freezes at least one joint; after four the hand has lost too many to be steered
   for (int pass = 0; pass < 4; ++pass) {
     step = DampedStep(jacobian, weight, twist, posture_step, config.damping);
     bool frozen = false;
-    for (int i = kSliderCount; i < kArmJointCount; ++i) {
-      const RobotJoint& joint = robot.joints()[static_cast<std::size_t>(i)];
+    for (int i = robot.base_count(); i < robot.arm_count(); ++i) {
+      const RobotJoint& joint = robot.joint(i);
       const double next = position[i] + step[i];
       const bool runs_out = (next > joint.upper - config.limit_margin_rad && step[i] > 0) ||
                             (next < joint.lower + config.limit_margin_rad && step[i] < 0);
@@ -79,7 +79,7 @@ JointVector StepTowards(const RobotModel& robot, const RigidTransform& world_fro
     if (!frozen) break;
   }
   JointVector next = position;
-  next.head<kArmJointCount>() += step;
+  next.head(robot.arm_count()) += step;
   return robot.Clamped(next);
 }
 

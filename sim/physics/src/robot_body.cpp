@@ -14,6 +14,15 @@ constexpr double kFingerOpenForce = 100;
 constexpr double kGearForce = 200;
 constexpr double kHandFriction = 0.3;
 
+double LeastInertia(const RobotJoint& joint) { return joint.prismatic ? 1e-3 : 1e-2; }
+
+std::vector<MassProperties> SimulatedMasses(const RobotModel& robot) {
+  std::vector<MassProperties> masses;
+  for (const RobotJoint& joint : robot.joints())
+    masses.push_back(WithLeastInertia(joint.mass, LeastInertia(joint)));
+  return masses;
+}
+
 std::vector<BulletLink> LinksOf(const RobotModel& robot, double finger_friction) {
   std::vector<BulletLink> links;
   for (const RobotJoint& joint : robot.joints()) {
@@ -25,15 +34,15 @@ std::vector<BulletLink> LinksOf(const RobotModel& robot, double finger_friction)
     link.lower = joint.lower;
     link.upper = joint.upper;
     link.mass = joint.mass;
-    link.least_inertia_kg_m2 = joint.prismatic ? 1e-3 : 1e-2;
+    link.least_inertia_kg_m2 = LeastInertia(joint);
     links.push_back(link);
   }
   for (const RobotPiece& piece : robot.hulls()) {
     if (piece.joint >= 0) links[static_cast<std::size_t>(piece.joint)].hulls.push_back(piece.mesh);
   }
-  for (const int finger : {kLeftFinger, kRightFinger})
+  for (const int finger : {robot.left_finger(), robot.right_finger()})
     links[static_cast<std::size_t>(finger)].friction = finger_friction;
-  links[kArmJointCount - 1].friction = kHandFriction;
+  links[static_cast<std::size_t>(robot.arm_count()) - 1].friction = kHandFriction;
   return links;
 }
 
@@ -46,9 +55,14 @@ RobotBody::RobotBody(btMultiBodyDynamicsWorld& world, const Scene& scene, const 
       finger_force_n_(scene.physics.finger_force_n),
       body_(world, scene.world_from_robot_base, LinksOf(robot, scene.physics.finger_friction),
             ContactSide::kRobot) {
-  AddArmMotors(start);
+  if (scene.physics.controller == "operational_space") {
+    torques_.emplace(robot, scene.world_from_robot_base, scene.physics.operational_space,
+                     SimulatedMasses(robot));
+  } else {
+    AddArmMotors(start);
+  }
   AddFingers();
-  for (int i = 0; i < kRobotJointCount; ++i) {
+  for (int i = 0; i < robot_.joint_count(); ++i) {
     const btScalar position = start[i];
     body_.multibody().setJointPosMultiDof(i, &position);
   }
@@ -56,8 +70,8 @@ RobotBody::RobotBody(btMultiBodyDynamicsWorld& world, const Scene& scene, const 
 }
 
 void RobotBody::AddArmMotors(const JointVector& start) {
-  for (int i = 0; i < kArmJointCount; ++i) {
-    const double effort = robot_.joints()[static_cast<std::size_t>(i)].effort;
+  for (int i = 0; i < robot_.arm_count(); ++i) {
+    const double effort = robot_.joint(i).effort;
     auto& motor = body_.Add(
         std::make_unique<btMultiBodyJointMotor>(&body_.multibody(), i, 0, effort * time_step_s_));
     motor.setErp(1);
@@ -71,23 +85,32 @@ void RobotBody::AddFingers() {
   btMultiBody* body = &body_.multibody();
   for (const int side : {0, 1}) {
     auto& motor = body_.Add(std::make_unique<btMultiBodyJointMotor>(
-        body, kLeftFinger + side, 0, kFingerOpenForce * time_step_s_));
+        body, robot_.left_finger() + side, 0, kFingerOpenForce * time_step_s_));
     motor.setErp(1);
     finger_motors_.at(static_cast<std::size_t>(side)) = &motor;
   }
   // couples the fingers: load on one alone would push the pair sideways
   auto& gear = body_.Add(std::make_unique<btMultiBodyGearConstraint>(
-      body, kLeftFinger, body, kRightFinger, btVector3(0, 0, 0), btVector3(0, 0, 0),
-      btMatrix3x3::getIdentity(), btMatrix3x3::getIdentity()));
+      body, robot_.left_finger(), body, robot_.right_finger(), btVector3(0, 0, 0),
+      btVector3(0, 0, 0), btMatrix3x3::getIdentity(), btMatrix3x3::getIdentity()));
   gear.setGearRatio(-1);
   gear.setErp(0.1);
   gear.setMaxAppliedImpulse(kGearForce * time_step_s_);
 }
 
-void RobotBody::Command(const RobotCommand& command) {
-  for (int i = 0; i < kArmJointCount; ++i)
+void RobotBody::CommandArm(const RobotCommand& command) {
+  if (torques_) {
+    const ArmVector torques = torques_->Torques(command, Positions(), Velocities());
+    for (int i = 0; i < robot_.arm_count(); ++i) body_.multibody().addJointTorque(i, torques[i]);
+    return;
+  }
+  for (int i = 0; i < robot_.arm_count(); ++i)
     arm_motors_[static_cast<std::size_t>(i)]->setPositionTarget(command.arm_position[i],
                                                                 kArmPositionGain);
+}
+
+void RobotBody::Command(const RobotCommand& command) {
+  CommandArm(command);
   for (btMultiBodyJointMotor* motor : finger_motors_) {
     if (command.close_fingers) {
       // a velocity drive that stalls on the handle presses with just this force
@@ -95,7 +118,7 @@ void RobotBody::Command(const RobotCommand& command) {
       motor->setVelocityTarget(-kFingerSpeed, 1);
       motor->setMaxAppliedImpulse(finger_force_n_ * time_step_s_);
     } else {
-      motor->setPositionTarget(robot_.joints()[kLeftFinger].upper, 0.3);
+      motor->setPositionTarget(robot_.joint(robot_.left_finger()).upper, 0.3);
       motor->setVelocityTarget(0, 1);
       motor->setMaxAppliedImpulse(kFingerOpenForce * time_step_s_);
     }
@@ -103,23 +126,24 @@ void RobotBody::Command(const RobotCommand& command) {
 }
 
 JointVector RobotBody::Positions() const {
-  JointVector positions;
-  for (int i = 0; i < kRobotJointCount; ++i) positions[i] = body_.Position(i);
+  JointVector positions(robot_.joint_count());
+  for (int i = 0; i < robot_.joint_count(); ++i) positions[i] = body_.Position(i);
   return positions;
 }
 
 JointVector RobotBody::Velocities() const {
-  JointVector velocities;
-  for (int i = 0; i < kRobotJointCount; ++i) velocities[i] = body_.Velocity(i);
+  JointVector velocities(robot_.joint_count());
+  for (int i = 0; i < robot_.joint_count(); ++i) velocities[i] = body_.Velocity(i);
   return velocities;
 }
 
 std::string RobotBody::NameOf(const btCollisionObject* object) const {
-  for (int i = 0; i < kRobotJointCount; ++i) {
+  for (int i = 0; i < robot_.joint_count(); ++i) {
     if (object != body_.collider(i)) continue;
-    if (i >= kArmJointCount) return "finger";
-    if (i == kArmJointCount - 1) return "hand";
-    return i < kSliderCount ? "platform" : "link" + std::to_string(i - 1);
+    if (i >= robot_.arm_count()) return "finger";
+    if (i == robot_.arm_count() - 1) return "hand";
+    const int link = i - robot_.base_count() + 1;
+    return link < 1 ? "platform" : "link" + std::to_string(link);
   }
   return {};
 }

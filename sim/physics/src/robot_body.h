@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "doorforge/schemas/scene.h"
 
 #include "bullet_body.h"
+#include "operational_space.h"
 
 namespace doorforge::internal {
 
@@ -29,18 +31,24 @@ class RobotBody {
   JointVector Positions() const;
   JointVector Velocities() const;
   const btCollisionObject* collider(int joint) const { return body_.collider(joint); }
+  /// Left (0) and right (1).
+  const btCollisionObject* finger(int side) const {
+    return body_.collider(robot_.left_finger() + side);
+  }
   /// "platform", "link3", "hand", "finger"; empty where it is not one of the robot's.
   std::string NameOf(const btCollisionObject* object) const;
 
  private:
   void AddArmMotors(const JointVector& start);
   void AddFingers();
+  void CommandArm(const RobotCommand& command);
 
   const RobotModel& robot_;
   double time_step_s_;
   double finger_force_n_;
   BulletBody body_;
-  std::vector<btMultiBodyJointMotor*> arm_motors_;
+  std::vector<btMultiBodyJointMotor*> arm_motors_;  // none where torques lead the arm
+  std::optional<OperationalSpace> torques_;
   std::array<btMultiBodyJointMotor*, 2> finger_motors_{};
 };
 

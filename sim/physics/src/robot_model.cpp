@@ -3,126 +3,129 @@
 #include "doorforge/physics/robot_model.h"
 
 #include <algorithm>
-#include <map>
+#include <array>
+#include <span>
 
 #include "doorforge/core/error.h"
-#include "doorforge/core/program.h"
-#include "doorforge/schemas/mesh_file.h"
+#include "doorforge/core/hash.h"
+
+#include "level_postures.h"
+#include "self_collision.h"
 
 namespace doorforge {
 namespace {
 
-[[noreturn]] void Fail(const UrdfModel& urdf, const std::string& problem) {
-  throw Error(ErrorCode::kFormat, "robot \"" + urdf.name + "\": " + problem);
+constexpr std::array<const char*, 3> kBaseNames{"sliders", "fixed", "yaw"};
+
+int BaseJointCount(RobotBase base) {
+  switch (base) {
+    case RobotBase::kSliders:
+      return kSliderCount;
+    case RobotBase::kFixed:
+      return 0;
+    case RobotBase::kYaw:
+      return kMostBaseJoints;
+  }
+  return 0;
 }
 
-RobotJoint ToJoint(const UrdfJoint& joint, const RobotFrame& parent) {
-  RobotJoint result;
-  result.name = joint.name;
-  result.prismatic = joint.type == UrdfJointType::kPrismatic;
-  result.parent = parent.joint;
-  result.parent_from_joint = parent.body_from_frame * joint.parent_from_joint;
-  result.axis = joint.axis.normalized();
-  result.lower = joint.lower;
-  result.upper = joint.upper;
-  result.effort = joint.effort.value_or(0);
-  result.velocity = joint.velocity.value_or(0);
-  return result;
+void RequireGripperArm(const RobotDescription& robot, int base_count) {
+  const int count = static_cast<int>(robot.joints.size());
+  const int arm_count = count - 2;
+  const auto require = [&](bool good, const std::string& problem) {
+    if (!good) throw Error(ErrorCode::kFormat, "robot \"" + robot.name + "\": " + problem);
+  };
+  require(arm_count - base_count >= 6 && arm_count - base_count <= 8,
+          std::to_string(arm_count - base_count) + " arm joints, expected 6 to 8");
+  for (int i = 0; i < count; ++i) {
+    const RobotJoint& joint = robot.joints[static_cast<std::size_t>(i)];
+    const bool slides = i < std::min(base_count, kSliderCount) || i >= arm_count;
+    const int parent = i < arm_count ? i - 1 : arm_count - 1;
+    require(joint.prismatic == slides && joint.parent == parent,
+            "joint \"" + joint.name + "\" is not of the kind or at the place of joint " +
+                std::to_string(i) + "; see doorforge/physics/robot_model.h");
+  }
+  require(robot.hand.joint == arm_count - 1 && robot.tcp.joint == arm_count - 1,
+          "hand and tool centre must be fixed to the last arm joint");
 }
 
-// Frames of all links, and the moving joints in tree order (siblings in file order).
-struct Tree {
-  std::map<std::string, RobotFrame> frames;
-  std::vector<RobotJoint> joints;
+class Fingerprint {
+ public:
+  void Add(const std::string& text) { hash_.Update(text + '\n'); }
+  template <class Derived>
+  void Add(const Eigen::DenseBase<Derived>& numbers) {
+    const typename Derived::PlainObject plain = numbers;
+    hash_.Update(std::as_bytes(std::span(plain.data(), static_cast<std::size_t>(plain.size()))));
+  }
+  void Add(const RigidTransform& transform) { Add(transform.matrix()); }
+  void Add(double number) { Add(Eigen::Matrix<double, 1, 1>(number)); }
+  std::string HexDigest() { return hash_.HexDigest(); }
+
+ private:
+  Sha256 hash_;
 };
 
-void AddChildren(const UrdfModel& urdf, const std::string& link, Tree& tree) {
-  for (const UrdfJoint& joint : urdf.joints) {
-    if (joint.parent != link) continue;
-    const RobotFrame& parent = tree.frames.at(link);
-    if (joint.type == UrdfJointType::kFixed) {
-      tree.frames[joint.child] = {parent.joint, parent.body_from_frame * joint.parent_from_joint};
-    } else {
-      tree.joints.push_back(ToJoint(joint, parent));
-      tree.frames[joint.child] = {static_cast<int>(tree.joints.size()) - 1,
-                                  RigidTransform::Identity()};
+void AddJoint(const RobotJoint& joint, Fingerprint& print) {
+  print.Add(joint.name);
+  print.Add(joint.parent_from_joint);
+  print.Add(joint.axis);
+  for (const double number :
+       {joint.prismatic ? 1.0 : 0.0, static_cast<double>(joint.parent), joint.lower, joint.upper,
+        joint.effort, joint.velocity, joint.mass.mass_kg})
+    print.Add(number);
+  print.Add(joint.mass.center_of_mass_m);
+  print.Add(joint.mass.inertia_kg_m2);
+}
+
+std::string HashOf(const RobotDescription& robot) {
+  Fingerprint print;
+  print.Add(robot.name);
+  for (const RobotJoint& joint : robot.joints) AddJoint(joint, print);
+  for (const auto* pieces : {&robot.visuals, &robot.hulls}) {
+    for (const RobotPiece& piece : *pieces) {
+      print.Add(piece.name);
+      print.Add(static_cast<double>(piece.joint));
+      for (const Eigen::Vector3d& vertex : piece.mesh.vertices) print.Add(vertex);
+      for (const Eigen::Vector3i& triangle : piece.mesh.triangles) print.Add(triangle);
     }
-    AddChildren(urdf, joint.child, tree);
   }
-}
-
-RobotPiece ToPiece(const UrdfShape& shape, const RobotFrame& frame,
-                   const std::filesystem::path& folder) {
-  const auto* file = std::get_if<UrdfMeshFile>(&shape.geometry);
-  if (file == nullptr)
-    throw Error(ErrorCode::kFormat, "robot shape \"" + shape.name + "\" is not a mesh");
-  RobotPiece piece;
-  piece.name = shape.name;
-  piece.joint = frame.joint;
-  piece.mesh = ReadObj(folder / file->filename);
-  const RigidTransform body_from_shape = frame.body_from_frame * shape.link_from_shape;
-  for (Eigen::Vector3d& vertex : piece.mesh.vertices)
-    vertex = body_from_shape * vertex.cwiseProduct(file->scale).eval();
-  if (shape.color_rgba) piece.color_rgba = *shape.color_rgba;
-  return piece;
-}
-
-void RequireGripperArm(const UrdfModel& urdf, const std::vector<RobotJoint>& joints) {
-  if (joints.size() != kRobotJointCount)
-    Fail(urdf, "has " + std::to_string(joints.size()) +
-                   " moving joints, expected 11: two sliders, "
-                   "seven arm joints, two fingers");
-  for (int i = 0; i < kRobotJointCount; ++i) {
-    const RobotJoint& joint = joints[static_cast<std::size_t>(i)];
-    const bool slides = i < kSliderCount || i >= kArmJointCount;
-    const int parent = i < kArmJointCount ? i - 1 : kArmJointCount - 1;
-    if (joint.prismatic != slides || joint.parent != parent)
-      Fail(urdf, "joint \"" + joint.name + "\" is not of the kind or at the place of joint " +
-                     std::to_string(i) + "; see doorforge/physics/robot_model.h");
-  }
+  print.Add(robot.hand.body_from_frame);
+  print.Add(robot.tcp.body_from_frame);
+  print.Add(robot.rest);
+  return print.HexDigest();
 }
 
 }  // namespace
 
-RobotModel::RobotModel(const UrdfModel& urdf, const std::filesystem::path& folder) {
-  Tree tree;
-  const std::string root = RootLinkOf(urdf);
-  tree.frames[root] = {};
-  AddChildren(urdf, root, tree);
-  RequireGripperArm(urdf, tree.joints);
-
-  std::vector<std::vector<MassProperties>> masses(tree.joints.size());
-  for (const UrdfLink& link : urdf.links) {
-    const RobotFrame& frame = tree.frames.at(link.name);
-    if (link.inertial && frame.joint >= 0)
-      masses[static_cast<std::size_t>(frame.joint)].push_back(
-          Transformed(*link.inertial, frame.body_from_frame));
-    for (const UrdfShape& shape : link.visuals) visuals_.push_back(ToPiece(shape, frame, folder));
-    for (const UrdfShape& shape : link.collisions) hulls_.push_back(ToPiece(shape, frame, folder));
+RobotBase RobotBaseNamed(const std::string& name) {
+  for (std::size_t i = 0; i < kBaseNames.size(); ++i) {
+    if (name == kBaseNames.at(i)) return static_cast<RobotBase>(i);
   }
-  for (std::size_t i = 0; i < masses.size(); ++i) tree.joints[i].mass = Combined(masses[i]);
+  throw Error(ErrorCode::kInvalidConfig,
+              "physics.base: found \"" + name + "\", allowed sliders, fixed, yaw");
+}
 
-  joints_ = std::move(tree.joints);
-  for (const char* name : {"panda_hand", "panda_hand_tcp"}) {
-    const auto frame = tree.frames.find(name);
-    if (frame == tree.frames.end() || frame->second.joint != kArmJointCount - 1)
-      Fail(urdf,
-           std::string("link \"") + name + "\" is missing or not fixed to the last arm joint");
-  }
-  hand_ = tree.frames.at("panda_hand");
-  tcp_ = tree.frames.at("panda_hand_tcp");
+std::string NameOf(RobotBase base) { return kBaseNames.at(static_cast<std::size_t>(base)); }
+
+RobotModel::RobotModel(RobotDescription description)
+    : robot_(std::move(description)), base_count_(BaseJointCount(robot_.base)) {
+  RequireGripperArm(robot_, base_count_);
+  if (!robot_.name.empty()) sha256_ = HashOf(robot_);
+  self_collisions_ = internal::SelfCollisionPairs(*this);
+  level_postures_ = internal::LevelPostures(*this);
 }
 
 RigidTransform RobotModel::hand_from_tcp() const {
-  return hand_.body_from_frame.inverse() * tcp_.body_from_frame;
+  return robot_.hand.body_from_frame.inverse() * robot_.tcp.body_from_frame;
 }
 
 RobotPose RobotModel::PoseAt(const JointVector& position,
                              const RigidTransform& world_from_base) const {
   RobotPose pose;
-  pose.world_from_body.reserve(joints_.size());
-  for (std::size_t i = 0; i < joints_.size(); ++i) {
-    const RobotJoint& joint = joints_[i];
+  pose.world_from_base = world_from_base;
+  pose.world_from_body.reserve(robot_.joints.size());
+  for (std::size_t i = 0; i < robot_.joints.size(); ++i) {
+    const RobotJoint& joint = robot_.joints[i];
     const double q = position[static_cast<Eigen::Index>(i)];
     RigidTransform world_from_joint =
         (joint.parent < 0 ? world_from_base
@@ -135,20 +138,19 @@ RobotPose RobotModel::PoseAt(const JointVector& position,
     }
     pose.world_from_body.push_back(world_from_joint);
   }
-  const RigidTransform& last = pose.world_from_body[kArmJointCount - 1];
-  pose.world_from_hand = last * hand_.body_from_frame;
-  pose.world_from_tcp = last * tcp_.body_from_frame;
+  const RigidTransform& last = pose.world_from_body[static_cast<std::size_t>(arm_count()) - 1];
+  pose.world_from_hand = last * robot_.hand.body_from_frame;
+  pose.world_from_tcp = last * robot_.tcp.body_from_frame;
   return pose;
 }
 
 ArmJacobian RobotModel::TcpJacobian(const RobotPose& pose) const {
-  ArmJacobian jacobian = ArmJacobian::Zero();
+  ArmJacobian jacobian = ArmJacobian::Zero(6, arm_count());
   const Eigen::Vector3d point = pose.world_from_tcp.translation();
-  for (int i = 0; i < kArmJointCount; ++i) {
-    const auto index = static_cast<std::size_t>(i);
-    const RigidTransform& body = pose.world_from_body[index];
-    const Eigen::Vector3d axis = body.linear() * joints_[index].axis;
-    if (joints_[index].prismatic) {
+  for (int i = 0; i < arm_count(); ++i) {
+    const RigidTransform& body = pose.world_from_body[static_cast<std::size_t>(i)];
+    const Eigen::Vector3d axis = body.linear() * joint(i).axis;
+    if (joint(i).prismatic) {
       jacobian.col(i).head<3>() = axis;
     } else {
       jacobian.col(i).head<3>() = axis.cross(point - body.translation());
@@ -160,25 +162,18 @@ ArmJacobian RobotModel::TcpJacobian(const RobotPose& pose) const {
 
 JointVector RobotModel::Clamped(const JointVector& position) const {
   JointVector clamped = position;
-  for (int i = 0; i < kRobotJointCount; ++i) {
-    const RobotJoint& joint = joints_[static_cast<std::size_t>(i)];
-    clamped[i] = std::clamp(position[i], joint.lower, joint.upper);
-  }
+  for (int i = 0; i < joint_count(); ++i)
+    clamped[i] = std::clamp(position[i], joint(i).lower, joint(i).upper);
   return clamped;
 }
 
 JointVector RobotModel::InitialPosition() const {
-  JointVector position;
-  for (int i = 0; i < kRobotJointCount; ++i) {
-    const RobotJoint& joint = joints_[static_cast<std::size_t>(i)];
-    position[i] = i < kArmJointCount ? 0.3 * (joint.lower + joint.upper) : joint.upper;
-  }
+  JointVector position(joint_count());
+  for (int i = 0; i < joint_count(); ++i)
+    position[i] = i < arm_count() ? 0.3 * (joint(i).lower + joint(i).upper) : joint(i).upper;
+  if (robot_.rest.size() > 0)
+    position.segment(base_count_, arm_count() - base_count_) = robot_.rest;
   return position;
-}
-
-RobotModel LoadMobileFranka() {
-  const std::filesystem::path folder = DataFolder() / "robots" / "mobile_franka";
-  return {ReadUrdf(folder / "mobile_franka.urdf"), folder};
 }
 
 }  // namespace doorforge

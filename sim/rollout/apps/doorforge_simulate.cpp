@@ -23,6 +23,7 @@ int Main(int argc, char** argv) {
       "  doorforge simulate --door doors --episodes 5");
   SimulateOptions options;
   std::string config;
+  std::string robot;
   std::vector<std::string> settings;
   app.add_option("--door", options.doors, "a door's folder, or a folder of them")->required();
   app.add_option("--seed", options.seed, "first seed")->capture_default_str();
@@ -32,6 +33,8 @@ int Main(int argc, char** argv) {
   app.add_option("--episodes", options.episodes, "episodes of each door in each seed")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));
+  app.add_option("--robot", robot, "URDF of a robot; the built-in mobile Franka if left out")
+      ->check(CLI::ExistingFile);
   app.add_option("--film", options.film, "folder for a PNG of each episode");
   app.add_option("--threads", options.threads, "0: all processors")->check(CLI::Range(0, 4096));
   app.add_option("--config", config, "YAML file with the settings of scene and expert");
@@ -43,6 +46,7 @@ int Main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   options.config = LoadConfig<SimulateConfig>(config, settings);
+  if (!robot.empty()) options.config.scene.robot = robot;
   return Simulate(options);
 }
 

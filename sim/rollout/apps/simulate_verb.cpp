@@ -18,8 +18,10 @@
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
 #include "doorforge/rollout/run_episode.h"
+#include "doorforge/rollout/standing_place.h"
 
 #include "film.h"
+#include "robot_meshes.h"
 
 namespace doorforge {
 namespace {
@@ -69,8 +71,10 @@ std::string NameOf(const Row& row, const DoorAsset& door) {
 
 void RunRow(const SimulateOptions& options, const DoorAsset& door, const RobotModel& robot,
             Row& row) {
-  const Scene scene =
-      SampleScene(door, row.seed, static_cast<std::uint64_t>(row.episode), options.config.scene);
+  const Scene scene = SceneFor(
+      robot,
+      SampleScene(door, row.seed, static_cast<std::uint64_t>(row.episode), options.config.scene),
+      door);
   std::unique_ptr<Film> film;
   if (!options.film.empty()) film = std::make_unique<Film>(scene, door, robot);
   OpeningExpert expert(options.config.expert);
@@ -186,7 +190,8 @@ std::vector<fs::path> DoorFoldersIn(const std::vector<fs::path>& paths) {
 int Simulate(const SimulateOptions& options) {
   std::vector<DoorAsset> doors;
   for (const fs::path& folder : DoorFoldersIn(options.doors)) doors.push_back(ReadDoor(folder));
-  const RobotModel robot = LoadMobileFranka();
+  const RobotModel robot = LoadRobot(
+      options.config.scene.robot, RobotBaseNamed(options.config.scene.physics.base), RobotMeshes());
   std::vector<Row> rows = PlanRows(options, doors.size());
   Progress progress("simulating", rows.size());
   ParallelFor(rows.size(), options.threads, [&](std::size_t i) {

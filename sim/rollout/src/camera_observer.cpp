@@ -18,9 +18,9 @@ std::vector<VisibleMesh> VisibleMeshesOf(const DoorAsset& door, const RobotModel
       meshes.push_back({geometry.mesh, link, geometry.label, geometry.color_rgba.head<3>()});
   }
   for (const RobotPiece& piece : robot.visuals()) {
-    if (piece.joint < 0) continue;
+    const int body = piece.joint < 0 ? robot.joint_count() : piece.joint;
     meshes.push_back(
-        {piece.mesh, kDoorLinks + piece.joint, PointLabel::kRobot, piece.color_rgba.head<3>()});
+        {piece.mesh, kDoorLinks + body, PointLabel::kRobot, piece.color_rgba.head<3>()});
   }
   return meshes;
 }
@@ -29,6 +29,7 @@ std::vector<RigidTransform> LinkPosesOf(const SceneSnapshot& snapshot) {
   std::vector<RigidTransform> poses(snapshot.door.begin(), snapshot.door.end());
   poses.insert(poses.end(), snapshot.robot.world_from_body.begin(),
                snapshot.robot.world_from_body.end());
+  poses.push_back(snapshot.robot.world_from_base);
   return poses;
 }
 

@@ -40,8 +40,11 @@ Format(const char* format, ...) {
 
 JointVector StartOf(const Scene& scene, const RobotModel& robot) {
   JointVector start = robot.InitialPosition();
-  for (std::size_t i = 0; i < scene.arm_start_offset_rad.size(); ++i)
-    start[kSliderCount + static_cast<Eigen::Index>(i)] += scene.arm_start_offset_rad[i];
+  const int arm_joints = robot.arm_count() - robot.base_count();
+  for (std::size_t i = 0; i < scene.arm_start_offset_rad.size(); ++i) {
+    if (static_cast<int>(i) < arm_joints)
+      start[robot.base_count() + static_cast<Eigen::Index>(i)] += scene.arm_start_offset_rad[i];
+  }
   return start;
 }
 
@@ -58,6 +61,7 @@ EpisodeRun::EpisodeRun(const Scene& scene, const DoorAsset& door, const RobotMod
       action_noise_(scene.seed,
                     "episode/" + scene.door_id + "/" + std::to_string(scene.episode) + "/actions") {
   episode_.scene = scene;
+  episode_.scene.robot = {robot.name(), robot.sha256()};
   controller_.SetPosture(plan_.grasp);
 }
 
@@ -111,7 +115,7 @@ EpisodeRun::Failure EpisodeRun::Reach() {
     const JointVector& now = world_.state().robot_position;
     Step(controller_.StepJoints(plan_.pregrasp, now, dt, kReachSpeedFraction));
     const JointVector rest = plan_.pregrasp - world_.state().robot_position;
-    if (rest.head<kArmJointCount>().cwiseAbs().maxCoeff() < 0.01) break;
+    if (rest.head(robot_.arm_count()).cwiseAbs().maxCoeff() < 0.01) break;
   }
   Watch("reach");
   const RigidTransform goal =
@@ -120,6 +124,7 @@ EpisodeRun::Failure EpisodeRun::Reach() {
   if (arrived) return std::nullopt;
   problem_ = Format("hand %.0f mm from the grasp pose", 1000 * HandError(goal));
   const DoorContacts contacts = world_.Contacts();
+  NoteSelfContact(contacts);
   if (!contacts.arm_touches.empty()) problem_ += ", blocked at " + contacts.arm_touches;
   return EpisodeOutcome::kNotReached;
 }
@@ -143,6 +148,7 @@ EpisodeRun::Failure EpisodeRun::Grasp() {
   for (int i = 0; i < budget && both < enough && !diverged_; ++i) {
     StepHand();
     contacts = world_.Contacts();
+    NoteSelfContact(contacts);
     both = contacts.BothPads() ? both + 1 : 0;
     CenterHand(contacts);
   }
@@ -153,8 +159,9 @@ EpisodeRun::Failure EpisodeRun::Grasp() {
     last_pad_step_ = step_;
     return std::nullopt;
   }
-  problem_ = Format("pads touch with %d and %d points, fingers at %.1f mm", contacts.pad_points[0],
-                    contacts.pad_points[1], 1000 * world_.state().robot_position[kLeftFinger]);
+  problem_ =
+      Format("pads touch with %d and %d points, fingers at %.1f mm", contacts.pad_points[0],
+             contacts.pad_points[1], 1000 * world_.state().robot_position[robot_.left_finger()]);
   return EpisodeOutcome::kGraspMissed;
 }
 
@@ -191,8 +198,14 @@ EpisodeRun::Failure EpisodeRun::Unlock() {
   return slipped ? EpisodeOutcome::kHandleSlipped : EpisodeOutcome::kHandleStuck;
 }
 
+void EpisodeRun::NoteSelfContact(const DoorContacts& contacts) {
+  if (contacts.self_points > 0)
+    touched_itself_ = contacts.self_touches + Format(" with %.0f N", contacts.self_force_n);
+}
+
 void EpisodeRun::NoteContacts() {
   const DoorContacts contacts = world_.Contacts();
+  NoteSelfContact(contacts);
   const int per_action = episode_.scene.physics.steps_per_action;
   if (contacts.AnyPad()) last_pad_step_ = step_;
   if (contacts.AnyPad() || contacts.arm_points > 0) last_touch_step_ = step_;
@@ -223,8 +236,9 @@ void EpisodeRun::Decide(Policy& opening) {
   const WorldState& state = world_.state();
   Observation observation;
   if (observer_ != nullptr) observation.cloud = observer_->Observe(Snapshot("open"));
-  observation.proprioception =
-      ProprioceptionOf(robot_, state, episode_.scene.world_from_robot_base);
+  if (HasProprioception(robot_))
+    observation.proprioception =
+        ProprioceptionOf(robot_, state, episode_.scene.world_from_robot_base);
   observation.privileged = Privileged();
   const Action action = opening.Act(observation);
 
@@ -337,6 +351,7 @@ void EpisodeRun::Watch(std::string_view stage) {
 
 std::string EpisodeRun::Detail(Failure failure) const {
   std::string text = Format("grasp cost %.2f; ", plan_.cost);
+  if (!touched_itself_.empty()) text += "robot touched itself at " + touched_itself_ + "; ";
   if (failure) return text + problem_;
   return text +
          Format("hinge %.1f deg after %zu actions; ", world_.state().hinge_rad / kDegree,

@@ -46,6 +46,7 @@ class EpisodeRun {
   RigidTransform ExecutedTarget(const Action& action, const RigidTransform& world_from_hand);
   void HoldAction();
   void NoteContacts();
+  void NoteSelfContact(const DoorContacts& contacts);
   std::string Detail(Failure failure) const;
 
   const DoorAsset& door_;
@@ -69,6 +70,7 @@ class EpisodeRun {
   bool diverged_ = false;
   std::string problem_;
   std::string touched_at_opening_;
+  std::string touched_itself_;  // "link2-hand"; last seen
 };
 
 }  // namespace doorforge::internal

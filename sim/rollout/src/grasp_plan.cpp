@@ -54,23 +54,25 @@ struct JudgedGrasp {
   double cost = std::numeric_limits<double>::infinity();
 };
 
-JudgedGrasp Judge(const GraspProbe& probe, const RigidTransform& door_from_grasp,
-                  const Variation& variation) {
+JudgedGrasp Judge(const GraspProbe& probe, const RobotModel& robot,
+                  const RigidTransform& door_from_grasp, const Variation& variation) {
   JudgedGrasp judged;
   judged.door_from_tcp = Varied(door_from_grasp, variation);
-  const auto left = probe.Close(judged.door_from_tcp, kLeftFinger);
-  const auto right = probe.Close(judged.door_from_tcp, kRightFinger);
+  const auto left = probe.Close(judged.door_from_tcp, robot.left_finger());
+  const auto right = probe.Close(judged.door_from_tcp, robot.right_finger());
   judged.cost = std::abs(variation.depth_m) / 0.1 + std::abs(variation.along_m) / 0.1 +
                 std::abs(variation.roll_rad) / 1.75;
   if (!left || !right) {
     judged.cost += kMissCost * ((left ? 0 : 1) + (right ? 0 : 1));
     return judged;
   }
+  const double widest = robot.joint(robot.left_finger()).upper - 0.004;
   const double off_center = (left->finger_position_m - right->finger_position_m) / 2;
   const double half_gap = (left->finger_position_m + right->finger_position_m) / 2;
   judged.door_from_tcp.translate(Eigen::Vector3d(0, off_center, 0));
   judged.cost += ContactCost(*left) + ContactCost(*right) +
-                 std::max(0.0, half_gap - 0.036) / 0.001 + PassageCost(probe, judged.door_from_tcp);
+                 std::max(0.0, half_gap - widest) / 0.001 +
+                 PassageCost(probe, judged.door_from_tcp);
   return judged;
 }
 
@@ -86,11 +88,12 @@ std::vector<Variation> Variations(Mechanism mechanism) {
   return variations;
 }
 
-JudgedGrasp SearchGrasp(const GraspProbe& probe, const RigidTransform& door_from_grasp,
-                        Mechanism mechanism) {
+JudgedGrasp SearchGrasp(const DoorAsset& door, const RobotModel& robot,
+                        const RigidTransform& door_from_grasp) {
+  const GraspProbe probe(door, robot);
   JudgedGrasp best;
-  for (const Variation& variation : Variations(mechanism)) {
-    const JudgedGrasp judged = Judge(probe, door_from_grasp, variation);
+  for (const Variation& variation : Variations(door.mechanism)) {
+    const JudgedGrasp judged = Judge(probe, robot, door_from_grasp, variation);
     if (judged.cost < best.cost) best = judged;
     if (best.cost < kGoodEnough) break;
   }
@@ -98,16 +101,6 @@ JudgedGrasp SearchGrasp(const GraspProbe& probe, const RigidTransform& door_from
 }
 
 // ---- the arm ------------------------------------------------------------------------------------
-
-// Facing the door with a level hand; the sliders take the distance.
-JointVector LevelPosture(double last_joint) {
-  JointVector posture = JointVector::Zero();
-  posture[3] = -0.3;
-  posture[5] = -2.1;
-  posture[7] = posture[3] - posture[5] + std::numbers::pi / 2;
-  posture[8] = last_joint;
-  return posture;
-}
 
 struct ReachedGrasp {
   GraspPlan plan;
@@ -128,17 +121,17 @@ struct Reach {
 
 // Part of the way from the middle of its range to a limit that the last joint has gone, 0 to 1.
 double WristUse(const RobotModel& robot, const JointVector& position) {
-  const RobotJoint& wrist = robot.joints()[kArmJointCount - 1];
-  return std::abs(position[kArmJointCount - 1]) / wrist.upper;
+  const int wrist = robot.arm_count() - 1;
+  const double half = (robot.joint(wrist).upper - robot.joint(wrist).lower) / 2;
+  return std::abs(position[wrist] - (robot.joint(wrist).upper - half)) / half;
 }
 
 ReachedGrasp ReachFrom(const Reach& reach, const Scene& scene, const DoorAsset& door,
-                       const RigidTransform& door_from_tcp, double last_joint) {
+                       const RigidTransform& door_from_tcp, const JointVector& start) {
   const RigidTransform world_from_tcp = scene.world_from_door * door_from_tcp;
   ReachedGrasp reached;
   reached.cost = 0;
-  JointVector position = LevelPosture(last_joint);
-  position.tail<2>().setConstant(reach.robot.joints()[kLeftFinger].upper);
+  JointVector position = start;
   reached.cost += reach.Solve(world_from_tcp * Translation({0, 0, -kPregraspDistance}), position);
   reached.plan.pregrasp = position;
   reached.cost += reach.Solve(world_from_tcp, position);
@@ -162,7 +155,7 @@ GraspPlan PlanGrasp(const Scene& scene, const DoorAsset& door, const RobotModel&
   const RigidTransform door_from_handle = DoorFromLinks(door, 0, 0)[kHandleLink];
   const RigidTransform door_from_grasp =
       door_from_handle * door.handle_from_grasp * scene.grasp_from_noisy_grasp;
-  const JudgedGrasp judged = SearchGrasp(GraspProbe(door, robot), door_from_grasp, door.mechanism);
+  const JudgedGrasp judged = SearchGrasp(door, robot, door_from_grasp);
 
   // the two fingers are alike: half a turn about the approach is the same grasp
   const Reach reach{robot, scene.world_from_robot_base};
@@ -170,8 +163,8 @@ GraspPlan PlanGrasp(const Scene& scene, const DoorAsset& door, const RobotModel&
   for (const double half_turn : {0.0, std::numbers::pi}) {
     const RigidTransform door_from_tcp =
         judged.door_from_tcp * RotationAbout(Eigen::Vector3d::UnitZ(), half_turn);
-    for (const double last_joint : {-0.785, 0.785, 2.356, -2.356}) {
-      ReachedGrasp reached = ReachFrom(reach, scene, door, door_from_tcp, last_joint);
+    for (const JointVector& start : robot.level_postures()) {
+      ReachedGrasp reached = ReachFrom(reach, scene, door, door_from_tcp, start);
       reached.plan.handle_from_tcp = door_from_handle.inverse() * door_from_tcp;
       if (reached.cost < best.cost) best = reached;
     }
@@ -183,7 +176,7 @@ GraspPlan PlanGrasp(const Scene& scene, const DoorAsset& door, const RobotModel&
 double GraspCost(const DoorAsset& door, const RobotModel& robot) {
   const RigidTransform door_from_grasp =
       DoorFromLinks(door, 0, 0)[kHandleLink] * door.handle_from_grasp;
-  return SearchGrasp(GraspProbe(door, robot), door_from_grasp, door.mechanism).cost;
+  return SearchGrasp(door, robot, door_from_grasp).cost;
 }
 
 }  // namespace doorforge

@@ -14,6 +14,26 @@
 
 namespace doorforge {
 
+/// Gains of the operational-space controller (Khatib 1987), see docs/robots.md.
+struct OperationalSpaceConfig {
+  double kp = 1500;        ///< Of the hand [1/s^2]; critically damped. UniDoorManip: 200.
+  double posture_kp = 10;  ///< Of the posture, in what the hand leaves free [1/s^2].
+  double armature = 0.01;  ///< Added to the inertia of each joint [kg or kg m^2].
+  double lead_m = 0.1;     ///< The hand's error counts no more than this,
+  double lead_rad = 0.5;   ///< and no more than this.
+
+  bool operator==(const OperationalSpaceConfig&) const = default;
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    visit("kp", self.kp);
+    visit("posture_kp", self.posture_kp);
+    visit("armature", self.armature);
+    visit("lead_m", self.lead_m);
+    visit("lead_rad", self.lead_rad);
+  }
+};
+
 /// Settings of the physics that change what happens in an episode.
 struct PhysicsConfig {
   double time_step_s = 1.0 / 240;
@@ -30,6 +50,10 @@ struct PhysicsConfig {
   /// for), so that data show how to come back: Laskey et al., DART, CoRL 2017.
   double action_noise_m = 0;
   double action_noise_rad = 0;
+  std::string base = "sliders";  ///< What the arm stands on: "sliders", "fixed" or "yaw".
+  /// "joint_motors": position drives, damped least squares. "operational_space": torques.
+  std::string controller = "joint_motors";
+  OperationalSpaceConfig operational_space = {};
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -43,6 +67,9 @@ struct PhysicsConfig {
     visit("finish_hinge_rad", self.finish_hinge_rad);
     visit("action_noise_m", self.action_noise_m);
     visit("action_noise_rad", self.action_noise_rad);
+    visit("base", self.base);
+    visit("controller", self.controller);
+    visit("operational_space", self.operational_space);
   }
 };
 
@@ -67,6 +94,14 @@ struct DoorVariation {
 /// The door with these factors applied.
 DoorAsset Varied(const DoorAsset& door, const DoorVariation& variation);
 
+/// A robot that is not the built-in one: name of its URDF and RobotModel::sha256().
+struct RobotIdentity {
+  std::string name;
+  std::string sha256;
+
+  bool operator==(const RobotIdentity&) const = default;
+};
+
 /// Everything that decides an episode, except the policies. Plain data; same scene, same door, same
 /// policies: same episode.
 struct Scene {
@@ -76,6 +111,7 @@ struct Scene {
   std::uint64_t episode = 0;  ///< Index within its plan; names the random streams.
   RigidTransform world_from_door = RigidTransform::Identity();
   RigidTransform world_from_robot_base = RigidTransform::Identity();
+  RobotIdentity robot;      ///< Empty: the built-in one; the record then has no such field.
   Latch latch;              ///< With the scene's springs and unlock angle.
   DoorVariation variation;  ///< Of the rest of the door.
   /// Added to the seven arm joints of the robot's initial position.
@@ -86,6 +122,7 @@ struct Scene {
   CameraModel camera;
 };
 
+/// Settings that joined the record later are left out of it where they have their default value.
 nlohmann::ordered_json SceneToJson(const Scene& scene);
 Scene SceneFromJson(const nlohmann::ordered_json& json, const std::string& path);
 

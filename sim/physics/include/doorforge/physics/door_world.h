@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "doorforge/physics/robot_model.h"
@@ -14,13 +15,16 @@ namespace doorforge {
 
 /// What the robot's drives are asked for during one step.
 struct RobotCommand {
-  ArmVector arm_position = ArmVector::Zero();  ///< Position targets of sliders and arm.
-  bool close_fingers = false;                  ///< Squeeze with finger_force_n, or open.
+  ArmVector arm_position;      ///< Position targets of sliders and arm.
+  bool close_fingers = false;  ///< Squeeze with finger_force_n, or open.
+  /// Where the tool centre is to be; "operational_space" alone looks at it. Without it, and with
+  /// "joint_motors", the joints follow arm_position.
+  std::optional<RigidTransform> world_from_tcp = std::nullopt;
 };
 
 struct WorldState {
-  JointVector robot_position = JointVector::Zero();
-  JointVector robot_velocity = JointVector::Zero();
+  JointVector robot_position;
+  JointVector robot_velocity;
   double hinge_rad = 0;
   double hinge_rad_s = 0;
   double handle_rad = 0;
@@ -40,6 +44,9 @@ struct DoorContacts {
   int arm_points = 0;       ///< Any other pair of robot and door.
   double arm_force_n = 0;   ///< Sum of their normal forces.
   std::string arm_touches;  ///< Such as "hand-leaf"; empty if there are none.
+  int self_points = 0;      ///< Of the robot with itself.
+  double self_force_n = 0;
+  std::string self_touches;  ///< Such as "link2-hand"; empty if there are none.
 
   bool AnyPad() const { return pad_points[0] > 0 || pad_points[1] > 0; }
   bool BothPads() const { return pad_points[0] > 0 && pad_points[1] > 0; }

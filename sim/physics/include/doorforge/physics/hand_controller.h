@@ -14,8 +14,9 @@ struct HandControllerConfig {
   double max_joint_lead = 0.15;  ///< Command ahead of the measured joint [rad or m].
 };
 
-/// Follows hand poses with the joint drives: the commanded pose moves in a straight line, damped
-/// least squares turns it into joint targets, step by step. Holds the runtime state of one episode.
+/// Follows hand poses: the commanded pose moves in a straight line, damped least squares turns it
+/// into joint targets, step by step; the drives follow these, or, with torques, the pose. Holds the
+/// runtime state of one episode.
 class HandController {
  public:
   /// @param start Joint positions at the beginning; the hand is told to stay there.

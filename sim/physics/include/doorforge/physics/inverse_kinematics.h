@@ -6,7 +6,7 @@
 
 namespace doorforge {
 
-/// Damped least squares (Wampler 1986) on the nine joints that carry the hand.
+/// Damped least squares (Wampler 1986) on the joints that carry the hand.
 struct InverseKinematicsConfig {
   double damping = 0.05;
   double gain = 0.5;                  ///< Part of the error that one step removes, in (0, 1].
@@ -18,8 +18,8 @@ struct InverseKinematicsConfig {
 
 struct InverseKinematicsGoal {
   RigidTransform world_from_tcp = RigidTransform::Identity();
-  /// Where the seven arm joints are drawn to as far as the goal leaves freedom; sliders are free.
-  JointVector posture = JointVector::Zero();
+  /// Where the arm joints are drawn to as far as the goal leaves freedom; base joints are free.
+  JointVector posture;
 };
 
 /// One step from `position` towards the goal. A joint that would run into its limit is frozen and
@@ -30,7 +30,7 @@ JointVector StepTowards(const RobotModel& robot, const RigidTransform& world_fro
                         const InverseKinematicsConfig& config = {});
 
 struct InverseKinematicsSolution {
-  JointVector position = JointVector::Zero();
+  JointVector position;
   double position_error_m = 0;
   double rotation_error_rad = 0;
 

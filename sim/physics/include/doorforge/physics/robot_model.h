@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -11,26 +11,42 @@
 #include "doorforge/core/mass_properties.h"
 #include "doorforge/core/rigid_transform.h"
 #include "doorforge/core/triangle_mesh.h"
-#include "doorforge/schemas/urdf.h"
 
 namespace doorforge {
 
-/// The mobile gripper arm of UniDoorManip: joints 0 to 8 carry the hand (slider x, slider y, seven
-/// arm joints), 9 and 10 are the left and the right finger.
+/// A gripper arm on a base: first the base's joints (none, slider x and slider y, or these and a
+/// yaw), then 6 to 8 arm joints, then the left and the right finger. The first two kinds carry the
+/// hand and are called arm joints together where numbers a joint are meant.
+inline constexpr int kMostBaseJoints = 3;
+inline constexpr int kMostArmJoints = kMostBaseJoints + 8;
+inline constexpr int kMostRobotJoints = kMostArmJoints + 2;
+
+/// Of the built-in robot on its sliders, LoadMobileFranka().
 inline constexpr int kRobotJointCount = 11;
 inline constexpr int kArmJointCount = 9;
 inline constexpr int kSliderCount = 2;
 inline constexpr int kLeftFinger = 9;
 inline constexpr int kRightFinger = 10;
 
-/// One number a joint, in the order above [m or rad].
-using JointVector = Eigen::Matrix<double, kRobotJointCount, 1>;
-using ArmVector = Eigen::Matrix<double, kArmJointCount, 1>;
+/// One number a joint, in the order above [m or rad]; as long as RobotModel::joint_count().
+using JointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostRobotJoints, 1>;
+/// The same without the fingers, RobotModel::arm_count() long.
+using ArmVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostArmJoints, 1>;
 /// Twist of a frame [linear m; angular rad] per unit of each arm joint, in the world.
-using ArmJacobian = Eigen::Matrix<double, 6, kArmJointCount>;
+using ArmJacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, kMostArmJoints>;
+
+/// What the arm stands on.
+enum class RobotBase {
+  kSliders,  ///< Two sliders of 1 m to each side, as in UniDoorManip.
+  kFixed,    ///< The floor.
+  kYaw,      ///< The sliders, and a turntable on them.
+};
+/// "sliders", "fixed", "yaw". Throws Error(kInvalidConfig) on any other name.
+RobotBase RobotBaseNamed(const std::string& name);
+std::string NameOf(RobotBase base);
 
 /// A moving joint and the body that hangs on it. The body's frame is the joint's frame after the
-/// motion; URDF links that are fixed to each other are one body.
+/// motion; links that are fixed to each other are one body.
 struct RobotJoint {
   std::string name;
   bool prismatic = false;
@@ -52,7 +68,7 @@ struct RobotPiece {
   Eigen::Vector4d color_rgba{0.7, 0.7, 0.7, 1.0};
 };
 
-/// Where a URDF link's frame is: fixed to the body of a joint (-1: the base).
+/// A frame that is fixed to the body of a joint (-1: the base).
 struct RobotFrame {
   int joint = -1;
   RigidTransform body_from_frame = RigidTransform::Identity();
@@ -60,28 +76,59 @@ struct RobotFrame {
 
 /// Poses of the robot at one vector of joint positions, all in the world.
 struct RobotPose {
-  std::vector<RigidTransform> world_from_body;  ///< Length kRobotJointCount.
+  RigidTransform world_from_base = RigidTransform::Identity();
+  std::vector<RigidTransform> world_from_body;  ///< Of each joint's body.
   RigidTransform world_from_hand = RigidTransform::Identity();
   /// Tool centre: midway between the pads, z the approach, y the direction in which they close.
   RigidTransform world_from_tcp = RigidTransform::Identity();
 };
 
+/// Kinematics, masses and shapes of a robot, as RobotModel takes them.
+struct RobotDescription {
+  std::string name;  ///< Empty: the built-in robot.
+  RobotBase base = RobotBase::kSliders;
+  std::vector<RobotJoint> joints;  ///< In the order above, parents before children.
+  std::vector<RobotPiece> visuals;
+  std::vector<RobotPiece> hulls;  ///< Convex.
+  RobotFrame hand;                ///< On the last arm joint's body.
+  RobotFrame tcp;                 ///< The same.
+  ArmVector rest;  ///< Posture of the arm without base joints; empty: none of its own.
+};
+
 /// Kinematics, masses and shapes of the robot. Immutable; may be shared between threads.
 class RobotModel {
  public:
-  /// @param folder Meshes are looked up in it, in the canonical format; shapes other than meshes
-  ///     are not supported. A mesh used for collision must be convex.
-  /// @throws Error(kFormat) unless the model has exactly the 11 moving joints described above,
-  ///     parents before children, and the links "panda_hand" and "panda_hand_tcp"; Error(kMissing)
-  ///     if a mesh is missing.
-  RobotModel(const UrdfModel& urdf, const std::filesystem::path& folder);
+  /// @throws Error(kFormat) unless the joints are of the kinds and in the order described above.
+  explicit RobotModel(RobotDescription description);
 
-  const std::vector<RobotJoint>& joints() const { return joints_; }
-  const std::vector<RobotPiece>& visuals() const { return visuals_; }
-  const std::vector<RobotPiece>& hulls() const { return hulls_; }
-  const RobotFrame& hand() const { return hand_; }
-  const RobotFrame& tcp() const { return tcp_; }
+  /// Empty for the built-in robot.
+  const std::string& name() const { return robot_.name; }
+  /// SHA-256 over name, kinematics, masses and shapes, bit by bit; empty for the built-in robot.
+  const std::string& sha256() const { return sha256_; }
+
+  RobotBase base() const { return robot_.base; }
+  int base_count() const { return base_count_; }       ///< 0, 2 or 3.
+  int arm_count() const { return joint_count() - 2; }  ///< With the base's joints.
+  int joint_count() const { return static_cast<int>(robot_.joints.size()); }
+  int left_finger() const { return arm_count(); }
+  int right_finger() const { return arm_count() + 1; }
+
+  const std::vector<RobotJoint>& joints() const { return robot_.joints; }
+  const RobotJoint& joint(int index) const {
+    return robot_.joints[static_cast<std::size_t>(index)];
+  }
+  const std::vector<RobotPiece>& visuals() const { return robot_.visuals; }
+  const std::vector<RobotPiece>& hulls() const { return robot_.hulls; }
+  const RobotFrame& hand() const { return robot_.hand; }
+  const RobotFrame& tcp() const { return robot_.tcp; }
   RigidTransform hand_from_tcp() const;
+
+  /// Which bodies can collide with each other, as pairs of joints, the lower first: all but
+  /// neighbours and those whose hulls meet in the initial posture or in most postures.
+  const std::vector<std::pair<int, int>>& self_collisions() const { return self_collisions_; }
+
+  /// Postures with a level hand before the robot: where inverse kinematics begins.
+  const std::vector<JointVector>& level_postures() const { return level_postures_; }
 
   RobotPose PoseAt(const JointVector& position, const RigidTransform& world_from_base) const;
 
@@ -91,18 +138,19 @@ class RobotModel {
   /// Inside the joints' limits.
   JointVector Clamped(const JointVector& position) const;
 
-  /// UniDoorManip's initial posture: 0.3 * (lower + upper), fingers open.
+  /// The robot's own rest posture where it has one, else UniDoorManip's: 0.3 * (lower + upper).
+  /// Fingers open, base in the middle.
   JointVector InitialPosition() const;
 
  private:
-  std::vector<RobotJoint> joints_;
-  std::vector<RobotPiece> visuals_;
-  std::vector<RobotPiece> hulls_;
-  RobotFrame hand_;
-  RobotFrame tcp_;
+  RobotDescription robot_;
+  int base_count_ = 0;
+  std::string sha256_;
+  std::vector<std::pair<int, int>> self_collisions_;
+  std::vector<JointVector> level_postures_;
 };
 
-/// The robot in data/robots/mobile_franka. Throws as the constructor and ReadUrdf() do.
+/// The robot in data/robots/mobile_franka on its sliders.
 RobotModel LoadMobileFranka();
 
 }  // namespace doorforge

@@ -12,6 +12,9 @@ namespace doorforge {
 
 struct SceneConfig {
   PhysicsConfig physics;
+  /// URDF of the robot; empty: the built-in one. Programs load it by LoadRobot(); SampleScene()
+  /// does not look at it.
+  std::string robot = {};
   /// "off": every episode of a door is the same, but for the policies' own noise; "paper": the
   /// robot's place and the grasp vary, as in UniDoorManip's released code; "strong": friction,
   /// masses, damping, springs, unlock angle, camera and start pose as well, see
@@ -23,6 +26,7 @@ struct SceneConfig {
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
     visit("physics", self.physics);
+    visit("robot", self.robot);
     visit("randomisation", self.randomisation);
     visit("base_jitter", self.base_jitter);
     visit("grasp_noise", self.grasp_noise);

@@ -13,7 +13,7 @@
 namespace doorforge {
 
 /// What the camera sees of a robot and a door. Links: the door's base, leaf and handle are 0 to 2,
-/// the body of robot joint j is 3 + j; pieces fixed to the robot's base are left out.
+/// the body of robot joint j is 3 + j, and after these comes what is fixed to the robot's base.
 std::vector<VisibleMesh> VisibleMeshesOf(const DoorAsset& door, const RobotModel& robot);
 
 /// The links' poses at an instant, in the order of VisibleMeshesOf().

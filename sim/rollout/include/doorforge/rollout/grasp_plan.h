@@ -12,8 +12,8 @@ namespace doorforge {
 struct GraspPlan {
   /// Tool centre in the handle's frame.
   RigidTransform handle_from_tcp = RigidTransform::Identity();
-  JointVector pregrasp = JointVector::Zero();  ///< kPregraspDistance before the grasp.
-  JointVector grasp = JointVector::Zero();
+  JointVector pregrasp;  ///< kPregraspDistance before the grasp.
+  JointVector grasp;
   double cost = 0;  ///< Of the geometry; 0 is flat, central contact of both pads.
 };
 

@@ -12,7 +12,12 @@
 
 namespace doorforge {
 
+/// Whether the 32 numbers are defined for the robot: seven arm joints, on sliders or a fixed base
+/// (which stands for sliders at rest).
+bool HasProprioception(const RobotModel& robot);
+
 /// UniDoorManip's 32 numbers, see Proprioception in policy.h. The base is the sliders' fixed root.
+/// Throws Error(kInvalidArgument) for a robot without.
 Proprioception ProprioceptionOf(const RobotModel& robot, const WorldState& state,
                                 const RigidTransform& world_from_base);
 

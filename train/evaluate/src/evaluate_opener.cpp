@@ -14,9 +14,10 @@
 #include "doorforge/evaluate/take_pictures.h"
 #include "doorforge/learn/checkpoint.h"
 #include "doorforge/learn/opening_dataset.h"
-#include "doorforge/physics/robot_model.h"
+#include "doorforge/physics/load_robot.h"
 #include "doorforge/rollout/camera_observer.h"
 #include "doorforge/rollout/opening_expert.h"
+#include "doorforge/rollout/run_episode.h"
 
 #include "training_record.h"
 
@@ -36,7 +37,10 @@ Contender Expert() {
 
 Contender ContenderOf(const EvaluationRequest& request) {
   if (IsExpert(request)) return Expert();
-  const auto robot = std::make_shared<const RobotModel>(LoadMobileFranka());
+  const std::string& base = request.config.scene.physics.base;
+  const auto robot = std::make_shared<const RobotModel>(LoadRobot({}, RobotBaseNamed(base)));
+  Require(HasProprioception(*robot), ErrorCode::kInvalidConfig,
+          "config.scene.physics.base: a policy knows sliders or a fixed base, found " + base);
   return {[&request] { return LoadPolicy(request.policy, request.config.policy); },
           [&request, robot](const Scene& scene, const DoorAsset& door) {
             return std::make_unique<CameraObserver>(scene, door, *robot, request.config.cloud);

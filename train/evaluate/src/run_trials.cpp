@@ -9,9 +9,10 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
-#include "doorforge/physics/robot_model.h"
+#include "doorforge/physics/load_robot.h"
 #include "doorforge/physics/scene_sampling.h"
 #include "doorforge/rollout/run_episode.h"
+#include "doorforge/rollout/standing_place.h"
 
 namespace doorforge {
 namespace {
@@ -50,13 +51,18 @@ void RequireAtLeastOne(int value, const std::string& name) {
 std::vector<Trial> PlanTrials(std::span<const DoorAsset> doors, const EvaluationConfig& config) {
   RequireAtLeastOne(config.seeds, "seeds");
   RequireAtLeastOne(config.episodes_per_door, "episodes_per_door");
+  Require(config.scene.robot.empty(), ErrorCode::kInvalidConfig,
+          "config.scene.robot: eval knows the built-in robot, on any base; let the expert try \"" +
+              config.scene.robot + "\" with `doorforge simulate --robot`");
+  const RobotModel robot = LoadRobot({}, RobotBaseNamed(config.scene.physics.base));
   std::vector<Trial> trials;
   for (std::size_t door = 0; door < doors.size(); ++door) {
     for (int seed = 0; seed < config.seeds; ++seed) {
       for (int episode = 0; episode < config.episodes_per_door; ++episode) {
-        trials.push_back(
-            {door, SampleScene(doors[door], config.first_seed + static_cast<std::uint64_t>(seed),
-                               static_cast<std::uint64_t>(episode), config.scene)});
+        const Scene scene =
+            SampleScene(doors[door], config.first_seed + static_cast<std::uint64_t>(seed),
+                        static_cast<std::uint64_t>(episode), config.scene);
+        trials.push_back({door, SceneFor(robot, scene, doors[door])});
       }
     }
   }
@@ -66,7 +72,8 @@ std::vector<Trial> PlanTrials(std::span<const DoorAsset> doors, const Evaluation
 std::vector<EvaluatedEpisode> RunTrials(std::span<const DoorAsset> doors,
                                         std::span<const Trial> trials, const Contender& contender,
                                         const RunHooks& hooks) {
-  const RobotModel robot = LoadMobileFranka();
+  if (trials.empty()) return {};
+  const RobotModel robot = LoadRobot({}, RobotBaseNamed(trials[0].scene.physics.base));
   PolicyPool pool(contender);
   std::vector<EvaluatedEpisode> rows(trials.size());
   ParallelFor(trials.size(), hooks.threads, [&](std::size_t i) {

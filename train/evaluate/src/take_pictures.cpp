@@ -8,7 +8,7 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/parallel_for.h"
-#include "doorforge/physics/robot_model.h"
+#include "doorforge/physics/load_robot.h"
 #include "doorforge/rollout/camera_observer.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/sensor/depth_camera.h"
@@ -72,7 +72,7 @@ FilmedTrial FilmTrial(const FinishedTrials& finished, std::size_t index, Policy&
                       const Contender& contender) {
   const Scene& scene = finished.trials[index].scene;
   const DoorAsset& door = finished.doors[finished.trials[index].door];
-  const RobotModel robot = LoadMobileFranka();
+  const RobotModel robot = LoadRobot({}, RobotBaseNamed(scene.physics.base));
   internal::EpisodeFilm film(contender.make_observer ? contender.make_observer(scene, door)
                                                      : nullptr);
   const Episode episode = RunEpisode(scene, door, robot, policy, &film);
@@ -90,7 +90,7 @@ void AddSight(const FinishedTrials& finished, std::size_t index, const SceneSnap
               ReportPictures& pictures) {
   const Scene& scene = finished.trials[index].scene;
   const DoorAsset& door = finished.doors[finished.trials[index].door];
-  const RobotModel robot = LoadMobileFranka();
+  const RobotModel robot = LoadRobot({}, RobotBaseNamed(scene.physics.base));
   DepthCamera camera(VisibleMeshesOf(door, robot));
   const DepthImage depth = camera.Render(scene.camera, LinkPosesOf(snapshot));
   CameraModel large = scene.camera;  // the same view with pixels enough for people

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/schemas/door_asset.h"
 
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -374,18 +375,32 @@ std::string PooledDoorText(const DoorAsset& door, const DoorFiles& files,
 }
 
 void RequireSimulatable(const DoorAsset& door, std::string_view user) {
-  const auto refuse = [&](const std::string& what, const std::string& instead) {
-    throw Error(ErrorCode::kInvalidArgument, std::string(user) + ": door \"" + door.id + "\" " +
-                                                 what +
-                                                 "; only doors hinged left and pulled, with "
-                                                 "latch none or effort, are simulated yet: " +
-                                                 instead);
+  const auto require = [&](bool holds, const std::string& what, const std::string& instead) {
+    if (holds) return;
+    throw Error(ErrorCode::kInvalidArgument,
+                std::string(user) + ": door \"" + door.id + "\" " + what + "; " + instead);
   };
-  if (door.hinge_side != HingeSide::kLeft)
-    refuse("is hinged right", "compose it with hinge_side: left");
-  if (door.opening != Opening::kPull) refuse("is pushed open", "compose it with opening: pull");
-  if (door.latch.type == LatchType::kBolt)
-    refuse("has a bolt", "compose it with latch: effort, or export it");
+  require(door.hinge.upper_rad > door.hinge.lower_rad && door.hinge.upper_rad > 0,
+          "has no hinge that opens", "set the hinge's limits in door.json");
+  const Eigen::Vector3d grasp =
+      door.handle_joint.parent_from_child_at_zero * door.handle_from_grasp.translation();
+  const double opens = door.hinge.axis.cross(grasp).x();
+  require(door.opening == Opening::kPull ? opens > 0 : opens < 0,
+          "moves its handle the other way than its opening says",
+          "mend hinge.axis or opening in door.json");
+  const Latch& latch = door.latch;
+  if (latch.type == LatchType::kNone) return;
+  require(!(latch.relatch && latch.unlocks_ajar), "has a latch with relatch and unlocks_ajar",
+          "choose one of the two");
+  if (latch.type != LatchType::kBolt) return;
+  require(latch.bolt_throw_m > 0 && latch.unlock_angle_rad > 0 &&
+              latch.unlock_angle_rad <= door.handle_joint.upper_rad,
+          "has a bolt that its handle cannot draw back",
+          "give the latch a bolt_throw_m and an unlock_angle_rad within the handle's range");
+  const double outward = door.hinge_side == HingeSide::kLeft ? grasp.y() : -grasp.y();
+  require(std::abs(door.hinge.axis.z()) > 0.99 && outward > 0,
+          "has a bolt, but not an upright hinge on its hinge_side",
+          "compose it with latch: effort");
 }
 
 std::string ContentHash(const DoorAsset& door) { return Sha256Hex(DoorToJson(door).dump()); }

@@ -15,6 +15,7 @@ nlohmann::ordered_json LatchToJson(const Latch& latch) {
                                  {"hinge_spring_nm_per_rad", latch.hinge_spring_nm_per_rad},
                                  {"handle_spring_nm_per_rad", latch.handle_spring_nm_per_rad},
                                  {"relatch", latch.relatch}};
+  if (latch.unlocks_ajar) json["unlocks_ajar"] = true;  // records of before are as they were
   if (latch.type == LatchType::kBolt) json["bolt_throw_m"] = latch.bolt_throw_m;
   return json;
 }
@@ -30,6 +31,7 @@ Latch LatchFromJson(const nlohmann::ordered_json& json, const std::string& path)
   latch.hinge_spring_nm_per_rad = ValueOf<double>(json, "hinge_spring_nm_per_rad", path);
   latch.handle_spring_nm_per_rad = ValueOf<double>(json, "handle_spring_nm_per_rad", path);
   latch.relatch = ValueOf<bool>(json, "relatch", path);
+  if (json.contains("unlocks_ajar")) latch.unlocks_ajar = ValueOf<bool>(json, "unlocks_ajar", path);
   if (latch.type == LatchType::kBolt)
     latch.bolt_throw_m = ValueOf<double>(json, "bolt_throw_m", path);
   return latch;

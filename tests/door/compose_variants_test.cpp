@@ -225,12 +225,15 @@ TEST(ComposeVariants, MuJoCoOpensEveryVariantTheWayWeSay) {
   }
 }
 
-TEST(ComposeVariants, OnlyTheCanonicalDoorIsSimulated) {
-  EXPECT_NO_THROW(RequireSimulatable(ComposeDoor(SmallBody(), SmallLever(), {}), "test"));
+TEST(ComposeVariants, EverySideOpeningAndLatchCanBeSimulated) {
   for (const ComposeConfig& config :
-       {ComposeConfig{.hinge_side = "right"}, ComposeConfig{.opening = "push"},
-        ComposeConfig{.latch = "bolt"}})
-    EXPECT_THROW(RequireSimulatable(ComposeDoor(SmallBody(), SmallLever(), config), "test"), Error);
+       {ComposeConfig{}, ComposeConfig{.hinge_side = "right"}, ComposeConfig{.opening = "push"},
+        ComposeConfig{.hinge_side = "right", .opening = "push", .latch = "bolt"},
+        ComposeConfig{.unlocks_ajar = true}})
+    EXPECT_NO_THROW(RequireSimulatable(ComposeDoor(SmallBody(), SmallLever(), config), "test"));
+  EXPECT_NE(Refusal(SmallBody(), SmallLever(), {.relatch = true, .unlocks_ajar = true})
+                .find("unlocks_ajar"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "doorforge/core/program.h"
 #include "doorforge/door/catalogue.h"
 #include "doorforge/door/compose.h"
+#include "doorforge/schemas/bolt.h"
 
 #include "scratch_folder.h"
 #include "small_parts.h"
@@ -266,11 +267,15 @@ TEST(ExportDoor, MuJoCosLatchHoldsAndLetsGoOnBothSidesAndBothWays) {
     for (const char* opening : {"pull", "push"}) {
       const DoorAsset door = SmallDoor({.hinge_side = side, .opening = opening});
       SCOPED_TRACE(door.id);
+      const Bolt bolt = BoltOf(door);
       const fs::path folder = Exported(door, "latch_" + door.id);
       const auto hinge_after = [&](double handle_rad) {
         const Model model(folder / "model.xml");
         mju_zero(model.model()->opt.gravity, 3);
-        model.Push("handle_joint", handle_rad * door.latch.handle_spring_nm_per_rad);
+        const double drawn = bolt.travel_m_per_rad * handle_rad;
+        model.Push("handle_joint",
+                   handle_rad * door.latch.handle_spring_nm_per_rad +
+                       bolt.travel_m_per_rad * (bolt.preload_n + bolt.stiffness_n_per_m * drawn));
         model.Run(0.8);
         EXPECT_NEAR(model.Angle("handle_joint"), handle_rad, 0.02);
         model.Push("hinge", 30);

@@ -65,12 +65,7 @@ std::vector<Mutation> AllMutations() {
        },
        ""},
       {"OPN006", [](DoorAsset& d) { d.latch.handle_spring_nm_per_rad = 1e6; }, "diverged"},
-      {"OPN007",
-       [](DoorAsset& d) {
-         d.latch.type = LatchType::kBolt;
-         d.latch.bolt_throw_m = 0.012;
-       },
-       "bolt"},
+      {"OPN007", [](DoorAsset& d) { d.latch.relatch = d.latch.unlocks_ajar = true; }, "choose"},
   };
 }
 
@@ -101,6 +96,16 @@ TEST(OpenableCheck, RaisesExactlyTheRuleThatAFaultBreaks) {
       rules.insert(std::string(rule.code));
   }
   EXPECT_EQ(mutated, rules);
+}
+
+TEST(OpenableCheck, TriesABoltAsItDoesAnEffort) {
+  DoorAsset door = BoxDoor();
+  door.latch.type = LatchType::kBolt;
+  door.latch.bolt_throw_m = 0.012;
+  const std::vector<Finding> findings = OpenableCheck()(door);
+  EXPECT_TRUE(findings.empty()) << Describe(findings);
+  door.latch.handle_spring_nm_per_rad = 20;  // the hand cannot draw the bolt back
+  EXPECT_EQ(CodesOf(OpenableCheck()(door)), std::set<std::string>{"OPN002"});
 }
 
 TEST(OpenableCheck, TriesDoorsOfEverySideAndOpening) {

@@ -44,6 +44,29 @@ TEST(LatchLaw, LeakingPastTheAjarAngleUnderLoadDoesNotUnlock) {
   EXPECT_TRUE(UpdatedLatch(latch, locked, 0.02, 0).locked);
 }
 
+TEST(LatchLaw, InTheReleasedVariantAnAjarDoorIsUnlockedHoweverItGotThere) {
+  Latch latch = PaperLatch();
+  latch.unlocks_ajar = true;
+  LatchState state = UpdatedLatch(latch, {}, 0, 0);
+  EXPECT_TRUE(state.locked);
+  state = UpdatedLatch(latch, state, 0.0099, 0);
+  EXPECT_TRUE(state.locked);
+  state = UpdatedLatch(latch, state, 0.0101, 0);
+  EXPECT_FALSE(state.locked);
+  EXPECT_EQ(TorquesOf(latch, state, 0.0101, 0).hinge_nm, -3 * 0.0101);
+  EXPECT_TRUE(UpdatedLatch(latch, state, 0.005, 0).locked);  // shut again
+}
+
+TEST(LatchLaw, ABoltHoldsByContactAndNotByTorque) {
+  Latch latch = PaperLatch();
+  latch.type = LatchType::kBolt;
+  LatchState caught;
+  caught.locked = true;
+  EXPECT_EQ(TorquesOf(latch, caught, 0.002, 0).hinge_nm, -3 * 0.002);
+  EXPECT_TRUE(UpdatedLatch(latch, caught, 0.002, 0.6).locked);  // the bolt's place decides
+  EXPECT_TRUE(UpdatedLatch(latch, caught, 0.002, 0.6).handle_done);
+}
+
 TEST(LatchLaw, HandleDoneIsASecondThresholdAndSticky) {
   const Latch latch = PaperLatch();
   LatchState state = UpdatedLatch(latch, {}, 0, 0.55);

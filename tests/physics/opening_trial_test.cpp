@@ -6,8 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include "doorforge/core/error.h"
-
 #include "primitive_door.h"
 
 namespace doorforge {
@@ -96,12 +94,6 @@ TEST(OpeningTrial, IsTheSameBitByBit) {
   EXPECT_EQ(a.returned_rad, b.returned_rad);
   EXPECT_EQ(a.opened_rad, b.opened_rad);
   EXPECT_EQ(a.opened_s, b.opened_s);
-}
-
-TEST(OpeningTrial, RefusesABolt) {
-  DoorAsset door = MakePrimitiveDoor({});
-  door.latch.type = LatchType::kBolt;
-  EXPECT_THROW(TryOpening(door), Error);
 }
 
 }  // namespace

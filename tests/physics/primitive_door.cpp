@@ -5,6 +5,7 @@
 #include <array>
 #include <numbers>
 #include <string>
+#include <utility>
 
 namespace doorforge {
 namespace {
@@ -88,6 +89,42 @@ void AddHandle(const PrimitiveDoor& door, DoorAsset& asset) {
   link.mass = BoxMass(0.4, low, high);
 }
 
+// As seen in a mirror across y.
+Eigen::Vector3d Mirrored(const Eigen::Vector3d& v) { return {v.x(), -v.y(), v.z()}; }
+
+void Mirror(TriangleMesh& mesh) {
+  for (Eigen::Vector3d& vertex : mesh.vertices) vertex = Mirrored(vertex);
+  for (Eigen::Vector3i& triangle : mesh.triangles) std::swap(triangle[0], triangle[1]);
+}
+
+void Mirror(DoorJoint& joint) {
+  joint.axis = -Mirrored(joint.axis);  // a turn to the right becomes one to the left
+  joint.parent_from_child_at_zero.translation() =
+      Mirrored(joint.parent_from_child_at_zero.translation());
+}
+
+void HingeRight(DoorAsset& asset) {
+  for (DoorLink& link : asset.links) {
+    link.mass.center_of_mass_m = Mirrored(link.mass.center_of_mass_m);
+    for (DoorGeometry& geometry : link.geometry) {
+      Mirror(geometry.mesh);
+      geometry.hulls = {geometry.mesh};
+    }
+  }
+  Mirror(asset.hinge);
+  Mirror(asset.handle_joint);
+  asset.handle_from_grasp = GraspFrame(Mirrored(asset.handle_from_grasp.translation()),
+                                       Mirrored(asset.handle_from_grasp.linear().col(1)));
+  asset.hinge_side = HingeSide::kRight;
+}
+
+DoorAsset OnItsSide(DoorAsset asset, const PrimitiveDoor& door) {
+  if (door.hinge_side == HingeSide::kRight) HingeRight(asset);
+  if (door.opening == Opening::kPush) asset.hinge.axis = -asset.hinge.axis;
+  asset.opening = door.opening;
+  return asset;
+}
+
 }  // namespace
 
 TriangleMesh BoxMesh(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
@@ -142,12 +179,12 @@ DoorAsset MakePrimitiveDoor(const PrimitiveDoor& door) {
   AddHandle(door, asset);
   if (door.mechanism == Mechanism::kNone) {
     asset.handle_joint.upper_rad = 0;
-    return asset;
+    return OnItsSide(std::move(asset), door);
   }
   asset.latch.type = LatchType::kEffort;
   asset.latch.unlock_angle_rad = 0.65 * asset.handle_joint.upper_rad;
   asset.latch.handle_done_angle_rad = 0.75 * asset.handle_joint.upper_rad;
-  return asset;
+  return OnItsSide(std::move(asset), door);
 }
 
 }  // namespace doorforge

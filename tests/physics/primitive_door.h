@@ -19,6 +19,8 @@ struct PrimitiveDoor {
   double thickness_m = 0.02;
   double radius_m = 0.028;       ///< Of the knob.
   double grasp_fraction = 0.65;  ///< Where along the lever.
+  HingeSide hinge_side = HingeSide::kLeft;
+  Opening opening = Opening::kPull;
 };
 
 /// The ranges of docs/design/simulation.md.

@@ -284,6 +284,7 @@ Latch MakeLatch(const Pair& pair, const DoorAsset& door) {
   if (!locks) return latch;
   latch.lock_effort_nm = config.lock_effort_nm;
   latch.relatch = config.relatch;
+  latch.unlocks_ajar = config.unlocks_ajar;
   if (config.latch == "bolt") {
     latch.type = LatchType::kBolt;
     latch.bolt_throw_m = config.bolt_throw_m;

@@ -152,6 +152,7 @@ void CheckComposeConfig(const ComposeConfig& config) {
   CheckUnless("unlock_angle_rad", config.unlock_angle_rad, 0, {0.01, 6.283});
   CheckUnless("handle_done_angle_rad", config.handle_done_angle_rad, 0, {0.01, 6.283});
   CheckRange("lock_effort_nm", config.lock_effort_nm, {0, 1000});
+  if (config.relatch && config.unlocks_ajar) Fail("unlocks_ajar", "true", "false with relatch");
   CheckRange("bolt_throw_m", config.bolt_throw_m, {0.002, 0.03});
   CheckName("joints", config.joints, NamesOf(kJointPresets));
   CheckUnless("hinge_spring_nm_per_rad", config.hinge_spring_nm_per_rad, -1, {0, 1000});

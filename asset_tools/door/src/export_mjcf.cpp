@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
+#include <optional>
+
 #include "doorforge/door/export_door.h"
+#include "doorforge/schemas/bolt.h"
 
 #include "export_text.h"
 
@@ -13,13 +16,9 @@ using internal::Decimals;
 using internal::SetAttribute;
 using internal::XmlElement;
 
-constexpr double kBoltHalfWidth = 0.006;  // [m]
-constexpr double kBoltInLeaf = 0.02;      // [m] behind the leaf's edge
-constexpr double kStrikePlay = 0.001;     // [m] between bolt and strike
-constexpr double kStrikeGap = 0.1;        // of the throw, between the leaf's edge and the strike
-constexpr double kBoltMass = 0.05;        // [kg]
-constexpr double kBoltDamping = 5;        // [N s/m] a stiff coupling on a light bolt rings without
-constexpr double kDefaultThrow = 0.012;   // [m] where the latch is the effort law
+// MuJoCo's constraints of the latch: settling time [s] and damping ratio, shares and width [m].
+constexpr const char* kStiff = "0.005 1";
+constexpr const char* kHard = "0.99 0.999 0.0001";
 
 std::string Quaternion(const Eigen::Matrix3d& rotation) {
   const Eigen::Quaterniond q(rotation);
@@ -30,7 +29,17 @@ std::string MeshName(const DoorGeometry& geometry, int hull) {
   return hull < 0 ? geometry.name : geometry.name + "_" + std::to_string(hull);
 }
 
-void AddAssets(const DoorAsset& door, XmlElement& root) {
+// Programs make the hull of the points themselves.
+void AddHullAsset(const char* name, const TriangleMesh& hull, XmlElement& asset) {
+  Eigen::VectorXd numbers(3 * static_cast<Eigen::Index>(hull.vertices.size()));
+  for (std::size_t i = 0; i < hull.vertices.size(); ++i)
+    numbers.segment<3>(3 * static_cast<Eigen::Index>(i)) = hull.vertices[i];
+  XmlElement& mesh = AddElement(asset, "mesh");
+  SetAttribute(mesh, "name", name);
+  SetAttribute(mesh, "vertex", Decimals(numbers));
+}
+
+void AddAssets(const DoorAsset& door, const std::optional<Bolt>& bolt, XmlElement& root) {
   XmlElement& asset = AddElement(root, "asset");
   const auto add = [&](const std::string& name, const std::string& file) {
     XmlElement& mesh = AddElement(asset, "mesh");
@@ -44,6 +53,9 @@ void AddAssets(const DoorAsset& door, XmlElement& root) {
         add(MeshName(geometry, static_cast<int>(i)), CollisionMeshPath(geometry, i));
     }
   }
+  if (!bolt) return;
+  AddHullAsset("bolt", bolt->bolt_hull, asset);
+  AddHullAsset("strike", bolt->strike_hull, asset);
 }
 
 void AddDefaults(XmlElement& root) {
@@ -108,37 +120,14 @@ XmlElement& AddBody(const DoorLink& link, const RigidTransform& parent_from_link
   return body;
 }
 
-/// The bolt and its strike, in the leaf's frame.
-struct Bolt {
-  Eigen::Vector3d edge;     ///< On the leaf's free edge, at the handle's height.
-  Eigen::Vector3d outward;  ///< Out of the edge: the bolt's way.
-  Eigen::Vector3d opens;    ///< The way the edge goes as the door opens.
-  double throw_m;
-  double travel_per_rad;
-};
-
-Bolt BoltOf(const DoorAsset& door) {
-  const Eigen::AlignedBox3d leaf = internal::LeafBounds(door);
-  const bool left = door.hinge_side == HingeSide::kLeft;
-  const Eigen::Vector3d handle = door.handle_joint.parent_from_child_at_zero.translation();
-  Bolt bolt;
-  bolt.outward = left ? Eigen::Vector3d(0, 1, 0) : Eigen::Vector3d(0, -1, 0);
-  bolt.opens =
-      door.opening == Opening::kPull ? Eigen::Vector3d(1, 0, 0) : Eigen::Vector3d(-1, 0, 0);
-  bolt.edge = {leaf.center().x(), left ? leaf.max().y() : leaf.min().y(), handle.z()};
-  bolt.throw_m = door.latch.type == LatchType::kBolt ? door.latch.bolt_throw_m : kDefaultThrow;
-  bolt.travel_per_rad = bolt.throw_m / door.latch.unlock_angle_rad;
-  return bolt;
-}
-
-void AddBox(const char* name, const Eigen::Vector3d& center, const Eigen::Vector3d& half,
-            XmlElement& body) {
+// Touches only what a contact pair names.
+void AddLatchGeom(const char* name, const RigidTransform& body_from_geom, XmlElement& body) {
   XmlElement& geom = AddElement(body, "geom");
+  SetAttribute(geom, "class", "collision");
   SetAttribute(geom, "name", name);
-  SetAttribute(geom, "type", "box");
-  SetAttribute(geom, "pos", Decimals(center));
-  SetAttribute(geom, "size", Decimals(half));
-  SetAttribute(geom, "group", "3");
+  SetAttribute(geom, "mesh", name);
+  SetAttribute(geom, "pos", Decimals(body_from_geom.translation()));
+  SetAttribute(geom, "quat", Quaternion(body_from_geom.linear()));
   SetAttribute(geom, "contype", "0");
   SetAttribute(geom, "conaffinity", "0");
 }
@@ -146,34 +135,25 @@ void AddBox(const char* name, const Eigen::Vector3d& center, const Eigen::Vector
 void AddBoltBody(const Bolt& bolt, XmlElement& leaf) {
   XmlElement& body = AddElement(leaf, "body");
   SetAttribute(body, "name", "bolt");
-  SetAttribute(body, "pos", Decimals(bolt.edge));
+  SetAttribute(body, "pos", Decimals(bolt.leaf_from_bolt.translation()));
+  SetAttribute(body, "quat", Quaternion(bolt.leaf_from_bolt.linear()));
   XmlElement& inertial = AddElement(body, "inertial");
   SetAttribute(inertial, "pos", "0 0 0");
-  SetAttribute(inertial, "mass", Decimal(kBoltMass));
+  SetAttribute(inertial, "mass", Decimal(bolt.mass_kg));
   SetAttribute(inertial, "diaginertia", "1e-5 1e-5 1e-5");
   XmlElement& joint = AddElement(body, "joint");
   SetAttribute(joint, "name", "bolt_joint");
   SetAttribute(joint, "type", "slide");
-  SetAttribute(joint, "axis", Decimals(bolt.outward));
-  SetAttribute(joint, "damping", Decimal(kBoltDamping));
-  const double half = (bolt.throw_m + kBoltInLeaf) / 2;
-  Eigen::Vector3d size = Eigen::Vector3d::Constant(kBoltHalfWidth);
-  size.y() = half;
-  AddBox("bolt", bolt.outward * (bolt.throw_m - half), size, body);
+  SetAttribute(joint, "axis", "0 1 0");
+  SetAttribute(joint, "limited", "true");
+  SetAttribute(joint, "range", Decimals(Eigen::Vector2d(-bolt.travel_m, 0)));
+  SetAttribute(joint, "damping", Decimal(bolt.damping_n_s_m));
+  SetAttribute(joint, "stiffness", Decimal(bolt.stiffness_n_per_m));
+  SetAttribute(joint, "springref", Decimal(bolt.preload_n / bolt.stiffness_n_per_m));
+  AddLatchGeom("bolt", RigidTransform::Identity(), body);
 }
 
-// Fixed to the frame, beside the leaf's edge, in the bolt's way.
-void AddStrike(const DoorAsset& door, const Bolt& bolt, XmlElement& base) {
-  const double gap = kStrikeGap * bolt.throw_m;
-  const double depth = bolt.throw_m + 0.01 - gap;
-  constexpr double kHalfThickness = 0.01;
-  const Eigen::Vector3d center = bolt.edge + bolt.outward * (gap + depth / 2) +
-                                 bolt.opens * (kBoltHalfWidth + kStrikePlay + kHalfThickness);
-  AddBox("strike", door.hinge.parent_from_child_at_zero * center,
-         {kHalfThickness, depth / 2, 3 * kBoltHalfWidth}, base);
-}
-
-void AddContacts(const DoorAsset& door, bool bolted, XmlElement& root) {
+void AddContacts(const DoorAsset& door, const std::optional<Bolt>& bolt, XmlElement& root) {
   XmlElement& contact = AddElement(root, "contact");
   // neighbours overlap at hinge and rose
   for (const auto& [a, b] :
@@ -182,18 +162,33 @@ void AddContacts(const DoorAsset& door, bool bolted, XmlElement& root) {
     SetAttribute(exclude, "body1", door.links[a].name);
     SetAttribute(exclude, "body2", door.links[b].name);
   }
-  if (!bolted) return;
+  if (!bolt) return;
   XmlElement& pair = AddElement(contact, "pair");
+  const double friction = bolt->friction;
   SetAttribute(pair, "geom1", "bolt");
   SetAttribute(pair, "geom2", "strike");
+  Eigen::VectorXd frictions(5);
+  frictions << friction, friction, 0.005, 0.0001, 0.0001;
+  SetAttribute(pair, "friction", Decimals(frictions));
+  SetAttribute(pair, "solref", kStiff);
+  SetAttribute(pair, "solimp", kHard);
 }
 
+// A cable: the handle pulls the bolt back, and nothing pushes the handle.
 void AddCoupling(const Bolt& bolt, XmlElement& root) {
-  XmlElement& joint = AddElement(AddElement(root, "equality"), "joint");
-  SetAttribute(joint, "name", "latch");
-  SetAttribute(joint, "joint1", "bolt_joint");
-  SetAttribute(joint, "joint2", "handle_joint");
-  SetAttribute(joint, "polycoef", "0 " + Decimal(-bolt.travel_per_rad) + " 0 0 0");
+  XmlElement& cable = AddElement(AddElement(root, "tendon"), "fixed");
+  SetAttribute(cable, "name", "latch");
+  SetAttribute(cable, "limited", "true");
+  SetAttribute(cable, "range", Decimals(Eigen::Vector2d(-1, 0)));
+  // by default a cable on so light a bolt gives by millimetres
+  SetAttribute(cable, "solreflimit", kStiff);
+  SetAttribute(cable, "solimplimit", kHard);
+  for (const auto& [joint, coefficient] :
+       {std::pair{"bolt_joint", 1.0}, {"handle_joint", bolt.travel_m_per_rad}}) {
+    XmlElement& element = AddElement(cable, "joint");
+    SetAttribute(element, "joint", joint);
+    SetAttribute(element, "coef", Decimal(coefficient));
+  }
 }
 
 void AddLatchNumbers(const DoorAsset& door, XmlElement& root) {
@@ -221,8 +216,10 @@ std::string ToMjcf(const DoorAsset& door) {
   SetAttribute(compiler, "inertiafromgeom", "false");
   AddLatchNumbers(door, root);
   AddDefaults(root);
-  AddAssets(door, root);
-  const bool bolted = door.latch.type != LatchType::kNone && internal::Turns(door.handle_joint);
+  std::optional<Bolt> bolt;
+  if (door.latch.type != LatchType::kNone && internal::Turns(door.handle_joint))
+    bolt = BoltOf(door);
+  AddAssets(door, bolt, root);
   XmlElement& base =
       AddBody(door.links[kBaseLink], RigidTransform::Identity(), AddElement(root, "worldbody"));
   AddGeoms(door.links[kBaseLink], base);
@@ -233,12 +230,11 @@ std::string ToMjcf(const DoorAsset& door) {
       AddBody(door.links[kHandleLink], door.handle_joint.parent_from_child_at_zero, leaf);
   AddJoint(door.handle_joint, door.latch.handle_spring_nm_per_rad, handle);
   AddGeoms(door.links[kHandleLink], handle);
-  AddContacts(door, bolted, root);
-  if (bolted) {
-    const Bolt bolt = BoltOf(door);
-    AddBoltBody(bolt, leaf);
-    AddStrike(door, bolt, base);
-    AddCoupling(bolt, root);
+  AddContacts(door, bolt, root);
+  if (bolt) {
+    AddBoltBody(*bolt, leaf);
+    AddLatchGeom("strike", bolt->base_from_strike, base);
+    AddCoupling(*bolt, root);
   }
   return internal::Printed(root);
 }

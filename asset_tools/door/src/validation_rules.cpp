@@ -138,8 +138,8 @@ constexpr ValidationRule kRules[] = {
     {"OPN006", kError, "The simulation stays finite", 0, "finite angles, below 90 rad/s",
      "check masses, inertias and dampings"},
     {"OPN007", kInfo, "The door has been simulated", 0,
-     "no error of the other families, latch none or effort",
-     "mend the errors; a bolt is simulated by other programs: `doorforge export --format mjcf`"},
+     "no error of the other families, and a door that can be simulated",
+     "mend the errors, or what the message names"},
 
     {"LIC001", kError, "A licence is stated", 0, "an SPDX expression", "state the licence"},
     {"LIC002", kWarning, "The licence is known", 0, "an SPDX expression without NOASSERTION",

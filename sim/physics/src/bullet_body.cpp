@@ -13,8 +13,6 @@
 namespace doorforge::internal {
 namespace {
 
-constexpr double kHullMargin = 0.001;
-
 // Bullet wants inertia along the axes of the link's frame, at the centre of mass: so its frame is
 // the principal one.
 RigidTransform JointFromPrincipal(const MassProperties& mass, Eigen::Vector3d& moments) {
@@ -41,14 +39,28 @@ btTransform ToBullet(const RigidTransform& transform) {
                      ToBullet(Eigen::Vector3d(transform.translation())));
 }
 
+int MaskOf(ContactSide side) {
+  switch (side) {
+    case ContactSide::kRobot:
+      return static_cast<int>(ContactSide::kDoor) | static_cast<int>(ContactSide::kRobot);
+    case ContactSide::kDoor:
+      return static_cast<int>(ContactSide::kRobot);
+    case ContactSide::kBolt:
+      return static_cast<int>(ContactSide::kStrike);
+    case ContactSide::kStrike:
+      return static_cast<int>(ContactSide::kBolt);
+  }
+  return 0;
+}
+
 std::unique_ptr<btCollisionShape> MakeHull(const TriangleMesh& mesh,
-                                           const RigidTransform& link_from_mesh) {
+                                           const RigidTransform& link_from_mesh, double margin_m) {
   Require(mesh.vertices.size() >= 4, ErrorCode::kInvalidArgument,
           "a collision hull has fewer than four points; run `doorforge validate` on the door");
   auto hull = std::make_unique<btConvexHullShape>();
   for (const Eigen::Vector3d& vertex : mesh.vertices)
     hull->addPoint(ToBullet(Eigen::Vector3d(link_from_mesh * vertex)), false);
-  hull->setMargin(kHullMargin);
+  hull->setMargin(margin_m);
   hull->recalcLocalAabb();
   return hull;
 }
@@ -130,10 +142,10 @@ std::unique_ptr<btCollisionShape> BulletBody::MakeShape(const BulletLink& link,
   // A link without a collider has no island, and Bullet then silently skips its motors and limits.
   // The sphere's contact mask is empty.
   if (link.hulls.empty()) return std::make_unique<btSphereShape>(0.001);
-  if (link.hulls.size() == 1) return MakeHull(link.hulls[0], link_from_joint);
+  if (link.hulls.size() == 1) return MakeHull(link.hulls[0], link_from_joint, link.hull_margin_m);
   auto compound = std::make_unique<btCompoundShape>();
   for (const TriangleMesh& mesh : link.hulls) {
-    shapes_.push_back(MakeHull(mesh, link_from_joint));
+    shapes_.push_back(MakeHull(mesh, link_from_joint, link.hull_margin_m));
     compound->addChildShape(btTransform::getIdentity(), shapes_.back().get());
   }
   return compound;
@@ -150,13 +162,9 @@ void BulletBody::AddCollider(int index, const BulletLink& link,
   collider->setSpinningFriction(0);
   collider->setActivationState(DISABLE_DEACTIVATION);
   multibody_->getLink(index).m_collider = collider.get();
-  const int group = static_cast<int>(side);
-  constexpr int kBoth =
-      static_cast<int>(ContactSide::kRobot) | static_cast<int>(ContactSide::kDoor);
-  const int mask = link.hulls.empty()            ? 0
-                   : side == ContactSide::kRobot ? kBoth
-                                                 : static_cast<int>(ContactSide::kRobot);
-  world_.addCollisionObject(collider.get(), group, mask);
+  const ContactSide own = link.side.value_or(side);
+  const int mask = link.hulls.empty() ? 0 : MaskOf(own);
+  world_.addCollisionObject(collider.get(), static_cast<int>(own), mask);
   colliders_.push_back(std::move(collider));
 }
 

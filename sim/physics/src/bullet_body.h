@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,16 @@ btTransform ToBullet(const RigidTransform& transform);
 
 enum class BulletJoint { kFixed, kRevolute, kPrismatic };
 
+/// Which side of the contact filter a body is on: robot and door collide, bolt and strike do, and
+/// the robot with itself as a SelfCollisionFilter says.
+enum class ContactSide : int { kRobot = 2, kDoor = 4, kBolt = 8, kStrike = 16 };
+
+/// The sides that a side collides with, for Bullet.
+int MaskOf(ContactSide side);
+
+/// What Bullet keeps around every hull [m]; its default is 4 cm.
+inline constexpr double kHullMargin = 0.001;
+
 /// A link of a multibody as this project describes it; the frame is the joint's after the motion.
 struct BulletLink {
   BulletJoint joint = BulletJoint::kRevolute;
@@ -35,12 +46,10 @@ struct BulletLink {
   /// contact solver converge badly.
   double least_inertia_kg_m2 = 0;
   std::vector<TriangleMesh> hulls;
+  double hull_margin_m = kHullMargin;
   double friction = 0.5;
+  std::optional<ContactSide> side;  ///< Where it is not that of the body.
 };
-
-/// Which side of the contact filter a body is on: the two sides collide, and the robot with itself
-/// as a SelfCollisionFilter says.
-enum class ContactSide : int { kRobot = 2, kDoor = 4 };
 
 /// A multibody with colliders on a fixed base, and all that Bullet wants to be kept alive for it.
 class BulletBody {
@@ -88,8 +97,9 @@ class BulletBody {
 /// Mass as the links of a multibody have it: no principal moment below the least one.
 MassProperties WithLeastInertia(MassProperties mass, double least_kg_m2);
 
-/// A hull as Bullet holds it: margin 1 mm instead of the default 4 cm.
+/// A hull as Bullet holds it.
 std::unique_ptr<btCollisionShape> MakeHull(const TriangleMesh& mesh,
-                                           const RigidTransform& link_from_mesh);
+                                           const RigidTransform& link_from_mesh,
+                                           double margin_m = kHullMargin);
 
 }  // namespace doorforge::internal

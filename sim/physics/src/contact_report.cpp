@@ -41,6 +41,7 @@ void AddContact(const btPersistentManifold& manifold, const RobotBody& robot, co
   const btCollisionObject* second = manifold.getBody1();
   if (robot.NameOf(first).empty()) std::swap(first, second);
   if (!robot.NameOf(second).empty()) return AddSelfContact(manifold, robot, time_step_s, contacts);
+  if (robot.NameOf(first).empty()) return;  // bolt and strike
   const bool handle = second == door.handle_collider();
   const bool left = first == robot.finger(0);
   const bool right = first == robot.finger(1);

@@ -60,11 +60,17 @@ DoorBody::DoorBody(btMultiBodyDynamicsWorld& world, const RigidTransform& world_
     : world_(world),
       door_(door),
       latch_(latch),
-      body_(world, world_from_door, LinksOf(door, handle_friction), ContactSide::kDoor),
+      described_bolt_(MakeBolt(door, latch)),
+      body_(world, world_from_door, LinksOf(door, handle_friction, described_bolt_),
+            ContactSide::kDoor),
       hinge_inertia_(InertiaAbout(door.hinge, door.links[kLeafLink].mass, kLeastLeafInertia)),
       handle_inertia_(
           InertiaAbout(door.handle_joint, door.links[kHandleLink].mass, kLeastHandleInertia)) {
   AddFrame(world_from_door);
+  if (described_bolt_) {
+    bolt_ = std::make_unique<BoltBody>(world, body_, *described_bolt_, BoltLinks{kHandle, kBolt});
+    bolt_->PlaceStrike(world_from_door);
+  }
   body_.SyncColliders();
   UpdateLatch();
 }
@@ -73,14 +79,23 @@ DoorBody::~DoorBody() {
   if (!frame_hulls_.empty()) world_.removeCollisionObject(&frame_);
 }
 
-std::vector<BulletLink> DoorBody::LinksOf(const DoorAsset& door, double handle_friction) {
+std::optional<Bolt> DoorBody::MakeBolt(const DoorAsset& door, const Latch& latch) {
+  if (latch.type != LatchType::kBolt) return std::nullopt;
+  DoorAsset latched = door;
+  latched.latch = latch;
+  return BoltOf(latched);
+}
+
+std::vector<BulletLink> DoorBody::LinksOf(const DoorAsset& door, double handle_friction,
+                                          const std::optional<Bolt>& bolt) {
   BulletLink leaf = DoorBulletLink(door.hinge, door.links[kLeafLink]);
   leaf.least_inertia_kg_m2 = kLeastLeafInertia;
   BulletLink handle = DoorBulletLink(door.handle_joint, door.links[kHandleLink]);
   handle.parent = kHinge;
   handle.least_inertia_kg_m2 = kLeastHandleInertia;
   handle.friction = handle_friction;
-  return {leaf, handle};
+  if (!bolt) return {leaf, handle};
+  return {leaf, handle, BoltBody::LinkOf(*bolt, kHinge)};
 }
 
 void DoorBody::AddFrame(const RigidTransform& world_from_door) {
@@ -104,6 +119,7 @@ void DoorBody::ApplyTorques(double hinge_nm, double handle_nm, double time_step_
   Turn(kHandle, law.handle_nm + handle_nm +
                     DampingTorque(door_.handle_joint.damping_nm_s, handle_rad_s(), handle_inertia_,
                                   time_step_s));
+  if (bolt_) bolt_->ApplySpring(time_step_s);
 }
 
 // Bullet forgets joint torques after each step.
@@ -112,6 +128,9 @@ void DoorBody::Turn(int link, double torque_nm) {
     body_.multibody().addJointTorque(link, torque_nm);
 }
 
-void DoorBody::UpdateLatch() { state_ = UpdatedLatch(latch_, state_, hinge_rad(), handle_rad()); }
+void DoorBody::UpdateLatch() {
+  state_ = UpdatedLatch(latch_, state_, hinge_rad(), handle_rad());
+  if (bolt_) state_.locked = IsCaught(*described_bolt_, door_, hinge_rad(), bolt_->position_m());
+}
 
 }  // namespace doorforge::internal

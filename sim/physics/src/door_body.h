@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
@@ -10,6 +11,7 @@
 #include "doorforge/physics/latch_law.h"
 #include "doorforge/schemas/door_asset.h"
 
+#include "bolt_body.h"
 #include "bullet_body.h"
 
 namespace doorforge::internal {
@@ -17,8 +19,8 @@ namespace doorforge::internal {
 /// Bullet times its own functions in global tables, which are not made for several worlds at once.
 void SwitchProfilingOff();
 
-/// A door in a world: frame, leaf, handle, and what acts on the joints by itself. Closed and at
-/// rest at the beginning.
+/// A door in a world: frame, leaf, handle, bolt where the latch is one, and what acts on the joints
+/// by itself. Closed and at rest at the beginning.
 class DoorBody {
  public:
   /// @param door Must outlive this; its own latch is not looked at.
@@ -39,6 +41,9 @@ class DoorBody {
   double handle_rad() const { return body_.Position(kHandle); }
   double handle_rad_s() const { return body_.Velocity(kHandle); }
   const LatchState& latch() const { return state_; }
+  bool HasBolt() const { return bolt_ != nullptr; }
+  double bolt_m() const { return bolt_ ? bolt_->position_m() : 0; }
+  double bolt_m_s() const { return bolt_ ? bolt_->velocity_m_s() : 0; }
 
   const btCollisionObject* handle_collider() const { return body_.collider(kHandle); }
   const btCollisionObject* leaf_collider() const { return body_.collider(kHinge); }
@@ -46,8 +51,11 @@ class DoorBody {
  private:
   static constexpr int kHinge = 0;
   static constexpr int kHandle = 1;
+  static constexpr int kBolt = 2;
 
-  static std::vector<BulletLink> LinksOf(const DoorAsset& door, double handle_friction);
+  static std::optional<Bolt> MakeBolt(const DoorAsset& door, const Latch& latch);
+  static std::vector<BulletLink> LinksOf(const DoorAsset& door, double handle_friction,
+                                         const std::optional<Bolt>& bolt);
   void AddFrame(const RigidTransform& world_from_door);
   void Turn(int link, double torque_nm);
 
@@ -55,12 +63,14 @@ class DoorBody {
   const DoorAsset& door_;
   Latch latch_;
   LatchState state_;
+  std::optional<Bolt> described_bolt_;
   BulletBody body_;
   double hinge_inertia_ = 0;   // about the joint's axis, as the multibody has it [kg m^2]
   double handle_inertia_ = 0;  // the same
   btCompoundShape frame_shape_;
   std::vector<std::unique_ptr<btCollisionShape>> frame_hulls_;
   btCollisionObject frame_;
+  std::unique_ptr<BoltBody> bolt_;
 };
 
 }  // namespace doorforge::internal

@@ -89,6 +89,7 @@ DoorWorld::Runtime::Runtime(const Scene& the_scene, const DoorAsset& the_door,
     : scene(the_scene), door(the_door), robot(the_robot) {
   Check(scene.physics);
   Check(scene, robot);
+  RequireSimulatable(door, "simulated world");
   internal::SwitchProfilingOff();
   ConfigureSolver();
   self_collisions_ = std::make_unique<internal::SelfCollisionFilter>(robot);
@@ -123,6 +124,8 @@ void DoorWorld::Runtime::ReadState() {
   state.handle_rad_s = door_body_->handle_rad_s();
   state.locked = door_body_->latch().locked;
   state.handle_done = door_body_->latch().handle_done;
+  state.bolt_m = door_body_->bolt_m();
+  state.bolt_m_s = door_body_->bolt_m_s();
 }
 
 void DoorWorld::Runtime::RememberRotations() {
@@ -179,9 +182,7 @@ bool DoorWorld::Runtime::Healthy() const {
 
 DoorWorld::DoorWorld(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
                      const JointVector& start)
-    : runtime_(std::make_unique<Runtime>(scene, door, robot, start)) {
-  RequireSimulatable(door, "simulated world");
-}
+    : runtime_(std::make_unique<Runtime>(scene, door, robot, start)) {}
 DoorWorld::~DoorWorld() = default;
 DoorWorld::DoorWorld(DoorWorld&&) noexcept = default;
 DoorWorld& DoorWorld::operator=(DoorWorld&&) noexcept = default;
@@ -217,6 +218,8 @@ std::string DoorWorld::StateHash() const {
   std::vector<double> numbers(now.robot_position.begin(), now.robot_position.end());
   numbers.insert(numbers.end(), now.robot_velocity.begin(), now.robot_velocity.end());
   numbers.insert(numbers.end(), {now.hinge_rad, now.hinge_rad_s, now.handle_rad, now.handle_rad_s});
+  if (runtime_->scene.latch.type == LatchType::kBolt)
+    numbers.insert(numbers.end(), {now.bolt_m, now.bolt_m_s});
   Sha256 hash;
   hash.Update(std::as_bytes(std::span(numbers)));
   return hash.HexDigest();

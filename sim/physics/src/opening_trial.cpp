@@ -5,62 +5,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
-#include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
-#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
-
-#include "doorforge/core/error.h"
-
-#include "door_body.h"
+#include "doorforge/physics/lone_door.h"
 
 namespace doorforge {
 namespace {
 
 constexpr double kAjarRad = 0.01;  // as the latch law has it
 constexpr double kRampS = 1;
-constexpr double kHoldS = 0.5;       // at the full force
-constexpr double kReturnS = 1;       // for the handle to spring back
-constexpr double kOpeningS = 10;     // at most
-constexpr double kFastestRadS = 90;  // Bullet cuts at 100
-
-/// A closed door at rest, in a world of its own.
-class LoneDoor {
- public:
-  LoneDoor(const DoorAsset& door, double time_step_s) : dt_(time_step_s) {
-    internal::SwitchProfilingOff();
-    world_.setGravity(btVector3(0, 0, 0));
-    world_.getSolverInfo().m_numIterations = 50;
-    world_.getSolverInfo().m_globalCfm = 0;
-    body_ = std::make_unique<internal::DoorBody>(world_, RigidTransform::Identity(), door,
-                                                 door.latch, 1);
-  }
-
-  double hinge_rad() const { return body_->hinge_rad(); }
-  double handle_rad() const { return body_->handle_rad(); }
-  const LatchState& latch() const { return body_->latch(); }
-
-  bool Finite() const {
-    const double fastest =
-        std::max(std::abs(body_->hinge_rad_s()), std::abs(body_->handle_rad_s()));
-    return std::isfinite(hinge_rad()) && std::isfinite(handle_rad()) && fastest < kFastestRadS;
-  }
-
-  /// Torques of a hand, besides those of latch, springs and damping [N m].
-  void Step(double hinge_nm, double handle_nm) {
-    body_->ApplyTorques(hinge_nm, handle_nm, dt_);
-    world_.stepSimulation(dt_, 0);
-    body_->UpdateLatch();
-  }
-
- private:
-  double dt_;
-  btDefaultCollisionConfiguration collision_configuration_;
-  btCollisionDispatcher dispatcher_{&collision_configuration_};
-  btDbvtBroadphase broadphase_;
-  btMultiBodyConstraintSolver solver_;
-  btMultiBodyDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &collision_configuration_};
-  std::unique_ptr<internal::DoorBody> body_;
-};
+constexpr double kHoldS = 0.5;    // at the full force
+constexpr double kReturnS = 1;    // for the handle to spring back
+constexpr double kOpeningS = 10;  // at most
 
 // Radius of the grasp's circle about the hinge line.
 double ArmOf(const DoorAsset& door) {
@@ -139,8 +93,6 @@ void TryPull(const DoorAsset& door, const OpeningTrialConfig& config, OpeningTri
 }  // namespace
 
 OpeningTrial TryOpening(const DoorAsset& door, const OpeningTrialConfig& config) {
-  Require(door.latch.type != LatchType::kBolt, ErrorCode::kInvalidArgument,
-          "the latch law knows no bolt; export the door to MJCF, where the bolt is hardware");
   OpeningTrial trial;
   trial.latched = door.latch.type != LatchType::kNone;
   if (trial.latched) {

@@ -46,16 +46,53 @@ Placement PlacementOf(Category category) {
 constexpr double kLeastHeight = 0.1;
 constexpr double kBaseHeight = 0.1;
 
+// The arm's way to a handle, from the grasp along x [m].
+constexpr double kWayFrom = 0.1;
+constexpr double kWayTo = 0.7;
+constexpr double kHalfWay = 0.08;
+
+constexpr double kPushLean = 0.35;  // [rad]
+
 double ClippedNormal(Rng& rng) { return std::clamp(0.5 * rng.Normal(), -1.0, 1.0); }
 
 double ShiftInto(const Range& range, double value) {
   return std::clamp(value, range.low, range.high) - value;
 }
 
+// A door hinged right stands where the mirror image of one hinged left would.
+Placement PlacementOf(const DoorAsset& door) {
+  Placement placement = PlacementOf(door.category);
+  if (door.hinge_side == HingeSide::kLeft) return placement;
+  placement.grasp_y = {-placement.grasp_y.high, -placement.grasp_y.low};
+  placement.base.y() = -placement.base.y();
+  return placement;
+}
+
+Eigen::Vector3d GraspInDoor(const DoorAsset& door) {
+  return (DoorFromLinks(door, 0, 0)[kHandleLink] * door.handle_from_grasp).translation();
+}
+
+// Whoever pushes a cupboard's door stands in the cupboard.
+void RequireFreeWay(const DoorAsset& door) {
+  const Eigen::Vector3d grasp = GraspInDoor(door);
+  const Eigen::AlignedBox3d way(grasp + Eigen::Vector3d(kWayFrom, -kHalfWay, -kHalfWay),
+                                grasp + Eigen::Vector3d(kWayTo, kHalfWay, kHalfWay));
+  for (const DoorGeometry& geometry : door.links[kBaseLink].geometry) {
+    for (const TriangleMesh& hull : geometry.hulls) {
+      Eigen::AlignedBox3d box;
+      for (const Eigen::Vector3d& vertex : hull.vertices) box.extend(vertex);
+      if (!way.intersects(box)) continue;
+      throw Error(ErrorCode::kInvalidArgument,
+                  "scene: door \"" + door.id + "\": its \"" + geometry.name + "\" is " +
+                      std::to_string(std::max(0.0, box.min().x() - grasp.x())) +
+                      " m in front of the handle, where the arm has to reach through; a body like "
+                      "this cannot be pushed open, compose it with opening: pull");
+    }
+  }
+}
+
 RigidTransform PlaceDoor(const DoorAsset& door, const Placement& placement) {
-  const RigidTransform door_from_grasp =
-      DoorFromLinks(door, 0, 0)[kHandleLink] * door.handle_from_grasp;
-  const Eigen::Vector3d grasp = door_from_grasp.translation();
+  const Eigen::Vector3d grasp = GraspInDoor(door);
   const double lift = kLeastHeight + ShiftInto(placement.grasp_z, grasp.z() + kLeastHeight);
   return Translation({ShiftInto(placement.grasp_x, grasp.x()),
                       ShiftInto(placement.grasp_y, grasp.y()), std::max(lift, kLeastHeight)});
@@ -73,6 +110,18 @@ RigidTransform GraspNoise(const DoorAsset& door, double scale, Rng rng) {
   const bool along = door.mechanism == Mechanism::kLever || door.mechanism == Mechanism::kFlap;
   const double shift = along ? scale * ClippedNormal(rng) * door.grasp_half_extent_m.x() : 0;
   return Translation({shift, 0, 0}) * RotationAbout(Eigen::Vector3d::UnitZ(), turn);
+}
+
+// Who pushes follows the handle through the doorway, past the jamb on the handle's side. So the
+// hand leans away from the jamb, about the pads' normal; and on a knob, which has no up or down,
+// the wide hand stands upright half way through the turn.
+RigidTransform ClearOfTheJamb(const DoorAsset& door) {
+  const Eigen::Matrix3d grasp = door.handle_from_grasp.linear();
+  const double to_hinge = door.hinge_side == HingeSide::kLeft ? -1 : 1;
+  const double turn = door.mechanism == Mechanism::kRound ? door.latch.handle_done_angle_rad : 0;
+  return RotationAbout(Eigen::Vector3d::UnitZ(),
+                       -turn / 2 * door.handle_joint.axis.dot(grasp.col(2))) *
+         RotationAbout(Eigen::Vector3d::UnitY(), -kPushLean * to_hinge * grasp(1, 0));
 }
 
 // Ranges of "strong"; docs/design/simulation.md says where they come from.
@@ -127,8 +176,9 @@ double PaperShare(const SceneConfig& config) {
 Scene SampleScene(const DoorAsset& door, std::uint64_t seed, std::uint64_t episode,
                   const SceneConfig& config) {
   RequireSimulatable(door, "scene");
+  if (door.opening == Opening::kPush) RequireFreeWay(door);
   const std::string stream = "scene/" + door.id + "/" + std::to_string(episode) + "/";
-  const Placement placement = PlacementOf(door.category);
+  const Placement placement = PlacementOf(door);
   const double share = PaperShare(config);
   Scene scene;
   scene.door_id = door.id;
@@ -141,6 +191,8 @@ Scene SampleScene(const DoorAsset& door, std::uint64_t seed, std::uint64_t episo
   scene.latch = door.latch;
   scene.grasp_from_noisy_grasp =
       GraspNoise(door, share * config.grasp_noise, Rng(seed, stream + "grasp"));
+  if (door.opening == Opening::kPush)
+    scene.grasp_from_noisy_grasp = scene.grasp_from_noisy_grasp * ClearOfTheJamb(door);
   scene.physics = config.physics;
   if (config.randomisation != "strong") return scene;
   VaryLatch(scene.latch, Rng(seed, stream + "latch"));

@@ -57,7 +57,8 @@ struct DoorJoint {
 ///
 /// kBolt is a bolt that reaches bolt_throw_m into the strike of the frame and is drawn back by
 /// bolt_throw_m * min(1, handle angle / unlock_angle): it holds whatever the effort, and catches
-/// again as the leaf closes. lock_effort_nm and relatch say nothing then; the springs do.
+/// again as the leaf closes, see bolt.h. lock_effort_nm, relatch and unlocks_ajar say nothing then;
+/// the springs do.
 struct Latch {
   LatchType type = LatchType::kNone;
   double unlock_angle_rad = 0;
@@ -66,9 +67,13 @@ struct Latch {
   double lock_effort_nm = 150;
   double hinge_spring_nm_per_rad = 3;
   double handle_spring_nm_per_rad = 3;
-  /// False: once the door is ajar by more than 0.01 rad it stays unlocked (the released code);
-  /// true: it locks again whenever the handle returns (the paper's formula).
+  /// False: a door that has been unlocked stays so while it is ajar by more than 0.01 rad, but one
+  /// that its lock effort holds there under load does not come free; true: it locks again whenever
+  /// the handle returns (the paper's formula).
   bool relatch = false;
+  /// The released code's variant, not together with relatch: ajar by more than 0.01 rad, the door
+  /// is unlocked, even if force alone has brought it there.
+  bool unlocks_ajar = false;
   double bolt_throw_m = 0;  ///< Of kBolt.
 };
 
@@ -84,7 +89,7 @@ enum DoorLinkIndex : int { kBaseLink = 0, kLeafLink = 1, kHandleLink = 2 };
 ///
 /// The canonical door, which the paper's objects and the catalogue's parts are, is hinged left and
 /// pulled: the hinge is at small y and the leaf opens towards x > 0. Hinged right, the hinge is at
-/// large y; pushed, the leaf opens towards x < 0. See RequireSimulatable().
+/// large y; pushed, the leaf opens towards x < 0.
 struct DoorAsset {
   std::string id;  ///< "<body id>__<handle id>" unless the author names it.
   Category category = Category::kInterior;
@@ -104,10 +109,10 @@ struct DoorAsset {
   std::string physics_source = {};
 };
 
-/// Throws Error(kInvalidArgument) unless the door is canonical (hinged left, pulled) and its latch
-/// is none or the effort law: what scenes, the simulated world and the experts are made for.
-/// `user` begins the message, such as "simulate". Whoever places robots or cameras by the door
-/// frame calls this first.
+/// Throws Error(kInvalidArgument) unless the door is what scenes, the simulated world and the
+/// experts are made for: the hinge opens and moves the handle the way that `opening` says; a bolt
+/// has a throw, a handle that turns beyond the unlock angle, and an upright hinge on the door's
+/// hinge_side. `user` begins the message, such as "simulate".
 void RequireSimulatable(const DoorAsset& door, std::string_view user);
 
 /// Poses of base, leaf and handle in the door frame at the given joint angles.

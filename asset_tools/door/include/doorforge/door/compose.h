@@ -42,6 +42,7 @@ struct ComposeConfig {
   double handle_done_angle_rad = 0;  ///< 0: the same.
   double lock_effort_nm = 150;
   bool relatch = false;
+  bool unlocks_ajar = false;  ///< The released code's latch; see Latch. Not together with relatch.
   double bolt_throw_m = 0.012;          ///< 0.002 to 0.03.
   std::string joints = "paper";         ///< A preset of springs and damping, see JointPresets().
   double hinge_spring_nm_per_rad = -1;  ///< -1: by preset, as the three below.
@@ -73,6 +74,7 @@ struct ComposeConfig {
     visit("handle_done_angle_rad", self.handle_done_angle_rad);
     visit("lock_effort_nm", self.lock_effort_nm);
     visit("relatch", self.relatch);
+    visit("unlocks_ajar", self.unlocks_ajar);
     visit("bolt_throw_m", self.bolt_throw_m);
     visit("joints", self.joints);
     visit("hinge_spring_nm_per_rad", self.hinge_spring_nm_per_rad);

@@ -31,6 +31,8 @@ struct WorldState {
   double handle_rad_s = 0;
   bool locked = false;       ///< The latch holds the leaf, see Latch in door_asset.h.
   bool handle_done = false;  ///< The handle has reached handle_done_angle_rad once in this episode.
+  double bolt_m = 0;         ///< 0 thrown, negative drawn back; see bolt.h. 0 where there is none.
+  double bolt_m_s = 0;
   double time_s = 0;
 };
 
@@ -55,8 +57,8 @@ struct DoorContacts {
 /// The simulated scene: robot, door and latch in a Bullet multibody world, double precision.
 ///
 /// Contacts are Coulomb friction between convex hulls; nothing is ever glued to the gripper. The
-/// latch is the effort law of Latch. Gravity is off for robot and door, as in UniDoorManip; the
-/// other departures are in docs/design/simulation.md.
+/// latch is the effort law of Latch, or a bolt that meets its strike in contact. Gravity is off for
+/// robot and door, as in UniDoorManip; the other departures are in docs/design/simulation.md.
 ///
 /// Deterministic: the same scene, door and commands give the same states bit by bit, in any number
 /// of worlds side by side (each world belongs to one thread at a time).
@@ -92,7 +94,7 @@ class DoorWorld {
   /// nowhere: an arm joint beyond 30 rad/s, the hinge beyond 20 rad/s, a slider beyond 10 m/s.
   bool Healthy() const;
 
-  /// SHA-256 of all joint positions and velocities, bit by bit.
+  /// SHA-256 of all joint positions and velocities, bit by bit, a bolt's among them.
   std::string StateHash() const;
 
  private:

@@ -13,7 +13,8 @@ struct LatchState {
 };
 
 /// State after the door and the handle have come to these angles. See Latch in door_asset.h for the
-/// law (UniDoorManip, Section 3.3).
+/// law (UniDoorManip, Section 3.3). A bolt is not a law of angles: its `locked` is kept as it was,
+/// and follows from where the bolt is, see IsCaught() in bolt.h.
 LatchState UpdatedLatch(const Latch& latch, const LatchState& before, double hinge_rad,
                         double handle_rad);
 
@@ -22,6 +23,7 @@ struct LatchTorques {
   double handle_nm = 0;  ///< About the handle's axis; positive unlocks.
 };
 
+/// Of lock effort and springs; a bolt holds by contact and adds nothing here.
 LatchTorques TorquesOf(const Latch& latch, const LatchState& state, double hinge_rad,
                        double handle_rad);
 

@@ -29,12 +29,13 @@ struct OpeningTrial {
   double opened_s = 0;      ///< Since the pull began; it grows to the nominal one within 1 s.
 };
 
-/// Simulates leaf, handle and latch of a door without a robot: the same bodies, latch law and
-/// damping as DoorWorld, gravity off, no contacts. Torque and pull grow from 0 to the nominal ones
-/// within a second. A pushed door is pushed: the force has the sense in which its hinge opens.
+/// Simulates leaf, handle and latch of a door without a robot: the same bodies, latch law, bolt and
+/// damping as DoorWorld, gravity off, no contacts but those of bolt and strike. Torque and pull
+/// grow from 0 to the nominal ones within a second. A pushed door is pushed: the force has the
+/// sense in which its hinge opens.
 ///
-/// Any side and opening; deterministic. Throws Error(kInvalidArgument) for a bolt, which the latch
-/// law does not have, for a moving link without mass, or a hull of fewer than four points.
+/// Any side and opening; deterministic. Throws Error(kInvalidArgument) as RequireSimulatable() and
+/// BoltOf(), for a moving link without mass, or a hull of fewer than four points.
 OpeningTrial TryOpening(const DoorAsset& door, const OpeningTrialConfig& config = {});
 
 }  // namespace doorforge

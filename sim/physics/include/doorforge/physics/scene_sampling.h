@@ -37,14 +37,18 @@ struct SceneConfig {
 /// are named "scene/<door id>/<episode>/<purpose>".
 ///
 /// The door stands axis-parallel, 0.1 m or more over the floor, so that the closed door's grasp
-/// point lies where UniDoorManip's objects of this category have it (its range of heights,
-/// sideways positions and distances, measured on the released objects); a door that is in the range
-/// at height 0.1 m is not moved. Robot: facing the door at the category's distance, x and y
-/// jittered independently by clip(N(0, 0.5), -1, 1) times 0.08 to 0.15 m. Grasp: turned about the
-/// approach by the same kind of number times 10 degrees; on levers and flaps also shifted along the
-/// handle by up to grasp_half_extent_m. Throws as RequireSimulatable(), and Error(kInvalidConfig)
-/// on an unknown randomisation. A stronger randomisation leaves the draws of a weaker one as they
-/// are.
+/// point lies where UniDoorManip's objects of this category have it (its range of heights, sideways
+/// positions and distances, measured on the released objects); a door that is in the range at
+/// height 0.1 m is not moved. Robot: facing the door at the category's distance, x and y jittered
+/// independently by clip(N(0, 0.5), -1, 1) times 0.08 to 0.15 m. Grasp: turned about the approach
+/// by the same kind of number times 10 degrees; on levers and flaps also shifted along the handle
+/// by up to grasp_half_extent_m. A door hinged right stands where the mirror image of one hinged
+/// left would, the robot likewise; a door that is pushed stands as one that is pulled, with the
+/// robot on the handle's side, and the grasp of whoever pushes leans 20 degrees away from the jamb
+/// and, on a knob, is rolled back by half its turn. Throws as RequireSimulatable();
+/// Error(kInvalidArgument) where the frame of a pushed door stands between robot and handle, as the
+/// back of a cupboard does; Error(kInvalidConfig) on an unknown randomisation. A stronger
+/// randomisation leaves the draws of a weaker one as they are.
 Scene SampleScene(const DoorAsset& door, std::uint64_t seed, std::uint64_t episode,
                   const SceneConfig& config = {});
 

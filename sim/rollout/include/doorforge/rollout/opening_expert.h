@@ -14,6 +14,10 @@ struct OpeningExpertConfig {
   double press_rad = 0.25;
   double ajar_rad = 0.0873;             ///< 5 degrees.
   double relax_rad_per_action = 0.133;  ///< 0.8 rad/s.
+  /// Of a pushed door: how much of the door's turn the hand does not follow, so that the arm behind
+  /// it comes through the doorway instead of against the jamb; its pads turn on the handle.
+  double push_yaw_share = 0.92;
+  double tool_m = 0.1034;  ///< From the hand's frame to the middle of the pads, along its z.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -23,12 +27,15 @@ struct OpeningExpertConfig {
     visit("press_rad", self.press_rad);
     visit("ajar_rad", self.ajar_rad);
     visit("relax_rad_per_action", self.relax_rad_per_action);
+    visit("push_yaw_share", self.push_yaw_share);
+    visit("tool_m", self.tool_m);
   }
 };
 
 /// Opens the door by replaying the grasp on the true arc of the measured hinge: the target leads
-/// the measured angle, so a door that is stuck does not wind it up. Reads only the privileged
-/// state.
+/// the measured angle, so a door that is stuck does not wind it up. Pushing, that is where the door
+/// goes the way the hand points, the hand keeps its heading and the pads turn on the handle. Reads
+/// only the privileged state.
 class OpeningExpert : public Policy {
  public:
   explicit OpeningExpert(const OpeningExpertConfig& config = {}) : config_(config) {}
@@ -39,6 +46,7 @@ class OpeningExpert : public Policy {
  private:
   OpeningExpertConfig config_;
   int actions_ = 0;
+  bool pushes_ = false;
   double handle_target_rad_ = 0;
   RigidTransform handle_from_hand_ = RigidTransform::Identity();
 };

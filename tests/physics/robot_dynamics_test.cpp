@@ -105,9 +105,9 @@ Stop StopsAt(const RobotModel& robot, const Scene& scene, const DoorAsset& door,
   DoorWorld world(scene, door, robot, start);
   RobotCommand command;
   command.arm_position = start.head(robot.arm_count());
-  command.arm_position[joint] = limit + 0.5 * way;
+  command.arm_position[joint] = limit + 0.1 * way;
   Stop stop;
-  for (int i = 0; i < 360; ++i) {
+  for (int i = 0; i < 600; ++i) {
     world.Step(command);
     stop.beyond = way * (world.state().robot_position[joint] - limit);
     stop.peak = std::max(stop.peak, stop.beyond);

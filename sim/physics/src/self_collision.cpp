@@ -34,7 +34,7 @@ bool Nearer(const std::vector<ProbeHull>& moving, const RigidTransform& fixed_fr
   for (const ProbeHull& a : moving) {
     const Eigen::AlignedBox3d box = a.box.transformed(fixed_from_moving);
     for (const ProbeHull& b : fixed) {
-      if (box.exteriorDistance(b.box) < distance &&
+      if (box.exteriorDistance(b.box) <= distance &&
           Separate(a, fixed_from_moving, b).distance < distance)
         return true;
     }
@@ -75,7 +75,9 @@ std::vector<std::pair<int, int>> SelfCollisionPairs(const RobotModel& robot) {
       if (near(rest, kNear)) continue;
       const auto overlaps = std::count_if(poses.begin(), poses.end(),
                                           [&](const RobotPose& pose) { return near(pose, 0); });
-      if (overlaps < kPostures / 2) pairs.emplace_back(first, second);
+      const bool next_but_one = parent >= 0 && robot.joint(parent).parent == first;
+      if (next_but_one ? overlaps == 0 : overlaps < kPostures / 2)
+        pairs.emplace_back(first, second);
     }
   }
   return pairs;

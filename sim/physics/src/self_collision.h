@@ -14,8 +14,9 @@ namespace doorforge::internal {
 
 /// Which bodies of the robot can collide with each other, as pairs of joints, the lower first. Left
 /// out are neighbours, bodies on the same parent (fingers), and those that are nearer than 5 mm to
-/// each other in the initial posture or, since hulls are larger than what they enclose, overlap in
-/// half of all postures.
+/// each other in the initial posture. Hulls are larger than what they enclose, so those that
+/// overlap in half of all postures are left out as well, and neighbours but one that overlap in
+/// any: the joint between them has its limits for that.
 std::vector<std::pair<int, int>> SelfCollisionPairs(const RobotModel& robot);
 
 /// Whether the bodies of one of these pairs overlap in a posture.

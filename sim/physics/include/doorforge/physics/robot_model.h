@@ -124,7 +124,8 @@ class RobotModel {
   RigidTransform hand_from_tcp() const;
 
   /// Which bodies can collide with each other, as pairs of joints, the lower first: all but
-  /// neighbours and those whose hulls meet in the initial posture or in most postures.
+  /// neighbours and those whose hulls meet in the initial posture, in half of all postures, or, one
+  /// body apart, in any.
   const std::vector<std::pair<int, int>>& self_collisions() const { return self_collisions_; }
 
   /// Postures with a level hand before the robot: where inverse kinematics begins.

@@ -123,6 +123,26 @@ TEST(ImportObjects, TheSameBytesForAnyNumberOfThreadsAndOnASecondRun) {
   EXPECT_EQ(fs::last_write_time(root / "one/udm-9965006/part.json"), written);
 }
 
+TEST(ImportObjects, SeveralPathsAreOneRunAndAFaultyOneCostsNoOther) {
+  const fs::path root = TestFolder("batch_paths");
+  WriteSmallObject(root / "in/LeverDoor/99650069960003");
+  WriteSmallObject(root / "in/LeverDoor/99650079960004", {.body_scale = 0.85});
+  WriteText(root / "in/notes.txt", "no object");
+  const std::vector<fs::path> paths = {root / "in/LeverDoor/99650069960003", root / "in/nowhere",
+                                       root / "in/notes.txt", root / "in/LeverDoor",
+                                       root / "in/LeverDoor/../LeverDoor/99650079960004"};
+  const std::vector<ForeignSource> sources = FindObjects(paths);
+  ASSERT_EQ(sources.size(), 4U) << "each object once";
+  const ImportReport report = ImportObjects(sources, root / "out", {}, Existing::kRefuse);
+  ASSERT_EQ(report.objects.size(), 4U);
+  EXPECT_EQ(report.objects[0].outcome, ImportOutcome::kImported);
+  EXPECT_EQ(report.objects[1].outcome, ImportOutcome::kIncomplete);
+  EXPECT_NE(report.objects[1].message.find("no such file or folder"), std::string::npos);
+  EXPECT_EQ(report.objects[2].outcome, ImportOutcome::kIncomplete);
+  EXPECT_EQ(report.objects[3].outcome, ImportOutcome::kImported);
+  EXPECT_THROW(FindObjects(std::vector<fs::path>{root / "in/nowhere"}), Error);
+}
+
 TEST(ImportObjects, PartsMadeWithOtherSettingsAreReplacedOnlyWhenAsked) {
   const fs::path root = TestFolder("batch_settings");
   WriteSmallObject(root / "in/LeverDoor/99650069960003");

@@ -3,6 +3,7 @@
 #include "import_verb.h"
 
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <map>
 #include <string>
@@ -20,7 +21,7 @@ namespace doorforge {
 namespace {
 
 struct Options {
-  std::string source;
+  std::vector<std::filesystem::path> sources;
   std::string out;
   std::string format = "auto";
   std::string config;
@@ -51,7 +52,7 @@ Options Parse(int argc, char** argv) {
   Options options;
   CLI::App app("Imports foreign door objects: each gives a body part and a handle part.",
                "doorforge import");
-  app.add_option("SRC", options.source, "one object, or a folder of them up to three levels deep")
+  app.add_option("SRC", options.sources, "objects, or folders of them up to three levels deep")
       ->required();
   app.add_option("--out", options.out, "folder for the parts")->required();
   std::vector<std::string> formats = ImportFormatNames();
@@ -72,6 +73,7 @@ Options Parse(int argc, char** argv) {
       "examples:\n"
       "  doorforge import unidoormanip_objects/LeverDoor --out parts\n"
       "  doorforge import partnet_mobility/101593 --out parts --height 0.7\n"
+      "  doorforge import handles/*.stl --role handle --category interior --out parts\n"
       "  doorforge import my_lever.stl --role handle --category interior --mechanism lever "
       "--unit mm --front z --up y --out parts");
   ParseVerb(app, argc, argv);
@@ -147,7 +149,7 @@ int RunImportVerb(int argc, char** argv) {
   if (!config.read.category.empty()) CheckCategory("--category", config.read.category);
   for (const std::string& category : config.only) CheckCategory("--only", category);
   const ImportReport report =
-      ImportObjects(FindObjects(options.source, options.format), options.out, config,
+      ImportObjects(FindObjects(options.sources, options.format), options.out, config,
                     options.overwrite ? Existing::kReplace : Existing::kRefuse);
   if (options.json)
     std::cout << ToJson(report).dump(2) << '\n';

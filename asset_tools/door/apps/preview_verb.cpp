@@ -82,9 +82,50 @@ struct Shape {
   const TriangleMesh& mesh;
   const std::vector<TriangleMesh>& hulls;
   const Eigen::Vector4d& color_rgba;
+  const VisualMesh& visual;
 };
 
+Eigen::Vector3d Facing(const VisualMesh& visual, const Eigen::Vector3i& t) {
+  const Eigen::Vector3d& a = visual.vertices[static_cast<std::size_t>(t[0])];
+  const Eigen::Vector3d normal = (visual.vertices[static_cast<std::size_t>(t[1])] - a)
+                                     .cross(visual.vertices[static_cast<std::size_t>(t[2])] - a);
+  return normal.norm() > 0 ? Eigen::Vector3d(normal.normalized()) : Eigen::Vector3d::Zero();
+}
+
+// What its author drew, a mesh for each material. A sheet may have two sides of two materials:
+// every vertex goes a hair the way its triangles face, so that the near side is the one seen.
+void AddVisual(const VisualMesh& visual, int link, Model& model) {
+  constexpr double kHair = 5e-5;  // [m]
+  for (const VisualSurface& surface : visual.surfaces) {
+    std::vector<int> index_of(visual.vertices.size(), -1);
+    std::vector<Eigen::Vector3d> facing;
+    TriangleMesh mesh;
+    mesh.triangles = surface.triangles;
+    for (Eigen::Vector3i& triangle : mesh.triangles) {
+      const Eigen::Vector3d faces = Facing(visual, triangle);
+      for (int& corner : triangle) {
+        int& index = index_of[static_cast<std::size_t>(corner)];
+        if (index < 0) {
+          index = static_cast<int>(mesh.vertices.size());
+          mesh.vertices.push_back(visual.vertices[static_cast<std::size_t>(corner)]);
+          facing.emplace_back(0, 0, 0);
+        }
+        corner = index;
+        facing[static_cast<std::size_t>(index)] += faces;
+      }
+    }
+    for (std::size_t i = 0; i < facing.size(); ++i)
+      mesh.vertices[i] += kHair * facing[i].stableNormalized();
+    model.meshes.push_back(
+        {std::move(mesh), link, PointLabel::kOther, surface.material.color_rgba.head<3>()});
+  }
+}
+
 void AddShape(const Shape& shape, int link, bool collision, Model& model) {
+  if (!collision && !shape.visual.empty()) {
+    AddVisual(shape.visual, link, model);
+    return;
+  }
   if (!collision) {
     model.meshes.push_back({shape.mesh, link, PointLabel::kOther, shape.color_rgba.head<3>()});
     return;
@@ -103,8 +144,8 @@ Model LoadModel(const fs::path& folder, const Options& options) {
     const DoorAsset door = ReadDoor(folder);
     for (std::size_t i = 0; i < door.links.size(); ++i) {
       for (const DoorGeometry& geometry : door.links[i].geometry)
-        AddShape({geometry.mesh, geometry.hulls, geometry.color_rgba}, static_cast<int>(i),
-                 options.collision, model);
+        AddShape({geometry.mesh, geometry.hulls, geometry.color_rgba, geometry.visual},
+                 static_cast<int>(i), options.collision, model);
     }
     for (const RigidTransform& pose :
          DoorFromLinks(door, WithinLimits(options.hinge_deg, door.hinge),
@@ -114,7 +155,8 @@ Model LoadModel(const fs::path& folder, const Options& options) {
   }
   const Part part = ReadPart(folder);
   for (const PartPiece& piece : part.pieces)
-    AddShape({piece.mesh, piece.hulls, piece.color_rgba}, 0, options.collision, model);
+    AddShape({piece.mesh, piece.hulls, piece.color_rgba, piece.visual}, 0, options.collision,
+             model);
   model.poses = {RigidTransform::Identity()};
   model.stands = part.role == PartRole::kBody;
   return model;

@@ -335,6 +335,7 @@ void AddMeshes(Composed& composed) {
       geometry.mesh = PlacedAsFiled(source.shape->mesh, place);
       for (const TriangleMesh& hull : source.shape->hulls)
         geometry.hulls.push_back(PlacedAsFiled(hull, place));
+      geometry.visual = PlacedAsFiled(source.shape->visual, place);
     }
   }
 }
@@ -346,6 +347,7 @@ DoorFiles SharedFilesOf(const Composed& composed) {
       GeometryFiles shared{PooledMeshPath(source.shape->mesh_sha256), {}, source.link_from_shape};
       for (const std::string& hull : source.shape->hull_sha256)
         shared.hulls.push_back(PooledMeshPath(hull));
+      shared.visual = source.shape->visual_files;
       files[link].push_back(std::move(shared));
     }
   }

@@ -6,7 +6,6 @@
 #include <array>
 
 #include "doorforge/door/export_urdf.h"
-#include "doorforge/schemas/mesh_file.h"
 
 namespace doorforge {
 namespace {
@@ -19,12 +18,12 @@ bool NamesMeshes(DoorFormat format) {
   return format == DoorFormat::kUrdf || format == DoorFormat::kMjcf || format == DoorFormat::kSdf;
 }
 
-void WriteMeshes(const DoorAsset& door, const fs::path& folder) {
+// Beside a USD layer, which holds all else.
+void WriteTextures(const DoorAsset& door, const fs::path& folder) {
   for (const DoorLink& link : door.links) {
     for (const DoorGeometry& geometry : link.geometry) {
-      CommitFile(folder / VisualMeshPath(geometry), ToObj(geometry.mesh));
-      for (std::size_t i = 0; i < geometry.hulls.size(); ++i)
-        CommitFile(folder / CollisionMeshPath(geometry, i), ToObj(geometry.hulls[i]));
+      for (const auto& texture : TexturesOf(geometry.visual))
+        CommitFile(folder / AuthoredTexturePath(*texture), texture->bytes);
     }
   }
 }
@@ -46,6 +45,7 @@ void WriteFormat(const DoorAsset& door, DoorFormat format, const fs::path& folde
       break;
     case DoorFormat::kUsda:
       CommitFile(folder / "model.usda", ToUsda(door));
+      WriteTextures(door, folder);
       break;
   }
 }
@@ -63,7 +63,7 @@ std::optional<DoorFormat> DoorFormatNamed(std::string_view name) {
 void WriteExportedDoor(const DoorAsset& door, std::span<const DoorFormat> formats,
                        const fs::path& folder, Existing existing) {
   StagedFolder staged(folder, existing);
-  if (std::any_of(formats.begin(), formats.end(), NamesMeshes)) WriteMeshes(door, staged.path());
+  if (std::any_of(formats.begin(), formats.end(), NamesMeshes)) WriteMeshFiles(door, staged.path());
   for (const DoorFormat format : formats) WriteFormat(door, format, staged.path());
   staged.Commit();
 }

@@ -3,13 +3,13 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <map>
 
 #include <nlohmann/json.hpp>
 
 #include "doorforge/door/export_door.h"
 
 #include "export_text.h"
-#include "placed_mesh.h"
 
 namespace doorforge {
 namespace {
@@ -32,11 +32,6 @@ void Append(Number number, std::string& bytes) {
   char raw[sizeof(Number)];
   std::memcpy(raw, &number, sizeof raw);
   bytes.append(raw, sizeof raw);
-}
-
-// The factor of glTF is linear, colours of parts are as seen on a screen (IEC 61966-2-1).
-double Linear(double srgb) {
-  return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
 }
 
 Json JointExtras(const DoorJoint& joint, const std::string& parent) {
@@ -121,53 +116,114 @@ class GlbWriter {
     return AddNode(std::move(node));
   }
 
+  // without normals a reader shades each triangle flat, as the specification says
   int AddMesh(const DoorGeometry& geometry) {
-    const int positions = AddPositions(geometry.mesh);
-    const int indices = AddIndices(geometry.mesh);
-    // without normals a reader shades each triangle flat, as the specification says
-    gltf_["meshes"].push_back({{"name", geometry.name},
-                               {"primitives",
-                                {{{"attributes", {{"POSITION", positions}}},
-                                  {"indices", indices},
-                                  {"material", AddMaterial(geometry)}}}}});
+    Json primitives = Json::array();
+    if (geometry.visual.empty()) {
+      primitives.push_back(
+          {{"attributes", {{"POSITION", AddPositions(geometry.mesh.vertices)}}},
+           {"indices", AddIndices(geometry.mesh.triangles)},
+           {"material", AddMaterial({geometry.name, geometry.color_rgba, nullptr})}});
+    }
+    const bool from_behind = !internal::HasTwoSides(geometry.visual);
+    for (const VisualSurface& surface : geometry.visual.surfaces) {
+      primitives.push_back(Primitive(geometry.visual, surface));
+      if (from_behind) gltf_["materials"].back()["doubleSided"] = true;
+    }
+    gltf_["meshes"].push_back({{"name", geometry.name}, {"primitives", primitives}});
     return static_cast<int>(gltf_["meshes"].size()) - 1;
   }
 
-  int AddMaterial(const DoorGeometry& geometry) {
-    const Eigen::Vector4d& c = geometry.color_rgba;
-    Json material = {{"name", geometry.name},
-                     {"pbrMetallicRoughness",
-                      {{"baseColorFactor", {Linear(c[0]), Linear(c[1]), Linear(c[2]), c[3]}},
-                       {"metallicFactor", 0},
-                       {"roughnessFactor", 0.6}}}};
+  // glTF has one index for position and texture coordinates
+  Json Primitive(const VisualMesh& mesh, const VisualSurface& surface) {
+    std::map<std::pair<int, int>, int> index_of;
+    std::vector<Eigen::Vector3d> positions;
+    std::vector<Eigen::Vector2d> texcoords;
+    std::vector<Eigen::Vector3i> triangles = surface.triangles;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      for (int k = 0; k < 3; ++k) {
+        const int at = surface.texcoords.empty() ? -1 : surface.texcoords[i][k];
+        const auto [entry, is_new] =
+            index_of.try_emplace({triangles[i][k], at}, static_cast<int>(positions.size()));
+        if (is_new) positions.push_back(mesh.vertices[static_cast<std::size_t>(triangles[i][k])]);
+        if (is_new && at >= 0) texcoords.push_back(mesh.texcoords[static_cast<std::size_t>(at)]);
+        triangles[i][k] = entry->second;
+      }
+    }
+    Json attributes = {{"POSITION", AddPositions(positions)}};
+    if (!texcoords.empty()) attributes["TEXCOORD_0"] = AddTexcoords(texcoords);
+    return {{"attributes", attributes},
+            {"indices", AddIndices(triangles)},
+            {"material", AddMaterial(surface.material)}};
+  }
+
+  // the factor of glTF is linear, colours of parts are as seen on a screen
+  int AddMaterial(const VisualMaterial& stated) {
+    const Eigen::Vector4d& c = stated.color_rgba;
+    Json look = {{"baseColorFactor",
+                  {internal::LinearLight(c[0]), internal::LinearLight(c[1]),
+                   internal::LinearLight(c[2]), c[3]}},
+                 {"metallicFactor", 0},
+                 {"roughnessFactor", 0.6}};
+    if (stated.texture != nullptr)
+      look["baseColorTexture"] = {{"index", TextureNumber(*stated.texture)}};
+    Json material = {{"name", stated.name}, {"pbrMetallicRoughness", look}};
     if (c[3] < 1) material["alphaMode"] = "BLEND";
     gltf_["materials"].push_back(std::move(material));
     return static_cast<int>(gltf_["materials"].size()) - 1;
   }
 
-  int AddPositions(const TriangleMesh& mesh) {
+  int TextureNumber(const VisualTexture& texture) {
+    const auto [entry, is_new] =
+        texture_of_.try_emplace(texture.sha256, static_cast<int>(texture_of_.size()));
+    if (!is_new) return entry->second;
     const std::size_t start = buffer_.size();
-    for (const Eigen::Vector3d& vertex : mesh.vertices) {
-      for (const double coordinate : vertex) Append(static_cast<float>(coordinate), buffer_);
+    buffer_ += texture.bytes;
+    gltf_["bufferViews"].push_back(
+        {{"buffer", 0}, {"byteOffset", start}, {"byteLength", texture.bytes.size()}});
+    buffer_.resize((buffer_.size() + 3) / 4 * 4, '\0');
+    gltf_["images"].push_back(
+        {{"name", FileNameOf(texture)},
+         {"mimeType", texture.format == TextureFormat::kPng ? "image/png" : "image/jpeg"},
+         {"bufferView", gltf_["bufferViews"].size() - 1}});
+    gltf_["textures"].push_back({{"source", entry->second}});
+    return entry->second;
+  }
+
+  int AddPositions(const std::vector<Eigen::Vector3d>& positions) {
+    const std::size_t start = buffer_.size();
+    Eigen::AlignedBox3d bounds;
+    for (const Eigen::Vector3d& position : positions) {
+      bounds.extend(position);
+      for (const double coordinate : position) Append(static_cast<float>(coordinate), buffer_);
     }
-    const Eigen::AlignedBox3d bounds = internal::BoundsOf(mesh);
     return AddAccessor(start, kArrayBuffer,
                        {{"componentType", kFloat},
-                        {"count", mesh.vertices.size()},
+                        {"count", positions.size()},
                         {"type", "VEC3"},
                         {"min", Vector3ToJson(bounds.min())},
                         {"max", Vector3ToJson(bounds.max())}});
   }
 
-  int AddIndices(const TriangleMesh& mesh) {
+  // glTF's origin is the upper left corner of the picture
+  int AddTexcoords(const std::vector<Eigen::Vector2d>& texcoords) {
     const std::size_t start = buffer_.size();
-    for (const Eigen::Vector3i& triangle : mesh.triangles) {
+    for (const Eigen::Vector2d& at : texcoords) {
+      Append(static_cast<float>(at.x()), buffer_);
+      Append(static_cast<float>(1 - at.y()), buffer_);
+    }
+    return AddAccessor(start, kArrayBuffer,
+                       {{"componentType", kFloat}, {"count", texcoords.size()}, {"type", "VEC2"}});
+  }
+
+  int AddIndices(const std::vector<Eigen::Vector3i>& triangles) {
+    const std::size_t start = buffer_.size();
+    for (const Eigen::Vector3i& triangle : triangles) {
       for (const int index : triangle) Append(static_cast<std::uint32_t>(index), buffer_);
     }
-    return AddAccessor(start, kElementArrayBuffer,
-                       {{"componentType", kUnsignedInt},
-                        {"count", mesh.triangles.size() * 3},
-                        {"type", "SCALAR"}});
+    return AddAccessor(
+        start, kElementArrayBuffer,
+        {{"componentType", kUnsignedInt}, {"count", triangles.size() * 3}, {"type", "SCALAR"}});
   }
 
   // of the bytes from `start` to the buffer's end
@@ -199,7 +255,8 @@ class GlbWriter {
 
   const DoorAsset& door_;
   Json gltf_;
-  std::string buffer_;  // of 4-byte numbers alone, so every view is aligned
+  std::string buffer_;  // of 4-byte numbers and padded pictures, so every view is aligned
+  std::map<std::string, int> texture_of_;  // by SHA-256
 };
 
 }  // namespace

@@ -53,7 +53,11 @@ void AddLink(const DoorLink& link, const DoorJoint* placed_by, XmlElement& model
     SetAttribute(AddText(element, "pose", "0 0 0 0 0 0"), "relative_to", placed_by->name);
   AddInertial(link.mass, element);
   for (const DoorGeometry& geometry : link.geometry) {
-    AddMesh("visual", geometry.name, VisualMeshPath(geometry), &geometry.color_rgba, element);
+    // the mesh of an author brings its own materials
+    if (geometry.visual.empty())
+      AddMesh("visual", geometry.name, VisualMeshPath(geometry), &geometry.color_rgba, element);
+    else
+      AddMesh("visual", geometry.name, AuthoredMeshPath(geometry), nullptr, element);
     for (std::size_t i = 0; i < geometry.hulls.size(); ++i)
       AddMesh("collision", geometry.name + "_" + std::to_string(i), CollisionMeshPath(geometry, i),
               nullptr, element);

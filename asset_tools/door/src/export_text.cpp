@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "export_text.h"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
+#include <cmath>
+#include <map>
 
 #include "placed_mesh.h"
 
@@ -76,6 +80,30 @@ std::string Printed(const XmlElement& root) {
   std::string xml = "<?xml version=\"1.0\"?>\n";
   Print(root, 0, xml);
   return xml;
+}
+
+double LinearLight(double srgb) {
+  return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
+}
+
+bool HasTwoSides(const VisualMesh& mesh) {
+  using Place = std::array<double, 3>;
+  std::map<std::array<Place, 3>, bool> turns_of;  // places in order, and how the triangle turns
+  for (const VisualSurface& surface : mesh.surfaces) {
+    for (const Eigen::Vector3i& t : surface.triangles) {
+      std::array<Place, 3> places{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Eigen::Vector3d& v = mesh.vertices[static_cast<std::size_t>(t[static_cast<int>(k)])];
+        places[k] = {v.x(), v.y(), v.z()};
+      }
+      const bool turn =
+          (places[0] < places[1]) == ((places[1] < places[2]) == (places[0] < places[2]));
+      std::sort(places.begin(), places.end());
+      const auto [entry, is_new] = turns_of.try_emplace(places, turn);
+      if (!is_new && entry->second != turn) return true;
+    }
+  }
+  return false;
 }
 
 bool Turns(const DoorJoint& joint) { return joint.upper_rad > joint.lower_rad; }

@@ -35,6 +35,13 @@ void SetAttribute(XmlElement& element, const char* name, const std::string& valu
 /// With declaration and indentation; markup characters are escaped.
 std::string Printed(const XmlElement& root);
 
+/// Light of a channel as a screen shows it (IEC 61966-2-1).
+double LinearLight(double srgb);
+
+/// Whether some triangle is there both ways round: then each side has a look of its own, and
+/// renderers should draw none from behind.
+bool HasTwoSides(const VisualMesh& mesh);
+
 /// Whether the joint turns; else it is written as a rigid connection.
 bool Turns(const DoorJoint& joint);
 

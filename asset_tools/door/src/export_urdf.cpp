@@ -9,8 +9,9 @@ void AddShapes(const DoorGeometry& geometry, const GeometryFiles& files, UrdfLin
   UrdfShape visual;
   visual.name = geometry.name;
   visual.link_from_shape = files.link_from_files;
-  visual.geometry = UrdfMeshFile{.filename = files.mesh};
-  visual.color_rgba = geometry.color_rgba;
+  visual.geometry = UrdfMeshFile{.filename = files.visual ? files.visual->mesh.path : files.mesh};
+  // a material here would hide those that the mesh brings along
+  if (!files.visual) visual.color_rgba = geometry.color_rgba;
   link.visuals.push_back(visual);
   for (std::size_t i = 0; i < files.hulls.size(); ++i) {
     UrdfShape collision;
@@ -49,8 +50,10 @@ UrdfModel ToUrdfModel(const DoorAsset& door, const DoorFiles& files) {
     UrdfLink urdf;
     urdf.name = link.name;
     urdf.inertial = link.mass;
-    for (std::size_t k = 0; k < link.geometry.size(); ++k)
+    for (std::size_t k = 0; k < link.geometry.size(); ++k) {
       AddShapes(link.geometry[k], files[i].at(k), urdf);
+      if (files[i].at(k).visual) model.mujoco_reads_visuals = false;
+    }
     model.links.push_back(std::move(urdf));
   }
   const auto& names = door.links;

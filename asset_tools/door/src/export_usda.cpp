@@ -58,35 +58,145 @@ class UsdaText {
   std::size_t depth_ = 0;
 };
 
-void AddMesh(const TriangleMesh& mesh, UsdaText& usda) {
-  std::string counts;
-  std::string indices;
-  std::string points;
-  const auto add = [](std::string& list, const std::string& entry) {
-    list += (list.empty() ? "" : ", ") + entry;
-  };
-  for (const Eigen::Vector3i& triangle : mesh.triangles) {
-    add(counts, "3");
-    for (const int index : triangle) add(indices, std::to_string(index));
+/// Entries with commas between them.
+class List {
+ public:
+  void Add(const std::string& entry) { text_ += (text_.empty() ? "" : ", ") + entry; }
+  std::string InBrackets() const { return "[" + text_ + "]"; }
+
+ private:
+  std::string text_;
+};
+
+void AddMesh(const std::vector<Eigen::Vector3d>& vertices,
+             const std::vector<Eigen::Vector3i>& triangles, UsdaText& usda) {
+  List counts;
+  List indices;
+  List points;
+  for (const Eigen::Vector3i& triangle : triangles) {
+    counts.Add("3");
+    for (const int index : triangle) indices.Add(std::to_string(index));
   }
-  for (const Eigen::Vector3d& vertex : mesh.vertices) add(points, Tuple(vertex));
-  usda.Line("int[] faceVertexCounts = [" + counts + "]");
-  usda.Line("int[] faceVertexIndices = [" + indices + "]");
-  usda.Line("point3f[] points = [" + points + "]");
+  for (const Eigen::Vector3d& vertex : vertices) points.Add(Tuple(vertex));
+  usda.Line("int[] faceVertexCounts = " + counts.InBrackets());
+  usda.Line("int[] faceVertexIndices = " + indices.InBrackets());
+  usda.Line("point3f[] points = " + points.InBrackets());
   usda.Line("uniform token subdivisionScheme = \"none\"");
 }
 
-void AddGeometry(const DoorGeometry& geometry, UsdaText& usda) {
+std::string LookName(const VisualSurface& surface, std::size_t number) {
+  return "look_" + std::to_string(number) + "_" + Identifier(surface.material.name);
+}
+
+void AddPicture(const VisualMaterial& material, const std::string& look, UsdaText& usda) {
+  const Eigen::Vector4d& c = material.color_rgba;
+  usda.Open("def Shader \"coordinates\"");
+  usda.Line("uniform token info:id = \"UsdPrimvarReader_float2\"");
+  usda.Line("string inputs:varname = \"st\"");
+  usda.Line("float2 outputs:result");
+  usda.Close();
+  usda.Open("def Shader \"picture\"");
+  usda.Line("uniform token info:id = \"UsdUVTexture\"");
+  usda.Line("asset inputs:file = @./" + AuthoredTexturePath(*material.texture) + "@");
+  usda.Line("float2 inputs:st.connect = <" + look + "/coordinates.outputs:result>");
+  usda.Line("float4 inputs:scale = " +
+            Tuple(Eigen::Vector4d(internal::LinearLight(c[0]), internal::LinearLight(c[1]),
+                                  internal::LinearLight(c[2]), 1)));
+  usda.Line("token inputs:wrapS = \"repeat\"");
+  usda.Line("token inputs:wrapT = \"repeat\"");
+  usda.Line("float3 outputs:rgb");
+  usda.Close();
+}
+
+void AddLook(const VisualMaterial& material, const std::string& look, UsdaText& usda) {
+  const Eigen::Vector4d& c = material.color_rgba;
+  usda.Open("def Material \"" + look.substr(look.rfind('/') + 1) + "\"");
+  usda.Line("token outputs:surface.connect = <" + look + "/surface.outputs:surface>");
+  if (material.texture != nullptr) AddPicture(material, look, usda);
+  usda.Open("def Shader \"surface\"");
+  usda.Line("uniform token info:id = \"UsdPreviewSurface\"");
+  if (material.texture != nullptr)
+    usda.Line("color3f inputs:diffuseColor.connect = <" + look + "/picture.outputs:rgb>");
+  else
+    usda.Line("color3f inputs:diffuseColor = " +
+              Tuple(Eigen::Vector3d(internal::LinearLight(c[0]), internal::LinearLight(c[1]),
+                                    internal::LinearLight(c[2]))));
+  usda.Line("float inputs:opacity = " + Decimal(c[3]));
+  usda.Line("float inputs:roughness = 0.6");
+  usda.Line("token outputs:surface");
+  usda.Close();
+  usda.Close();
+}
+
+// Texture coordinates of every corner; zeros where a surface has none.
+void AddTexcoords(const VisualMesh& mesh, UsdaText& usda) {
+  if (mesh.texcoords.empty()) return;
+  List coordinates;
+  for (const VisualSurface& surface : mesh.surfaces) {
+    for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+      for (int k = 0; k < 3; ++k) {
+        const bool known = !surface.texcoords.empty();
+        coordinates.Add(
+            Tuple(known ? mesh.texcoords[static_cast<std::size_t>(surface.texcoords[i][k])]
+                        : Eigen::Vector2d(0, 0)));
+      }
+    }
+  }
+  usda.Line("texCoord2f[] primvars:st = " + coordinates.InBrackets() +
+            " (interpolation = \"faceVarying\")");
+}
+
+void AddVisual(const VisualMesh& mesh, const std::string& path, UsdaText& usda) {
+  std::vector<Eigen::Vector3i> triangles;
+  List colors;
+  List opacities;
+  for (const VisualSurface& surface : mesh.surfaces) {
+    triangles.insert(triangles.end(), surface.triangles.begin(), surface.triangles.end());
+    for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+      colors.Add(Tuple(surface.material.color_rgba.head<3>()));
+      opacities.Add(Decimal(surface.material.color_rgba[3]));
+    }
+  }
+  AddMesh(mesh.vertices, triangles, usda);
+  AddTexcoords(mesh, usda);
+  usda.Line("color3f[] primvars:displayColor = " + colors.InBrackets() +
+            " (interpolation = \"uniform\")");
+  usda.Line("float[] primvars:displayOpacity = " + opacities.InBrackets() +
+            " (interpolation = \"uniform\")");
+  usda.Line(std::string("uniform bool doubleSided = ") +
+            (internal::HasTwoSides(mesh) ? "false" : "true"));
+  usda.Line("uniform token subsetFamily:materialBind:familyType = \"partition\"");
+  std::size_t face = 0;
+  for (std::size_t i = 0; i < mesh.surfaces.size(); ++i) {
+    const VisualSurface& surface = mesh.surfaces[i];
+    const std::string look = path + "/" + LookName(surface, i);
+    List faces;
+    for (std::size_t k = 0; k < surface.triangles.size(); ++k) faces.Add(std::to_string(face++));
+    usda.Open("def GeomSubset \"subset_" + std::to_string(i) + "\"", "\"MaterialBindingAPI\"");
+    usda.Line("uniform token elementType = \"face\"");
+    usda.Line("uniform token familyName = \"materialBind\"");
+    usda.Line("int[] indices = " + faces.InBrackets());
+    usda.Line("rel material:binding = <" + look + ">");
+    usda.Close();
+    AddLook(surface.material, look, usda);
+  }
+}
+
+void AddGeometry(const DoorGeometry& geometry, const std::string& link_path, UsdaText& usda) {
   const std::string name = Identifier(geometry.name);
   usda.Open("def Mesh \"" + name + "\"");
-  AddMesh(geometry.mesh, usda);
-  usda.Line("color3f[] primvars:displayColor = [" + Tuple(geometry.color_rgba.head<3>()) + "]");
-  usda.Line("float[] primvars:displayOpacity = [" + Decimal(geometry.color_rgba[3]) + "]");
+  if (geometry.visual.empty()) {
+    AddMesh(geometry.mesh.vertices, geometry.mesh.triangles, usda);
+    usda.Line("color3f[] primvars:displayColor = [" + Tuple(geometry.color_rgba.head<3>()) + "]");
+    usda.Line("float[] primvars:displayOpacity = [" + Decimal(geometry.color_rgba[3]) + "]");
+  } else {
+    AddVisual(geometry.visual, link_path + "/" + name, usda);
+  }
   usda.Close();
   for (std::size_t i = 0; i < geometry.hulls.size(); ++i) {
     usda.Open("def Mesh \"" + name + "_" + std::to_string(i) + "_collision\"",
               "\"PhysicsCollisionAPI\", \"PhysicsMeshCollisionAPI\"");
-    AddMesh(geometry.hulls[i], usda);
+    AddMesh(geometry.hulls[i].vertices, geometry.hulls[i].triangles, usda);
     usda.Line("uniform token physics:approximation = \"convexHull\"");
     usda.Line("uniform token purpose = \"guide\"");
     usda.Close();
@@ -103,14 +213,15 @@ void AddMass(const MassProperties& mass, UsdaText& usda) {
   usda.Line("quatf physics:principalAxes = " + Quaternion(Eigen::Quaterniond(axes)));
 }
 
-void AddLink(const DoorLink& link, const RigidTransform& door_from_link, UsdaText& usda) {
+void AddLink(const DoorLink& link, const RigidTransform& door_from_link, const std::string& path,
+             UsdaText& usda) {
   usda.Open("def Xform \"" + Identifier(link.name) + "\"",
             "\"PhysicsRigidBodyAPI\", \"PhysicsMassAPI\"");
   AddMass(link.mass, usda);
   usda.Line("double3 xformOp:translate = " + Tuple(door_from_link.translation()));
   usda.Line("quatd xformOp:orient = " + Quaternion(Eigen::Quaterniond(door_from_link.linear())));
   usda.Line("uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:orient\"]");
-  for (const DoorGeometry& geometry : link.geometry) AddGeometry(geometry, usda);
+  for (const DoorGeometry& geometry : link.geometry) AddGeometry(geometry, path, usda);
   usda.Close();
 }
 
@@ -186,8 +297,8 @@ std::string ToUsda(const DoorAsset& door) {
   const std::array<RigidTransform, 3> poses = DoorFromLinks(door, 0, 0);
   std::array<std::string, 3> paths;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    AddLink(door.links[i], poses[i], usda);
     paths[i] = "/" + name + "/" + Identifier(door.links[i].name);
+    AddLink(door.links[i], poses[i], paths[i], usda);
   }
   AddAnchor(paths[kBaseLink], usda);
   AddJoint({door.hinge, paths[kBaseLink], paths[kLeafLink], door.latch.hinge_spring_nm_per_rad},

@@ -50,6 +50,7 @@ class Import {
       : sources_(sources), out_(std::move(out)), config_(config), existing_(existing) {
     settings_ = ToJson(config_.make);
     settings_.erase("threads");
+    settings_["visual"] = config_.visual;
   }
 
   ImportReport Run() {
@@ -219,6 +220,7 @@ class Import {
       PartDraft& draft = loaded.draft;
       draft.facts.id = job.id;
       job.box_deviation_m = loaded.box_deviation_m;
+      if (!config_.visual) DropVisuals(draft);
       MakePartConfig make = config_.make;
       make.threads = 1;  // parts already run side by side
       job.made = MakePart(draft, make);
@@ -228,6 +230,13 @@ class Import {
     } catch (const Error& error) {
       job.outcome = ImportOutcome::kInvalid;
       job.problem = error.what();
+    }
+  }
+
+  static void DropVisuals(PartDraft& draft) {
+    for (RawPiece& piece : draft.pieces) {
+      piece.visual = {};
+      piece.notes.clear();
     }
   }
 
@@ -308,6 +317,10 @@ class Import {
     const bool is_body = job.part.role == PartRole::kBody;
     (is_body ? entry.body_box_deviation_m : entry.handle_box_deviation_m) = job.box_deviation_m;
     if (!is_body) entry.grasp_holds = job.grasp.fit.holds;
+    for (const PieceReport& piece : job.made.pieces) {
+      for (const std::string& note : piece.visual_notes)
+        entry.notes.push_back(piece.piece + ": " + note);
+    }
     if (job.outcome == ImportOutcome::kImported) return;
     entry.outcome = job.outcome;
     entry.message += (entry.message.empty() ? "" : "; ") + job.id + ": " + job.problem;

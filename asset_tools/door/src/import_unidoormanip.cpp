@@ -211,12 +211,14 @@ std::string HashOf(const std::vector<UniDoorManipObject::Mesh>& meshes, const Pa
   return Sha256Hex(json.dump());
 }
 
-std::vector<internal::SourceMesh> SourcesOf(const std::vector<UniDoorManipObject::Mesh>& meshes) {
+std::vector<internal::SourceMesh> SourcesOf(const std::vector<UniDoorManipObject::Mesh>& meshes,
+                                            const fs::path& folder) {
   std::vector<internal::SourceMesh> sources;
   for (const UniDoorManipObject::Mesh& mesh : meshes) {
     internal::SourceMesh source;
     source.piece = mesh.piece;
     source.file = mesh.file;
+    source.object_folder = folder;
     source.sha256 = mesh.sha256;
     source.part_from_raw = mesh.object_from_raw;
     sources.push_back(std::move(source));
@@ -224,16 +226,18 @@ std::vector<internal::SourceMesh> SourcesOf(const std::vector<UniDoorManipObject
   return sources;
 }
 
-PartDraft LoadHalf(const std::vector<UniDoorManipObject::Mesh>& meshes) {
+PartDraft LoadHalf(const std::vector<UniDoorManipObject::Mesh>& meshes, const fs::path& folder) {
   PartDraft draft;
-  draft.pieces = internal::LoadPieces(SourcesOf(meshes));
+  draft.pieces = internal::LoadPieces(SourcesOf(meshes, folder));
   draft.facts.license = "NOASSERTION";
   return draft;
 }
 
 void MovePieces(PartDraft& draft, const Eigen::Vector3d& offset) {
-  for (RawPiece& piece : draft.pieces)
+  for (RawPiece& piece : draft.pieces) {
     piece.mesh = internal::Placed(std::move(piece.mesh), Translation(offset));
+    for (Eigen::Vector3d& vertex : piece.visual.vertices) vertex += offset;
+  }
 }
 
 std::string SourceOf(const UniDoorManipObject& object,
@@ -264,6 +268,7 @@ UniDoorManipObject ReadUniDoorManip(const fs::path& folder, const std::string& c
   const TwoJointChain chain = FindTwoJointChain(model, where);
 
   UniDoorManipObject object;
+  object.folder = folder;
   const internal::Subtask subtask = internal::SubtaskOf(folder, model, category);
   object.name = subtask.name + "/" + internal::ObjectNameOf(folder);
   object.category = subtask.category;
@@ -302,7 +307,7 @@ std::string HandleSourceHash(const UniDoorManipObject& object) {
 }
 
 PartDraft LoadBody(const UniDoorManipObject& object) {
-  PartDraft draft = LoadHalf(object.body_meshes);
+  PartDraft draft = LoadHalf(object.body_meshes, object.folder);
   double lowest = std::numeric_limits<double>::infinity();
   for (const RawPiece& piece : draft.pieces)
     lowest = std::min(lowest, internal::BoundsOf(piece.mesh).min().z());
@@ -321,7 +326,7 @@ PartDraft LoadBody(const UniDoorManipObject& object) {
 }
 
 PartDraft LoadHandle(const UniDoorManipObject& object) {
-  PartDraft draft = LoadHalf(object.handle_meshes);
+  PartDraft draft = LoadHalf(object.handle_meshes, object.folder);
   const Eigen::Vector3d to_mount = -object.handle_joint.origin_m;
   MovePieces(draft, to_mount);
   Part& part = draft.facts;

@@ -89,6 +89,24 @@ MadePiece Failed(MadePiece made, const std::string& reason) {
   return made;
 }
 
+// One colour on the triangles that the part has anyway.
+bool ShowsNoMore(const VisualMesh& visual, const RepairReport& report, const TriangleMesh& closed) {
+  return report.outcome == RepairOutcome::kAlreadyClosed && visual.surfaces.size() == 1 &&
+         visual.surfaces[0].material.texture == nullptr &&
+         visual.surfaces[0].triangles.size() == closed.triangles.size();
+}
+
+void KeepVisual(const RawPiece& raw, const TriangleMesh& closed, PieceReport& report,
+                PartPiece& piece) {
+  report.visual_notes = raw.notes;
+  if (raw.visual.empty() || ShowsNoMore(raw.visual, report.repair, closed)) return;
+  piece.visual = PlacedAsFiled(raw.visual, RigidTransform::Identity());
+  for (const VisualSurface& surface : piece.visual.surfaces)
+    report.visual_triangles += static_cast<int>(surface.triangles.size());
+  report.visual_materials = static_cast<int>(piece.visual.surfaces.size());
+  report.visual_textures = static_cast<int>(TexturesOf(piece.visual).size());
+}
+
 MadePiece MakePiece(const RawPiece& raw, Category category, const MakePartConfig& config) {
   MadePiece made;
   made.report.piece = raw.name;
@@ -108,6 +126,7 @@ MadePiece MakePiece(const RawPiece& raw, Category category, const MakePartConfig
   const internal::PieceDensity density = internal::DensityOf(category, raw.name);
   piece.mass = MassPropertiesOf(*closed, density.density_kg_m3);
   made.report.mass_limited = LimitMass(density, piece.mass);
+  KeepVisual(raw, piece.mesh, made.report, piece);
   made.piece = std::move(piece);
   return made;
 }
@@ -150,7 +169,12 @@ nlohmann::ordered_json ToJson(const MadePart& made) {
                       {"convex_parts", piece.convex_parts},
                       {"convex_protrusion_m", piece.convex_fit.protrusion_m},
                       {"convex_uncovered_m", piece.convex_fit.uncovered_m},
-                      {"mass_limited", piece.mass_limited}});
+                      {"mass_limited", piece.mass_limited},
+                      {"visual",
+                       {{"triangles", piece.visual_triangles},
+                        {"materials", piece.visual_materials},
+                        {"textures", piece.visual_textures},
+                        {"notes", piece.visual_notes}}}});
   }
   return {{"schema", "doorforge.part_report"}, {"schema_version", 1}, {"pieces", pieces}};
 }

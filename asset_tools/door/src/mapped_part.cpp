@@ -20,6 +20,17 @@ TriangleMesh MappedMesh(TriangleMesh mesh, const Eigen::Matrix3d& linear) {
   return RoundedToFloat(std::move(mesh));
 }
 
+VisualMesh MappedVisual(VisualMesh mesh, const Eigen::Matrix3d& linear) {
+  for (Eigen::Vector3d& vertex : mesh.vertices) vertex = linear * vertex;
+  if (linear.determinant() < 0) {
+    for (VisualSurface& surface : mesh.surfaces) {
+      for (Eigen::Vector3i& triangle : surface.triangles) std::swap(triangle[1], triangle[2]);
+      for (Eigen::Vector3i& texcoords : surface.texcoords) std::swap(texcoords[1], texcoords[2]);
+    }
+  }
+  return PlacedAsFiled(std::move(mesh), RigidTransform::Identity());
+}
+
 // Second moments transform as L S L^T, which inertias do not.
 MassProperties MappedMass(const MassProperties& mass, const Eigen::Matrix3d& linear) {
   const double volume_ratio = std::abs(linear.determinant());
@@ -54,6 +65,7 @@ Part MappedPart(Part part, const PartMap& map) {
     piece.mesh = MappedMesh(std::move(piece.mesh), linear);
     for (TriangleMesh& hull : piece.hulls) hull = MappedMesh(std::move(hull), linear);
     piece.mass = MappedMass(piece.mass, linear);
+    piece.visual = MappedVisual(std::move(piece.visual), linear);
   }
   part.joint = MappedJoint(part.joint, linear);
   part.part_from_mount.translation() = linear * part.part_from_mount.translation();

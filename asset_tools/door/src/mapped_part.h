@@ -17,7 +17,8 @@ struct PartMap {
 };
 
 /// The part with everything that has a place or a direction changed alike: meshes (mirrored ones
-/// turned inside out again, so that they stay closed with positive volume), convex pieces, masses
+/// turned inside out again, so that they stay closed with positive volume), what authors drew (the
+/// same, pictures as they are), convex pieces, masses
 /// (of bodies of uniform density, so exact), the joint's line and its sense, mount and grasp. The
 /// gripper is its own mirror image across the plane of its fingers, so a mirrored grasp is a
 /// grasp. Handles are scaled alike in all directions.

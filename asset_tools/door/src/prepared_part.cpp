@@ -109,7 +109,12 @@ PreparedPart::State::Shape ShapeOf(const PartPiece& piece, const PartJoint& join
     shape.hulls.push_back(PlacedAsFiled(hull, shape.shape_from_part));
     shape.hull_sha256.push_back(Sha256Hex(ToObj(shape.hulls.back())));
   }
-  shape.sha256 = Sha256Hex(ShapeText({shape.mesh_sha256, shape.hull_sha256}));
+  if (!piece.visual.empty()) {
+    shape.visual = PlacedAsFiled(piece.visual, shape.shape_from_part);
+    shape.texts = ToTexts(shape.visual);
+    shape.visual_files = PooledVisualFiles(shape.visual);
+  }
+  shape.sha256 = Sha256Hex(ShapeText({shape.mesh_sha256, shape.hull_sha256, shape.visual_files}));
   return shape;
 }
 

@@ -23,6 +23,9 @@ struct PreparedPart::State {
     std::string sha256;  ///< Of its record in a mesh pool.
     std::vector<std::string> hull_sha256;
     std::string mesh_sha256;
+    VisualMesh visual;  ///< What its author drew; may be empty.
+    VisualTexts texts;  ///< Its files.
+    std::optional<VisualFiles> visual_files;
   };
 
   Part part;                                  ///< As the config changes it.

@@ -42,8 +42,28 @@ MeshReader RecordMeshes::Reader() {
   };
 }
 
+VisualReader RecordMeshes::Visuals() {
+  return [this, read = DoorVisualReader(folder_, record_)](const VisualFiles& files) {
+    try {
+      return read(files);
+    } catch (const Error& error) {
+      const std::string problem = error.what();
+      const bool leaves = problem.find("leaves the folder") != std::string::npos;
+      const bool changed = problem.find(": SHA-256 ") != std::string::npos;
+      const char* code = error.code() == ErrorCode::kMissing ? "MSH001"
+                         : leaves                            ? "MSH003"
+                         : changed                           ? "MSH004"
+                                                             : "MSH002";
+      visual_findings_.push_back(Found(code, record_ + ": " + files.mesh.path, problem));
+      VisualMesh unreadable;
+      unreadable.surfaces.push_back({{"unreadable", Eigen::Vector4d::Ones(), nullptr}, {}, {}});
+      return unreadable;
+    }
+  };
+}
+
 Findings RecordMeshes::FindingsOfFiles() const {
-  Findings all;
+  Findings all = visual_findings_;
   for (const SharedMesh& file : read_)
     all.insert(all.end(), file->findings.begin(), file->findings.end());
   return all;

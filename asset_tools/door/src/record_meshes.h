@@ -49,6 +49,8 @@ class RecordMeshes {
   RecordMeshes(std::filesystem::path folder, std::string record, ValidationMemory& memory);
 
   MeshReader Reader();
+  /// What an author drew and cannot be read becomes a finding and a surface without triangles.
+  VisualReader Visuals();
 
   /// The meshes that Reader() has read, in that order.
   const std::vector<SharedMesh>& read() const { return read_; }
@@ -66,6 +68,7 @@ class RecordMeshes {
   std::string pool_;  ///< Absolute path of the pool beside the folder.
   ValidationMemory& memory_;
   std::vector<SharedMesh> read_;
+  Findings visual_findings_;
 };
 
 }  // namespace doorforge::internal

@@ -29,20 +29,43 @@ bool Holds(const fs::path& file, const std::string& text) {
   return ReadFile(file) == text;
 }
 
-// Parts that share a mesh name it alike; each file is written by the first that has it.
+// A file of the pool: a mesh, a shape's record, or bytes that are there already.
 struct PoolFile {
   const TriangleMesh* mesh = nullptr;
   const Shape* shape = nullptr;
+  const std::string* bytes = nullptr;
 };
 
-std::map<std::string, PoolFile> FilesOf(std::span<const PreparedPart> parts) {
-  std::map<std::string, PoolFile> files;
+std::string TextOf(const PoolFile& file) {
+  if (file.bytes != nullptr) return *file.bytes;
+  if (file.mesh != nullptr) return ToObj(*file.mesh);
+  return ShapeText({file.shape->mesh_sha256, file.shape->hull_sha256, file.shape->visual_files});
+}
+
+using PoolFiles = std::map<std::string, PoolFile>;
+
+void AddVisual(const Shape& shape, PoolFiles& files) {
+  if (!shape.visual_files) return;
+  const auto add = [&](const std::string& path, const std::string& bytes) {
+    files.try_emplace(fs::path(path).filename(), PoolFile{nullptr, nullptr, &bytes});
+  };
+  add(shape.visual_files->mesh.path, shape.texts.mesh);
+  add(shape.visual_files->materials.path, shape.texts.materials);
+  for (const VisualSurface& surface : shape.visual.surfaces) {
+    if (const auto& texture = surface.material.texture) add(FileNameOf(*texture), texture->bytes);
+  }
+}
+
+// Parts that share a mesh name it alike; each file is written by the first that has it.
+PoolFiles FilesOf(std::span<const PreparedPart> parts) {
+  PoolFiles files;
   for (const PreparedPart& part : parts) {
     for (const Shape& shape : part.state().shapes) {
-      files.try_emplace(PooledFileName(shape.sha256, ".json"), PoolFile{nullptr, &shape});
+      files.try_emplace(PooledFileName(shape.sha256, ".json"), PoolFile{nullptr, &shape, nullptr});
       files.try_emplace(PooledFileName(shape.mesh_sha256, ".obj"), PoolFile{&shape.mesh});
       for (std::size_t i = 0; i < shape.hulls.size(); ++i)
         files.try_emplace(PooledFileName(shape.hull_sha256[i], ".obj"), PoolFile{&shape.hulls[i]});
+      AddVisual(shape, files);
     }
   }
   return files;
@@ -85,14 +108,12 @@ SharedDoorOutcome WriteDoorOf(const SharedDoorPlan& plan, const PartPair& pair,
 void WriteMeshPool(std::span<const PreparedPart> parts, const fs::path& doors, int threads) {
   const fs::path pool = doors / fs::path(kMeshPoolPath).filename();
   RequireRealFolder(pool);
-  const std::map<std::string, PoolFile> files = FilesOf(parts);
+  const PoolFiles files = FilesOf(parts);
   std::vector<std::pair<std::string, PoolFile>> list(files.begin(), files.end());
   StagedBatch batch(pool);
   ParallelFor(list.size(), threads, [&](std::size_t i) {
     const auto& [name, file] = list[i];
-    const std::string text = file.mesh != nullptr
-                                 ? ToObj(*file.mesh)
-                                 : ShapeText({file.shape->mesh_sha256, file.shape->hull_sha256});
+    const std::string text = TextOf(file);
     if (!Holds(pool / name, text)) WriteStaged(batch.path() / name, text);
   });
   if (!Holds(pool / "pool.json", MeshPoolText()))

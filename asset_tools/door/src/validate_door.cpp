@@ -120,7 +120,8 @@ struct DoorOnDisk {
 };
 
 DoorOnDisk ReadDoorOnDisk(const fs::path& folder, RecordMeshes& meshes) {
-  DoorOnDisk on_disk{ReadDoor(folder, meshes.Reader()), ReadDoorFiles(folder), {}};
+  DoorOnDisk on_disk{
+      ReadDoor(folder, meshes.Reader(), meshes.Visuals()), ReadDoorFiles(folder), {}};
   ReadPieces read(meshes);
   for (std::size_t i = 0; i < on_disk.pieces.size(); ++i) {
     const DoorLink& link = on_disk.door.links[i];
@@ -228,7 +229,7 @@ Findings DoorFindings(const fs::path& folder, const OpeningCheck& check, Validat
 Findings PartFindings(const fs::path& folder, ValidationMemory& memory) {
   RecordMeshes meshes(folder, "part.json", memory);
   try {
-    const Part part = ReadPart(folder, meshes.Reader());
+    const Part part = ReadPart(folder, meshes.Reader(), meshes.Visuals());
     Findings findings = meshes.FindingsOfFiles();
     ReadPieces read(meshes);
     for (const PartPiece& piece : part.pieces) {

@@ -106,8 +106,10 @@ bool IsSound(const ImportedPiece& piece) {
 }
 
 bool IsSound(const ImportedMesh& mesh) {
-  for (const ImportedPiece& piece : mesh.pieces) {
-    if (!IsSound(piece) || !IsNumberOf(piece.material, mesh.materials.size())) return false;
+  for (const auto* pieces : {&mesh.pieces, &mesh.other_sides}) {
+    for (const ImportedPiece& piece : *pieces) {
+      if (!IsSound(piece) || !IsNumberOf(piece.material, mesh.materials.size())) return false;
+    }
   }
   for (const ImportedMaterial& material : mesh.materials) {
     if (!IsColor(material.color_rgba) || !IsNumberOf(material.picture, mesh.pictures.size()))
@@ -127,11 +129,11 @@ bool IsSound(const ImportedMesh& mesh) {
 
 }  // namespace
 
-std::string Encoded(const ImportedMesh& mesh) {
-  std::string message;
-  Put(message, kMeshMark);
-  Put(message, std::uint64_t{mesh.pieces.size()});
-  for (const ImportedPiece& piece : mesh.pieces) {
+namespace {
+
+void PutPieces(std::string& message, const std::vector<ImportedPiece>& pieces) {
+  Put(message, std::uint64_t{pieces.size()});
+  for (const ImportedPiece& piece : pieces) {
     PutArray(message, piece.name.data(), piece.name.size());
     PutArray(message, piece.mesh.vertices.data(), piece.mesh.vertices.size());
     PutArray(message, piece.mesh.triangles.data(), piece.mesh.triangles.size());
@@ -140,6 +142,31 @@ std::string Encoded(const ImportedMesh& mesh) {
     PutArray(message, piece.texcoords.data(), piece.texcoords.size());
     PutArray(message, piece.texcoord_triangles.data(), piece.texcoord_triangles.size());
   }
+}
+
+std::vector<ImportedPiece> TakePieces(Source& source) {
+  std::vector<ImportedPiece> pieces;
+  const auto count = source.Take<std::uint64_t>();
+  for (std::uint64_t i = 0; i < count && source.ok(); ++i) {
+    ImportedPiece& piece = pieces.emplace_back();
+    source.TakeArray(piece.name);
+    source.TakeArray(piece.mesh.vertices);
+    source.TakeArray(piece.mesh.triangles);
+    piece.color_rgba = source.Take<Eigen::Vector4d>();
+    piece.material = source.Take<int>();
+    source.TakeArray(piece.texcoords);
+    source.TakeArray(piece.texcoord_triangles);
+  }
+  return pieces;
+}
+
+}  // namespace
+
+std::string Encoded(const ImportedMesh& mesh) {
+  std::string message;
+  Put(message, kMeshMark);
+  PutPieces(message, mesh.pieces);
+  PutPieces(message, mesh.other_sides);
   Put(message, std::uint64_t{mesh.materials.size()});
   for (const ImportedMaterial& material : mesh.materials) {
     PutArray(message, material.name.data(), material.name.size());
@@ -165,18 +192,9 @@ std::optional<ImportedMesh> DecodedMesh(std::string_view message) {
   const auto mark = source.Take<std::uint64_t>();
   if (source.ok() && mark == kErrorMark) ThrowSent(source);
   if (!source.ok() || mark != kMeshMark) return std::nullopt;
-  const auto count = source.Take<std::uint64_t>();
   ImportedMesh mesh;
-  for (std::uint64_t i = 0; i < count && source.ok(); ++i) {
-    ImportedPiece& piece = mesh.pieces.emplace_back();
-    source.TakeArray(piece.name);
-    source.TakeArray(piece.mesh.vertices);
-    source.TakeArray(piece.mesh.triangles);
-    piece.color_rgba = source.Take<Eigen::Vector4d>();
-    piece.material = source.Take<int>();
-    source.TakeArray(piece.texcoords);
-    source.TakeArray(piece.texcoord_triangles);
-  }
+  mesh.pieces = TakePieces(source);
+  mesh.other_sides = TakePieces(source);
   const auto materials = source.Take<std::uint64_t>();
   for (std::uint64_t i = 0; i < materials && source.ok(); ++i) {
     ImportedMaterial& material = mesh.materials.emplace_back();

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
+#include <map>
 
 #include <Eigen/Geometry>
 
@@ -75,6 +75,11 @@ std::array<int, 3> SortedCorners(const Eigen::Vector3i& t) {
   return corners;
 }
 
+// Tells the two ways round a triangle apart.
+bool RunsUpwards(const Eigen::Vector3i& t) {
+  return (t[0] < t[1]) == ((t[1] < t[2]) == (t[0] < t[2]));
+}
+
 }  // namespace
 
 std::vector<Eigen::Vector3i> Triangulated(std::span<const Eigen::Vector3d> corners) {
@@ -133,40 +138,61 @@ void PolygonSoup::AddPolygon(std::span<const Eigen::Vector3d> corners,
   }
 }
 
-ImportedPiece PolygonSoup::Begun(Piece& piece) {
-  ImportedPiece begun;
-  begun.name = std::move(piece.name);
-  begun.color_rgba = piece.color_rgba;
-  begun.material = piece.material;
-  if (!piece.texcoords.empty()) piece.texcoords.resize(piece.triangles.size(), Texcoords::Zero());
-  return begun;
-}
+class PolygonSoup::Side {
+ public:
+  explicit Side(const Piece& piece) : piece_(piece) {
+    imported_.name = piece.name;
+    imported_.color_rgba = piece.color_rgba;
+    imported_.material = piece.material;
+  }
+
+  void Add(std::size_t triangle) {
+    imported_.mesh.triangles.push_back(IndicesOf(piece_.triangles[triangle], positions_));
+    if (piece_.texcoords.empty()) return;
+    Eigen::Matrix3d at = Eigen::Matrix3d::Zero();
+    if (triangle < piece_.texcoords.size()) at.topRows<2>() = piece_.texcoords[triangle];
+    imported_.texcoord_triangles.push_back(IndicesOf(at, texcoords_));
+  }
+
+  void MoveTo(std::vector<ImportedPiece>& pieces) {
+    if (imported_.mesh.triangles.empty()) return;
+    imported_.mesh.vertices = std::move(positions_.positions());
+    for (const Eigen::Vector3d& at : texcoords_.positions())
+      imported_.texcoords.emplace_back(at.head<2>());
+    pieces.push_back(std::move(imported_));
+  }
+
+ private:
+  static Eigen::Vector3i IndicesOf(const Eigen::Matrix3d& corners, PositionTable& table) {
+    Eigen::Vector3i t;
+    for (int k = 0; k < 3; ++k) t[k] = table.IndexOf(corners.col(k));
+    return t;
+  }
+
+  const Piece& piece_;
+  ImportedPiece imported_;
+  PositionTable positions_;
+  PositionTable texcoords_;
+};
 
 ImportedMesh PolygonSoup::Finish() && {
   ImportedMesh mesh;
   PositionTable everywhere;
-  std::set<std::array<int, 3>> seen;
-  for (Piece& piece : pieces_) {
-    PositionTable here;
-    PositionTable coordinates;
-    ImportedPiece imported = Begun(piece);
+  std::map<std::array<int, 3>, std::array<bool, 2>> seen;  // either way round
+  for (const Piece& piece : pieces_) {
+    Side first(piece);
+    Side other(piece);
     for (std::size_t i = 0; i < piece.triangles.size(); ++i) {
-      const Eigen::Matrix3d& corners = piece.triangles[i];
       Eigen::Vector3i t;
-      for (int k = 0; k < 3; ++k) t[k] = everywhere.IndexOf(corners.col(k));
+      for (int k = 0; k < 3; ++k) t[k] = everywhere.IndexOf(piece.triangles[i].col(k));
       if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
-      if (!seen.insert(SortedCorners(t)).second) continue;
-      for (int k = 0; k < 3; ++k) t[k] = here.IndexOf(corners.col(k));
-      imported.mesh.triangles.push_back(t);
-      if (piece.texcoords.empty()) continue;
-      for (int k = 0; k < 3; ++k)
-        t[k] = coordinates.IndexOf({piece.texcoords[i](0, k), piece.texcoords[i](1, k), 0});
-      imported.texcoord_triangles.push_back(t);
+      const auto [entry, is_new] = seen.try_emplace(SortedCorners(t));
+      bool& known = entry->second.at(RunsUpwards(t) ? 1 : 0);
+      if (!known) (is_new ? first : other).Add(i);
+      known = true;
     }
-    imported.mesh.vertices = std::move(here.positions());
-    for (const Eigen::Vector3d& at : coordinates.positions())
-      imported.texcoords.emplace_back(at.head<2>());
-    if (!imported.mesh.triangles.empty()) mesh.pieces.push_back(std::move(imported));
+    first.MoveTo(mesh.pieces);
+    other.MoveTo(mesh.other_sides);
   }
   if (mesh.pieces.empty()) throw Error(ErrorCode::kFormat, "no triangle in the file");
   return mesh;

@@ -43,7 +43,8 @@ class PolygonSoup {
     std::vector<Texcoords> texcoords;        // of the first triangles; of the others there are none
   };
 
-  static ImportedPiece Begun(Piece& piece);
+  /// One side of a piece's triangles while it is collected.
+  class Side;
 
   std::vector<Piece> pieces_;
   std::uint64_t triangle_count_ = 0;

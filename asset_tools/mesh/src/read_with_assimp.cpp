@@ -64,7 +64,9 @@ Eigen::Vector4d ColorOf(const aiMaterial& material, const std::string& ending) {
     return color;
   color = {diffuse.r, diffuse.g, diffuse.b, diffuse.a};
   ai_real opacity = 1;
-  if (material.Get(AI_MATKEY_OPACITY, opacity) == aiReturn_SUCCESS) color.w() *= opacity;
+  // of glTF it repeats the colour's fourth number
+  if (!IsGltf(ending) && material.Get(AI_MATKEY_OPACITY, opacity) == aiReturn_SUCCESS)
+    color.w() *= opacity;
   if (!color.allFinite()) return ImportedPiece{}.color_rgba;
   color = color.cwiseMax(0.0).cwiseMin(1.0);
   if (IsGltf(ending)) color.head<3>() = color.head<3>().unaryExpr(&Srgb);

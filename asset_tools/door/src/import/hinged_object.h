@@ -30,7 +30,8 @@ struct HingedObject {
   std::map<std::string, Eigen::AlignedBox3d> stated_boxes = {};
   /// The file of a mesh as the URDF names it. Throws Error as FileInside() does.
   std::function<std::filesystem::path(const std::string& filename)> find_mesh;
-  bool frame_may_miss = false;  ///< Meshes that no leaf carries may be absent.
+  std::filesystem::path folder;  ///< Materials and textures of its meshes lie below it.
+  bool frame_may_miss = false;   ///< Meshes that no leaf carries may be absent.
 };
 
 /// One object for each hinged leaf; if there is none, one that says why not.

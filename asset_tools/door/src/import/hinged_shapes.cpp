@@ -72,6 +72,7 @@ class ShapeCollector {
     source.part_from_raw = source.part_from_raw * Eigen::Scaling(mesh.scale);
     try {
       source.file = object_.find_mesh(mesh.filename);
+      source.object_folder = object_.folder;
       source.sha256 = Sha256OfFile(source.file);
       return true;
     } catch (const Error& error) {

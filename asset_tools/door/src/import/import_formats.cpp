@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cctype>
+#include <set>
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/nearest_name.h"
@@ -98,10 +99,36 @@ std::vector<ForeignSource> FindObjects(const fs::path& source, const std::string
   return found;
 }
 
+std::vector<ForeignSource> FindObjects(const std::vector<fs::path>& sources,
+                                       const std::string& format) {
+  if (sources.size() == 1) return FindObjects(sources[0], format);
+  if (format != "auto") FormatNamed(format);
+  std::vector<ForeignSource> all;
+  std::set<fs::path> known;
+  for (const fs::path& source : sources) {
+    std::vector<ForeignSource> found;
+    try {
+      found = FindObjects(source, format);
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::kMissing) throw;
+      found = {{source, format}};
+    }
+    std::error_code ignored;
+    for (ForeignSource& object : found) {
+      if (known.insert(fs::weakly_canonical(object.path, ignored)).second)
+        all.push_back(std::move(object));
+    }
+  }
+  return all;
+}
+
 std::vector<ForeignObject> ReadObjects(const ForeignSource& source, const ReadConfig& config) {
   if (!config.allow_missing.empty() && config.allow_missing != "frame")
     throw Error(ErrorCode::kInvalidArgument, "--allow-missing: found \"" + config.allow_missing +
                                                  "\"; only a frame may be missing");
+  // nothing was found there: says so again
+  if (source.format == "auto" || !fs::exists(source.path))
+    return ReadObjects(FindObjects(source.path, source.format).at(0), config);
   return FormatNamed(source.format).read(source.path, config);
 }
 

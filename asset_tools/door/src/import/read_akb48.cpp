@@ -115,6 +115,7 @@ std::vector<ForeignObject> Read(const fs::path& folder, const ReadConfig& config
   object.license = "NOASSERTION";
   object.upright_from_base = UprightFrom(config.mesh.up.empty() ? "x" : config.mesh.up);
   object.category = CategoryOr(config, Category::kStorageFurniture);
+  object.folder = folder;
   object.find_mesh = [folder, where = object.where](const std::string& file) {
     return FileInside(folder, WithoutScheme(file), where);
   };

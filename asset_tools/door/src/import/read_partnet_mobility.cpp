@@ -174,6 +174,7 @@ HingedObject ReadPartNetFiles(const fs::path& folder, const PartNetFiles& files,
   const Kind* kind = KindNamed(ModelKind(folder));
   object.category = CategoryOr(config, kind ? kind->category : Category::kStorageFurniture);
   object.height_m = config.height_m > 0 ? config.height_m : kind ? kind->height_m : kUsualHeight;
+  object.folder = folder;
   object.find_mesh = [folder, urdf = object.where](const std::string& name) {
     return FileInside(folder, name, urdf);
   };

@@ -76,6 +76,7 @@ std::vector<ForeignObject> Read(const fs::path& path, const ReadConfig& config) 
   object.upright_from_base = UprightFrom(config.mesh.up.empty() ? "z" : config.mesh.up);
   object.height_m = config.height_m;
   object.category = CategoryOr(config, Category::kInterior);
+  object.folder = root;
   object.find_mesh = [root, folder = fs::absolute(urdf).lexically_normal().parent_path(),
                       where = object.where](const std::string& file) {
     return FileInside(root, NameInRoot(root, folder, file), where);

@@ -11,6 +11,7 @@
 #include "doorforge/core/hash.h"
 #include "doorforge/mesh/import_mesh.h"
 
+#include "import/authored_mesh.h"
 #include "placed_mesh.h"
 #include "solid.h"
 
@@ -49,21 +50,26 @@ TriangleMesh Moved(TriangleMesh mesh, const Eigen::Affine3d& to_from_mesh) {
   return mesh;
 }
 
-ColoredMesh Load(const SourceMesh& source) {
-  ColoredMesh loaded;
+ImportedMesh Import(const SourceMesh& source) {
   if (source.file.empty()) {
-    loaded.mesh = source.solid;
-    loaded.area = AreaOf(loaded.mesh);
-    loaded.color_area = loaded.area * Eigen::Vector4d(0.7, 0.7, 0.7, 1);
-  } else {
-    const ImportedMesh imported = ImportMesh(source.file);
-    for (const ImportedPiece& piece : imported.pieces) {
-      const double area = AreaOf(piece.mesh);
-      loaded.color_area += area * piece.color_rgba;
-      loaded.area += area;
-    }
-    loaded.mesh = MergedPieces(imported);
+    ImportedPiece solid;
+    solid.mesh = source.solid;
+    solid.color_rgba = {0.7, 0.7, 0.7, 1};
+    return {{std::move(solid)}};
   }
+  MeshImportLimits limits;
+  limits.files_below = source.object_folder;
+  return ImportMesh(source.file, limits);
+}
+
+ColoredMesh Load(const SourceMesh& source, const ImportedMesh& imported) {
+  ColoredMesh loaded;
+  for (const ImportedPiece& piece : imported.pieces) {
+    const double area = AreaOf(piece.mesh);
+    loaded.color_area += area * piece.color_rgba;
+    loaded.area += area;
+  }
+  loaded.mesh = source.file.empty() ? source.solid : MergedPieces(imported);
   if (source.color_rgba) loaded.color_area = loaded.area * *source.color_rgba;
   loaded.mesh = Moved(std::move(loaded.mesh), source.part_from_raw);
   return loaded;
@@ -73,16 +79,22 @@ RawPiece LoadPiece(const std::vector<SourceMesh>& meshes, const std::string& nam
   std::vector<TriangleMesh> placed;
   Eigen::Vector4d color_area = Eigen::Vector4d::Zero();
   double area = 0;
+  AuthoredMesh authored;
+  RawPiece piece;
   for (const SourceMesh& mesh : meshes) {
     if (mesh.piece != name) continue;
-    ColoredMesh loaded = Load(mesh);
+    const ImportedMesh imported = Import(mesh);
+    ColoredMesh loaded = Load(mesh, imported);
+    authored.Add(imported, mesh.part_from_raw, mesh.color_rgba);
+    for (const std::string& note : imported.notes)
+      piece.notes.push_back(mesh.file.filename().string() + ": " + note);
     placed.push_back(std::move(loaded.mesh));
     color_area += loaded.color_area;
     area += loaded.area;
   }
-  RawPiece piece;
   piece.name = name;
   piece.mesh = JoinedMeshes(placed);
+  piece.visual = std::move(authored).Finish();
   if (area > 0) piece.color_rgba = color_area / area;
   piece.color_rgba[3] = 1;  // the sensor sees glass, as depth cameras would like to
   return piece;
@@ -104,7 +116,7 @@ void Add(Json& json, const Eigen::Vector3d& value) {
 
 }  // namespace
 
-TriangleMesh LoadMesh(const SourceMesh& mesh) { return Load(mesh).mesh; }
+TriangleMesh LoadMesh(const SourceMesh& mesh) { return Load(mesh, Import(mesh)).mesh; }
 
 std::vector<RawPiece> LoadPieces(const std::vector<SourceMesh>& meshes) {
   std::vector<RawPiece> pieces;

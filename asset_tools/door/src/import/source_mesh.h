@@ -19,8 +19,10 @@ namespace doorforge::internal {
 struct SourceMesh {
   std::string piece;           ///< As RawPiece::name; may be empty while it is not known.
   std::filesystem::path file;  ///< Empty: `solid` is the mesh.
-  std::string sha256;          ///< Of the file, or of the solid's canonical text.
-  TriangleMesh solid = {};     ///< A box, cylinder or sphere of a URDF.
+  /// Folder below which the file's materials and textures must lie; empty: the file's own.
+  std::filesystem::path object_folder = {};
+  std::string sha256;       ///< Of the file, or of the solid's canonical text.
+  TriangleMesh solid = {};  ///< A box, cylinder or sphere of a URDF.
   /// Affine, in general a rigid motion and a scale, maybe with a reflection.
   Eigen::Affine3d part_from_raw = Eigen::Affine3d::Identity();
   std::optional<Eigen::Vector4d> color_rgba = {};  ///< Overrides the file's.
@@ -30,7 +32,8 @@ struct SourceMesh {
 TriangleMesh LoadMesh(const SourceMesh& mesh);
 
 /// Pieces by name, in the order in which the names first occur; the colour of each is the mean of
-/// its meshes' weighted by area, opaque. Throws Error as ImportMesh() does.
+/// its meshes' weighted by area, opaque; what its files draw is its visual mesh. Throws Error as
+/// ImportMesh() does.
 std::vector<RawPiece> LoadPieces(const std::vector<SourceMesh>& meshes);
 
 TriangleMesh MeshOf(const UrdfBox& box);

@@ -25,7 +25,8 @@ std::optional<DoorFormat> DoorFormatNamed(std::string_view name);
 /// MuJoCo's model, with the meshes of WriteDoor() beside it. A latch is a bolt: a sliding body in
 /// the leaf's free edge, coupled to the handle by a joint equality, and a strike on the frame that
 /// only the bolt touches. It holds up to half the unlock angle and lets go before 1.05 times it.
-/// Gravity is the model's default; the latch's numbers are also in <custom>.
+/// Gravity is the model's default; the latch's numbers are also in <custom>. Visuals are the closed
+/// meshes in their colours: MuJoCo takes no others.
 std::string ToMjcf(const DoorAsset& door);
 
 /// SDF 1.9 (sdformat 12), with the meshes of WriteDoor() beside it. Springs are in the joints'
@@ -35,10 +36,12 @@ std::string ToSdf(const DoorAsset& door);
 std::string ToSdfConfig(const DoorAsset& door);
 
 /// glTF 2.0 binary, all in one file: a node a link and a geometry by their names, visual meshes
-/// only, y up by the root node's turn. Joints and latch are in `extras` of the nodes.
+/// only, those of authors with their materials, texture coordinates and pictures, y up by the root
+/// node's turn. Joints and latch are in `extras` of the nodes.
 std::string ToGlb(const DoorAsset& door);
 
-/// USD as text with UsdPhysics schemas, all in one file. Not checked by USD's own tools.
+/// USD as text with UsdPhysics schemas; all in one file but pictures, which it names as
+/// AuthoredTexturePath(). Not checked by USD's own tools.
 std::string ToUsda(const DoorAsset& door);
 
 /// Commits `folder` with the files of these formats and, for those that name them, `meshes/`:

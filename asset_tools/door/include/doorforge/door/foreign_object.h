@@ -122,6 +122,12 @@ const std::vector<std::string>& ImportFormatNames();
 std::vector<ForeignSource> FindObjects(const std::filesystem::path& source,
                                        const std::string& format = "auto");
 
+/// The same for several, as a shell's glob names them: in their order, each object once. Where
+/// nothing is found at one of them it comes back as a source that ReadObjects() refuses, so that
+/// the others are not lost; a single one throws as above.
+std::vector<ForeignSource> FindObjects(const std::vector<std::filesystem::path>& sources,
+                                       const std::string& format = "auto");
+
 /// Reads one source: at least one object. What cannot be a door comes back with its refusal.
 ///
 /// @throws Error kMissing: files that the source names are absent, all of them named; kFormat: a

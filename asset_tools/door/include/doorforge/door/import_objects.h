@@ -19,6 +19,8 @@ namespace doorforge {
 struct ImportConfig {
   ReadConfig read = {};
   MakePartConfig make = {};
+  /// Keep what authors drew, with materials and textures, beside the closed meshes.
+  bool visual = true;
   std::vector<std::string> only = {};  ///< Objects of other categories are left out; empty: none.
   int threads = 0;                     ///< 0: all processors. Does not change the result.
 
@@ -26,6 +28,7 @@ struct ImportConfig {
   static void VisitFields(Self& self, Visitor&& visit) {
     visit("read", self.read);
     visit("make", self.make);
+    visit("visual", self.visual);
     visit("only", self.only);
     visit("threads", self.threads);
   }
@@ -53,7 +56,7 @@ struct ImportedObject {
   std::string mechanism;
   std::string body_id;  ///< Folder of the part below the output; empty if it has none.
   std::string handle_id;
-  std::vector<std::string> notes;   ///< What was left out or assumed.
+  std::vector<std::string> notes;   ///< What was left out or assumed, of materials, too.
   double scale = 1;                 ///< Metres a unit of the source.
   bool mirrored = false;            ///< See ForeignObject::mirrored.
   double body_box_deviation_m = 0;  ///< See LoadedPart.

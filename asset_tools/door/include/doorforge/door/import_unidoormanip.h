@@ -29,9 +29,10 @@ struct UniDoorManipObject {
     Eigen::Affine3d object_from_raw = Eigen::Affine3d::Identity();
   };
 
-  std::string name;         ///< Sub-task and object, such as "LeverDoor/99650069960003".
-  std::string body_name;    ///< First seven digits, or the folder's name.
-  std::string handle_name;  ///< Last seven digits, or the folder's name.
+  std::filesystem::path folder;  ///< Of the object; textures lie below it.
+  std::string name;              ///< Sub-task and object, such as "LeverDoor/99650069960003".
+  std::string body_name;         ///< First seven digits, or the folder's name.
+  std::string handle_name;       ///< Last seven digits, or the folder's name.
   Category category = Category::kInterior;
   Mechanism mechanism = Mechanism::kNone;
   std::vector<Mesh> body_meshes;

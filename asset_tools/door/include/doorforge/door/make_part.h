@@ -16,8 +16,8 @@ namespace doorforge {
 
 struct MakePartConfig {
   RepairConfig repair = {};
-  ConvexPartsConfig frame_convex{.max_parts = 32, .max_concavity_m = 0.02};
-  ConvexPartsConfig leaf_convex{.max_parts = 16, .max_concavity_m = 0.01};
+  ConvexPartsConfig frame_convex{.max_parts = 32, .max_concavity_m = 0.01};
+  ConvexPartsConfig leaf_convex{.max_parts = 32, .max_concavity_m = 0.01};
   /// Finer: what the fingers grasp must not be thicker in collisions than in the picture.
   ConvexPartsConfig handle_convex{.max_parts = 32, .max_concavity_m = 0.002};
   int threads = 0;  ///< 0: all processors. Does not change the result.
@@ -37,6 +37,8 @@ struct RawPiece {
   std::string name;  ///< As PartPiece::name.
   TriangleMesh mesh;
   Eigen::Vector4d color_rgba{0.7, 0.7, 0.7, 1.0};
+  VisualMesh visual = {};               ///< What its author drew; may be empty.
+  std::vector<std::string> notes = {};  ///< What of its materials was left out.
 };
 
 /// All that is known of a part before its pieces are repaired.
@@ -51,6 +53,10 @@ struct PieceReport {
   int convex_parts = 0;
   ConvexPartsFit convex_fit;  ///< Measured, not the bound that was asked for.
   bool mass_limited = false;  ///< The volume times the density lay outside the plausible range.
+  int visual_triangles = 0;   ///< Of what its author drew, where the part keeps it.
+  int visual_materials = 0;
+  int visual_textures = 0;
+  std::vector<std::string> visual_notes = {};  ///< RawPiece::notes.
 };
 
 struct MadePart {
@@ -61,9 +67,10 @@ struct MadePart {
 /// Closes every piece, finds its convex parts and its mass.
 ///
 /// Coordinates are rounded to float, as the canonical files hold them, so a part that is written
-/// and read back equals the part in memory. The density follows from category and piece (see
-/// docs/design/door.md); masses are kept between limits that a robot can move. Deterministic for
-/// any number of threads.
+/// and read back equals the part in memory. What authors drew is kept as it is, unless it is the
+/// closed mesh in one colour; collision, mass and volume follow from the closed mesh. The density
+/// follows from category and piece (see docs/design/door.md); masses are kept between limits that a
+/// robot can move. Deterministic for any number of threads.
 ///
 /// @throws Error(kInvalidArgument) if the draft has no leaf (body) or no grip (handle), or a piece
 ///     name that its role does not have; Error(kInvalidConfig) from the config's parts.

@@ -51,6 +51,9 @@ struct ImportedPiece {
 /// A mesh file's triangles in metres, in the raw frame of the file.
 struct ImportedMesh {
   std::vector<ImportedPiece> pieces;  ///< At least one, none empty, in the order of the file.
+  /// Triangles that repeat one of `pieces` the other way round, which some programs write to give
+  /// the two sides of a sheet two materials. For what draws the mesh; all else does without.
+  std::vector<ImportedPiece> other_sides = {};
   std::vector<ImportedMaterial> materials = {};
   std::vector<std::string> pictures = {};  ///< Bytes of PNG or JPEG files, without repetition.
   std::vector<std::string> notes = {};     ///< What of materials and textures was left out.

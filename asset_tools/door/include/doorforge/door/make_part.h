@@ -16,8 +16,9 @@ namespace doorforge {
 
 struct MakePartConfig {
   RepairConfig repair = {};
-  ConvexPartsConfig frame_convex{.max_parts = 32, .max_concavity_m = 0.01};
-  ConvexPartsConfig leaf_convex{.max_parts = 32, .max_concavity_m = 0.01};
+  /// A grid sees depths to within a third of the bound: this keeps nearly all within a centimetre.
+  ConvexPartsConfig frame_convex{.max_parts = 32, .max_concavity_m = 0.009};
+  ConvexPartsConfig leaf_convex{.max_parts = 32, .max_concavity_m = 0.009};
   /// Finer: what the fingers grasp must not be thicker in collisions than in the picture.
   ConvexPartsConfig handle_convex{.max_parts = 32, .max_concavity_m = 0.002};
   int threads = 0;  ///< 0: all processors. Does not change the result.

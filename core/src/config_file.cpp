@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/core/config_file.h"
 
+#include <cctype>
 #include <charconv>
 
 #include <yaml-cpp/yaml.h>
@@ -22,9 +23,20 @@ bool ParseNumber(const std::string& text, T& number) {
   return error == std::errc{} && stop == end && begin != end;
 }
 
+// YAML has them, but no setting here can mean them.
+bool IsNoFiniteNumber(std::string text) {
+  if (text.starts_with('+') || text.starts_with('-')) text.erase(0, 1);
+  for (char& letter : text) letter = static_cast<char>(std::tolower(letter));
+  return text == ".nan" || text == ".inf" || text == "nan" || text == "inf" || text == "infinity";
+}
+
 Json FromScalar(const YAML::Node& node) {
   const std::string& text = node.Scalar();
   if (node.Tag() == "!") return text;  // quoted
+  if (IsNoFiniteNumber(text))
+    throw Error(ErrorCode::kInvalidConfig,
+                "line " + std::to_string(node.Mark().line + 1) + ": found " + text +
+                    ", expected a finite number (or \"" + text + "\" in quotes, if it is a name)");
   if (text == "true" || text == "True") return true;
   if (text == "false" || text == "False") return false;
   std::int64_t integer = 0;
@@ -54,6 +66,8 @@ Json ParseYaml(std::string_view text, const std::string& name) {
     return FromYaml(YAML::Load(std::string(text)));
   } catch (const YAML::Exception& error) {
     throw Error(ErrorCode::kInvalidConfig, name + ": " + error.what());
+  } catch (const Error& error) {
+    throw Error(error.code(), name + ": " + error.what());
   }
 }
 

@@ -40,6 +40,21 @@ TEST(ConfigFile, ASyntaxErrorNamesTheLine) {
   }
 }
 
+TEST(ConfigFile, RefusesWhatIsNoFiniteNumberAndSaysWhere) {
+  for (const std::string text : {".nan", ".NaN", "nan", ".inf", "-.inf", "Infinity"}) {
+    try {
+      ParseYaml("name: x\nwidth: " + text + "\n", "my.yaml");
+      ADD_FAILURE() << text << " was taken";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kInvalidConfig);
+      const std::string what = error.what();
+      EXPECT_NE(what.find("my.yaml: line 2: found " + text), std::string::npos) << what;
+    }
+    EXPECT_THROW(ParseSettings({"width=" + text}), Error);
+  }
+  EXPECT_EQ(ParseYaml("name: \"nan\"", "my.yaml").at("name"), "nan");
+}
+
 TEST(ConfigFile, SettingsNestAndTheLastOneWins) {
   EXPECT_EQ(ParseSettings({"a.b=1", "a.c=x=y", "a.b=2"}).dump(), R"({"a":{"b":2,"c":"x=y"}})");
   EXPECT_THROW(ParseSettings({"novalue"}), Error);

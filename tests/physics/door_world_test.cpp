@@ -132,7 +132,7 @@ TEST_F(DoorWorldTest, TheRobotHoldsStillAndFollowsItsJoints) {
                 .cwiseAbs()
                 .maxCoeff(),
             2e-3);
-  EXPECT_TRUE(world.Healthy());
+  EXPECT_FALSE(world.fault());
 }
 
 TEST_F(DoorWorldTest, FingersCloseOnNothingAndOpenAgain) {

@@ -55,7 +55,7 @@ LineErrors FollowLine(const RobotModel& robot, const std::string& controller) {
   const RigidTransform end = world.PoseOfRobot().world_from_hand;
   errors.end_m = (end.translation() - target.translation()).norm();
   errors.end_rad = RotationVector(end.linear() * target.linear().transpose()).norm();
-  EXPECT_TRUE(world.Healthy());
+  EXPECT_FALSE(world.fault());
   return errors;
 }
 

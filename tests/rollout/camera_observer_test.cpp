@@ -4,8 +4,10 @@
 
 #include <algorithm>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "doorforge/core/error.h"
 #include "doorforge/physics/scene_sampling.h"
 #include "doorforge/rollout/opening_expert.h"
 #include "doorforge/rollout/run_episode.h"
@@ -55,6 +57,37 @@ TEST(CameraObserver, NoiseIsAFunctionOfTheSceneAndOfTheLook) {
   };
   EXPECT_EQ(clouds(config), clouds(config));
   EXPECT_NE(clouds(config), clouds({}));
+}
+
+TEST(CameraObserver, RefusesACameraInsideTheDoorByName) {
+  const DoorAsset door = MakePrimitiveDoor({});
+  const RobotModel robot = LoadMobileFranka();
+  Scene scene = SampleScene(door, 1, 0);
+  EXPECT_NO_THROW(CameraObserver(scene, door, robot));
+  const RigidTransform leaf = scene.world_from_door * DoorFromLinks(door, 0, 0)[kLeafLink];
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& vertex : door.links[kLeafLink].geometry.at(0).hulls.at(0).vertices)
+    box.extend(vertex);
+  scene.camera.position_m = leaf * box.center();
+  try {
+    CameraObserver(scene, door, robot);
+    FAIL() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kInvalidArgument);
+    EXPECT_NE(std::string(error.what()).find("inside the leaf"), std::string::npos) << error.what();
+  }
+}
+
+TEST(RunEpisode, RefusesADoorWithoutAHinge) {
+  DoorAsset door = MakePrimitiveDoor({});
+  door.hinge.upper_rad = door.hinge.lower_rad;
+  try {
+    SampleScene(door, 1, 0);
+    FAIL() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kInvalidArgument);
+    EXPECT_NE(std::string(error.what()).find("has no hinge"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace

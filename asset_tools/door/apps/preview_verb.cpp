@@ -17,6 +17,9 @@
 #include "doorforge/schemas/part.h"
 #include "doorforge/sensor/scene_picture.h"
 
+#ifdef DOORFORGE_WITH_OPENABLE
+#include "episode_sheet.h"
+#endif
 #include "verb_options.h"
 
 namespace doorforge {
@@ -34,13 +37,17 @@ struct Options {
   int width = 0;  // 0: by what is drawn
   int threads = 0;
   bool collision = false;
+  bool episode = false;
+  std::uint64_t seed = 1;
+  int frames = 7;
 };
 
 Options Parse(int argc, char** argv) {
   Options options;
   CLI::App app("Pictures of doors and parts; a contact sheet where there are several.",
                "doorforge preview");
-  app.add_option("PATH", options.paths, "folders of doors or parts, or folders that hold some")
+  app.add_option("PATH,--door", options.paths,
+                 "folders of doors or parts, or folders that hold some")
       ->required();
   app.add_option("--out", options.out, "PNG file")->required();
   app.add_option("--hinge-deg", options.hinge_deg, "open doors by this angle, within their limits")
@@ -56,10 +63,19 @@ Options Parse(int argc, char** argv) {
       ->check(CLI::Range(32, 4096));
   app.add_option("--threads", options.threads, "0: all processors");
   app.add_flag("--collision", options.collision, "draw the collision shapes instead");
+#ifdef DOORFORGE_WITH_OPENABLE
+  app.add_flag("--episode", options.episode,
+               "a film strip of the expert opening the door; a row each where there are several");
+  app.add_option("--seed", options.seed, "of the scene, with --episode")->needs("--episode");
+  app.add_option("--frames", options.frames, "of the strip, with --episode")
+      ->needs("--episode")
+      ->check(CLI::Range(2, 40));
+#endif
   app.footer(
       "examples:\n"
       "  doorforge preview parts --out parts.png\n"
-      "  doorforge preview doors/mine --hinge-deg 40 --handle-deg 30 --out mine.png");
+      "  doorforge preview doors/mine --hinge-deg 40 --handle-deg 30 --out mine.png\n"
+      "  doorforge preview --episode --door doors/mine --seed 3 --out opened.png");
   ParseVerb(app, argc, argv);
   return options;
 }
@@ -190,6 +206,16 @@ int RunPreviewVerb(int argc, char** argv) {
   for (const std::string& path : options.paths) {
     for (fs::path& folder : FindRecords(path)) folders.push_back(std::move(folder));
   }
+#ifdef DOORFORGE_WITH_OPENABLE
+  if (options.episode) {
+    WriteEpisodeSheet(folders, {.out = options.out,
+                                .seed = options.seed,
+                                .frames = options.frames,
+                                .width = options.width,
+                                .threads = options.threads});
+    return 0;
+  }
+#endif
   const bool sheet = folders.size() > 1;
   const int width = options.width > 0 ? options.width : (sheet ? kSheetWidth : kWidth);
   std::vector<Picture> pictures(folders.size());

@@ -183,4 +183,30 @@ double BulletBody::Velocity(int link) const {
   return multibody_->getLink(link).m_dofCount == 0 ? 0 : multibody_->getJointVel(link);
 }
 
+double BulletBody::AppliedTorque(int link) const {
+  return multibody_->getLink(link).m_dofCount == 0 ? 0 : multibody_->getJointTorque(link);
+}
+
+void BulletBody::PlaceJoint(int link, double position, double velocity) {
+  if (multibody_->getLink(link).m_dofCount == 0) return;
+  multibody_->setJointPos(link, position);
+  multibody_->setJointVel(link, velocity);
+}
+
+double BulletBody::KineticEnergy() const {
+  const auto frames = static_cast<std::size_t>(link_count()) + 1;
+  std::vector<btVector3> turn(frames);
+  std::vector<btVector3> motion(frames);
+  multibody_->compTreeLinkVelocities(turn.data(), motion.data());
+  double energy = 0;
+  for (int i = 0; i < link_count(); ++i) {
+    // in the link's frame, which is the principal one
+    const btMultibodyLink& link = multibody_->getLink(i);
+    const btVector3& spin = turn[static_cast<std::size_t>(i) + 1];
+    energy += link.m_mass * motion[static_cast<std::size_t>(i) + 1].length2() / 2 +
+              (link.m_inertiaLocal * spin).dot(spin) / 2;
+  }
+  return energy;
+}
+
 }  // namespace doorforge::internal

@@ -78,8 +78,15 @@ class BulletBody {
   /// Call after joint positions were set: colliders start at the origin otherwise.
   void SyncColliders();
 
+  int link_count() const { return multibody_->getNumLinks(); }
   double Position(int link) const;
   double Velocity(int link) const;
+  /// Of the joint, in the next step, as far as it is set by now; drives are not in it.
+  double AppliedTorque(int link) const;
+  /// SyncColliders() has to follow.
+  void PlaceJoint(int link, double position, double velocity);
+  /// Of all links [J].
+  double KineticEnergy() const;
 
  private:
   std::unique_ptr<btCollisionShape> MakeShape(const BulletLink& link,

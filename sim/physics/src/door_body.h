@@ -36,6 +36,7 @@ class DoorBody {
   /// To be called after each step.
   void UpdateLatch();
 
+  BulletBody& body() { return body_; }
   double hinge_rad() const { return body_.Position(kHinge); }
   double hinge_rad_s() const { return body_.Velocity(kHinge); }
   double handle_rad() const { return body_.Position(kHandle); }

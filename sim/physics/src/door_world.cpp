@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/physics/door_world.h"
 
-#include <cmath>
 #include <span>
 
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
@@ -16,6 +15,7 @@
 #include "door_body.h"
 #include "robot_body.h"
 #include "self_collision.h"
+#include "world_monitor.h"
 
 namespace doorforge {
 namespace {
@@ -57,13 +57,14 @@ class DoorWorld::Runtime {
   Runtime& operator=(const Runtime&) = delete;
 
   void Step(const RobotCommand& command);
+  void Place(const WorldState& at);
   DoorContacts Contacts() const;
-  bool Healthy() const;
 
   Scene scene;
   DoorAsset door;
   RobotModel robot;
   WorldState state;
+  std::optional<StateFault> fault;
   double extra_hinge_torque = 0;
   double extra_handle_torque = 0;
 
@@ -81,6 +82,7 @@ class DoorWorld::Runtime {
   btMultiBodyDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &collision_configuration_};
   std::unique_ptr<internal::RobotBody> robot_body_;
   std::unique_ptr<internal::DoorBody> door_body_;
+  std::unique_ptr<internal::WorldMonitor> monitor_;
   std::vector<btMatrix3x3> rotation_before_;  // of every collision object, before the step
 };
 
@@ -97,6 +99,8 @@ DoorWorld::Runtime::Runtime(const Scene& the_scene, const DoorAsset& the_door,
   robot_body_ = std::make_unique<internal::RobotBody>(world_, scene, robot, start);
   door_body_ = std::make_unique<internal::DoorBody>(world_, scene.world_from_door, door,
                                                     scene.latch, scene.physics.handle_friction);
+  monitor_ = std::make_unique<internal::WorldMonitor>(robot_body_->body(), door_body_->body(),
+                                                      robot, door);
   ReadState();
 }
 
@@ -155,29 +159,42 @@ void DoorWorld::Runtime::TurnCachedNormals() {
 }
 
 void DoorWorld::Runtime::Step(const RobotCommand& command) {
+  if (fault) return;
+  if (!command.arm_position.allFinite()) {
+    fault = StateFault{Implausibility::kNotFinite, "command", 0, 0, state.time_s};
+    return;
+  }
   robot_body_->Command(command);
   door_body_->ApplyTorques(extra_hinge_torque, extra_handle_torque, scene.physics.time_step_s);
   extra_hinge_torque = 0;
   extra_handle_torque = 0;
+  fault = monitor_->BeforeStep(state.time_s);
+  if (fault) return;
   RememberRotations();
   world_.stepSimulation(scene.physics.time_step_s, 0);
   TurnCachedNormals();
   door_body_->UpdateLatch();
   state.time_s += scene.physics.time_step_s;
   ReadState();
+  fault = monitor_->AfterStep(dispatcher_, scene.physics.time_step_s);
+}
+
+void DoorWorld::Runtime::Place(const WorldState& at) {
+  Require(at.robot_position.size() == state.robot_position.size() &&
+              at.robot_velocity.size() == state.robot_velocity.size(),
+          ErrorCode::kInvalidArgument, "the state is one of a robot with other joints");
+  for (int i = 0; i < static_cast<int>(at.robot_position.size()); ++i)
+    robot_body_->body().PlaceJoint(i, at.robot_position[i], at.robot_velocity[i]);
+  door_body_->body().PlaceJoint(0, at.hinge_rad, at.hinge_rad_s);
+  door_body_->body().PlaceJoint(1, at.handle_rad, at.handle_rad_s);
+  robot_body_->body().SyncColliders();
+  door_body_->body().SyncColliders();
+  ReadState();
 }
 
 DoorContacts DoorWorld::Runtime::Contacts() const {
   return internal::ReportContacts(dispatcher_, *robot_body_, *door_body_,
                                   scene.physics.time_step_s);
-}
-
-bool DoorWorld::Runtime::Healthy() const {
-  const bool finite = state.robot_position.allFinite() && state.robot_velocity.allFinite() &&
-                      std::isfinite(state.hinge_rad) && std::isfinite(state.hinge_rad_s) &&
-                      std::isfinite(state.handle_rad) && std::isfinite(state.handle_rad_s);
-  return finite && state.robot_velocity.head<kSliderCount>().cwiseAbs().maxCoeff() < 10 &&
-         state.robot_velocity.cwiseAbs().maxCoeff() < 30 && std::abs(state.hinge_rad_s) < 20;
 }
 
 DoorWorld::DoorWorld(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
@@ -211,7 +228,9 @@ RobotPose DoorWorld::PoseOfRobot() const {
                                 runtime_->scene.world_from_robot_base);
 }
 
-bool DoorWorld::Healthy() const { return runtime_->Healthy(); }
+void DoorWorld::Place(const WorldState& state) { runtime_->Place(state); }
+
+const std::optional<StateFault>& DoorWorld::fault() const { return runtime_->fault; }
 
 std::string DoorWorld::StateHash() const {
   const WorldState& now = runtime_->state;

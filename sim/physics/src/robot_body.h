@@ -28,6 +28,7 @@ class RobotBody {
   /// What the drives are to do in the next step.
   void Command(const RobotCommand& command);
 
+  BulletBody& body() { return body_; }
   JointVector Positions() const;
   JointVector Velocities() const;
   const btCollisionObject* collider(int joint) const { return body_.collider(joint); }

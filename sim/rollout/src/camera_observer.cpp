@@ -2,12 +2,48 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/rollout/camera_observer.h"
 
+#include <algorithm>
+#include <cstdio>
 #include <string>
+
+#include "doorforge/core/error.h"
 
 namespace doorforge {
 namespace {
 
 constexpr int kDoorLinks = 3;
+
+bool IsInside(const TriangleMesh& hull, const Eigen::Vector3d& point) {
+  return !hull.triangles.empty() &&
+         std::all_of(hull.triangles.begin(), hull.triangles.end(), [&](const auto& triangle) {
+           const Eigen::Vector3d& a = hull.vertices[static_cast<std::size_t>(triangle[0])];
+           const Eigen::Vector3d& b = hull.vertices[static_cast<std::size_t>(triangle[1])];
+           const Eigen::Vector3d& c = hull.vertices[static_cast<std::size_t>(triangle[2])];
+           return (b - a).cross(c - a).dot(point - a) < 0;
+         });
+}
+
+// From inside a leaf everything is hidden, and every cloud would be empty.
+void RequireOutside(const CameraModel& camera, const Scene& scene, const DoorAsset& door) {
+  const auto door_from_link = DoorFromLinks(door, 0, 0);
+  for (std::size_t link = 0; link < door.links.size(); ++link) {
+    const Eigen::Vector3d eye =
+        (scene.world_from_door * door_from_link.at(link)).inverse() * camera.position_m;
+    for (const DoorGeometry& geometry : door.links[link].geometry) {
+      const bool inside = std::any_of(geometry.hulls.begin(), geometry.hulls.end(),
+                                      [&](const auto& hull) { return IsInside(hull, eye); });
+      if (!inside) continue;
+      char text[300];
+      std::snprintf(text, sizeof text,
+                    "the camera at (%.3f, %.3f, %.3f) m is inside the %s of door \"%.120s\"; put "
+                    "scene.camera where it looks at the door from outside",
+                    camera.position_m.x(), camera.position_m.y(), camera.position_m.z(),
+                    link == kBaseLink ? "frame" : (link == kLeafLink ? "leaf" : "handle"),
+                    door.id.c_str());
+      throw Error(ErrorCode::kInvalidArgument, text);
+    }
+  }
+}
 
 }  // namespace
 
@@ -40,7 +76,9 @@ CameraObserver::CameraObserver(const Scene& scene, const DoorAsset& door, const 
       model_(scene.camera),
       believed_(BelievedCamera(scene.camera, config.noise, Stream("calibration"))),
       config_(config),
-      camera_(VisibleMeshesOf(door, robot)) {}
+      camera_(VisibleMeshesOf(door, robot)) {
+  RequireOutside(model_, scene, door);
+}
 
 Rng CameraObserver::Stream(const std::string& purpose) const { return {seed_, stream_ + purpose}; }
 

@@ -7,6 +7,7 @@
 #include <cstdarg>
 #include <cstdio>
 #include <numbers>
+#include <utility>
 
 namespace doorforge::internal {
 namespace {
@@ -24,6 +25,8 @@ constexpr double kTurnBeyond = 0.07;         // [rad] past "handle done"
 constexpr double kTurnTime = 4;              // [s]
 constexpr double kLostTime = 0.25;           // [s] without any pad on the handle
 constexpr double kReachTolerance = 0.012;    // [m]
+constexpr double kBlockingForce = 50;        // [N] of the arm or the hand on the door
+constexpr double kHandBehind = 0.01;         // [m] of the hand, where something holds it up
 
 #if defined(__GNUC__)
 __attribute__((format(printf, 1, 2)))
@@ -72,7 +75,7 @@ void EpisodeRun::Step(const RobotCommand& command) {
   world_.Step(command);
   ++step_;
   const WorldState& state = world_.state();
-  diverged_ = !world_.Healthy();
+  diverged_ = world_.fault().has_value();
   if (diverged_) return;
   episode_.peak_hinge_rad = std::max(episode_.peak_hinge_rad, state.hinge_rad);
   episode_.peak_handle_rad = std::max(episode_.peak_handle_rad, state.handle_rad);
@@ -125,8 +128,30 @@ EpisodeRun::Failure EpisodeRun::Reach() {
   problem_ = Format("hand %.0f mm from the grasp pose", 1000 * HandError(goal));
   const DoorContacts contacts = world_.Contacts();
   NoteSelfContact(contacts);
-  if (!contacts.arm_touches.empty()) problem_ += ", blocked at " + contacts.arm_touches;
-  return EpisodeOutcome::kNotReached;
+  return HeldUpBy(contacts).value_or(EpisodeOutcome::kNotReached);
+}
+
+// What keeps the hand from where it should be: the door in the arm's way, or the end of a joint.
+EpisodeRun::Failure EpisodeRun::HeldUpBy(const DoorContacts& contacts) {
+  if (HandError(controller_.CommandedHand()) < kHandBehind) return std::nullopt;
+  if (contacts.arm_force_n > kBlockingForce) {
+    problem_ += ", blocked at " + contacts.arm_touches;
+    return EpisodeOutcome::kCollision;
+  }
+  if (contacts.self_force_n > kBlockingForce) {
+    problem_ += ", blocked by itself at " + contacts.self_touches;
+    return EpisodeOutcome::kCollision;
+  }
+  const JointVector& now = world_.state().robot_position;
+  for (int i = 0; i < robot_.arm_count(); ++i) {
+    const RobotJoint& joint = robot_.joint(i);
+    const double position = now[i];
+    const double margin = joint.prismatic ? 0.003 : 0.01;
+    if (position - joint.lower > margin && joint.upper - position > margin) continue;
+    problem_ += ", " + joint.name + " at its limit";
+    return EpisodeOutcome::kJointLimit;
+  }
+  return std::nullopt;
 }
 
 // The arm does not yield to a finger that touches first, so it follows that finger.
@@ -195,7 +220,8 @@ EpisodeRun::Failure EpisodeRun::Unlock() {
                     world_.state().handle_rad / kDegree,
                     episode_.scene.latch.handle_done_angle_rad / kDegree, 1000 * Slip(),
                     TurnSlip() / kDegree);
-  return slipped ? EpisodeOutcome::kHandleSlipped : EpisodeOutcome::kHandleStuck;
+  if (slipped) return EpisodeOutcome::kHandleSlipped;
+  return HeldUpBy(world_.Contacts()).value_or(EpisodeOutcome::kHandleStuck);
 }
 
 void EpisodeRun::NoteSelfContact(const DoorContacts& contacts) {
@@ -207,6 +233,10 @@ void EpisodeRun::NoteContacts() {
   const DoorContacts contacts = world_.Contacts();
   NoteSelfContact(contacts);
   const int per_action = episode_.scene.physics.steps_per_action;
+  if (!contacts.AnyPad() && last_pad_step_ == step_ - 1) {
+    held_up_at_loss_ = HeldUpBy(contacts);
+    why_lost_ = std::exchange(problem_, {});
+  }
   if (contacts.AnyPad()) last_pad_step_ = step_;
   if (contacts.AnyPad() || contacts.arm_points > 0) last_touch_step_ = step_;
   const bool beyond = world_.state().hinge_rad > kOpenAngle;
@@ -302,7 +332,10 @@ EpisodeRun::Failure EpisodeRun::Open(Policy& opening) {
   const DoorContacts contacts = world_.Contacts();
   if (!contacts.arm_touches.empty()) problem_ += ", arm touches " + contacts.arm_touches;
   if (coasted_) problem_ += ", the door coasted past 45 deg by itself";
-  return lost || coasted_ ? EpisodeOutcome::kGripLost : EpisodeOutcome::kDoorStuck;
+  if (coasted_) return EpisodeOutcome::kGripLost;
+  if (!lost) return HeldUpBy(contacts).value_or(EpisodeOutcome::kDoorStuck);
+  problem_ += why_lost_;
+  return held_up_at_loss_.value_or(EpisodeOutcome::kGripLost);
 }
 
 // ---- what is seen -------------------------------------------------------------------------------
@@ -346,7 +379,7 @@ SceneSnapshot EpisodeRun::Snapshot(std::string_view stage) const {
 }
 
 void EpisodeRun::Watch(std::string_view stage) {
-  if (observer_ != nullptr) observer_->Watch(Snapshot(stage));
+  if (observer_ != nullptr && !diverged_) observer_->Watch(Snapshot(stage));
 }
 
 std::string EpisodeRun::Detail(Failure failure) const {
@@ -362,7 +395,7 @@ std::string EpisodeRun::Detail(Failure failure) const {
 Episode EpisodeRun::Finish(Failure failure) {
   if (diverged_) {
     failure = EpisodeOutcome::kDiverged;
-    problem_ = Format("state not finite or too fast after %ld steps", step_);
+    problem_ = Describe(*world_.fault());
   }
   episode_.outcome = failure.value_or(EpisodeOutcome::kOpened);
   episode_.detail = Detail(failure);

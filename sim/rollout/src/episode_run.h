@@ -47,6 +47,7 @@ class EpisodeRun {
   void HoldAction();
   void NoteContacts();
   void NoteSelfContact(const DoorContacts& contacts);
+  Failure HeldUpBy(const DoorContacts& contacts);
   std::string Detail(Failure failure) const;
 
   const DoorAsset& door_;
@@ -68,6 +69,8 @@ class EpisodeRun {
   bool opened_ = false;
   bool coasted_ = false;
   bool diverged_ = false;
+  Failure held_up_at_loss_;  // when the pads left the handle
+  std::string why_lost_;
   std::string problem_;
   std::string touched_at_opening_;
   std::string touched_itself_;  // "link2-hand"; last seen

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "doorforge/physics/robot_model.h"
+#include "doorforge/physics/state_watch.h"
 #include "doorforge/schemas/door_asset.h"
 #include "doorforge/schemas/scene.h"
 
@@ -74,7 +75,7 @@ class DoorWorld {
   DoorWorld(DoorWorld&&) noexcept;
   DoorWorld& operator=(DoorWorld&&) noexcept;
 
-  /// Advances by the scene's time step.
+  /// Advances by the scene's time step. Does nothing any more after a fault.
   void Step(const RobotCommand& command);
 
   const WorldState& state() const;
@@ -90,9 +91,14 @@ class DoorWorld {
   std::array<RigidTransform, 3> WorldFromDoorLinks() const;
   RobotPose PoseOfRobot() const;
 
-  /// False once a state is not finite, or a joint is so fast that it must have gained energy from
-  /// nowhere: an arm joint beyond 30 rad/s, the hinge beyond 20 rad/s, a slider beyond 10 m/s.
-  bool Healthy() const;
+  /// Puts the joints where `state` says, at its speeds; the latch stays as it is. To the watch this
+  /// is not an input: a jump is a fault like any other.
+  ///
+  /// @throws Error(kInvalidArgument) if `state` has another number of joints.
+  void Place(const WorldState& state);
+
+  /// What made the simulated state impossible, see StateWatch; nothing as long as it is plausible.
+  const std::optional<StateFault>& fault() const;
 
   /// SHA-256 of all joint positions and velocities, bit by bit, a bolt's among them.
   std::string StateHash() const;

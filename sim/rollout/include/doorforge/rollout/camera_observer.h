@@ -32,7 +32,8 @@ struct Sight {
 /// "sensor/<door id>/<episode>/..." of the scene's seed. Serves one thread at a time.
 class CameraObserver : public Observer {
  public:
-  /// @throws Error(kInvalidArgument) as DepthCamera does, Error(kInvalidConfig) as
+  /// @throws Error(kInvalidArgument) as DepthCamera does, or if the camera is inside the closed
+  ///     door; Error(kInvalidConfig) as
   ///     CheckDepthNoise().
   CameraObserver(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
                  const CloudConfig& config = {});

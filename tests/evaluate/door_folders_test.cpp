@@ -3,6 +3,7 @@
 #include "doorforge/evaluate/door_folders.h"
 
 #include <filesystem>
+#include <fstream>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -29,6 +30,8 @@ class DoorFoldersTest : public testing::Test {
     shape.width_m = width_m;
     DoorAsset door = MakePrimitiveDoor(shape);
     door.id = id;
+    door.body.id = id + "_body";
+    door.handle.id = id + "_handle";
     fs::create_directories(folder_ / place);
     WriteDoor(door, folder_ / place);
   }
@@ -54,6 +57,35 @@ TEST_F(DoorFoldersTest, FindsDoorsAtAnyDepthAndSortsThemById) {
   EXPECT_EQ(doors[0].id, "a");
   EXPECT_EQ(doors[1].id, "b");
   EXPECT_EQ(ReportDoorOf(doors[1]).sha256, ContentHash(doors[1]));
+}
+
+TEST_F(DoorFoldersTest, ASelectionTakesDoorsEvenlyFromEachCategory) {
+  for (const char* id : {"a", "b", "c", "d", "e", "f"}) Write(id, id);
+  const auto doors = ReadDoors({folder_.string()}, {.split = "", .per_category = 3});
+  ASSERT_EQ(doors.size(), 3U);
+  EXPECT_EQ(doors[0].id, "a");
+  EXPECT_EQ(doors[1].id, "c");
+  EXPECT_EQ(doors[2].id, "e");
+}
+
+TEST_F(DoorFoldersTest, ASplitTakesDoorsOfWhichBothPartsAreOnItsSide) {
+  Write("a", "a");
+  const DoorAsset door = ReadDoors({folder_.string()}).at(0);
+  const fs::path split = folder_ / "own.yaml";
+  const auto write = [&](const std::string& handle) {
+    std::ofstream(split) << "schema: doorforge.split\nschema_version: 1\ntrain: []\ntest: [\""
+                         << door.body.id << "\", \"" << handle << "\"]\nunseen_categories: []\n";
+  };
+  write("another");
+  const auto read = [&](const std::string& side) {
+    return ReadDoors({folder_.string()}, {.split = split.string() + side, .per_category = 0});
+  };
+  EXPECT_THROW(read(""), Error);
+  write(door.handle.id);
+  EXPECT_EQ(read("").size(), 1U);
+  EXPECT_EQ(read(":test").size(), 1U);
+  EXPECT_THROW(read(":train"), Error);
+  EXPECT_THROW(read(":tset"), Error);
 }
 
 TEST_F(DoorFoldersTest, TheSameDoorTwiceCountsOnceButAnIdMustNotMeanTwoDoors) {

@@ -43,7 +43,13 @@ void AddOptions(CLI::App& app, Options& options) {
       ->required();
   app.add_option("--doors", options.request.doors, "folders of composed doors, searched in depth")
       ->required();
-  app.add_option("--out", options.out, "folder for report.json and report.html")->required();
+  app.add_option("--split", options.request.selection.split,
+                 "only doors of these parts: a split and its side, such as full:test");
+  app.add_option("-n,--per-category", options.request.selection.per_category,
+                 "at most so many doors of each category, evenly from the list; 0: all")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--out", options.out,
+                 "folder for report.json and report.html; without it only the table is printed");
   app.add_option("--data", options.request.data,
                  "data set that the policy was trained from: says which doors it has seen");
   app.add_option("--seeds", options.seeds, "repetitions with other scenes (config: seeds, 3)");
@@ -73,7 +79,8 @@ Options Parse(int argc, char** argv) {
       "examples:\n"
       "  doorforge eval --policy run/policy --data run/data --doors run/doors/test --out "
       "run/report\n"
-      "  doorforge eval --policy expert --doors run/doors/test --seeds 5 --out run/expert");
+      "  doorforge eval --policy expert --doors run/doors --split full:test -n 50 --seeds 3 --out "
+      "run/expert");
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {
@@ -115,7 +122,10 @@ void WriteReport(const Evaluation& evaluation, const fs::path& out, StagedFolder
 }
 
 int Evaluate(Options& options) {
-  StagedFolder staged(options.out, options.overwrite ? Existing::kReplace : Existing::kRefuse);
+  // refused before hours of work, not after
+  std::optional<StagedFolder> staged;
+  if (!options.out.empty())
+    staged.emplace(options.out, options.overwrite ? Existing::kReplace : Existing::kRefuse);
   Evaluation evaluation;
   try {
     evaluation = EvaluateOpener(options.request);
@@ -124,7 +134,7 @@ int Evaluate(Options& options) {
     std::fprintf(stderr, "doorforge: interrupted; nothing was written\n");
     return 128 + StopRequested();
   }
-  WriteReport(evaluation, options.out, staged);
+  if (staged) WriteReport(evaluation, options.out, *staged);
   const std::string text = options.json ? ReportToJson(evaluation.report).dump(2) + "\n"
                                         : ReportTable(evaluation.report);
   std::fwrite(text.data(), 1, text.size(), stdout);

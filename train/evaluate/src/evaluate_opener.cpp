@@ -123,7 +123,7 @@ EvaluationReport NewReport(const EvaluationRequest& request, std::span<const Doo
 }  // namespace
 
 Evaluation EvaluateOpener(const EvaluationRequest& request) {
-  const std::vector<DoorAsset> doors = ReadDoors(request.doors);
+  const std::vector<DoorAsset> doors = ReadDoors(request.doors, request.selection);
   const std::vector<Trial> trials = PlanTrials(doors, request.config);
   Evaluation evaluation;
   EvaluationReport& report = evaluation.report;

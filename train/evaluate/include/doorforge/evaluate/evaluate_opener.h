@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "doorforge/evaluate/door_folders.h"
 #include "doorforge/evaluate/evaluation_config.h"
 #include "doorforge/evaluate/report.h"
 #include "doorforge/evaluate/report_page.h"
@@ -16,6 +17,7 @@ namespace doorforge {
 struct EvaluationRequest {
   std::filesystem::path policy;    ///< Folder that `doorforge train open` wrote, or "expert".
   std::vector<std::string> doors;  ///< Folders of composed doors, see ReadDoors().
+  DoorSelection selection;         ///< Which of them.
   /// Data set that the policy was trained from; it says which bodies and handles were seen. Empty
   /// only with `allow_seen`, or for the expert.
   std::filesystem::path data;

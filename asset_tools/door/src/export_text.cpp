@@ -8,8 +8,6 @@
 #include <cmath>
 #include <map>
 
-#include "placed_mesh.h"
-
 namespace doorforge::internal {
 
 std::string Decimal(double value) {
@@ -107,13 +105,5 @@ bool HasTwoSides(const VisualMesh& mesh) {
 }
 
 bool Turns(const DoorJoint& joint) { return joint.upper_rad > joint.lower_rad; }
-
-Eigen::AlignedBox3d LeafBounds(const DoorAsset& door) {
-  Eigen::AlignedBox3d bounds;
-  for (const DoorGeometry& geometry : door.links[kLeafLink].geometry) {
-    if (geometry.label != PointLabel::kHandle) bounds.extend(BoundsOf(geometry.mesh));
-  }
-  return bounds;
-}
 
 }  // namespace doorforge::internal

@@ -45,7 +45,4 @@ bool HasTwoSides(const VisualMesh& mesh);
 /// Whether the joint turns; else it is written as a rigid connection.
 bool Turns(const DoorJoint& joint);
 
-/// Box around all visual meshes of the leaf that are not the handle's, in the leaf's frame.
-Eigen::AlignedBox3d LeafBounds(const DoorAsset& door);
-
 }  // namespace doorforge::internal

@@ -129,5 +129,50 @@ TEST(SceneSampling, JitterAndNoiseStayInTheirBoundsAndCanBeSwitchedOff) {
   EXPECT_DOUBLE_EQ(scene.world_from_robot_base.translation().x(), 0.7);
 }
 
+TEST(SceneSampling, ADoorHingedRightStandsAsTheMirrorImage) {
+  for (const Category category : {Category::kInterior, Category::kCar}) {
+    DoorAsset left = MakePrimitiveDoor({});
+    DoorAsset right = MakePrimitiveDoor({.hinge_side = HingeSide::kRight});
+    left.category = right.category = category;
+    const SceneConfig still = WithRandomisation("off");
+    const Scene a = SampleScene(left, 1, 0, still);
+    const Scene b = SampleScene(right, 1, 0, still);
+    const Eigen::Vector3d mirror(1, -1, 1);
+    EXPECT_TRUE(GraspInWorld(b, right).isApprox(mirror.cwiseProduct(GraspInWorld(a, left)), 1e-9));
+    EXPECT_TRUE(b.world_from_robot_base.translation().isApprox(
+        mirror.cwiseProduct(a.world_from_robot_base.translation())));
+  }
+}
+
+TEST(SceneSampling, WhoPushesLeansAwayFromTheJamb) {
+  for (const HingeSide side : {HingeSide::kLeft, HingeSide::kRight}) {
+    const DoorAsset door = MakePrimitiveDoor({.hinge_side = side, .opening = Opening::kPush});
+    const Scene scene = SampleScene(door, 1, 0, WithRandomisation("off"));
+    const RigidTransform grasp = scene.world_from_door * DoorFromLinks(door, 0, 0)[kHandleLink] *
+                                 door.handle_from_grasp * scene.grasp_from_noisy_grasp;
+    // the robot is in front of the handle, the hand behind the grasp nearer to the hinge
+    EXPECT_GT(scene.world_from_robot_base.translation().x(), grasp.translation().x());
+    const double to_hinge = side == HingeSide::kLeft ? -1 : 1;
+    EXPECT_NEAR(-grasp.linear()(1, 2) * to_hinge, std::sin(0.35), 1e-9);
+    EXPECT_NEAR(grasp.linear()(0, 2), -std::cos(0.35), 1e-9);
+  }
+}
+
+TEST(SceneSampling, ADoorThatWouldBePushedFromWithinACupboardIsRefused) {
+  DoorAsset door = MakePrimitiveDoor({.opening = Opening::kPush});
+  EXPECT_NO_THROW(SampleScene(door, 1, 0));
+  DoorGeometry back;
+  back.name = "back";
+  back.mesh = BoxMesh({0.45, -0.1, 0}, {0.47, 0.9, 1.9});
+  back.hulls = {back.mesh};
+  door.links[kBaseLink].geometry.push_back(back);
+  try {
+    SampleScene(door, 1, 0);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("\"back\""), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace doorforge

@@ -194,7 +194,7 @@ int Run(int argc, char** argv) {
   Require(!groups.empty(), ErrorCode::kInvalidArgument, usage);
   for (auto& [kind, collections] : groups) {
     for (auto& [label, group] : collections) {
-      BuildTrees(group.shapes);
+      for (PartShape& shape : group.shapes) BuildTree(shape);
       group.distances = Distances(group.shapes);
       DropCopies(group);
     }

@@ -126,9 +126,8 @@ std::vector<fs::path> PartFolders(const fs::path& root) {
   return parts;
 }
 
-void BuildTrees(std::vector<PartShape>& shapes) {
-  for (PartShape& shape : shapes)
-    shape.tree = std::make_unique<PointTree>(3, std::cref(shape.points));
+void BuildTree(PartShape& shape) {
+  shape.tree = std::make_unique<PointTree>(3, std::cref(shape.points));
 }
 
 double Chamfer(const PartShape& a, const PartShape& b, int stride) {

@@ -25,7 +25,7 @@ struct PartShape {
   std::string id;
   std::vector<std::array<Eigen::Vector3d, 3>> triangles;
   Points points;  ///< kShapePoints of them, spread evenly over the area.
-  /// Over `points` of this object; built by BuildTrees() when the shape lies where it stays.
+  /// Over `points` of this object; built by BuildTree() when the shape lies where it stays.
   std::unique_ptr<PointTree> tree;
 };
 
@@ -35,7 +35,7 @@ PartShape ShapeOf(const Part& part, const std::string& piece_name);
 /// The folders that hold a part.json, sorted.
 std::vector<std::filesystem::path> PartFolders(const std::filesystem::path& root);
 
-void BuildTrees(std::vector<PartShape>& shapes);
+void BuildTree(PartShape& shape);
 
 /// Mean distance from every `stride`-th point to the nearest point of the other, averaged over both
 /// directions. Two independent samples of one shape are about half the mean spacing apart, not 0.

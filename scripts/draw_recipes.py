@@ -26,22 +26,33 @@ Every parameter has a stream of its own, from the recipe's id and the parameter'
 parameter or an entry leaves the other values as they are.
 
 data/families/draws.yaml says which draw of a recipe is taken where it is not the first, 0. They are
-chosen so that parts differ (benchmarks/choose_recipes.cpp):
+chosen so that parts differ and keep to the measured sizes (benchmarks/choose_recipes.cpp):
 
-    scripts/draw_recipes.py --candidates 8 --out build/candidates
-    DOORFORGE_DATA=build/candidates doorforge catalog build --out build/candidates/parts
-    choose_recipes build/candidates/parts
+    scripts/draw_recipes.py --choose build/release/bin/choose_recipes --category window
+
+draws every recipe of a window several times (CANDIDATES below), lets the program choose, and writes
+draws.yaml and the recipes. --role bodies or handles takes only those.
 """
 import argparse
 import hashlib
 import pathlib
+import subprocess
 import sys
+import tempfile
 
 import yaml
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 HEADER = ("# SPDX-FileCopyrightText: 2026 The doorforge authors\n"
           "# SPDX-License-Identifier: CC0-1.0\n")
+DRAWS = ROOT / "data/families/draws.yaml"
+DRAWS_HEADER = HEADER + """
+# Which draw of a recipe is taken where it is not 0; chosen so that parts differ, see
+# scripts/draw_recipes.py.
+"""
+# How many draws --choose makes of a recipe; 8 of all others.
+CANDIDATES = {"car_bodies": 10, "car_handles": 24, "interior_bodies": 6, "refrigerator_bodies": 60,
+              "storagefurniture_bodies": 7, "window_bodies": 30, "window_handles": 14}
 ENTRY_KEYS = {"family", "stem", "count", "first", "kept", "parameters"}
 
 
@@ -91,13 +102,13 @@ def recipes(families_file):
             yield f"{category}/{role}", f"{entry['stem']}_{number:02d}", None if kept else entry
 
 
-def families_files(category):
-    return sorted((ROOT / "data/families").glob(f"{category or '*'}_*.yaml"))
+def families_files(category, role):
+    return sorted((ROOT / "data/families").glob(f"{category or '*'}_{role or '*'}.yaml"))
 
 
-def write_candidates(category, count, out):
+def write_candidates(files, count, out):
     """`count` draws of every recipe, and those written by hand as they are."""
-    for families_file in families_files(category):
+    for families_file in files:
         for folder, recipe_id, entry in recipes(families_file):
             place = out / "catalog" / folder
             place.mkdir(parents=True, exist_ok=True)
@@ -110,24 +121,40 @@ def write_candidates(category, count, out):
                 (place / f"{name}.yaml").write_text(recipe_text(entry, recipe_id, number, name))
 
 
+def choose(program, files, draws):
+    """`draws` with what the program chooses for the recipes of these families."""
+    for families_file in files:
+        with tempfile.TemporaryDirectory() as out:
+            write_candidates([families_file], CANDIDATES.get(families_file.stem, 8), pathlib.Path(out))
+            chosen = subprocess.run([program, out], check=True, stdout=subprocess.PIPE, text=True).stdout
+        draws.update(yaml.safe_load(chosen) or {})
+    draws = {recipe_id: number for recipe_id, number in sorted(draws.items()) if number}
+    DRAWS.write_text(DRAWS_HEADER + "".join(f"{i}: {number}\n" for i, number in draws.items()))
+    return draws
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     mode = parser.add_mutually_exclusive_group()
     mode.add_argument("--redraw", action="store_true")
     mode.add_argument("--check", action="store_true")
     mode.add_argument("--candidates", type=int, metavar="N")
+    mode.add_argument("--choose", metavar="PROGRAM", help="choose_recipes, as built")
     parser.add_argument("--category", help="only this one, such as window")
+    parser.add_argument("--role", choices=("bodies", "handles"))
     parser.add_argument("--out", type=pathlib.Path, help="folder for the candidates")
     args = parser.parse_args()
+    files = families_files(args.category, args.role)
     if args.candidates:
         if args.out is None:
             parser.error("--candidates needs --out")
-        write_candidates(args.category, args.candidates, args.out)
+        write_candidates(files, args.candidates, args.out)
         return 0
-    draws_file = ROOT / "data/families/draws.yaml"
-    draws = yaml.safe_load(draws_file.read_text()) or {}
+    draws = yaml.safe_load(DRAWS.read_text()) or {}
+    if args.choose:
+        draws = choose(args.choose, files, draws)
     problems = written = total = 0
-    for families_file in families_files(args.category):
+    for families_file in files:
         for folder, recipe_id, entry in recipes(families_file):
             total += 1
             path = ROOT / "data/catalog" / folder / f"{recipe_id}.yaml"
@@ -140,7 +167,7 @@ def main():
             elif args.check:
                 print(f"{path}: {'missing' if there is None else 'differs from what is drawn'}", file=sys.stderr)
                 problems += 1
-            elif there is None or args.redraw:
+            elif there is None or args.redraw or args.choose:
                 path.parent.mkdir(parents=True, exist_ok=True)
                 path.write_text(text)
                 written += 1

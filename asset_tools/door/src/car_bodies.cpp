@@ -14,12 +14,14 @@ constexpr double kMountBelowBeltM = 0.1;  // where the skin is nearly upright
 struct CarBody {
   CarLeafShape leaf;
   double mount_to_edge_m = 0.24;  ///< From the handle's axis to the free edge; it points there.
+  double leaf_mass_kg = 0;        ///< Sheets around what the volume does not tell; 0: by volume.
   std::string finish = "paint_silver";
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
     visit("leaf", self.leaf);
     visit("mount_to_edge_m", self.mount_to_edge_m);
+    visit("leaf_mass_kg", self.leaf_mass_kg);
     visit("finish", self.finish);
   }
 };
@@ -38,7 +40,13 @@ void AddLeaf(const CarBody& body, const std::string& path, Part& part) {
   CheckCarLeaf(body.leaf, path + ".leaf");
   RequireRange(path, "mount_to_edge_m", body.mount_to_edge_m, kHandleM + 0.02, 0.32);
   part.joint = BodyHinge(HingeEdgeX(body.leaf));
-  part.pieces.push_back(MakePiece("leaf", CarLeafSolid(body.leaf), body.finish, path + ".finish"));
+  PartPiece leaf = MakePiece("leaf", CarLeafSolid(body.leaf), body.finish, path + ".finish");
+  if (body.leaf_mass_kg > 0) {
+    RequireRange(path, "leaf_mass_kg", body.leaf_mass_kg, 8, 25);
+    leaf.mass.inertia_kg_m2 *= body.leaf_mass_kg / leaf.mass.mass_kg;
+    leaf.mass.mass_kg = body.leaf_mass_kg;
+  }
+  part.pieces.push_back(std::move(leaf));
   const double z = body.leaf.belt_m - kMountBelowBeltM;
   part.part_from_mount =
       Translation({SkinX(body.leaf, z), body.leaf.length_m - body.mount_to_edge_m, z});

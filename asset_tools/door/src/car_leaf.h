@@ -25,6 +25,11 @@ struct CarLeafShape {
   double thickness_m = 0.075;   ///< Below the belt line.
   double frame_width_m = 0.06;  ///< Of the window frame.
   double quarter_m = 0;         ///< Not 0: length of a small light in front, behind a bar.
+  bool blind = false;           ///< No window in the frame: the side of a panel van.
+  double mirror_m = 0;          ///< Not 0: height of the mirror's housing in front of the window.
+  double mirror_reach_m = 0.2;  ///< How far it stands out.
+  double armrest_m = 0;         ///< Not 0: how far an armrest stands out inside.
+  double pocket_m = 0;          ///< The same of a pocket below it.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -42,6 +47,11 @@ struct CarLeafShape {
     visit("thickness_m", self.thickness_m);
     visit("frame_width_m", self.frame_width_m);
     visit("quarter_m", self.quarter_m);
+    visit("blind", self.blind);
+    visit("mirror_m", self.mirror_m);
+    visit("mirror_reach_m", self.mirror_reach_m);
+    visit("armrest_m", self.armrest_m);
+    visit("pocket_m", self.pocket_m);
   }
 };
 

@@ -155,7 +155,7 @@ void Check(const WindowBody& body, const std::string& path) {
   RequireRange(path + ".frame", "width_m", frame.width_m, 0.03, 0.12);
   RequireRange(path + ".frame", "depth_m", frame.depth_m, body.thickness_m + 0.02, 0.15);
   RequireRange(path + ".frame", "front_m", frame.front_m, -0.02, 0.012);
-  RequireRange(path + ".frame", "casing_m", frame.casing_m, 0, 0.12);
+  RequireRange(path + ".frame", "casing_m", frame.casing_m, 0, 0.32);
   RequireRange(path + ".frame", "sill_m", frame.sill_m, 0, 0.08);
   for (const FixedLight* light : {&body.above, &body.below, &body.beside}) {
     if (light->size_m != 0) RequireRange(path, "size_m of a light", light->size_m, 0.16, 0.8);

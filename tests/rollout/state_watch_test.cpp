@@ -116,7 +116,7 @@ void PlaceBeyondLimit(HeldDoor& held) {
   WorldState state = held.world.state();
   const auto arm = held.robot.joints().size() - 2;
   const auto joint = static_cast<std::size_t>(held.rng.Index(arm + 2));
-  const double beyond = LogUniform(0.4, 3, held.rng);
+  const double beyond = LogUniform(0.6, 3, held.rng);
   if (joint < arm) {
     state.robot_position[static_cast<Eigen::Index>(joint)] =
         held.robot.joints()[joint].upper + beyond;

@@ -42,7 +42,7 @@ struct WatchedJoint {
 
 /// Where a plausible state ends; docs/design/simulation.md has what good episodes come to.
 struct StateWatchLimits {
-  double beyond_limit_rad = 0.3;
+  double beyond_limit_rad = 0.5;
   double beyond_limit_m = 0.02;
   double penetration_m = 0.04;  ///< Deeper than where the world began.
   double energy_j = 4;

@@ -132,7 +132,9 @@ TEST(ConvexParts, CoverASliverThatFloatsBesideTheRest) {
     EXPECT_LE(parts.size(), static_cast<std::size_t>(max_parts));
     const ConvexPartsFit fit = MeasureConvexParts(lever, parts);
     EXPECT_LE(fit.uncovered_m, 0.001);
-    if (max_parts == 32) EXPECT_LE(fit.protrusion_m, 0.002);
+    if (max_parts == 32) {
+      EXPECT_LE(fit.protrusion_m, 0.002);
+    }
     // twice its volume is the area of a plate times its thickness
     for (const TriangleMesh& part : parts) {
       const MeshTopology topology = MeasureTopology(part);

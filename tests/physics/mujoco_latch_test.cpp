@@ -15,6 +15,7 @@
 
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
+#include <unistd.h>
 
 #include "doorforge/door/export_door.h"
 #include "doorforge/door/export_urdf.h"
@@ -261,7 +262,9 @@ class Trial {
 /// A door and its exported files.
 struct ExportedDoor {
   explicit ExportedDoor(DoorAsset asset)
-      : door(std::move(asset)), folder(fs::path(testing::TempDir()) / "latch_hardware") {
+      : door(std::move(asset)),
+        // tests of this program run side by side
+        folder(fs::path(testing::TempDir()) / ("latch_hardware_" + std::to_string(::getpid()))) {
     const std::array formats = {DoorFormat::kMjcf};
     WriteExportedDoor(door, formats, folder, Existing::kReplace);
   }

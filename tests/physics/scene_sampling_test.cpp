@@ -158,6 +158,38 @@ TEST(SceneSampling, WhoPushesLeansAwayFromTheJamb) {
   }
 }
 
+TEST(SceneSampling, TheCameraIsTheConfigs) {
+  const DoorAsset door = MakePrimitiveDoor({});
+  const CameraModel paper = SampleScene(door, 1, 0).camera;
+  EXPECT_TRUE(paper.position_m.isApprox(CameraModel().position_m));
+  EXPECT_TRUE(paper.target_m.isApprox(CameraModel().target_m));
+  SceneConfig config;
+  config.camera = {{1, -0.5, 1.2}, {0, 0.2, 1}, 640, 480, 1.2};
+  const CameraModel own = SampleScene(door, 1, 0, config).camera;
+  EXPECT_EQ(own.position_m, Eigen::Vector3d(1, -0.5, 1.2));
+  EXPECT_EQ(own.target_m, Eigen::Vector3d(0, 0.2, 1));
+  EXPECT_EQ(own.width, 640);
+  EXPECT_EQ(own.height, 480);
+  EXPECT_EQ(own.horizontal_fov_rad, 1.2);
+}
+
+TEST(SceneSampling, ACameraThatCannotBeIsRefused) {
+  const CameraConfig faulty[] = {{.position_m = {1, 2}},
+                                 {.target_m = {}},
+                                 {.position_m = {1, 0, 2}, .target_m = {1, 0, 1}},
+                                 {.width = 0},
+                                 {.horizontal_fov_rad = 3.2}};
+  for (const CameraConfig& config : faulty) {
+    try {
+      CameraOf(config);
+      FAIL();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kInvalidConfig);
+      EXPECT_NE(std::string(error.what()).find("scene.camera."), std::string::npos);
+    }
+  }
+}
+
 TEST(SceneSampling, ADoorThatWouldBePushedFromWithinACupboardIsRefused) {
   DoorAsset door = MakePrimitiveDoor({.opening = Opening::kPush});
   EXPECT_NO_THROW(SampleScene(door, 1, 0));

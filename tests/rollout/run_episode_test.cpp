@@ -164,6 +164,7 @@ TEST_F(RunEpisodeTest, AHandTornOffTheHandleLosesItsGrip) {
 TEST_F(RunEpisodeTest, ProprioceptionIsNormalisedAndInTheWorld) {
   WorldState state;
   state.robot_position = robot_.InitialPosition();
+  state.robot_velocity = JointVector::Zero(robot_.joint_count());
   state.robot_velocity[4] = 0.5;
   const RigidTransform base = FromXyzRpy({0.7, 0.1, 0.1}, {0, 0, std::numbers::pi});
   const Proprioception numbers = ProprioceptionOf(robot_, state, base);

@@ -171,7 +171,35 @@ double PaperShare(const SceneConfig& config) {
                                              "\", allowed off, paper, strong");
 }
 
+Eigen::Vector3d PointOf(const std::vector<double>& numbers, const std::string& name) {
+  if (numbers.size() != 3)
+    throw Error(ErrorCode::kInvalidConfig,
+                "config.scene.camera." + name + ": found " + std::to_string(numbers.size()) +
+                    " numbers, expected the 3 of a point, such as [1.8, 0, 1.8]");
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+void RequireCamera(bool good, const std::string& problem) {
+  if (!good) throw Error(ErrorCode::kInvalidConfig, "config.scene.camera." + problem);
+}
+
 }  // namespace
+
+CameraModel CameraOf(const CameraConfig& config) {
+  CameraModel camera;
+  camera.position_m = PointOf(config.position_m, "position_m");
+  camera.target_m = PointOf(config.target_m, "target_m");
+  camera.width = config.width;
+  camera.height = config.height;
+  camera.horizontal_fov_rad = config.horizontal_fov_rad;
+  const Eigen::Vector3d view = camera.target_m - camera.position_m;
+  RequireCamera(view.head<2>().norm() > 1e-3,
+                "target_m: lies at, above or below position_m; let the camera look aside");
+  RequireCamera(config.width > 0 && config.height > 0, "width, height: must be positive");
+  RequireCamera(config.horizontal_fov_rad > 0 && config.horizontal_fov_rad < std::numbers::pi,
+                "horizontal_fov_rad: must lie in (0, pi)");
+  return camera;
+}
 
 Scene SampleScene(const DoorAsset& door, std::uint64_t seed, std::uint64_t episode,
                   const SceneConfig& config) {
@@ -194,6 +222,7 @@ Scene SampleScene(const DoorAsset& door, std::uint64_t seed, std::uint64_t episo
   if (door.opening == Opening::kPush)
     scene.grasp_from_noisy_grasp = scene.grasp_from_noisy_grasp * ClearOfTheJamb(door);
   scene.physics = config.physics;
+  scene.camera = CameraOf(config.camera);
   if (config.randomisation != "strong") return scene;
   VaryLatch(scene.latch, Rng(seed, stream + "latch"));
   VaryDoor(scene, Rng(seed, stream + "door"));

@@ -16,6 +16,9 @@ Proprioception ProprioceptionOf(const RobotModel& robot, const WorldState& state
               std::to_string(robot.joint_count()) +
               " moving joints; policies and their data know two sliders (or a fixed base), seven "
               "arm joints and two fingers; let the expert run with `doorforge simulate`");
+  Require(state.robot_position.size() == robot.joint_count() &&
+              state.robot_velocity.size() == robot.joint_count(),
+          ErrorCode::kInvalidArgument, "proprioception: the state is of another robot");
   Proprioception result{};
   std::size_t at = 0;
   const auto put = [&](double number) { result.at(at++) = static_cast<float>(number); };

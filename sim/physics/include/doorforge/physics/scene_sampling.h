@@ -4,14 +4,38 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "doorforge/schemas/door_asset.h"
 #include "doorforge/schemas/scene.h"
 
 namespace doorforge {
 
+/// Where the camera stands in the world. The default is UniDoorManip's.
+struct CameraConfig {
+  std::vector<double> position_m = {1.8, 0, 1.8};
+  std::vector<double> target_m = {0.01, 0, 1.5};  ///< Point in the middle of the image.
+  int width = 256;
+  int height = 256;
+  double horizontal_fov_rad = 1.5707963267948966;
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    visit("position_m", self.position_m);
+    visit("target_m", self.target_m);
+    visit("width", self.width);
+    visit("height", self.height);
+    visit("horizontal_fov_rad", self.horizontal_fov_rad);
+  }
+};
+
+/// Throws Error(kInvalidConfig) unless position and target are two different points of three
+/// numbers, neither above the other, the image has a size, and the view is within (0, pi) wide.
+CameraModel CameraOf(const CameraConfig& config);
+
 struct SceneConfig {
   PhysicsConfig physics;
+  CameraConfig camera;
   /// URDF of the robot; empty: the built-in one. Programs load it by LoadRobot(); SampleScene()
   /// does not look at it.
   std::string robot = {};
@@ -26,6 +50,7 @@ struct SceneConfig {
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
     visit("physics", self.physics);
+    visit("camera", self.camera);
     visit("robot", self.robot);
     visit("randomisation", self.randomisation);
     visit("base_jitter", self.base_jitter);
@@ -47,8 +72,8 @@ struct SceneConfig {
 /// robot on the handle's side, and the grasp of whoever pushes leans 20 degrees away from the jamb
 /// and, on a knob, is rolled back by half its turn. Throws as RequireSimulatable();
 /// Error(kInvalidArgument) where the frame of a pushed door stands between robot and handle, as the
-/// back of a cupboard does; Error(kInvalidConfig) on an unknown randomisation. A stronger
-/// randomisation leaves the draws of a weaker one as they are.
+/// back of a cupboard does; Error(kInvalidConfig) on an unknown randomisation and as CameraOf(). A
+/// stronger randomisation leaves the draws of a weaker one as they are.
 Scene SampleScene(const DoorAsset& door, std::uint64_t seed, std::uint64_t episode,
                   const SceneConfig& config = {});
 

@@ -17,7 +17,7 @@ namespace doorforge {
 bool HasProprioception(const RobotModel& robot);
 
 /// UniDoorManip's 32 numbers, see Proprioception in policy.h. The base is the sliders' fixed root.
-/// Throws Error(kInvalidArgument) for a robot without.
+/// Throws Error(kInvalidArgument) for a robot without, and for a state of another robot.
 Proprioception ProprioceptionOf(const RobotModel& robot, const WorldState& state,
                                 const RigidTransform& world_from_base);
 

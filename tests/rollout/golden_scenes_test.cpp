@@ -30,9 +30,11 @@ using Json = nlohmann::ordered_json;
 const std::filesystem::path kFile =
     std::filesystem::path(DOORFORGE_SOURCE_DIR) / "tests/golden/scene_states.json";
 
-// Compiler and mathematics library; another pair may round otherwise.
+// Compiler and mathematics library, which has sines of its own for processors with fused
+// multiplication; others may round otherwise.
 std::string Toolchain() {
-  return std::string("GCC ") + __VERSION__ + ", glibc " + gnu_get_libc_version();
+  const char* fused = __builtin_cpu_supports("fma") ? ", FMA" : "";
+  return std::string("GCC ") + __VERSION__ + ", glibc " + gnu_get_libc_version() + fused;
 }
 
 struct GoldenScene {

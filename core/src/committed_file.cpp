@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/core/committed_file.h"
 
+#include <array>
 #include <atomic>
 #include <cerrno>
+#include <charconv>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <optional>
+#include <vector>
 
 #include <fcntl.h>
 #include <signal.h>
@@ -28,11 +32,33 @@ fs::path FolderOf(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-// unique within the machine: the process id, then a count within the process
+std::string HostName() {
+  std::array<char, 256> name{};
+  if (::gethostname(name.data(), name.size() - 1) != 0) return "unknown";
+  return name.data();
+}
+
+// unique among machines: the process id, a count within the process, the machine's name
 fs::path TemporaryBeside(const fs::path& path) {
   static std::atomic<int> count{0};
   return FolderOf(path) / ("." + path.filename().string() + ".tmp-" + std::to_string(::getpid()) +
-                           "-" + std::to_string(count++));
+                           "-" + std::to_string(count++) + "-" + HostName());
+}
+
+// The process of this machine that made a name such as TemporaryBeside()'s, if it is one.
+std::optional<pid_t> WriterOf(const std::string& name) {
+  const std::size_t at = name.rfind(".tmp-");
+  if (!name.starts_with('.') || at == std::string::npos) return std::nullopt;
+  const char* const end = name.data() + name.size();
+  pid_t process = 0;
+  const auto [after_process, error] = std::from_chars(name.data() + at + 5, end, process);
+  if (error != std::errc{} || process <= 0 || after_process == end || *after_process != '-')
+    return std::nullopt;
+  int count = 0;
+  const auto [after_count, count_error] = std::from_chars(after_process + 1, end, count);
+  if (count_error != std::errc{} || std::string(after_count, end) != "-" + HostName())
+    return std::nullopt;
+  return process;
 }
 
 void SyncFolder(const fs::path& folder) {
@@ -42,15 +68,6 @@ void SyncFolder(const fs::path& folder) {
   ::close(fd);
 }
 
-void WriteAll(int fd, std::string_view content, const fs::path& path) {
-  while (!content.empty()) {
-    const ssize_t written = ::write(fd, content.data(), content.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) ThrowIo(path, "write failed");
-    content.remove_prefix(static_cast<std::size_t>(written));
-  }
-}
-
 void CreateFolder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -58,10 +75,22 @@ void CreateFolder(const fs::path& folder) {
     throw Error(ErrorCode::kIo, folder.string() + ": cannot be created: " + error.message());
 }
 
+[[noreturn]] void ThrowExists(const fs::path& path) {
+  throw Error(ErrorCode::kInvalidArgument,
+              path.string() + ": already exists; pass --overwrite to replace it");
+}
+
 void RefuseExisting(const fs::path& path) {
-  if (fs::exists(fs::symlink_status(path)))
-    throw Error(ErrorCode::kInvalidArgument,
-                path.string() + ": already exists; pass --overwrite to replace it");
+  if (fs::exists(fs::symlink_status(path))) ThrowExists(path);
+}
+
+// For what is in the way of nothing.
+void RemoveQuietly(FileSystem& files, const fs::path& path) {
+  try {
+    files.Remove(path);
+  } catch (...) {
+    return;
+  }
 }
 
 void RenameOnto(const fs::path& from, const fs::path& to, Existing existing) {
@@ -89,21 +118,41 @@ std::string ReadFile(const fs::path& path, std::uint64_t max_bytes) {
 }
 
 void CommitFile(const fs::path& path, std::string_view content, Existing existing) {
-  CreateFolder(FolderOf(path));
+  CommitFile(SystemFiles(), path, content, existing);
+}
+
+void CommitFile(FileSystem& files, const fs::path& path, std::string_view content,
+                Existing existing) {
+  files.CreateFolder(FolderOf(path));
   if (existing == Existing::kRefuse) RefuseExisting(path);
   const fs::path temporary = TemporaryBeside(path);
-  const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (fd < 0) ThrowIo(temporary, "cannot be created");
+  const int file = files.Create(temporary);
+  bool is_open = true;
   try {
-    WriteAll(fd, content, temporary);
-    if (::fsync(fd) != 0) ThrowIo(temporary, "fsync failed");
-    ::close(fd);
-    RenameOnto(temporary, path, existing);
+    WriteAll(files, file, content, temporary);
+    files.Sync(file, temporary);
+    files.Close(file);
+    is_open = false;
+    if (existing == Existing::kReplace)
+      files.Rename(temporary, path);
+    else if (!files.RenameToNew(temporary, path))
+      ThrowExists(path);
   } catch (...) {
-    ::unlink(temporary.c_str());
+    if (is_open) files.Close(file);
+    RemoveQuietly(files, temporary);
     throw;
   }
-  SyncFolder(FolderOf(path));
+  files.SyncFolder(FolderOf(path));
+}
+
+void RemoveStaleFiles(FileSystem& files, const fs::path& folder) {
+  std::vector<fs::path> stale;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::optional<pid_t> process = WriterOf(entry.path().filename().string());
+    if (process && entry.is_regular_file() && ::kill(*process, 0) != 0 && errno == ESRCH)
+      stale.push_back(entry.path());
+  }
+  for (const fs::path& path : stale) files.Remove(path);
 }
 
 StagedFolder::StagedFolder(fs::path target, Existing existing)
@@ -190,7 +239,7 @@ void WriteStaged(const fs::path& path, std::string_view content) {
   const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
   if (fd < 0) ThrowIo(path, "cannot be created");
   try {
-    WriteAll(fd, content, path);
+    WriteAll(SystemFiles(), fd, content, path);
   } catch (...) {
     ::close(fd);
     throw;

@@ -3,24 +3,18 @@
 #include "doorforge/datagen/collect.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <charconv>
 #include <cstdio>
 #include <memory>
 #include <optional>
-#include <set>
-#include <sstream>
 #include <utility>
-
-#include <signal.h>
 
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
-#include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
 
+#include "dataset_records.h"
 #include "ordered_work.h"
 
 namespace doorforge {
@@ -49,33 +43,6 @@ fs::path IndexPath(const CollectRequest& request, const PlannedShard& shard) {
   return PartFolder(request, shard) / (ShardStem(shard.number) + ".index.json");
 }
 
-// The first line in which two texts differ, for a message.
-std::string FirstDifference(const std::string& there, const std::string& here) {
-  std::istringstream a(there);
-  std::istringstream b(here);
-  std::string line_a;
-  std::string line_b;
-  while (line_a == line_b && (a || b)) {
-    if (!std::getline(a, line_a)) line_a = "(end)";
-    if (!std::getline(b, line_b)) line_b = "(end)";
-  }
-  return "there: " + line_a + "\nnow:   " + line_b;
-}
-
-void CommitConfig(const CollectRequest& request) {
-  const fs::path path = request.folder / "config.yaml";
-  if (fs::exists(path)) {
-    const std::string there = ReadFile(path);
-    if (there == request.config_text) return;
-    throw Error(ErrorCode::kInvalidArgument,
-                path.string() +
-                    ": the folder holds episodes of another config; give the same "
-                    "settings to go on, or another --out\n" +
-                    FirstDifference(there, request.config_text));
-  }
-  CommitFile(path, request.config_text, Existing::kRefuse);
-}
-
 FailedEpisode FailureOf(const PlannedEpisode& planned, const DatasetDoor& door,
                         const Episode& episode) {
   return {planned.key,
@@ -84,6 +51,12 @@ FailedEpisode FailureOf(const PlannedEpisode& planned, const DatasetDoor& door,
           episode.detail,
           episode.peak_hinge_rad,
           episode.peak_handle_rad};
+}
+
+// Whether trying again later may end differently.
+bool IsOfEnvironment(const Error& error) {
+  return error.code() == ErrorCode::kMissing || error.code() == ErrorCode::kIo ||
+         error.code() == ErrorCode::kFormat;
 }
 
 EncodedEpisode Encode(const PlannedEpisode& planned, const DatasetDoor& door,
@@ -98,6 +71,7 @@ EncodedEpisode Encode(const PlannedEpisode& planned, const DatasetDoor& door,
       encoded.failure = FailureOf(planned, door, collected.episode);
     }
   } catch (const Error& error) {
+    if (IsOfEnvironment(error)) throw;
     encoded.failure = FailedEpisode{planned.key, door.id, "error", error.what(), 0, 0};
   }
   return encoded;
@@ -145,17 +119,23 @@ class Collection {
         request_(request),
         config_sha256_(Sha256Hex(request.config_text)) {}
 
-  // Returns the number of shards that were there already.
-  std::uint64_t FindPending() {
-    std::uint64_t kept = 0;
-    for (std::size_t i = 0; i < plan_.shards.size(); ++i) {
-      if (IsCommitted(plan_.shards[i])) {
-        ++kept;
+  // Finds what is there already and what is to do. Shards whose last episode is there are
+  // committed.
+  void FindPending(CollectSummary& summary) {
+    const auto count = static_cast<std::size_t>(request_.task.count);
+    for (auto i = static_cast<std::size_t>(request_.task.number); i < plan_.shards.size();
+         i += count) {
+      const PlannedShard& shard = plan_.shards[i];
+      ++summary.shards;
+      if (IsCommitted(shard)) {
+        ++summary.kept_shards;
+        RemoveShardLeftovers(*request_.files, PartFolder(request_, shard), shard.number);
         continue;
       }
-      for (std::size_t k = 0; k < plan_.shards[i].episodes.size(); ++k) pending_.push_back({i, k});
+      const std::size_t begun = FindBegun(shard);
+      summary.kept_episodes += begun;
+      for (std::size_t k = begun; k < shard.episodes.size(); ++k) pending_.push_back({i, k});
     }
-    return kept;
   }
 
   // False if a signal asked to stop.
@@ -172,7 +152,7 @@ class Collection {
         },
         [] { return StopRequested() != 0; });
     const std::size_t done = work.Run(pending_.size(), request_.threads);
-    writer_.reset();  // a shard that is not complete leaves nothing behind
+    writer_.reset();
     return done == pending_.size();
   }
 
@@ -185,15 +165,46 @@ class Collection {
                 path.string() + ": written with another config; remove it, or use another --out");
   }
 
+  // Number of episodes that an unfinished shard holds.
+  std::size_t FindBegun(const PlannedShard& shard) {
+    if (!HasShardLeftovers(PartFolder(request_, shard), shard.number)) return 0;
+    const std::unique_ptr<ShardWriter> writer = Open(shard);
+    const std::size_t begun = writer->keys().size();
+    if (begun == shard.episodes.size()) writer->Commit();
+    return begun;
+  }
+
+  // Goes on with a shard.
+  std::unique_ptr<ShardWriter> Open(const PlannedShard& shard) const {
+    const fs::path folder = PartFolder(request_, shard);
+    auto writer = std::make_unique<ShardWriter>(
+        folder, ShardHeader{shard.number, request_.stage, shard.split, config_sha256_},
+        Unfinished::kKeep, *request_.files);
+    const std::vector<std::string>& keys = writer->keys();
+    const bool is_prefix =
+        keys.size() <= shard.episodes.size() &&
+        std::equal(keys.begin(), keys.end(), shard.episodes.begin(),
+                   [](const std::string& key, const PlannedEpisode& e) { return key == e.key; });
+    if (!is_prefix)
+      throw Error(ErrorCode::kInvalidArgument,
+                  (folder / ("." + ShardStem(shard.number) + ".journal")).string() +
+                      ": holds other episodes than planned; remove it and the .partial beside it");
+    return writer;
+  }
+
   const PlannedEpisode& EpisodeAt(const Slot& slot) const {
     return plan_.shards[slot.shard].episodes[slot.episode];
   }
 
   void Write(const Slot& slot, EncodedEpisode encoded) {
     const PlannedShard& shard = plan_.shards[slot.shard];
-    if (slot.episode == 0) {
-      const ShardHeader header{shard.number, request_.stage, shard.split, config_sha256_};
-      writer_ = std::make_unique<ShardWriter>(PartFolder(request_, shard), header);
+    if (!writer_) {
+      writer_ = Open(shard);
+      if (writer_->keys().size() != slot.episode)
+        throw Error(ErrorCode::kInvalidArgument,
+                    PartFolder(request_, shard).string() +
+                        ": another process has written here in the meantime; give the same "
+                        "command again");
     }
     if (encoded.failure) {
       writer_->AddFailure(std::move(*encoded.failure));
@@ -215,9 +226,11 @@ class Collection {
   RunningTally tally_;
 };
 
-CollectSummary SummaryOf(const CollectionPlan& plan, const CollectRequest& request) {
-  CollectSummary summary;
-  for (const PlannedShard& shard : plan.shards) {
+void CountShards(const CollectionPlan& plan, const CollectRequest& request,
+                 CollectSummary& summary) {
+  const auto count = static_cast<std::size_t>(request.task.count);
+  for (auto i = static_cast<std::size_t>(request.task.number); i < plan.shards.size(); i += count) {
+    const PlannedShard& shard = plan.shards[i];
     summary.planned += shard.episodes.size();
     const fs::path path = IndexPath(request, shard);
     if (!fs::exists(path)) continue;
@@ -226,57 +239,15 @@ CollectSummary SummaryOf(const CollectionPlan& plan, const CollectRequest& reque
     summary.bytes += index.tar_bytes;
     for (const FailedEpisode& failure : index.failures) ++summary.failures[failure.outcome];
   }
-  return summary;
 }
 
-std::string FailureLines(const CollectionPlan& plan, const CollectRequest& request) {
-  std::string lines;
-  for (const PlannedShard& shard : plan.shards) {
-    const DatasetPart part{request.stage, shard.split, 0, 0, 0, 0, 0};
-    for (const FailedEpisode& failure : ReadShardIndex(IndexPath(request, shard)).failures)
-      lines += FailureLine(failure, part) + "\n";
-  }
-  return lines;
-}
-
-// Ids of the doors on one side, sorted, one a line.
-std::string SplitLines(const CollectionPlan& plan, const DatasetProvenance& provenance,
-                       DoorSide side) {
-  std::set<std::string> ids;
-  for (std::size_t i = 0; i < plan.sides.size(); ++i) {
-    if (plan.sides[i] == side) ids.insert(provenance.doors.at(i).id);
-  }
-  std::string lines;
-  for (const std::string& id : ids) lines += id + "\n";
-  return lines;
-}
-
-void WriteRecords(const CollectionPlan& plan, const CollectRequest& request) {
+DatasetProvenance ProvenanceOf(const CollectionPlan& plan, const CollectRequest& request) {
   DatasetProvenance provenance = request.provenance;
   provenance.config_sha256 = Sha256Hex(request.config_text);
+  provenance.planned = PlannedParts(plan, request.stage);
   for (std::size_t i = 0; i < plan.sides.size(); ++i)
     provenance.doors.at(i).split = SplitNameOf(plan.sides[i]);
-  const DatasetRecord record = SummarizeShards(request.folder);
-  for (const DoorSide side : {DoorSide::kTrain, DoorSide::kVal})
-    CommitFile(request.folder / "splits" / (std::string(SplitNameOf(side)) + ".txt"),
-               SplitLines(plan, provenance, side));
-  CommitFile(request.folder / "failures.jsonl", FailureLines(plan, request));
-  WriteJsonFile(request.folder / "provenance.json", ProvenanceToJson(provenance));
-  CommitFile(request.folder / "README.md", DatasetCard(record, provenance));
-  // last: its presence says that the dataset is complete
-  WriteJsonFile(request.folder / "dataset.json", DatasetToJson(record));
-}
-
-// The process id in ".name.tmp-<pid>-<count>", if the name is such.
-std::optional<pid_t> WriterOf(const std::string& name) {
-  const std::size_t at = name.rfind(".tmp-");
-  if (!name.starts_with('.') || at == std::string::npos) return std::nullopt;
-  pid_t process = 0;
-  const char* begin = name.data() + at + 5;
-  const auto [end, error] = std::from_chars(begin, name.data() + name.size(), process);
-  if (error != std::errc{} || process <= 0 || end == name.data() + name.size() || *end != '-')
-    return std::nullopt;
-  return process;
+  return provenance;
 }
 
 }  // namespace
@@ -285,26 +256,30 @@ CollectSummary Collect(const CollectionPlan& plan, const EpisodeRunner& runner,
                        const CollectRequest& request) {
   Require(request.provenance.doors.size() == plan.sides.size(), ErrorCode::kInvalidArgument,
           "collect: plan and provenance name different doors");
-  CommitConfig(request);
-  RemoveStaleFiles(request.folder);
+  Require(request.task.count >= 1 && request.task.number >= 0 &&
+              request.task.number < request.task.count,
+          ErrorCode::kInvalidArgument, "collect: no such task");
+  BeginDataset(*request.files, request.folder, request.config_text, ProvenanceOf(plan, request));
+  RemoveStaleFiles(*request.files, request.folder);
+  CollectSummary summary;
   Collection collection(plan, runner, request);
-  const std::uint64_t kept = collection.FindPending();
+  collection.FindPending(summary);
   const bool is_complete = collection.Run();
-  if (is_complete) WriteRecords(plan, request);
-  CollectSummary summary = SummaryOf(plan, request);
-  summary.kept_shards = kept;
+  if (is_complete && request.task.count == 1) FinishDataset(*request.files, request.folder);
+  CountShards(plan, request, summary);
   summary.stopped_by_signal = is_complete ? 0 : StopRequested();
   return summary;
 }
 
-void RemoveStaleFiles(const fs::path& folder) {
-  std::vector<fs::path> stale;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    const std::optional<pid_t> process = WriterOf(entry.path().filename().string());
-    if (process && entry.is_regular_file() && ::kill(*process, 0) != 0 && errno == ESRCH)
-      stale.push_back(entry.path());
+std::vector<PlannedPart> PlannedParts(const CollectionPlan& plan, const std::string& stage) {
+  std::vector<PlannedPart> parts;
+  for (const PlannedShard& shard : plan.shards) {
+    if (parts.empty() || parts.back().split != shard.split)
+      parts.push_back({stage, shard.split, 0, 0, shard.episodes.size()});
+    ++parts.back().shards;
+    parts.back().episodes += shard.episodes.size();
   }
-  for (const fs::path& path : stale) fs::remove(path);
+  return parts;
 }
 
 }  // namespace doorforge

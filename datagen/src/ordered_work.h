@@ -25,7 +25,8 @@ class OrderedWork {
  public:
   using Produce = std::function<Item(std::size_t)>;
   using Consume = std::function<void(std::size_t, Item)>;
-  /// Polled before each item; true ends the work without an exception.
+  /// Polled before each item; true ends the work without an exception once the items that were
+  /// begun are handed on.
   using Stop = std::function<bool()>;
 
   OrderedWork(Produce produce, Consume consume, Stop stop)
@@ -52,7 +53,11 @@ class OrderedWork {
     while (true) {
       changed_.wait(lock, [this] { return done_ || next_ < consumed_ + ahead_; });
       if (done_ || next_ >= count_) return;
-      if (stop_()) return Finish();
+      if (stop_()) {
+        count_ = next_;
+        changed_.notify_all();
+        return;
+      }
       const std::size_t index = next_++;
       lock.unlock();
       try {

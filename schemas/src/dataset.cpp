@@ -254,11 +254,41 @@ DatasetRecord ReadDataset(const fs::path& folder) {
   return DatasetFromJson(ReadJsonFile(path), path.string());
 }
 
+namespace {
+
+Json PlannedToJson(const PlannedPart& part) {
+  return {{"stage", part.stage},
+          {"split", part.split},
+          {"shards", part.shards},
+          {"episodes", part.episodes},
+          {"episodes_per_shard", part.episodes_per_shard}};
+}
+
+PlannedPart PlannedFromJson(const Json& json, const std::string& path) {
+  PlannedPart part;
+  part.stage = ValueOf<std::string>(json, "stage", path);
+  part.split = ValueOf<std::string>(json, "split", path);
+  part.shards = ValueOf<std::uint64_t>(json, "shards", path);
+  part.episodes = ValueOf<std::uint64_t>(json, "episodes", path);
+  part.episodes_per_shard = ValueOf<std::uint64_t>(json, "episodes_per_shard", path);
+  if (part.shards > 1000000 || part.episodes_per_shard < 1 ||
+      part.episodes > part.shards * part.episodes_per_shard ||
+      (part.shards > 0 && part.episodes <= (part.shards - 1) * part.episodes_per_shard))
+    throw Error(ErrorCode::kFormat, path + ": " + std::to_string(part.episodes) +
+                                        " episodes do not make " + std::to_string(part.shards) +
+                                        " shards");
+  return part;
+}
+
+}  // namespace
+
 Json ProvenanceToJson(const DatasetProvenance& provenance) {
   Json libraries = Json::object();
   for (const auto& [name, version] : provenance.libraries) libraries[name] = version;
   Json doors = Json::array();
   for (const DatasetDoor& door : provenance.doors) doors.push_back(DoorToJson(door));
+  Json planned = Json::array();
+  for (const PlannedPart& part : provenance.planned) planned.push_back(PlannedToJson(part));
   return {{"schema", "doorforge.provenance"},
           {"schema_version", kDatasetSchemaVersion},
           {"code_version", provenance.code_version},
@@ -266,6 +296,7 @@ Json ProvenanceToJson(const DatasetProvenance& provenance) {
           {"libraries", libraries},
           {"config_sha256", provenance.config_sha256},
           {"seed", provenance.seed},
+          {"planned", planned},
           {"doors", doors}};
 }
 
@@ -281,6 +312,10 @@ DatasetProvenance ProvenanceFromJson(const Json& json, const std::string& path) 
   provenance.seed = ValueOf<std::uint64_t>(json, "seed", path);
   for (const Json& door : MemberOf(json, "doors", path))
     provenance.doors.push_back(DoorFromJson(door, path + ".doors"));
+  if (json.contains("planned")) {
+    for (const Json& part : json["planned"])
+      provenance.planned.push_back(PlannedFromJson(part, path + ".planned"));
+  }
   return provenance;
 }
 
@@ -322,7 +357,7 @@ std::string DatasetCard(const DatasetRecord& record, const DatasetProvenance& pr
   return card +
          ".\n\nThe shards are plain tar files of .npy arrays with a JSON index beside each. "
          "`dataset.json` describes every array, `provenance.json` every door; "
-         "`python/doorforge_shards.py` of doorforge reads them with numpy alone, and "
+         "`python/doorforge_reader.py` of doorforge reads them with numpy alone, and "
          "WebDataset and Hugging Face `datasets` read them directly.\n";
 }
 

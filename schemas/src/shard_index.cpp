@@ -58,42 +58,6 @@ ShardMember MemberFromJson(const Json& json, const std::string& path) {
   return member;
 }
 
-Json EpisodeToJson(const ShardEpisode& episode) {
-  Json members = Json::array();
-  for (const ShardMember& member : episode.members) members.push_back(MemberToJson(member));
-  return {{"key", episode.key}, {"decisions", episode.decisions}, {"members", members}};
-}
-
-ShardEpisode EpisodeFromJson(const Json& json, const std::string& path) {
-  ShardEpisode episode;
-  episode.key = ValueOf<std::string>(json, "key", path);
-  episode.decisions = CountOf(json, "decisions", path);
-  if (!IsKey(episode.key)) ThrowFormat(path + ".key: bad key \"" + episode.key + '"');
-  for (const Json& member : ArrayOf(json, "members", path))
-    episode.members.push_back(MemberFromJson(member, path + "." + episode.key));
-  return episode;
-}
-
-Json FailureToJson(const FailedEpisode& failure) {
-  return {{"key", failure.key},
-          {"door_id", failure.door_id},
-          {"outcome", failure.outcome},
-          {"detail", failure.detail},
-          {"peak_hinge_rad", failure.peak_hinge_rad},
-          {"peak_handle_rad", failure.peak_handle_rad}};
-}
-
-FailedEpisode FailureFromJson(const Json& json, const std::string& path) {
-  FailedEpisode failure;
-  failure.key = ValueOf<std::string>(json, "key", path);
-  failure.door_id = ValueOf<std::string>(json, "door_id", path);
-  failure.outcome = ValueOf<std::string>(json, "outcome", path);
-  failure.detail = ValueOf<std::string>(json, "detail", path);
-  failure.peak_hinge_rad = ValueOf<double>(json, "peak_hinge_rad", path);
-  failure.peak_handle_rad = ValueOf<double>(json, "peak_handle_rad", path);
-  return failure;
-}
-
 // Ranges ascend, leave room for headers, and end within the tar.
 void CheckRanges(const ShardIndex& index, const std::string& path) {
   std::uint64_t free_from = 0;
@@ -128,11 +92,49 @@ std::string ShardStem(int number) {
   return text;
 }
 
+Json ShardEpisodeToJson(const ShardEpisode& episode) {
+  Json members = Json::array();
+  for (const ShardMember& member : episode.members) members.push_back(MemberToJson(member));
+  return {{"key", episode.key}, {"decisions", episode.decisions}, {"members", members}};
+}
+
+ShardEpisode ShardEpisodeFromJson(const Json& json, const std::string& path) {
+  ShardEpisode episode;
+  episode.key = ValueOf<std::string>(json, "key", path);
+  episode.decisions = CountOf(json, "decisions", path);
+  if (!IsKey(episode.key)) ThrowFormat(path + ".key: bad key \"" + episode.key + '"');
+  for (const Json& member : ArrayOf(json, "members", path))
+    episode.members.push_back(MemberFromJson(member, path + "." + episode.key));
+  return episode;
+}
+
+Json FailedEpisodeToJson(const FailedEpisode& failure) {
+  return {{"key", failure.key},
+          {"door_id", failure.door_id},
+          {"outcome", failure.outcome},
+          {"detail", failure.detail},
+          {"peak_hinge_rad", failure.peak_hinge_rad},
+          {"peak_handle_rad", failure.peak_handle_rad}};
+}
+
+FailedEpisode FailedEpisodeFromJson(const Json& json, const std::string& path) {
+  FailedEpisode failure;
+  failure.key = ValueOf<std::string>(json, "key", path);
+  failure.door_id = ValueOf<std::string>(json, "door_id", path);
+  failure.outcome = ValueOf<std::string>(json, "outcome", path);
+  failure.detail = ValueOf<std::string>(json, "detail", path);
+  failure.peak_hinge_rad = ValueOf<double>(json, "peak_hinge_rad", path);
+  failure.peak_handle_rad = ValueOf<double>(json, "peak_handle_rad", path);
+  return failure;
+}
+
 Json ShardIndexToJson(const ShardIndex& index) {
   Json episodes = Json::array();
-  for (const ShardEpisode& episode : index.episodes) episodes.push_back(EpisodeToJson(episode));
+  for (const ShardEpisode& episode : index.episodes)
+    episodes.push_back(ShardEpisodeToJson(episode));
   Json failures = Json::array();
-  for (const FailedEpisode& failure : index.failures) failures.push_back(FailureToJson(failure));
+  for (const FailedEpisode& failure : index.failures)
+    failures.push_back(FailedEpisodeToJson(failure));
   return {{"schema", kSchema},
           {"schema_version", kShardSchemaVersion},
           {"number", index.header.number},
@@ -160,9 +162,9 @@ ShardIndex ShardIndexFromJson(const Json& json, const std::string& path) {
     ThrowFormat(path + ".tar: \"" + index.tar + "\", expected " + ShardStem(index.header.number) +
                 ".tar");
   for (const Json& episode : ArrayOf(json, "episodes", path))
-    index.episodes.push_back(EpisodeFromJson(episode, path + ".episodes"));
+    index.episodes.push_back(ShardEpisodeFromJson(episode, path + ".episodes"));
   for (const Json& failure : ArrayOf(json, "failures", path))
-    index.failures.push_back(FailureFromJson(failure, path + ".failures"));
+    index.failures.push_back(FailedEpisodeFromJson(failure, path + ".failures"));
   CheckNames(index, path);
   CheckRanges(index, path);
   return index;

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <string_view>
+
+#include <nlohmann/json.hpp>
 
 #include "doorforge/schemas/shard.h"
 
@@ -13,5 +16,11 @@ bool IsKey(std::string_view key);
 /// Such as "cloud.npy": lower case, at least one dot, at most 39 characters.
 bool IsMemberName(std::string_view name);
 bool SameMembers(const ShardEpisode& a, const ShardEpisode& b);
+
+/// The parts of an index's JSON; the readers throw Error(kFormat).
+nlohmann::ordered_json ShardEpisodeToJson(const ShardEpisode& episode);
+ShardEpisode ShardEpisodeFromJson(const nlohmann::ordered_json& json, const std::string& path);
+nlohmann::ordered_json FailedEpisodeToJson(const FailedEpisode& failure);
+FailedEpisode FailedEpisodeFromJson(const nlohmann::ordered_json& json, const std::string& path);
 
 }  // namespace doorforge

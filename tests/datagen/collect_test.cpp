@@ -8,6 +8,7 @@
 
 #include <sys/wait.h>
 
+#include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
 
@@ -136,13 +137,18 @@ TEST_F(CollectionTest, RemovesOnlyTheTemporaryFilesOfDeadWriters) {
   if (child == 0) ::_exit(0);
   int status = 0;
   ::waitpid(child, &status, 0);
-  const fs::path dead = folder_ / "open" / (".a.tar.tmp-" + std::to_string(child) + "-0");
-  const fs::path alive = folder_ / (".a.tar.tmp-" + std::to_string(::getpid()) + "-0");
+  char host[256] = {};
+  ::gethostname(host, sizeof host - 1);
+  const std::string here = std::string("-0-") + host;
+  const fs::path dead = folder_ / "open" / (".a.tmp-" + std::to_string(child) + here);
+  const fs::path alive = folder_ / (".a.tmp-" + std::to_string(::getpid()) + here);
+  const fs::path elsewhere = folder_ / (".a.tmp-" + std::to_string(child) + "-0-other");
   const fs::path other = folder_ / ".notes.tmp-x-0";
-  for (const fs::path& path : {dead, alive, other}) std::ofstream(path) << "x";
-  RemoveStaleFiles(folder_);
+  for (const fs::path& path : {dead, alive, elsewhere, other}) std::ofstream(path) << "x";
+  RemoveStaleFiles(SystemFiles(), folder_);
   EXPECT_FALSE(fs::exists(dead));
   EXPECT_TRUE(fs::exists(alive));
+  EXPECT_TRUE(fs::exists(elsewhere));
   EXPECT_TRUE(fs::exists(other));
 }
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "doorforge/core/file_system.h"
+
 namespace doorforge {
 
 /// Reads a whole file. Throws Error(kMissing) if it does not exist or is not a regular file, and
@@ -22,6 +24,13 @@ enum class Existing {
 /// temporary name in the same folder, fsync, rename, fsync of the folder. Creates the folder.
 void CommitFile(const std::filesystem::path& path, std::string_view content,
                 Existing existing = Existing::kReplace);
+/// The same through `files`.
+void CommitFile(FileSystem& files, const std::filesystem::path& path, std::string_view content,
+                Existing existing = Existing::kReplace);
+
+/// Removes the temporary files that processes of this machine left below a folder when they were
+/// killed. Those of processes that live, and of other machines, stay.
+void RemoveStaleFiles(FileSystem& files, const std::filesystem::path& folder);
 
 /// A folder that appears under its final name only when it is complete.
 ///

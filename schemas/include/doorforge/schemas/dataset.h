@@ -78,6 +78,16 @@ struct DatasetDoor {
   std::string split;
 };
 
+/// What was planned of one stage and split: shard k holds the episodes from k * episodes_per_shard
+/// on, the last one what is left.
+struct PlannedPart {
+  std::string stage;
+  std::string split;
+  std::uint64_t shards = 0;
+  std::uint64_t episodes = 0;  ///< Failed ones included.
+  std::uint64_t episodes_per_shard = 0;
+};
+
 /// Where a dataset came from.
 struct DatasetProvenance {
   std::string code_version;
@@ -86,6 +96,7 @@ struct DatasetProvenance {
   std::string config_sha256;
   std::uint64_t seed = 0;
   std::vector<DatasetDoor> doors;
+  std::vector<PlannedPart> planned = {};  ///< Empty in records of earlier builds.
 };
 
 nlohmann::ordered_json ProvenanceToJson(const DatasetProvenance& provenance);

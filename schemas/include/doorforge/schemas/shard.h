@@ -13,6 +13,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "doorforge/core/file_system.h"
+
 namespace doorforge {
 
 inline constexpr int kShardSchemaVersion = 1;
@@ -82,22 +84,45 @@ enum class ShardCommit {
   kAlreadyThere,  ///< Another writer had committed the same bytes.
 };
 
-/// Writes one shard. Nothing appears under the final names before Commit(); an uncommitted writer
-/// removes what it wrote. Memory use does not grow with the shard.
+/// What becomes of a shard whose writer ends before Commit().
+enum class Unfinished {
+  kDiscard,  ///< It is removed, and a new writer begins anew.
+  kKeep,     ///< A new writer goes on after the last episode that is whole.
+};
+
+/// Writes one shard. Nothing appears under the final names before Commit(). Memory use does not
+/// grow with the shard.
+///
+/// Until then there are, hidden beside it, `.shard-N.tar.partial`, the tar as far as it has come,
+/// and `.shard-N.journal`: a line for the header and for every episode or failure, written after
+/// the episode's bytes, each behind its own CRC-32C. A writer that goes on reads the journal,
+/// checks what it names in the tar against tar headers and CRCs, and cuts both files after the last
+/// entry that holds. Both are synced every 8 MiB: a killed process loses only the episode at hand,
+/// a power cut at most these. The journal is locked while it is written.
 class ShardWriter {
  public:
-  /// Creates the folder if need be. Throws Error(kIo) or, on a bad number, kInvalidArgument.
-  ShardWriter(std::filesystem::path folder, ShardHeader header);
+  /// Creates the folder if need be.
+  ///
+  /// @throws Error(kInvalidArgument) on a bad number, if another process is writing this shard, or
+  ///     if what there is to go on with has another header; Error(kIo).
+  ShardWriter(std::filesystem::path folder, ShardHeader header,
+              Unfinished unfinished = Unfinished::kDiscard, FileSystem& files = SystemFiles());
   ~ShardWriter();
   ShardWriter(const ShardWriter&) = delete;
   ShardWriter& operator=(const ShardWriter&) = delete;
 
-  /// Appends an episode; members are sorted by name.
+  /// Keys of the episodes and failures that are in, in the order in which they were added; after
+  /// construction those that an earlier writer left.
+  const std::vector<std::string>& keys() const { return keys_; }
+
+  /// Appends an episode; members are sorted by name. After an Error(kIo) the writer takes nothing
+  /// more.
   ///
   /// @throws Error(kInvalidArgument) if the key is empty, has a dot, slash or blank or was there
-  ///     before, or if the members' names are not those of the first episode.
+  ///     before, or if the members' names are not those of the first episode; Error(kIo).
   void Add(const std::string& key, std::uint64_t decisions, std::vector<MemberBytes> members);
 
+  /// Throws as Add().
   void AddFailure(FailedEpisode failure);
 
   /// Ends the tar, syncs and renames it, and writes the index last.
@@ -110,10 +135,20 @@ class ShardWriter {
  private:
   struct Output;
 
+  void Note(const std::string& key, const nlohmann::ordered_json& entry);
+
   std::filesystem::path folder_;
   ShardIndex index_;
+  std::vector<std::string> keys_;
   std::unique_ptr<Output> output_;
 };
+
+/// Whether an unfinished shard, or what its writer could not remove, lies in the folder.
+bool HasShardLeftovers(const std::filesystem::path& folder, int number);
+
+/// Removes the journal and the partial tar of a committed shard whose writer was killed at the very
+/// end, unless someone is writing them. Throws Error(kIo).
+void RemoveShardLeftovers(FileSystem& files, const std::filesystem::path& folder, int number);
 
 /// Whether members are checked against the index when they are first read.
 enum class CrcCheck { kOnFirstRead, kNever };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "datagen_verb.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -12,6 +13,7 @@
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/datagen/describe_dataset.h"
+#include "doorforge/datagen/task_number.h"
 #include "doorforge/rollout/run_episode.h"
 
 #include "door_folder.h"
@@ -33,6 +35,9 @@ struct Options {
   std::optional<std::uint64_t> episodes;
   std::optional<std::uint64_t> seed;
   int threads = 0;
+  std::string task;
+  int tasks = 0;
+  int task_offset = 0;
   bool resume = false;
   bool overwrite = false;
   bool json = false;
@@ -50,14 +55,23 @@ void AddOptions(CLI::App& app, Options& options) {
   app.add_option("--threads", options.threads, "threads, 0: all; does not change the bytes")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  app.add_flag("--resume", options.resume, "go on in --out: shards that are complete are kept");
+  app.add_option("--task", options.task,
+                 "i/N: only task i, from 0, of N; `doorforge dataset merge` joins them");
+  app.add_option("--tasks", options.tasks,
+                 "N: the same, with i from SLURM_ARRAY_TASK_ID or JOB_COMPLETION_INDEX")
+      ->check(CLI::Range(1, kMostTasks));
+  app.add_option("--task-offset", options.task_offset, "added to the i of --tasks")
+      ->check(CLI::Range(0, kMostTasks));
+  app.add_flag("--resume", options.resume,
+               "go on in --out, which is done without it where the settings are the same");
   app.add_flag("--overwrite", options.overwrite, "replace the dataset in --out");
   app.add_flag("--json", options.json, "print one JSON document");
   app.footer(
-      "Interrupted with Ctrl-C or killed, it goes on with --resume and gives the same bytes.\n\n"
+      "Interrupted with Ctrl-C or killed, the same command goes on and gives the same bytes.\n\n"
       "examples:\n"
       "  doorforge datagen open --doors doors/train --out data --episodes 2000 --seed 7\n"
-      "  doorforge datagen open --doors doors/train --out data --episodes 2000 --seed 7 --resume");
+      "  doorforge datagen open --doors doors/train --out data --episodes 2000 --seed 7 --task "
+      "3/16");
 }
 
 OpenStageConfig LoadOpenConfig(const Options& options) {
@@ -82,21 +96,41 @@ std::string ConfigText(const OpenStageConfig& config, const DoorFolder& doors,
          ", rays by " + RayCasterVersion() + "\n" + ToJson(config).dump(2) + "\n";
 }
 
+// Whether there is nothing but what a writer leaves that was killed at its first file.
+bool HoldsNothing(const fs::path& folder) {
+  return std::all_of(fs::directory_iterator(folder), fs::directory_iterator(),
+                     [](const fs::directory_entry& entry) {
+                       return entry.path().filename().string().starts_with(".config.yaml.tmp-");
+                     });
+}
+
+// Whether the folder is one to go on in is decided where config.yaml is compared.
 void PrepareFolder(const Options& options) {
   const fs::path out = options.out;
-  if (!fs::exists(out) || fs::is_empty(out)) {
+  if (!fs::exists(out) || HoldsNothing(out)) {
     fs::create_directories(out);
     return;
   }
-  if (options.resume) return;
-  if (!options.overwrite)
-    throw Error(ErrorCode::kInvalidArgument,
-                options.out + ": already exists; pass --resume to go on there, or --overwrite");
   if (!fs::exists(out / "config.yaml"))
     throw Error(ErrorCode::kInvalidArgument,
-                options.out + ": holds no dataset (no config.yaml), so --overwrite keeps off");
+                options.out +
+                    ": exists and holds no dataset (no config.yaml); choose another "
+                    "folder");
+  if (!options.overwrite) return;
   fs::remove_all(out);
   fs::create_directories(out);
+}
+
+CollectionTask TaskOf(const Options& options) {
+  Require(options.task.empty() || options.tasks == 0, ErrorCode::kInvalidArgument,
+          "--task and --tasks: give one of them");
+  Require(options.task_offset == 0 || options.tasks > 0, ErrorCode::kInvalidArgument,
+          "--task-offset: belongs to --tasks");
+  if (options.tasks > 0) return TaskFromEnvironment(options.tasks, options.task_offset);
+  const CollectionTask task = options.task.empty() ? CollectionTask{} : ParseTask(options.task);
+  Require(task.count == 1 || !options.overwrite, ErrorCode::kInvalidArgument,
+          "--overwrite: would remove what other tasks have written; remove the folder first");
+  return task;
 }
 
 DatasetProvenance ProvenanceOf(const OpenStageConfig& config, const DoorFolder& doors) {
@@ -105,17 +139,42 @@ DatasetProvenance ProvenanceOf(const OpenStageConfig& config, const DoorFolder& 
   provenance.compiler = __VERSION__;
   provenance.libraries = {{"ray_caster", RayCasterVersion()}};
   provenance.seed = config.seed;
-  provenance.doors = RecordsOf(doors);
+  provenance.doors = doors.doors;
   return provenance;
 }
 
-int Finish(const CollectSummary& summary, const Options& options) {
+nlohmann::ordered_json TaskToJson(const CollectSummary& summary, const CollectionTask& task) {
+  return {{"schema", "doorforge.collection_task"},
+          {"schema_version", 1},
+          {"task", task.number},
+          {"tasks", task.count},
+          {"shards", summary.shards},
+          {"episodes", summary.written},
+          {"failures", summary.failures},
+          {"bytes", summary.bytes}};
+}
+
+int FinishTask(const CollectSummary& summary, const CollectionTask& task, const Options& options) {
+  if (options.json) {
+    std::cout << TaskToJson(summary, task).dump(2) << '\n';
+  } else {
+    std::printf("task %d/%d: %llu shards, %llu of %llu episodes succeeded, %.1f MiB in %s\n",
+                task.number, task.count, static_cast<unsigned long long>(summary.shards),
+                static_cast<unsigned long long>(summary.written),
+                static_cast<unsigned long long>(summary.planned),
+                static_cast<double>(summary.bytes) / (1 << 20), options.out.c_str());
+  }
+  return 0;
+}
+
+int Finish(const CollectSummary& summary, const CollectionTask& task, const Options& options) {
   if (summary.stopped_by_signal != 0) {
     std::fprintf(stderr,
-                 "doorforge: stopped; complete shards are kept in %s, go on with --resume\n",
+                 "doorforge: stopped; what is done is kept in %s, the same command goes on\n",
                  options.out.c_str());
     return 128 + summary.stopped_by_signal;
   }
+  if (task.count > 1) return FinishTask(summary, task, options);
   const nlohmann::ordered_json description = DescribeDataset(options.out);
   std::cout << (options.json ? description.dump(2) + "\n" : DescriptionText(description));
   if (summary.written > 0) return 0;
@@ -126,6 +185,7 @@ int Finish(const CollectSummary& summary, const Options& options) {
 
 int CollectOpenStage(const Options& options) {
   const OpenStageConfig config = LoadOpenConfig(options);
+  const CollectionTask task = TaskOf(options);
   const DoorFolder doors = ReadDoorFolder(options.doors, options.threads);
   const RobotModel robot =
       LoadRobot(config.scene.robot, RobotBaseNamed(config.scene.physics.base), RobotMeshes());
@@ -140,13 +200,15 @@ int CollectOpenStage(const Options& options) {
   request.config_text = ConfigText(config, doors, robot);
   request.provenance = ProvenanceOf(config, doors);
   request.threads = options.threads;
+  request.task = task;
+  DoorShelf shelf(doors);
   const CollectSummary summary = Collect(
       plan,
       [&](const PlannedEpisode& planned) {
-        return RunOpenEpisode(planned, doors.doors[planned.door], robot, config);
+        return RunOpenEpisode(planned, *shelf.Take(planned.door), robot, config);
       },
       request);
-  return Finish(summary, options);
+  return Finish(summary, task, options);
 }
 
 }  // namespace

@@ -31,26 +31,37 @@ std::vector<fs::path> FindDoors(const fs::path& folder) {
 }
 
 struct ReadResult {
-  std::optional<DoorAsset> door;
+  std::optional<DatasetDoor> door;
   std::string problem;
 };
 
-std::vector<DoorAsset> DoorsOf(std::vector<ReadResult> results) {
-  std::vector<DoorAsset> doors;
+// Reads the door, and keeps what identifies it.
+DatasetDoor Identify(const fs::path& folder) {
+  DoorAsset door = ReadDoor(folder);
+  std::string sha256 = ContentHash(door);
+  return {std::move(door.id),
+          std::move(sha256),
+          std::string(NameOf(door.category)),
+          std::string(NameOf(door.mechanism)),
+          std::move(door.body),
+          std::move(door.handle),
+          std::move(door.license),
+          ""};
+}
+
+void RequireReadable(const std::vector<ReadResult>& results) {
+  constexpr int kMostNamed = 20;
+  int count = 0;
   std::string problems;
-  for (ReadResult& result : results) {
-    if (!result.problem.empty()) problems += "\n  " + result.problem;
-    if (result.door) doors.push_back(std::move(*result.door));
+  for (const ReadResult& result : results) {
+    if (result.problem.empty()) continue;
+    if (++count <= kMostNamed) problems += "\n  " + result.problem;
   }
-  if (!problems.empty())
+  if (count > kMostNamed) problems += "\n  and " + std::to_string(count - kMostNamed) + " more";
+  if (count > 0)
     throw Error(ErrorCode::kFormat,
-                "doors that cannot be read (`doorforge validate` says more):" + problems);
-  std::sort(doors.begin(), doors.end(),
-            [](const DoorAsset& a, const DoorAsset& b) { return a.id < b.id; });
-  for (std::size_t i = 1; i < doors.size(); ++i)
-    Require(doors[i - 1].id != doors[i].id, ErrorCode::kInvalidArgument,
-            "two doors are called " + doors[i].id);
-  return doors;
+                std::to_string(count) +
+                    " doors cannot be read (`doorforge validate` says more):" + problems);
 }
 
 }  // namespace
@@ -60,43 +71,59 @@ DoorFolder ReadDoorFolder(const fs::path& folder, int threads) {
   std::vector<ReadResult> results(paths.size());
   ParallelFor(paths.size(), threads, [&](std::size_t i) {
     try {
-      results[i].door = ReadDoor(paths[i]);
+      results[i].door = Identify(paths[i]);
     } catch (const Error& error) {
       results[i].problem = error.what();
     }
   });
+  RequireReadable(results);
+  std::map<std::string, std::size_t> by_id;
+  for (std::size_t i = 0; i < results.size(); ++i)
+    Require(by_id.emplace(results[i].door->id, i).second, ErrorCode::kInvalidArgument,
+            "two doors are called " + results[i].door->id);
   DoorFolder doors;
-  doors.doors = DoorsOf(std::move(results));
-  doors.sha256.resize(doors.doors.size());
-  ParallelFor(doors.doors.size(), threads,
-              [&](std::size_t i) { doors.sha256[i] = ContentHash(doors.doors[i]); });
+  for (const auto& [id, i] : by_id) {
+    doors.doors.push_back(std::move(*results[i].door));
+    doors.paths.push_back(paths[i]);
+  }
   return doors;
 }
 
 std::vector<DoorParts> PartsOf(const DoorFolder& folder) {
   std::vector<DoorParts> parts;
-  for (const DoorAsset& door : folder.doors)
-    parts.push_back({door.id, std::string(NameOf(door.category)),
-                     std::string(NameOf(door.mechanism)), door.body, door.handle});
+  for (const DatasetDoor& door : folder.doors)
+    parts.push_back({door.id, door.category, door.mechanism, door.body, door.handle});
   return parts;
-}
-
-std::vector<DatasetDoor> RecordsOf(const DoorFolder& folder) {
-  std::vector<DatasetDoor> records;
-  for (std::size_t i = 0; i < folder.doors.size(); ++i) {
-    const DoorAsset& door = folder.doors[i];
-    records.push_back({door.id, folder.sha256[i], std::string(NameOf(door.category)),
-                       std::string(NameOf(door.mechanism)), door.body, door.handle, door.license,
-                       ""});
-  }
-  return records;
 }
 
 std::string ContentHash(const DoorFolder& folder) {
   Sha256 hash;
-  for (std::size_t i = 0; i < folder.doors.size(); ++i)
-    hash.Update(folder.doors[i].id + "\n" + folder.sha256[i] + "\n");
+  for (const DatasetDoor& door : folder.doors) hash.Update(door.id + "\n" + door.sha256 + "\n");
   return hash.HexDigest();
+}
+
+std::shared_ptr<const DoorAsset> DoorShelf::Take(std::size_t door) {
+  constexpr std::size_t kMostKept = 32;
+  {
+    const std::scoped_lock lock(mutex_);
+    const auto found = places_.find(door);
+    if (found != places_.end()) {
+      found->second.taken_at = ++clock_;
+      return found->second.door;
+    }
+  }
+  auto read = std::make_shared<const DoorAsset>(ReadDoor(folder_.paths.at(door)));
+  if (ContentHash(*read) != folder_.doors[door].sha256)
+    throw Error(ErrorCode::kFormat, folder_.paths[door].string() +
+                                        ": the door has changed since this run began; put it back "
+                                        "as it was, or collect anew in another folder");
+  const std::scoped_lock lock(mutex_);
+  if (places_.size() >= kMostKept)
+    places_.erase(std::min_element(
+        places_.begin(), places_.end(),
+        [](const auto& a, const auto& b) { return a.second.taken_at < b.second.taken_at; }));
+  places_[door] = {read, ++clock_};
+  return read;
 }
 
 }  // namespace doorforge

@@ -2,7 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -12,10 +17,11 @@
 
 namespace doorforge {
 
-/// Composed doors with the hashes that identify them, sorted by id.
+/// Composed doors, sorted by id: what identifies each, and where it lies. Their meshes stay on the
+/// disk, see DoorShelf.
 struct DoorFolder {
-  std::vector<DoorAsset> doors;
-  std::vector<std::string> sha256;  ///< ContentHash() of each.
+  std::vector<DatasetDoor> doors;  ///< Without their splits.
+  std::vector<std::filesystem::path> paths;
 };
 
 /// Reads every folder at or below `folder` that holds a door.json.
@@ -26,9 +32,33 @@ DoorFolder ReadDoorFolder(const std::filesystem::path& folder, int threads);
 
 /// What the plan needs of the doors, in their order.
 std::vector<DoorParts> PartsOf(const DoorFolder& folder);
-/// What the dataset records of the doors, in their order; splits are left empty.
-std::vector<DatasetDoor> RecordsOf(const DoorFolder& folder);
-/// Hash over ids and content hashes.
+
+/// Hash over all doors' ids and hashes.
 std::string ContentHash(const DoorFolder& folder);
+
+/// The doors of a folder, read when they are needed. At most a few stay in memory, whatever their
+/// number. Safe to use from several threads.
+class DoorShelf {
+ public:
+  /// Keeps a reference.
+  explicit DoorShelf(const DoorFolder& folder) : folder_(folder) {}
+
+  /// Door number `door` of the folder.
+  ///
+  /// @throws Error(kMissing, kIo or kFormat) if it can be read no more, or is not what it was when
+  ///     the folder was read.
+  std::shared_ptr<const DoorAsset> Take(std::size_t door);
+
+ private:
+  struct Place {
+    std::shared_ptr<const DoorAsset> door;
+    std::uint64_t taken_at = 0;
+  };
+
+  const DoorFolder& folder_;
+  std::mutex mutex_;
+  std::map<std::size_t, Place> places_;
+  std::uint64_t clock_ = 0;
+};
 
 }  // namespace doorforge

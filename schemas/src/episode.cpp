@@ -16,6 +16,7 @@ constexpr int kEpisodeSchemaVersion = 1;
 constexpr std::array<std::string_view, kEpisodeOutcomeCount> kOutcomes = {
     "opened",    "not_reached", "grasp_missed", "handle_slipped", "handle_stuck",
     "grip_lost", "door_stuck",  "joint_limit",  "collision",      "diverged"};
+constexpr std::array<std::string_view, 3> kStages = {"open", "handle", "grasp"};
 
 }  // namespace
 
@@ -26,6 +27,15 @@ std::string_view NameOf(EpisodeOutcome outcome) {
 std::optional<EpisodeOutcome> EpisodeOutcomeNamed(std::string_view name) {
   for (std::size_t i = 0; i < kOutcomes.size(); ++i) {
     if (kOutcomes[i] == name) return static_cast<EpisodeOutcome>(i);
+  }
+  return std::nullopt;
+}
+
+std::string_view NameOf(Stage stage) { return kStages.at(static_cast<std::size_t>(stage)); }
+
+std::optional<Stage> StageNamed(std::string_view name) {
+  for (std::size_t i = 0; i < kStages.size(); ++i) {
+    if (kStages[i] == name) return static_cast<Stage>(i);
   }
   return std::nullopt;
 }

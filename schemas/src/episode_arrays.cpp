@@ -21,6 +21,7 @@ struct Columns {
   std::vector<float> action;
   std::vector<float> joints;
   std::vector<float> score;
+  std::vector<double> state;
 };
 
 Columns ColumnsOf(const Episode& episode) {
@@ -36,7 +37,8 @@ Columns ColumnsOf(const Episode& episode) {
     append(columns.action, decision.action);
     columns.joints.push_back(static_cast<float>(decision.hinge_rad));
     columns.joints.push_back(static_cast<float>(decision.handle_rad));
-    columns.score.push_back(static_cast<float>(decision.hinge_gain_rad));
+    columns.score.push_back(static_cast<float>(decision.score_rad));
+    columns.state.insert(columns.state.end(), decision.state.begin(), decision.state.end());
   }
   return columns;
 }
@@ -52,9 +54,10 @@ void CheckEpisode(const Episode& episode) {
   }
 }
 
-void CheckFinite(const std::vector<float>& column, const char* name) {
+template <class T>
+void CheckFinite(const std::vector<T>& column, const char* name) {
   const bool finite =
-      std::all_of(column.begin(), column.end(), [](float value) { return std::isfinite(value); });
+      std::all_of(column.begin(), column.end(), [](T value) { return std::isfinite(value); });
   Require(finite, ErrorCode::kInvalidArgument,
           std::string("episode record: a number in ") + name + " is not finite");
 }
@@ -70,6 +73,12 @@ std::span<const T> ViewArray(const ShardReader& reader, std::size_t episode,
   return view.values;
 }
 
+bool Has(const ShardReader& reader, std::size_t episode, std::string_view member) {
+  const auto& members = reader.index().episodes[episode].members;
+  return std::any_of(members.begin(), members.end(),
+                     [&](const ShardMember& known) { return known.name == member; });
+}
+
 }  // namespace
 
 const std::vector<EpisodeFeature>& EpisodeFeatures() {
@@ -79,7 +88,8 @@ const std::vector<EpisodeFeature>& EpisodeFeatures() {
        {9},
        "m, 1",
        "world",
-       "asked-for hand position minus present one; first two rows of the target rotation"},
+       "asked-for hand position minus present one (stage grasp: contact point); first two rows of "
+       "the target rotation"},
       {"cloud",
        "<f4",
        {0, 3},
@@ -94,7 +104,19 @@ const std::vector<EpisodeFeature>& EpisodeFeatures() {
        "1, m/s, rad/s, m",
        "world",
        "11 joint positions in [-1, 1], 11 velocities, base xyz, hand xyz, hand quaternion xyzw"},
-      {"score", "<f4", {1}, "rad", "", "hinge angle gained by the action"}};
+      {"score",
+       "<f4",
+       {1},
+       "rad",
+       "",
+       "angle gained by the action, of the hinge (stage open) or the handle (stage handle); stage "
+       "grasp: the door's final angle"},
+      {"state",
+       "<f8",
+       {std::tuple_size_v<JointState>},
+       "m, rad",
+       "",
+       "joints before the action: 11 of the robot, hinge, handle, bolt"}};
   return kFeatures;
 }
 
@@ -107,6 +129,7 @@ std::vector<MemberBytes> EncodeEpisode(const Episode& episode, const nlohmann::o
   CheckFinite(columns.action, "action");
   CheckFinite(columns.joints, "joints");
   CheckFinite(columns.score, "score");
+  CheckFinite(columns.state, "state");
   const std::size_t count = episode.decisions.size();
   const std::size_t points = episode.decisions[0].cloud.label.size();
   const auto npy = [](const std::vector<float>& column, const std::vector<std::size_t>& shape) {
@@ -119,7 +142,8 @@ std::vector<MemberBytes> EncodeEpisode(const Episode& episode, const nlohmann::o
       {"label.npy", MakeNpy<std::uint8_t>(columns.label, {count, points})},
       {"meta.json", meta.dump(1) + "\n"},
       {"proprio.npy", npy(columns.proprio, {count, 32})},
-      {"score.npy", npy(columns.score, {count, 1})}};
+      {"score.npy", npy(columns.score, {count, 1})},
+      {"state.npy", MakeNpy<double>(columns.state, {count, std::tuple_size_v<JointState>})}};
   if (!preview_png.empty()) members.push_back({"preview.png", preview_png});
   return members;
 }
@@ -139,6 +163,9 @@ EpisodeArrays ViewEpisode(const ShardReader& reader, std::size_t episode) {
   arrays.action = ViewArray<float>(reader, episode, "action", {count, 9});
   arrays.joints = ViewArray<float>(reader, episode, "joints", {count, 2});
   arrays.score = ViewArray<float>(reader, episode, "score", {count, 1});
+  if (Has(reader, episode, "state.npy"))
+    arrays.state =
+        ViewArray<double>(reader, episode, "state", {count, std::tuple_size_v<JointState>});
   return arrays;
 }
 

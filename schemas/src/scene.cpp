@@ -21,6 +21,7 @@ void Scale(MassProperties& mass, double factor) {
 nlohmann::ordered_json PhysicsToJson(const PhysicsConfig& physics) {
   const PhysicsConfig standard;
   nlohmann::ordered_json json = ToJson(physics);
+  if (physics.max_handle_actions == standard.max_handle_actions) json.erase("max_handle_actions");
   if (physics.base == standard.base) json.erase("base");
   if (physics.controller == standard.controller) json.erase("controller");
   if (physics.operational_space == standard.operational_space) json.erase("operational_space");

@@ -39,7 +39,7 @@ testing::SyntheticSamples WriteDataset(const fs::path& folder, const std::string
       for (std::size_t i = 0; i < decision.proprioception.size(); ++i)
         decision.proprioception[i] = static_cast<float>(100 * e + 40 * t + i);
       decision.action = sample.action;
-      decision.hinge_gain_rad = sample.hinge_gain_rad;
+      decision.score_rad = sample.hinge_gain_rad;
       episode.decisions.push_back(decision);
     }
     writer.Add("ep" + std::to_string(100000 + e), kDecisions,

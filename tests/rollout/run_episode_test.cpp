@@ -63,7 +63,7 @@ TEST_F(RunEpisodeTest, DecisionsAddUpToTheDoorsAngleASixthOfASecondApart) {
   for (std::size_t i = 0; i < episode.decisions.size(); ++i) {
     const Decision& decision = episode.decisions[i];
     EXPECT_DOUBLE_EQ(decision.hinge_rad, hinge);
-    hinge += decision.hinge_gain_rad;
+    hinge += decision.score_rad;
     if (i > 0) {
       EXPECT_NEAR(decision.time_s - episode.decisions[i - 1].time_s, 1.0 / 6, 1e-9);
     }

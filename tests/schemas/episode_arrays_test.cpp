@@ -43,7 +43,9 @@ TEST_F(EpisodeArraysFile, HoldEveryDecisionInOrder) {
                            arrays.action.begin() + static_cast<std::ptrdiff_t>(t * 9)));
     EXPECT_EQ(arrays.joints[2 * t], static_cast<float>(decision.hinge_rad));
     EXPECT_EQ(arrays.joints[2 * t + 1], static_cast<float>(decision.handle_rad));
-    EXPECT_EQ(arrays.score[t], static_cast<float>(decision.hinge_gain_rad));
+    EXPECT_EQ(arrays.score[t], static_cast<float>(decision.score_rad));
+    EXPECT_TRUE(std::equal(decision.state.begin(), decision.state.end(),
+                           arrays.state.begin() + static_cast<std::ptrdiff_t>(t * 14)));
   }
   EXPECT_EQ(reinterpret_cast<std::uintptr_t>(arrays.cloud.data()) % 64, 0U);
   EXPECT_EQ(ReadEpisodeMeta(reader, 0), EpisodeMetaToJson(episode));
@@ -58,6 +60,15 @@ TEST_F(EpisodeArraysFile, AreTheFeaturesThatAreDocumented) {
   std::vector<std::string> found;
   for (const ShardMember& member : reader.index().episodes[0].members) found.push_back(member.name);
   EXPECT_EQ(found, documented);
+}
+
+TEST_F(EpisodeArraysFile, OfBeforeHadNoState) {
+  std::vector<MemberBytes> members = MembersOf(MakeEpisode(1));
+  std::erase_if(members, [](const MemberBytes& member) { return member.name == "state.npy"; });
+  const ShardReader reader = Write(members);
+  const EpisodeArrays arrays = ViewEpisode(reader, 0);
+  EXPECT_EQ(arrays.decisions, 3U);
+  EXPECT_TRUE(arrays.state.empty());
 }
 
 TEST_F(EpisodeArraysFile, AreRefusedWhereTheirShapesDisagree) {

@@ -33,10 +33,11 @@ inline Episode MakeEpisode(std::uint64_t number, int decisions = 3, int points =
       decision.cloud.label.push_back(static_cast<std::uint8_t>(rng.Index(kPointLabelCount)));
     for (float& value : decision.proprioception) value = static_cast<float>(rng.Uniform(-1, 1));
     for (float& value : decision.action) value = static_cast<float>(rng.Uniform(-1, 1));
+    for (double& value : decision.state) value = rng.Uniform(-1, 1);
     decision.time_s = t / 6.0;
     decision.hinge_rad = 0.1 * t;
     decision.handle_rad = 0.5;
-    decision.hinge_gain_rad = 0.1;
+    decision.score_rad = 0.1;
   }
   return episode;
 }

@@ -88,8 +88,9 @@ Sight CameraObserver::Look(const SceneSnapshot& snapshot) {
   sight.ideal = camera_.Render(model_, poses);
   sight.depth =
       WithDepthNoise(sight.ideal, model_, config_.noise, Stream(std::to_string(looks_++)));
+  sight.visible = CropCloud(sight.depth, believed_, config_);
   sight.sampled =
-      ObserveCloud(sight.depth, believed_, snapshot.robot.world_from_tcp.translation(), config_);
+      SampleCloud(sight.visible, snapshot.robot.world_from_tcp.translation(), config_.point_count);
   return sight;
 }
 

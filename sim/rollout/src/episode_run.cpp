@@ -54,18 +54,17 @@ JointVector StartOf(const Scene& scene, const RobotModel& robot) {
 }  // namespace
 
 EpisodeRun::EpisodeRun(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
-                       Observer* observer)
+                       Stage recorded, Observer* observer)
     : door_(door),
       robot_(robot),
+      recorded_(recorded),
       observer_(observer),
-      plan_(PlanGrasp(scene, door, robot)),
       world_(scene, door, robot, StartOf(scene, robot)),
       controller_(robot, scene.world_from_robot_base, StartOf(scene, robot)),
       action_noise_(scene.seed,
                     "episode/" + scene.door_id + "/" + std::to_string(scene.episode) + "/actions") {
   episode_.scene = scene;
   episode_.scene.robot = {robot.name(), robot.sha256()};
-  controller_.SetPosture(plan_.grasp);
 }
 
 // ---- stepping -----------------------------------------------------------------------------------
@@ -110,8 +109,52 @@ bool EpisodeRun::MoveHand(const RigidTransform& world_from_hand, double speed_m_
 
 // ---- stages -------------------------------------------------------------------------------------
 
-EpisodeRun::Failure EpisodeRun::Reach() {
+void EpisodeRun::Plan(const GraspPlan& plan) {
+  plan_ = plan;
+  controller_.SetPosture(plan_.grasp);
+}
+
+EpisodeRun::Failure EpisodeRun::TakeHold() {
   Watch("start");
+  Plan(PlanGrasp(episode_.scene, door_, robot_));
+  if (const Failure failure = Reach()) return failure;
+  return Grasp();
+}
+
+EpisodeRun::Failure EpisodeRun::TakeHold(GraspChooser& chooser) {
+  Watch("start");
+  std::optional<ChosenGrasp> chosen = chooser.Choose(Snapshot("start"));
+  if (!chosen) {
+    problem_ = "no point to take hold of is in view";
+    return EpisodeOutcome::kNotReached;
+  }
+  RigidTransform world_from_hand = RigidTransform::Identity();
+  world_from_hand.linear() = chosen->world_from_hand_rotation;
+  RigidTransform world_from_tcp = world_from_hand * robot_.hand_from_tcp();
+  world_from_tcp.translation() =
+      chosen->contact_m + kGraspInsertion * chosen->world_from_hand_rotation.col(2);
+  Plan(PlanReach(episode_.scene, door_, robot_, WorldFromHandle(0).inverse() * world_from_tcp));
+  RecordChoice(std::move(*chosen));
+  const Failure unreached = Reach();
+  const std::string problem = std::exchange(problem_, {});
+  const Failure missed = Grasp();
+  if (!missed || !unreached || diverged_) return missed;
+  problem_ = problem + "; " + problem_;
+  return unreached;
+}
+
+void EpisodeRun::RecordChoice(ChosenGrasp chosen) {
+  if (recorded_ != Stage::kGrasp) return;
+  Observation observation;
+  observation.cloud = std::move(chosen.cloud);
+  if (HasProprioception(robot_))
+    observation.proprioception =
+        ProprioceptionOf(robot_, world_.state(), episode_.scene.world_from_robot_base);
+  episode_.decisions.push_back(
+      DecisionAt(observation, {chosen.contact_m, chosen.world_from_hand_rotation}));
+}
+
+EpisodeRun::Failure EpisodeRun::Reach() {
   const double dt = episode_.scene.physics.time_step_s;
   const int budget = StepsIn(4);
   for (int i = 0; i < budget && !diverged_; ++i) {
@@ -180,7 +223,9 @@ EpisodeRun::Failure EpisodeRun::Grasp() {
   Watch("grasp");
   handle_from_hand_at_grasp_ =
       WorldFromHandle(world_.state().handle_rad).inverse() * world_.PoseOfRobot().world_from_hand;
-  if (both >= enough) {
+  // whoever chose a grasp is to learn what comes of it, also of one that a single finger holds
+  const bool on_trial = recorded_ == Stage::kGrasp && contacts.AnyPad();
+  if (both >= enough || on_trial) {
     last_pad_step_ = step_;
     return std::nullopt;
   }
@@ -200,8 +245,7 @@ EpisodeRun::Failure EpisodeRun::Unlock() {
   double commanded = world_.state().handle_rad;
   for (int i = 0; i < budget && !diverged_; ++i) {
     const WorldState& state = world_.state();
-    // the flag alone would not do: closing fingers may have knocked the handle down for a moment
-    if (!state.locked && state.handle_rad >= episode_.scene.latch.handle_done_angle_rad) {
+    if (IsTurned()) {
       Watch("unlock");
       return std::nullopt;
     }
@@ -214,8 +258,34 @@ EpisodeRun::Failure EpisodeRun::Unlock() {
     if (lost > StepsIn(kLostTime)) break;
   }
   Watch("unlock");
+  return TurnFailure(lost > 0);
+}
+
+// The sticky flag alone would not do: closing fingers may have knocked the handle down for a
+// moment.
+bool EpisodeRun::IsTurned() const {
+  const WorldState& state = world_.state();
+  return !state.locked && state.handle_rad >= episode_.scene.latch.handle_done_angle_rad;
+}
+
+EpisodeRun::Failure EpisodeRun::Turn(Policy& handle) {
+  const PhysicsConfig& physics = episode_.scene.physics;
+  if (episode_.scene.latch.type == LatchType::kNone) return std::nullopt;
+  handle.Reset();
+  actions_ = 0;
+  const auto off = [&] { return step_ - last_pad_step_; };
+  while (actions_ < physics.max_handle_actions && !diverged_ && !IsTurned()) {
+    Decide(handle, Stage::kHandle);
+    if (off() > 3 * physics.steps_per_action) break;
+  }
+  Watch("unlock");
+  if (IsTurned()) return std::nullopt;
+  return TurnFailure(off() > physics.steps_per_action);
+}
+
+EpisodeRun::Failure EpisodeRun::TurnFailure(bool lost) {
   // the arm is stiff: if the handle alone is behind, the hand has turned on it
-  const bool slipped = lost > 0 || Slip() > 0.025 || TurnSlip() > kTurnLead / 2;
+  const bool slipped = lost || Slip() > 0.025 || TurnSlip() > kTurnLead / 2;
   problem_ = Format("handle at %.1f of %.1f deg, grasp moved %.0f mm and turned %.0f deg in it",
                     world_.state().handle_rad / kDegree,
                     episode_.scene.latch.handle_done_angle_rad / kDegree, 1000 * Slip(),
@@ -261,47 +331,70 @@ void EpisodeRun::HoldAction() {
   }
 }
 
-void EpisodeRun::Decide(Policy& opening) {
-  Watch("open");
+Decision EpisodeRun::DecisionAt(const Observation& observation, const Action& action) const {
   const WorldState& state = world_.state();
-  Observation observation;
-  if (observer_ != nullptr) observation.cloud = observer_->Observe(Snapshot("open"));
-  if (HasProprioception(robot_))
-    observation.proprioception =
-        ProprioceptionOf(robot_, state, episode_.scene.world_from_robot_base);
-  observation.privileged = Privileged();
-  const Action action = opening.Act(observation);
-
   Decision decision;
-  decision.cloud = std::move(observation.cloud);
+  decision.cloud = observation.cloud;
   decision.proprioception = observation.proprioception;
   decision.action = ToVector(action);
   decision.time_s = state.time_s;
   decision.hinge_rad = state.hinge_rad;
   decision.handle_rad = state.handle_rad;
+  if (HasProprioception(robot_)) {
+    const int missing_sliders = kSliderCount - robot_.base_count();
+    std::copy(state.robot_position.begin(), state.robot_position.end(),
+              decision.state.begin() + missing_sliders);
+  }
+  decision.state[kStateHinge] = state.hinge_rad;
+  decision.state[kStateHandle] = state.handle_rad;
+  decision.state[kStateBolt] = state.bolt_m;
+  return decision;
+}
+
+void EpisodeRun::Decide(Policy& policy, Stage stage) {
+  const std::string_view name = stage == Stage::kOpen ? "open" : "unlock";
+  const bool recorded = stage == recorded_;
+  Watch(name);
+  const WorldState& state = world_.state();
+  Observation observation;
+  if (observer_ != nullptr && (recorded || policy.Looks()))
+    observation.cloud = observer_->Observe(Snapshot(name));
+  if (HasProprioception(robot_))
+    observation.proprioception =
+        ProprioceptionOf(robot_, state, episode_.scene.world_from_robot_base);
+  observation.privileged = Privileged();
+  const Action action = policy.Act(observation);
+  std::optional<Decision> decision;
+  if (recorded) decision = DecisionAt(observation, action);
+  const double hinge_rad = state.hinge_rad;
+  const double handle_rad = state.handle_rad;
 
   const PhysicsConfig& physics = episode_.scene.physics;
-  controller_.MoveHandTo(ExecutedTarget(action, observation.privileged.world_from_hand),
+  controller_.MoveHandTo(ExecutedTarget(action, observation.privileged.world_from_hand, recorded),
                          physics.steps_per_action * physics.time_step_s);
   HoldAction();
-  decision.hinge_gain_rad = world_.state().hinge_rad - decision.hinge_rad;
-  episode_.decisions.push_back(std::move(decision));
+  ++actions_;
+  if (!decision) return;
+  decision->score_rad = stage == Stage::kOpen ? world_.state().hinge_rad - hinge_rad
+                                              : world_.state().handle_rad - handle_rad;
+  episode_.decisions.push_back(std::move(*decision));
 }
 
 // Half of the noise is a bias that stays for the episode: a trained policy errs that way.
 RigidTransform EpisodeRun::ExecutedTarget(const Action& action,
-                                          const RigidTransform& world_from_hand) {
+                                          const RigidTransform& world_from_hand, bool noisy) {
   RigidTransform target = RigidTransform::Identity();
   target.linear() = action.world_from_hand_rotation;
   target.translation() = world_from_hand.translation() + action.position_delta_m;
   const PhysicsConfig& physics = episode_.scene.physics;
-  if (physics.action_noise_m == 0 && physics.action_noise_rad == 0) return target;
-  if (episode_.decisions.empty()) {
-    for (double& bias : action_bias_) bias = action_noise_.Normal();
+  if (!noisy || (physics.action_noise_m == 0 && physics.action_noise_rad == 0)) return target;
+  if (!action_bias_) {
+    action_bias_.emplace();
+    for (double& bias : *action_bias_) bias = action_noise_.Normal();
   }
   std::array<double, 6> noise{};
   for (std::size_t i = 0; i < noise.size(); ++i)
-    noise[i] = std::sqrt(0.5) * (action_bias_[i] + action_noise_.Normal());
+    noise[i] = std::sqrt(0.5) * ((*action_bias_)[i] + action_noise_.Normal());
   const Eigen::Vector3d turn =
       physics.action_noise_rad * Eigen::Vector3d(noise[3], noise[4], noise[5]);
   target.translation() += physics.action_noise_m * Eigen::Vector3d(noise[0], noise[1], noise[2]);
@@ -315,19 +408,20 @@ EpisodeRun::Failure EpisodeRun::Open(Policy& opening) {
   // a hand that has been off the door for a second does not come back by itself
   const int given_up = 6 * physics.steps_per_action;
   opening.Reset();
+  actions_ = 0;
   last_touch_step_ = step_;
   for (int i = 0; i < physics.max_opening_actions && !coasted_ && !diverged_; ++i) {
     if (opened_ && world_.state().hinge_rad > physics.finish_hinge_rad) break;
-    Decide(opening);
+    Decide(opening, Stage::kOpen);
     if (step_ - last_touch_step_ > given_up) break;
   }
   Watch("end");
   if (opened_) return std::nullopt;
   const bool lost = step_ - last_pad_step_ > physics.steps_per_action;
   problem_ = Format(
-      "hinge at %.1f deg after %zu actions, last pad contact %.2f s before the end, "
+      "hinge at %.1f deg after %d actions, last pad contact %.2f s before the end, "
       "grasp moved %.0f mm",
-      world_.state().hinge_rad / kDegree, episode_.decisions.size(),
+      world_.state().hinge_rad / kDegree, actions_,
       static_cast<double>(step_ - last_pad_step_) * physics.time_step_s, 1000 * Slip());
   const DoorContacts contacts = world_.Contacts();
   if (!contacts.arm_touches.empty()) problem_ += ", arm touches " + contacts.arm_touches;
@@ -387,8 +481,7 @@ std::string EpisodeRun::Detail(Failure failure) const {
   if (!touched_itself_.empty()) text += "robot touched itself at " + touched_itself_ + "; ";
   if (failure) return text + problem_;
   return text +
-         Format("hinge %.1f deg after %zu actions; ", world_.state().hinge_rad / kDegree,
-                episode_.decisions.size()) +
+         Format("hinge %.1f deg after %d actions; ", world_.state().hinge_rad / kDegree, actions_) +
          touched_at_opening_ + Format("; grasp moved %.0f mm", 1000 * Slip());
 }
 
@@ -400,6 +493,10 @@ Episode EpisodeRun::Finish(Failure failure) {
   episode_.outcome = failure.value_or(EpisodeOutcome::kOpened);
   episode_.detail = Detail(failure);
   episode_.simulated_s = world_.state().time_s;
+  if (recorded_ == Stage::kGrasp) {
+    for (Decision& decision : episode_.decisions)
+      decision.score_rad = std::max(0.0, world_.state().hinge_rad);
+  }
   episode_.state_sha256 = world_.StateHash();
   return std::move(episode_);
 }

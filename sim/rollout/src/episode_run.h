@@ -17,18 +17,25 @@ namespace doorforge::internal {
 /// or nothing.
 class EpisodeRun {
  public:
-  EpisodeRun(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
+  EpisodeRun(const Scene& scene, const DoorAsset& door, const RobotModel& robot, Stage recorded,
              Observer* observer);
 
   using Failure = std::optional<EpisodeOutcome>;
-  Failure Reach();
-  Failure Grasp();
-  Failure Unlock();
+  Failure TakeHold();                       ///< By the planned grasp.
+  Failure TakeHold(GraspChooser& chooser);  ///< By a chosen one.
+  Failure Unlock();                         ///< By rule, in one go.
+  Failure Turn(Policy& handle);             ///< The same, decision by decision.
   Failure Open(Policy& opening);
 
   Episode Finish(Failure failure);
 
  private:
+  void Plan(const GraspPlan& plan);
+  Failure Reach();
+  Failure Grasp();
+  bool IsTurned() const;
+  Failure TurnFailure(bool lost);
+  void RecordChoice(ChosenGrasp chosen);
   void Step(const RobotCommand& command);
   void StepHand();
   int StepsIn(double seconds) const;
@@ -42,8 +49,10 @@ class EpisodeRun {
   PrivilegedState Privileged() const;
   SceneSnapshot Snapshot(std::string_view stage) const;
   void Watch(std::string_view stage);
-  void Decide(Policy& opening);
-  RigidTransform ExecutedTarget(const Action& action, const RigidTransform& world_from_hand);
+  void Decide(Policy& policy, Stage stage);
+  Decision DecisionAt(const Observation& observation, const Action& action) const;
+  RigidTransform ExecutedTarget(const Action& action, const RigidTransform& world_from_hand,
+                                bool noisy);
   void HoldAction();
   void NoteContacts();
   void NoteSelfContact(const DoorContacts& contacts);
@@ -52,6 +61,7 @@ class EpisodeRun {
 
   const DoorAsset& door_;
   const RobotModel& robot_;
+  Stage recorded_;
   Observer* observer_;
   GraspPlan plan_;
   DoorWorld world_;
@@ -60,7 +70,8 @@ class EpisodeRun {
   RigidTransform handle_from_hand_at_grasp_ = RigidTransform::Identity();
 
   Rng action_noise_;
-  std::array<double, 6> action_bias_{};
+  std::optional<std::array<double, 6>> action_bias_;
+  int actions_ = 0;  // of the present stage
 
   // bookkeeping of contacts, in steps
   long step_ = 0;

@@ -149,6 +149,24 @@ ReachedGrasp ReachFrom(const Reach& reach, const Scene& scene, const DoorAsset& 
   return reached;
 }
 
+GraspPlan BestReach(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
+                    const RigidTransform& door_from_grasp) {
+  const RigidTransform door_from_handle = DoorFromLinks(door, 0, 0)[kHandleLink];
+  const Reach reach{robot, scene.world_from_robot_base};
+  ReachedGrasp best;
+  // the two fingers are alike: half a turn about the approach is the same grasp
+  for (const double half_turn : {0.0, std::numbers::pi}) {
+    const RigidTransform door_from_tcp =
+        door_from_grasp * RotationAbout(Eigen::Vector3d::UnitZ(), half_turn);
+    for (const JointVector& start : robot.level_postures()) {
+      ReachedGrasp reached = ReachFrom(reach, scene, door, door_from_tcp, start);
+      reached.plan.handle_from_tcp = door_from_handle.inverse() * door_from_tcp;
+      if (reached.cost < best.cost) best = reached;
+    }
+  }
+  return best.plan;
+}
+
 }  // namespace
 
 GraspPlan PlanGrasp(const Scene& scene, const DoorAsset& door, const RobotModel& robot) {
@@ -156,21 +174,14 @@ GraspPlan PlanGrasp(const Scene& scene, const DoorAsset& door, const RobotModel&
   const RigidTransform door_from_grasp =
       door_from_handle * door.handle_from_grasp * scene.grasp_from_noisy_grasp;
   const JudgedGrasp judged = SearchGrasp(door, robot, door_from_grasp);
+  GraspPlan plan = BestReach(scene, door, robot, judged.door_from_tcp);
+  plan.cost = judged.cost;
+  return plan;
+}
 
-  // the two fingers are alike: half a turn about the approach is the same grasp
-  const Reach reach{robot, scene.world_from_robot_base};
-  ReachedGrasp best;
-  for (const double half_turn : {0.0, std::numbers::pi}) {
-    const RigidTransform door_from_tcp =
-        judged.door_from_tcp * RotationAbout(Eigen::Vector3d::UnitZ(), half_turn);
-    for (const JointVector& start : robot.level_postures()) {
-      ReachedGrasp reached = ReachFrom(reach, scene, door, door_from_tcp, start);
-      reached.plan.handle_from_tcp = door_from_handle.inverse() * door_from_tcp;
-      if (reached.cost < best.cost) best = reached;
-    }
-  }
-  best.plan.cost = judged.cost;
-  return best.plan;
+GraspPlan PlanReach(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
+                    const RigidTransform& handle_from_tcp) {
+  return BestReach(scene, door, robot, DoorFromLinks(door, 0, 0)[kHandleLink] * handle_from_tcp);
 }
 
 double GraspCost(const DoorAsset& door, const RobotModel& robot) {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -32,16 +34,34 @@ std::string_view NameOf(EpisodeOutcome outcome);  ///< "opened", "not_reached", 
 std::optional<EpisodeOutcome> EpisodeOutcomeNamed(std::string_view name);
 inline constexpr int kEpisodeOutcomeCount = 10;
 
+/// Stages of the task, each with a policy of its own (UniDoorManip, Section 4). A record holds the
+/// decisions of one of them.
+enum class Stage { kOpen, kHandle, kGrasp };
+std::string_view NameOf(Stage stage);  ///< "open", "handle", "grasp".
+/// Inverse of NameOf; nothing if the name is unknown.
+std::optional<Stage> StageNamed(std::string_view name);
+
+/// All joints at one instant: 11 of the robot (slider x, slider y, 7 arm joints, 2 fingers; sliders
+/// that it does not have are at 0), hinge, handle [m or rad], and how far a bolt is drawn back [m].
+/// With the scene's poses of door and robot they say exactly where everything is.
+using JointState = std::array<double, 14>;
+inline constexpr std::size_t kStateHinge = 11;
+inline constexpr std::size_t kStateHandle = 12;
+inline constexpr std::size_t kStateBolt = 13;
+
 /// One decision point of a stage: what was seen, what was asked for, what came of it.
 struct Decision {
   LabelledCloud cloud;  ///< Empty where the episode was run without a camera.
   Proprioception proprioception{};
+  /// As Action; at the stage "grasp" the first three numbers are the contact point in the world.
   ActionVector action{};
+  JointState state{};  ///< Before the action.
   double time_s = 0;
   double hinge_rad = 0;   ///< Before the action.
   double handle_rad = 0;  ///< Before the action.
-  /// Hinge angle gained by this action [rad]: the critic's target (UniDoorManip 4.2).
-  double hinge_gain_rad = 0;
+  /// The critic's target (UniDoorManip 4.2) [rad]: the angle that this action gained, of the hinge
+  /// at the stage "open", of the handle at "handle"; at "grasp" the door's final angle, at least 0.
+  double score_rad = 0;
 };
 
 struct Episode {

@@ -65,6 +65,8 @@ class Policy {
   /// Called once before an episode's first Act().
   virtual void Reset() {}
   virtual Action Act(const Observation& observation) = 0;
+  /// Whether Act() reads the cloud. One that does not may be given an empty cloud.
+  virtual bool Looks() const { return true; }
 };
 
 }  // namespace doorforge

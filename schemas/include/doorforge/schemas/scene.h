@@ -44,6 +44,7 @@ struct PhysicsConfig {
   double handle_friction = 1.0;
   double finger_force_n = 80;
   int max_opening_actions = 25;  ///< UniDoorManip's evaluation budget.
+  int max_handle_actions = 18;   ///< Where a policy turns the handle; UniDoorManip's rules.
   /// The episode goes on until the hinge has passed this angle; success is 45 degrees all the same.
   double finish_hinge_rad = 0.7853981633974483;
   /// Spread of the noise added to each executed action (the record keeps what the policy asked
@@ -64,6 +65,7 @@ struct PhysicsConfig {
     visit("handle_friction", self.handle_friction);
     visit("finger_force_n", self.finger_force_n);
     visit("max_opening_actions", self.max_opening_actions);
+    visit("max_handle_actions", self.max_handle_actions);
     visit("finish_hinge_rad", self.finish_hinge_rad);
     visit("action_noise_m", self.action_noise_m);
     visit("action_noise_rad", self.action_noise_rad);

@@ -21,9 +21,10 @@ std::vector<RigidTransform> LinkPosesOf(const SceneSnapshot& snapshot);
 
 /// What the policy's camera makes of an instant.
 struct Sight {
-  DepthImage ideal;  ///< Without noise.
-  DepthImage depth;  ///< As the sensor gives it; the same as `ideal` without noise.
-  SampledCloud sampled;
+  DepthImage ideal;       ///< Without noise.
+  DepthImage depth;       ///< As the sensor gives it; the same as `ideal` without noise.
+  LabelledCloud visible;  ///< Every point inside the crop.
+  SampledCloud sampled;   ///< Of these.
 };
 
 /// The scene's camera: depth of robot and door, with the noise that the config asks for, cropped

@@ -42,6 +42,7 @@ class OpeningExpert : public Policy {
 
   void Reset() override;
   Action Act(const Observation& observation) override;
+  bool Looks() const override { return false; }
 
  private:
   OpeningExpertConfig config_;

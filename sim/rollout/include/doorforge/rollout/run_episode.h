@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "doorforge/physics/door_world.h"
 #include "doorforge/physics/robot_model.h"
 #include "doorforge/rollout/observer.h"
@@ -37,5 +39,45 @@ Proprioception ProprioceptionOf(const RobotModel& robot, const WorldState& state
 /// Deterministic as DoorWorld is, if `opening` and `observer` are.
 Episode RunEpisode(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
                    Policy& opening, Observer* observer);
+
+/// A grasp that somebody chose by looking at the closed door.
+struct ChosenGrasp {
+  LabelledCloud cloud;                                  ///< What was seen; point 0 is the contact.
+  Eigen::Vector3d contact_m = Eigen::Vector3d::Zero();  ///< In the world, on the surface seen.
+  Eigen::Matrix3d world_from_hand_rotation = Eigen::Matrix3d::Identity();
+};
+
+/// Chooses where the hand takes hold, once, before the robot moves.
+class GraspChooser {
+ public:
+  virtual ~GraspChooser() = default;
+  /// Nothing where no point to take hold of is in view.
+  virtual std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) = 0;
+};
+
+/// How far beyond the contact point the tool centre goes along the hand's z: with the pads' middle
+/// there, they hold what lies behind a surface point that a camera sees.
+inline constexpr double kGraspInsertion = 0.012;  // [m]
+
+/// Who acts at each stage, and whose decisions the episode holds.
+struct EpisodeRoles {
+  Stage recorded = Stage::kOpen;
+  GraspChooser* grasp = nullptr;  ///< Null: PlanGrasp()'s grasp.
+  Policy* handle = nullptr;       ///< Null: the rule of RunEpisode(), which turns it in one go.
+  Policy* open = nullptr;         ///< Never null.
+};
+
+/// Runs one episode of the three stages: grasp, turn of the handle until it is "handle done" and
+/// unlocked (at most max_handle_actions decisions), opening as in RunEpisode(). The physics' action
+/// noise is added to the actions of the recorded stage alone: those of later stages show what comes
+/// of it. `observer` is asked for clouds at recorded decisions and by policies that look.
+///
+/// Outcomes are RunEpisode()'s. A chosen grasp is tried as it is: the fingers close also where the
+/// hand did not quite arrive, and one pad on the handle is enough to go on. Without a grasp in view
+/// the episode is kNotReached, without decisions.
+///
+/// @throws Error(kInvalidArgument) as RunEpisode(), or if the recorded stage has nobody to decide.
+Episode RunStages(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
+                  const EpisodeRoles& roles, Observer* observer);
 
 }  // namespace doorforge

@@ -109,6 +109,22 @@ TEST_F(DoorWorldTest, TheHandleSpringsBack) {
   EXPECT_TRUE(world.state().handle_done);
 }
 
+// Bullet's own limits let it through by one step's acceleration and then threw it back.
+TEST_F(DoorWorldTest, ALeafThatTheLatchPullsShutStopsAtItsFrame) {
+  DoorWorld world = MakeWorld();
+  WorldState ajar = world.state();
+  for (const double hinge_rad : {1e-12, 1e-6, 1e-3}) {
+    ajar.hinge_rad = hinge_rad;
+    world.Place(ajar);
+    for (int i = 0; i < 24; ++i) {
+      world.Step(hold_);
+      ASSERT_GT(world.state().hinge_rad, -1e-6) << "from " << hinge_rad << ", step " << i;
+    }
+    EXPECT_NEAR(world.state().hinge_rad, 0, 1e-6) << "from " << hinge_rad;
+    EXPECT_NEAR(world.state().hinge_rad_s, 0, 1e-6) << "from " << hinge_rad;
+  }
+}
+
 TEST_F(DoorWorldTest, TheHandleTurnsAsItsSpringSays) {
   DoorWorld world = MakeWorld();
   const double torque = 1.2;

@@ -5,10 +5,11 @@
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
-#include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
 #include <Eigen/Eigenvalues>
 
 #include "doorforge/core/error.h"
+
+#include "joint_stop.h"
 
 namespace doorforge::internal {
 namespace {
@@ -126,8 +127,7 @@ BulletBody::BulletBody(btMultiBodyDynamicsWorld& world, const RigidTransform& wo
     const BulletLink& link = links[static_cast<std::size_t>(i)];
     AddCollider(i, link, joint_from_link[static_cast<std::size_t>(i)].inverse(), side);
     if (link.joint != BulletJoint::kFixed)
-      Add(std::make_unique<btMultiBodyJointLimitConstraint>(multibody_.get(), i, link.lower,
-                                                            link.upper));
+      Add(std::make_unique<JointStop>(multibody_.get(), i, link.lower, link.upper));
   }
 }
 

@@ -6,7 +6,6 @@
 
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
-#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
@@ -14,6 +13,7 @@
 #include "contact_report.h"
 #include "door_body.h"
 #include "robot_body.h"
+#include "row_solver.h"
 #include "self_collision.h"
 #include "world_monitor.h"
 
@@ -78,7 +78,7 @@ class DoorWorld::Runtime {
   mutable btCollisionDispatcher dispatcher_{&collision_configuration_};
   std::unique_ptr<internal::SelfCollisionFilter> self_collisions_;
   btDbvtBroadphase broadphase_;
-  btMultiBodyConstraintSolver solver_;
+  internal::RowSolver solver_;
   btMultiBodyDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &collision_configuration_};
   std::unique_ptr<internal::RobotBody> robot_body_;
   std::unique_ptr<internal::DoorBody> door_body_;

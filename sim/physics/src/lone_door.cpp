@@ -7,9 +7,9 @@
 
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
-#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 
 #include "door_body.h"
+#include "row_solver.h"
 
 namespace doorforge {
 namespace {
@@ -43,7 +43,7 @@ class LoneDoor::Runtime {
   btDefaultCollisionConfiguration collision_configuration_;
   btCollisionDispatcher dispatcher_{&collision_configuration_};
   btDbvtBroadphase broadphase_;
-  btMultiBodyConstraintSolver solver_;
+  internal::RowSolver solver_;
   btMultiBodyDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &collision_configuration_};
   std::unique_ptr<internal::DoorBody> body_;
 };

@@ -90,6 +90,12 @@ class OperatingSystemFiles : public FileSystem {
     return true;
   }
 
+  bool HardLink(const fs::path& from, const fs::path& to) override {
+    if (::link(from.c_str(), to.c_str()) == 0) return true;
+    if (errno == EXDEV || errno == EPERM || errno == EMLINK || errno == ENOTSUP) return false;
+    ThrowIo(to, "cannot be linked to " + from.string());
+  }
+
   void Remove(const fs::path& path) override {
     if (::unlink(path.c_str()) != 0 && errno != ENOENT) ThrowIo(path, "cannot be removed");
   }

@@ -4,10 +4,13 @@
 #include <cstdio>
 #include <limits>
 #include <set>
+#include <span>
 
 #include <nlohmann/json.hpp>
 
+#include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
+#include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/schemas/shard.h"
 #include "doorforge/schemas/tar.h"
@@ -82,6 +85,30 @@ void CheckNames(const ShardIndex& index, const std::string& path) {
     if (!SameMembers(index.episodes[0], episode))
       ThrowFormat(path + ": " + episode.key + " has other members than " + index.episodes[0].key);
   }
+}
+
+constexpr const char* kChecksum = "index_crc32c";
+
+std::string WithChecksum(Json json) {
+  const std::string text = json.dump(2) + "\n";
+  json[kChecksum] = Crc32c(std::as_bytes(std::span(text)));
+  return json.dump(2) + "\n";
+}
+
+// The file's text is the one that a writer of this JSON writes. One without checksum is of an
+// earlier build, and then has no key that those did not write, such as a damaged name of the
+// checksum.
+void CheckText(Json json, const std::filesystem::path& path) {
+  constexpr std::size_t kEarlierKeys = 11;
+  const bool has_checksum = json.is_object() && json.contains(kChecksum);
+  if (!has_checksum && json.size() == kEarlierKeys) return;
+  if (has_checksum) {
+    json.erase(kChecksum);
+    if (WithChecksum(std::move(json)) == ReadFile(path)) return;
+  }
+  ThrowFormat(path.string() +
+              ": damaged: its text is not what its own checksum says; delete it and collect this "
+              "shard again");
 }
 
 }  // namespace
@@ -170,8 +197,14 @@ ShardIndex ShardIndexFromJson(const Json& json, const std::string& path) {
   return index;
 }
 
+std::string ShardIndexText(const ShardIndex& index) {
+  return WithChecksum(ShardIndexToJson(index));
+}
+
 ShardIndex ReadShardIndex(const std::filesystem::path& path) {
-  return ShardIndexFromJson(ReadJsonFile(path), path.string());
+  Json json = ReadJsonFile(path);
+  CheckText(json, path);
+  return ShardIndexFromJson(json, path.string());
 }
 
 bool IsKey(std::string_view key) {

@@ -93,12 +93,43 @@ std::span<const std::byte> ShardReader::Read(std::size_t episode, std::string_vi
   std::atomic<bool>& checked =
       mapping_
           ->checked[episode * members.size() + static_cast<std::size_t>(found - members.begin())];
-  if (mapping_->check == CrcCheck::kNever || checked.load(std::memory_order_relaxed)) return bytes;
+  if (mapping_->check == CrcCheck::kNever ||
+      (mapping_->check == CrcCheck::kOnFirstRead && checked.load(std::memory_order_relaxed)))
+    return bytes;
   const std::uint32_t crc32c = Crc32c(bytes);
   if (crc32c != found->crc32c)
     throw Error(ErrorCode::kFormat, CrcFault(Describe(episode, member), *found, crc32c));
   checked.store(true, std::memory_order_relaxed);
   return bytes;
+}
+
+std::optional<std::string> ShardReader::FindFrameFault() const {
+  const std::span<const std::byte> bytes = mapping_->file.bytes();
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  std::uint64_t at = 0;
+  // nothing if the tar goes on with `expected`
+  const auto compare = [&](std::string_view expected) -> std::optional<std::string> {
+    const std::string_view found = text.substr(std::min<std::size_t>(at, text.size()));
+    const auto differs = std::mismatch(
+        expected.begin(), expected.end(), found.begin(),
+        found.begin() + static_cast<std::ptrdiff_t>(std::min(expected.size(), found.size())));
+    if (differs.first == expected.end()) return std::nullopt;
+    return tar_path_.string() + ": byte " +
+           std::to_string(at + static_cast<std::uint64_t>(differs.first - expected.begin())) +
+           ", outside the members, is damaged";
+  };
+  const std::string zeros(kTarEnd, '\0');
+  for (const ShardEpisode& episode : index_.episodes) {
+    for (const ShardMember& member : episode.members) {
+      if (auto fault = compare(MakeTarHeader(episode.key + "." + member.name, member.size)))
+        return fault;
+      at = member.offset + member.size;
+      const std::size_t padding = TarPadding(member.size);
+      if (auto fault = compare(std::string_view(zeros).substr(0, padding))) return fault;
+      at += padding;
+    }
+  }
+  return compare(zeros);
 }
 
 std::vector<std::string> ShardReader::FindFaults() const {
@@ -111,7 +142,11 @@ std::vector<std::string> ShardReader::FindFaults() const {
         faults.push_back(CrcFault(Describe(i, member.name), member, crc32c));
     }
   }
+  const std::size_t member_faults = faults.size();
   CompareHeaders(ListTar(bytes), index_, tar_path_.string(), faults);
+  if (faults.size() == member_faults) {
+    if (std::optional<std::string> fault = FindFrameFault()) faults.push_back(std::move(*fault));
+  }
   Sha256 hash;
   hash.Update(bytes);
   if (hash.HexDigest() != index_.tar_sha256)

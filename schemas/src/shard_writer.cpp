@@ -202,7 +202,7 @@ ShardCommit ShardWriter::Commit() {
   output_->CloseTar();
   index_.tar_bytes = output_->size;
   index_.tar_sha256 = output_->hash.HexDigest();
-  const std::string text = ShardIndexToJson(index_).dump(2) + "\n";
+  const std::string text = ShardIndexText(index_);
   const fs::path tar_path = folder_ / index_.tar;
   const fs::path index_path = IndexPathOf(folder_, index_.header.number);
   if (fs::exists(index_path)) {

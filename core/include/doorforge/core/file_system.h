@@ -34,6 +34,8 @@ class FileSystem {
   virtual void Rename(const std::filesystem::path& from, const std::filesystem::path& to) = 0;
   /// False, and nothing done, if `to` is there.
   virtual bool RenameToNew(const std::filesystem::path& from, const std::filesystem::path& to) = 0;
+  /// A second name for a file; false where that cannot be, as between two file systems.
+  virtual bool HardLink(const std::filesystem::path& from, const std::filesystem::path& to) = 0;
   /// No error if it is not there.
   virtual void Remove(const std::filesystem::path& path) = 0;
   virtual void Close(int file) noexcept = 0;

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "encoded_episode.h"
+
+#include <string>
+
+#include "doorforge/core/error.h"
+#include "doorforge/schemas/episode_arrays.h"
+
+namespace doorforge {
+namespace {
+
+FailedEpisode FailureOf(const PlannedEpisode& planned, const DatasetDoor& door,
+                        const Episode& episode) {
+  return {planned.key,
+          door.id,
+          std::string(NameOf(episode.outcome)),
+          episode.detail,
+          episode.peak_hinge_rad,
+          episode.peak_handle_rad};
+}
+
+// Whether trying again later may end differently.
+bool IsOfEnvironment(const Error& error) {
+  return error.code() == ErrorCode::kMissing || error.code() == ErrorCode::kIo ||
+         error.code() == ErrorCode::kFormat;
+}
+
+}  // namespace
+
+bool IsData(const CollectedEpisode& collected) {
+  const Episode& episode = collected.episode;
+  if (episode.outcome == EpisodeOutcome::kOpened) return true;
+  return collected.keep_failed && !episode.decisions.empty() &&
+         episode.outcome != EpisodeOutcome::kDiverged;
+}
+
+EncodedEpisode RunAndEncode(const PlannedEpisode& planned, const DatasetDoor& door,
+                            const EpisodeRunner& runner) {
+  EncodedEpisode encoded;
+  try {
+    const CollectedEpisode collected = runner(planned);
+    if (IsData(collected)) {
+      encoded.members = EncodeEpisode(collected.episode, collected.meta, collected.preview_png);
+      encoded.decisions = collected.episode.decisions.size();
+    } else {
+      encoded.failure = FailureOf(planned, door, collected.episode);
+    }
+  } catch (const Error& error) {
+    if (IsOfEnvironment(error)) throw;
+    encoded.failure = FailedEpisode{planned.key, door.id, "error", error.what(), 0, 0};
+  }
+  return encoded;
+}
+
+}  // namespace doorforge

@@ -10,15 +10,17 @@
 #include <string>
 #include <vector>
 
+#include <unistd.h>
+
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/datagen/describe_dataset.h"
 #include "doorforge/datagen/task_number.h"
-#include "doorforge/rollout/run_episode.h"
 
 #include "door_folder.h"
-#include "open_stage.h"
-#include "robot_meshes.h"
+#include "forecast.h"
+#include "stage_run.h"
+#include "trained_policy.h"
 #include "verb_options.h"
 
 namespace doorforge {
@@ -27,7 +29,10 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string doors;
+  Stage stage = Stage::kOpen;
+  std::vector<std::string> doors;
+  std::string handler;
+  std::string opener;
   std::string robot;
   std::string out;
   std::string config;
@@ -35,6 +40,7 @@ struct Options {
   std::optional<std::uint64_t> episodes;
   std::optional<std::uint64_t> seed;
   int threads = 0;
+  int probe = 8;
   std::string task;
   int tasks = 0;
   int task_offset = 0;
@@ -44,17 +50,28 @@ struct Options {
 };
 
 void AddOptions(CLI::App& app, Options& options) {
-  app.add_option("--doors", options.doors, "folder of composed doors")->required();
-  app.add_option("--out", options.out, "folder of the dataset")->required();
+  app.add_option("--doors", options.doors,
+                 "folders of composed doors; with a split such as full:train only its doors")
+      ->required();
   app.add_option("--episodes", options.episodes, "episodes to run, failed ones included")
       ->check(CLI::Range(1, 100000000));
   app.add_option("--seed", options.seed, "decides every random choice");
+  app.add_option("--opener", options.opener,
+                 "trained policy that opens, instead of the rule (handle, grasp)");
+  app.add_option("--handler", options.handler,
+                 "trained policy that turns the handle, instead of the rule (grasp)");
   app.add_option("--robot", options.robot, "URDF of the robot; the embedded one if left out");
   app.add_option("--config", options.config, "YAML file with settings");
   app.add_option("--set", options.settings, "a.b=c overrides one setting, e.g. cloud.point_count");
-  app.add_option("--threads", options.threads, "threads, 0: all; does not change the bytes")
+  app.add_option("-j,--threads", options.threads, "threads, 0: all; does not change the bytes")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
+  app.add_flag("--json", options.json, "print one JSON document");
+}
+
+// What belongs to a run that writes.
+void AddOutput(CLI::App& app, Options& options) {
+  app.add_option("--out", options.out, "folder of the dataset")->required();
   app.add_option("--task", options.task,
                  "i/N: only task i, from 0, of N; `doorforge dataset merge` joins them");
   app.add_option("--tasks", options.tasks,
@@ -65,35 +82,15 @@ void AddOptions(CLI::App& app, Options& options) {
   app.add_flag("--resume", options.resume,
                "go on in --out, which is done without it where the settings are the same");
   app.add_flag("--overwrite", options.overwrite, "replace the dataset in --out");
-  app.add_flag("--json", options.json, "print one JSON document");
-  app.footer(
-      "Interrupted with Ctrl-C or killed, the same command goes on and gives the same bytes.\n\n"
-      "examples:\n"
-      "  doorforge datagen open --doors doors/train --out data --episodes 2000 --seed 7\n"
-      "  doorforge datagen open --doors doors/train --out data --episodes 2000 --seed 7 --task "
-      "3/16");
 }
 
-OpenStageConfig LoadOpenConfig(const Options& options) {
-  auto config = LoadConfig<OpenStageConfig>(options.config, options.settings);
+StageRequest RequestOf(const Options& options) {
+  StageConfig config =
+      LoadConfig<StageConfig>(options.config, options.settings, DefaultsOf(options.stage));
   if (options.episodes) config.episodes = *options.episodes;
   if (options.seed) config.seed = *options.seed;
   if (!options.robot.empty()) config.scene.robot = options.robot;
-  Require(config.cloud.point_count >= 1 && config.cloud.point_count <= 1000000,
-          ErrorCode::kInvalidConfig, "config.cloud.point_count: out of 1..1000000");
-  CheckDepthNoise(config.cloud.noise);
-  return config;
-}
-
-// The effective config. A comment names what else decides the bytes, so that a run on other doors
-// or with another build is noticed when it is resumed.
-std::string ConfigText(const OpenStageConfig& config, const DoorFolder& doors,
-                       const RobotModel& robot) {
-  return "# doorforge datagen open, " + CodeVersion() + "\n# " +
-         std::to_string(doors.doors.size()) + " doors, sha256 " + ContentHash(doors) +
-         "\n# robot " +
-         (robot.name().empty() ? "embedded" : robot.name() + ", sha256 " + robot.sha256()) +
-         ", rays by " + RayCasterVersion() + "\n" + ToJson(config).dump(2) + "\n";
+  return {config, options.doors, options.handler, options.opener, options.threads};
 }
 
 // Whether there is nothing but what a writer leaves that was killed at its first file.
@@ -131,16 +128,6 @@ CollectionTask TaskOf(const Options& options) {
   Require(task.count == 1 || !options.overwrite, ErrorCode::kInvalidArgument,
           "--overwrite: would remove what other tasks have written; remove the folder first");
   return task;
-}
-
-DatasetProvenance ProvenanceOf(const OpenStageConfig& config, const DoorFolder& doors) {
-  DatasetProvenance provenance;
-  provenance.code_version = CodeVersion();
-  provenance.compiler = __VERSION__;
-  provenance.libraries = {{"ray_caster", RayCasterVersion()}};
-  provenance.seed = config.seed;
-  provenance.doors = doors.doors;
-  return provenance;
 }
 
 nlohmann::ordered_json TaskToJson(const CollectSummary& summary, const CollectionTask& task) {
@@ -183,32 +170,72 @@ int Finish(const CollectSummary& summary, const CollectionTask& task, const Opti
   return 1;
 }
 
-int CollectOpenStage(const Options& options) {
-  const OpenStageConfig config = LoadOpenConfig(options);
+// Trained policies need the networks' library, which only the other program of the same sources
+// has. Comes back only where there is none.
+void BecomeTrainedProgram(int argc, char** argv) {
+  const fs::path program = ProgramFolder() / "doorforge-datagen-trained";
+  std::vector<std::string> words(argv, argv + argc);
+  words.insert(words.begin(), program.string());
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  ::execv(program.c_str(), pointers.data());
+  throw Error(
+      ErrorCode::kMissing,
+      program.string() +
+          ": cannot be started; --opener and --handler need a build with the room train/learn");
+}
+
+int CollectStage(const Options& options) {
   const CollectionTask task = TaskOf(options);
-  const DoorFolder doors = ReadDoorFolder(options.doors, options.threads);
-  const RobotModel robot =
-      LoadRobot(config.scene.robot, RobotBaseNamed(config.scene.physics.base), RobotMeshes());
-  Require(HasProprioception(robot), ErrorCode::kInvalidArgument,
-          "config.scene: data are recorded for robots with two sliders or a fixed base, seven arm "
-          "joints and two fingers; let others open doors with `doorforge simulate`");
-  const CollectionPlan plan =
-      MakePlan(PartsOf(doors), config.episodes, config.seed, config.collection);
+  StageRun run(RequestOf(options));
   PrepareFolder(options);
-  CollectRequest request;
+  CollectRequest request = run.Request();
   request.folder = options.out;
-  request.config_text = ConfigText(config, doors, robot);
-  request.provenance = ProvenanceOf(config, doors);
   request.threads = options.threads;
   request.task = task;
-  DoorShelf shelf(doors);
   const CollectSummary summary = Collect(
-      plan,
-      [&](const PlannedEpisode& planned) {
-        return RunOpenEpisode(planned, *shelf.Take(planned.door), robot, config);
-      },
-      request);
+      run.plan(), [&](const PlannedEpisode& planned) { return run.Run(planned); }, request);
   return Finish(summary, task, options);
+}
+
+int PrintPlan(const Options& options) {
+  StageRun run(RequestOf(options));
+  const CollectionForecast forecast = Forecast(run, options.probe, options.threads);
+  std::cout << (options.json ? ForecastToJson(forecast).dump(2) + "\n" : ForecastText(forecast));
+  return 0;
+}
+
+void AddStage(CLI::App& app, Options& options, Stage stage, const std::string& description) {
+  const std::string name(NameOf(stage));
+  auto* verb = app.add_subcommand(name, description);
+  AddOptions(*verb, options);
+  AddOutput(*verb, options);
+  const std::string command = "  doorforge datagen " + name +
+                              " --doors full:train doors --out data --episodes 2000 --seed 7";
+  verb->footer(
+      "Interrupted with Ctrl-C or killed, the same command goes on and gives the same bytes.\n\n"
+      "examples:\n" +
+      command + "\n" + command + (stage == Stage::kOpen ? " --task 3/16" : " --opener run/opener"));
+  verb->callback([&options, stage] { options.stage = stage; });
+}
+
+CLI::App* AddPlan(CLI::App& app, Options& options) {
+  auto* plan = app.add_subcommand(
+      "plan",
+      "what a collection would be: doors, episodes, decisions, bytes and time; writes nothing");
+  plan->add_option_function<std::string>(
+          "stage", [&options](const std::string& name) { options.stage = *StageNamed(name); },
+          "open, handle or grasp")
+      ->required()
+      ->check(CLI::IsMember({"open", "handle", "grasp"}));
+  AddOptions(*plan, options);
+  plan->add_option("--probe", options.probe, "episodes that are run and measured for it; 0: none")
+      ->check(CLI::Range(0, 10000))
+      ->capture_default_str();
+  plan->footer(
+      "example:\n  doorforge datagen plan open --doors full:train doors --episodes 100000");
+  return plan;
 }
 
 }  // namespace
@@ -217,14 +244,21 @@ int RunDatagenVerb(int argc, char** argv) {
   Options options;
   CLI::App app("Collects a stage's dataset.", "doorforge datagen");
   app.require_subcommand(1);
-  auto* open = app.add_subcommand(
-      "open",
-      "expert episodes of the opening stage: grasp and unlock by rule, then every decision "
-      "of opening is recorded");
-  AddOptions(*open, options);
+  AddStage(app, options, Stage::kOpen,
+           "grasp and unlock by rule, then every decision of opening is recorded");
+  AddStage(app, options, Stage::kHandle,
+           "grasp by rule, then every decision of turning the handle is recorded, of episodes in "
+           "which the door opens afterwards");
+  AddStage(
+      app, options, Stage::kGrasp,
+      "sampled contact points and orientations, good and bad ones alike, with the door's final "
+      "angle");
+  const CLI::App* plan = AddPlan(app, options);
   app.footer("example:\n  doorforge datagen open --doors doors/train --out data --episodes 200");
   ParseVerb(app, argc, argv);
-  return CollectOpenStage(options);
+  const bool needs_networks = !options.handler.empty() || !options.opener.empty();
+  if (needs_networks && !RunsTrainedPolicies()) BecomeTrainedProgram(argc, argv);
+  return plan->parsed() ? PrintPlan(options) : CollectStage(options);
 }
 
 }  // namespace doorforge

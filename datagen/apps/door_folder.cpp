@@ -8,7 +8,10 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
+#include "doorforge/core/json_file.h"
 #include "doorforge/core/parallel_for.h"
+#include "doorforge/core/program.h"
+#include "doorforge/schemas/split.h"
 
 namespace doorforge {
 namespace {
@@ -49,6 +52,79 @@ DatasetDoor Identify(const fs::path& folder) {
           ""};
 }
 
+// Folders among the names, and the split.
+struct NamedDoors {
+  std::vector<fs::path> folders;
+  std::optional<std::string> split;
+};
+
+// The file of a split, if the name, without its side, is one.
+fs::path SplitFile(const std::string& name) {
+  const std::string stem = name.substr(0, name.rfind(':'));
+  const bool is_file = stem.ends_with(".yaml") || stem.ends_with(".json");
+  if (is_file && fs::is_regular_file(stem)) return stem;
+  const fs::path own = DataFolder() / "splits" / (stem + ".yaml");
+  return fs::is_regular_file(own) ? own : fs::path();
+}
+
+NamedDoors Divide(const std::vector<std::string>& names) {
+  NamedDoors named;
+  for (const std::string& name : names) {
+    if (fs::is_directory(name) || SplitFile(name).empty()) {
+      named.folders.emplace_back(name);
+      continue;
+    }
+    Require(!named.split, ErrorCode::kInvalidArgument,
+            "--doors " + name + ": a second split; give one");
+    named.split = name;
+  }
+  if (named.folders.empty())
+    throw Error(ErrorCode::kInvalidArgument,
+                "--doors: " + (named.split ? "the split " + *named.split + " names parts; " : "") +
+                    "give a folder of composed doors as well, such as `--doors full:train doors`; "
+                    "`doorforge catalog build` and `doorforge compose --all` make them");
+  return named;
+}
+
+std::set<std::string> PartsOfSide(const std::string& name) {
+  const std::size_t colon = name.rfind(':');
+  const std::string side = colon == std::string::npos ? "train" : name.substr(colon + 1);
+  const Split split = ReadSplit(SplitFile(name));
+  const std::map<std::string, const std::vector<std::string>*> sides = {
+      {"train", &split.train},
+      {"test", &split.test},
+      {"unseen_categories", &split.unseen_categories}};
+  const auto found = sides.find(side);
+  Require(found != sides.end(), ErrorCode::kInvalidArgument,
+          "--doors " + name + ": unknown side \"" + side +
+              "\"; allowed are train, test, unseen_categories");
+  return {found->second->begin(), found->second->end()};
+}
+
+// Of the doors, those with both parts on the split's side. Reads no mesh.
+std::vector<fs::path> OfSplit(const std::vector<fs::path>& doors, const std::string& name,
+                              int threads) {
+  const std::set<std::string> parts = PartsOfSide(name);
+  std::vector<char> is_meant(doors.size());
+  ParallelFor(doors.size(), threads, [&](std::size_t i) {
+    const std::string path = (doors[i] / "door.json").string();
+    const nlohmann::ordered_json json = ReadJsonFile(path);
+    const auto id_of = [&](const char* role) {
+      return ValueOf<std::string>(MemberOf(json, role, path), "id", path);
+    };
+    is_meant[i] = parts.contains(id_of("body")) && parts.contains(id_of("handle")) ? 1 : 0;
+  });
+  std::vector<fs::path> meant;
+  for (std::size_t i = 0; i < doors.size(); ++i) {
+    if (is_meant[i] != 0) meant.push_back(doors[i]);
+  }
+  if (meant.empty())
+    throw Error(ErrorCode::kMissing, "none of the " + std::to_string(doors.size()) +
+                                         " doors has body and handle of " + name +
+                                         "; compose doors of its parts");
+  return meant;
+}
+
 void RequireReadable(const std::vector<ReadResult>& results) {
   constexpr int kMostNamed = 20;
   int count = 0;
@@ -66,8 +142,15 @@ void RequireReadable(const std::vector<ReadResult>& results) {
 
 }  // namespace
 
-DoorFolder ReadDoorFolder(const fs::path& folder, int threads) {
-  const std::vector<fs::path> paths = FindDoors(folder);
+DoorFolder ReadDoors(const std::vector<std::string>& names, int threads) {
+  const NamedDoors named = Divide(names);
+  std::set<fs::path> found;
+  for (const fs::path& folder : named.folders) {
+    const std::vector<fs::path> doors = FindDoors(folder);
+    found.insert(doors.begin(), doors.end());
+  }
+  std::vector<fs::path> paths(found.begin(), found.end());
+  if (named.split) paths = OfSplit(paths, *named.split, threads);
   std::vector<ReadResult> results(paths.size());
   ParallelFor(paths.size(), threads, [&](std::size_t i) {
     try {

@@ -24,11 +24,13 @@ struct DoorFolder {
   std::vector<std::filesystem::path> paths;
 };
 
-/// Reads every folder at or below `folder` that holds a door.json.
+/// Reads every folder at or below the named ones that holds a door.json. Among the names may be a
+/// split, as a name in data/splits or a file, with a side: "full", "full:train", "my.yaml:test";
+/// then only doors are meant whose body and handle are both on that side, by default "train".
 ///
 /// @throws Error(kMissing) if there is none, Error(kFormat) that lists every door that cannot be
-///     read, Error(kInvalidArgument) if two doors have one id.
-DoorFolder ReadDoorFolder(const std::filesystem::path& folder, int threads);
+///     read, Error(kInvalidArgument) if two doors have one id, an unknown side or two splits.
+DoorFolder ReadDoors(const std::vector<std::string>& names, int threads);
 
 /// What the plan needs of the doors, in their order.
 std::vector<DoorParts> PartsOf(const DoorFolder& folder);

@@ -15,19 +15,13 @@
 #include "doorforge/core/progress.h"
 
 #include "dataset_records.h"
+#include "encoded_episode.h"
 #include "ordered_work.h"
 
 namespace doorforge {
 namespace {
 
 namespace fs = std::filesystem;
-
-// An episode as it goes into its shard: members, or the cause why there are none.
-struct EncodedEpisode {
-  std::vector<MemberBytes> members;
-  std::uint64_t decisions = 0;
-  std::optional<FailedEpisode> failure;
-};
 
 // Place of an episode in the plan.
 struct Slot {
@@ -41,40 +35,6 @@ fs::path PartFolder(const CollectRequest& request, const PlannedShard& shard) {
 
 fs::path IndexPath(const CollectRequest& request, const PlannedShard& shard) {
   return PartFolder(request, shard) / (ShardStem(shard.number) + ".index.json");
-}
-
-FailedEpisode FailureOf(const PlannedEpisode& planned, const DatasetDoor& door,
-                        const Episode& episode) {
-  return {planned.key,
-          door.id,
-          std::string(NameOf(episode.outcome)),
-          episode.detail,
-          episode.peak_hinge_rad,
-          episode.peak_handle_rad};
-}
-
-// Whether trying again later may end differently.
-bool IsOfEnvironment(const Error& error) {
-  return error.code() == ErrorCode::kMissing || error.code() == ErrorCode::kIo ||
-         error.code() == ErrorCode::kFormat;
-}
-
-EncodedEpisode Encode(const PlannedEpisode& planned, const DatasetDoor& door,
-                      const EpisodeRunner& runner) {
-  EncodedEpisode encoded;
-  try {
-    const CollectedEpisode collected = runner(planned);
-    if (collected.episode.outcome == EpisodeOutcome::kOpened) {
-      encoded.members = EncodeEpisode(collected.episode, collected.meta, collected.preview_png);
-      encoded.decisions = collected.episode.decisions.size();
-    } else {
-      encoded.failure = FailureOf(planned, door, collected.episode);
-    }
-  } catch (const Error& error) {
-    if (IsOfEnvironment(error)) throw;
-    encoded.failure = FailedEpisode{planned.key, door.id, "error", error.what(), 0, 0};
-  }
-  return encoded;
 }
 
 // Counts while the work goes on, for the progress line.
@@ -144,7 +104,7 @@ class Collection {
     OrderedWork<EncodedEpisode> work(
         [&](std::size_t i) {
           const PlannedEpisode& planned = EpisodeAt(pending_[i]);
-          return Encode(planned, request_.provenance.doors.at(planned.door), runner_);
+          return RunAndEncode(planned, request_.provenance.doors.at(planned.door), runner_);
         },
         [&](std::size_t i, EncodedEpisode encoded) {
           progress.Advance(1, tally_.Add(encoded));

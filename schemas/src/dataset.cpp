@@ -280,7 +280,23 @@ PlannedPart PlannedFromJson(const Json& json, const std::string& path) {
   return part;
 }
 
+DatasetPolicy DatasetPolicyFromJson(const Json& json, const std::string& path) {
+  return {ValueOf<std::string>(json, "stage", path),
+          ValueOf<std::string>(json, "policy_sha256", path),
+          ValueOf<std::string>(json, "weights_sha256", path),
+          ValueOf<std::string>(json, "dataset_sha256", path),
+          ValueOf<std::string>(json, "code_version", path)};
+}
+
 }  // namespace
+
+Json DatasetPolicyToJson(const DatasetPolicy& policy) {
+  return {{"stage", policy.stage},
+          {"policy_sha256", policy.policy_sha256},
+          {"weights_sha256", policy.weights_sha256},
+          {"dataset_sha256", policy.dataset_sha256},
+          {"code_version", policy.code_version}};
+}
 
 Json ProvenanceToJson(const DatasetProvenance& provenance) {
   Json libraries = Json::object();
@@ -289,15 +305,21 @@ Json ProvenanceToJson(const DatasetProvenance& provenance) {
   for (const DatasetDoor& door : provenance.doors) doors.push_back(DoorToJson(door));
   Json planned = Json::array();
   for (const PlannedPart& part : provenance.planned) planned.push_back(PlannedToJson(part));
-  return {{"schema", "doorforge.provenance"},
-          {"schema_version", kDatasetSchemaVersion},
-          {"code_version", provenance.code_version},
-          {"compiler", provenance.compiler},
-          {"libraries", libraries},
-          {"config_sha256", provenance.config_sha256},
-          {"seed", provenance.seed},
-          {"planned", planned},
-          {"doors", doors}};
+  Json json = {{"schema", "doorforge.provenance"},
+               {"schema_version", kDatasetSchemaVersion},
+               {"code_version", provenance.code_version},
+               {"compiler", provenance.compiler},
+               {"libraries", libraries},
+               {"config_sha256", provenance.config_sha256},
+               {"seed", provenance.seed},
+               {"planned", planned}};
+  if (!provenance.policies.empty()) {
+    json["policies"] = Json::array();
+    for (const DatasetPolicy& policy : provenance.policies)
+      json["policies"].push_back(DatasetPolicyToJson(policy));
+  }
+  json["doors"] = doors;
+  return json;
 }
 
 DatasetProvenance ProvenanceFromJson(const Json& json, const std::string& path) {
@@ -315,6 +337,10 @@ DatasetProvenance ProvenanceFromJson(const Json& json, const std::string& path) 
   if (json.contains("planned")) {
     for (const Json& part : json["planned"])
       provenance.planned.push_back(PlannedFromJson(part, path + ".planned"));
+  }
+  if (json.contains("policies")) {
+    for (const Json& policy : json["policies"])
+      provenance.policies.push_back(DatasetPolicyFromJson(policy, path + ".policies"));
   }
   return provenance;
 }

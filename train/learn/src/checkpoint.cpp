@@ -246,14 +246,15 @@ void WritePolicy(const fs::path& folder, const OpeningNetworks& networks,
   WriteJsonFile(folder / kRecordFile, json);
 }
 
-PolicyRecord ReadPolicy(const fs::path& folder) {
+PolicyRecord ReadPolicy(const fs::path& folder, std::string_view stage) {
   const std::string path = (folder / kRecordFile).string();
   const Json json = ReadJsonFile(path);
   RequireSchema(json, "doorforge.policy", kPolicySchemaVersion, path);
-  const std::string stage = ValueOf<std::string>(json, "stage", path);
-  if (stage != "open")
-    throw Error(ErrorCode::kFormat, path + ": a policy of the stage \"" + stage +
-                                        "\"; this build runs policies of the stage \"open\"");
+  const auto found = ValueOf<std::string>(json, "stage", path);
+  if (found != stage)
+    throw Error(ErrorCode::kFormat, path + ": a policy of the stage \"" + found +
+                                        "\", where one of the stage \"" + std::string(stage) +
+                                        "\" is needed");
   PolicyRecord record;
   record.weights_sha256 = ValueOf<std::string>(json, "weights_sha256", path);
   record.networks.linear_branches = ValueOf<bool>(json, "linear_branches", path);

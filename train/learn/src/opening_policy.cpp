@@ -111,8 +111,8 @@ std::unique_ptr<Policy> MakePolicy(OpeningNetworks networks, const PolicyOptions
 }
 
 std::unique_ptr<Policy> LoadPolicy(const std::filesystem::path& folder,
-                                   const PolicyOptions& options) {
-  return MakePolicy(ReadPolicy(folder).networks, options);
+                                   const PolicyOptions& options, std::string_view stage) {
+  return MakePolicy(ReadPolicy(folder, stage).networks, options);
 }
 
 }  // namespace doorforge

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -22,15 +23,15 @@ nlohmann::ordered_json ParseSettings(const std::vector<std::string>& settings);
 
 /// The effective config: defaults <- file (if `path` is not empty) <- `--set a.b=c`.
 template <class T>
-T LoadConfig(const std::string& path, const std::vector<std::string>& settings);
+T LoadConfig(const std::string& path, const std::vector<std::string>& settings, T defaults = {});
 
 namespace internal {
 nlohmann::ordered_json ReadConfigFile(const std::filesystem::path& path);
 }
 
 template <class T>
-T LoadConfig(const std::string& path, const std::vector<std::string>& settings) {
-  T config;
+T LoadConfig(const std::string& path, const std::vector<std::string>& settings, T defaults) {
+  T config = std::move(defaults);
   if (!path.empty()) Assign(internal::ReadConfigFile(path), config, "config");
   Assign(ParseSettings(settings), config, "config");
   return config;

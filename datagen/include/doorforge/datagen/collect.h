@@ -24,7 +24,13 @@ struct CollectedEpisode {
   Episode episode;
   nlohmann::ordered_json meta;  ///< Record for meta.json, see EncodeEpisode().
   std::string preview_png;      ///< For every episode or for none.
+  /// A failure is data as well, as at the stage "grasp": written like a success, unless it has no
+  /// decisions or its physics became impossible.
+  bool keep_failed = false;
 };
+
+/// Whether the episode is written into its shard, or else listed among the failures.
+bool IsData(const CollectedEpisode& collected);
 
 /// Runs a planned episode. Called from several threads at once; must be a pure function of the
 /// plan's entry. An Error that it throws counts as a failed episode with outcome "error", but

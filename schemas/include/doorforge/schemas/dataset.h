@@ -88,6 +88,17 @@ struct PlannedPart {
   std::uint64_t episodes_per_shard = 0;
 };
 
+/// A trained policy that acted in the episodes instead of the rule of its stage.
+struct DatasetPolicy {
+  std::string stage;           ///< "handle" or "open".
+  std::string policy_sha256;   ///< Of policy.json.
+  std::string weights_sha256;  ///< Of the weights' file.
+  std::string dataset_sha256;  ///< Of what it was trained from.
+  std::string code_version;    ///< Of the build that trained it.
+};
+
+nlohmann::ordered_json DatasetPolicyToJson(const DatasetPolicy& policy);
+
 /// Where a dataset came from.
 struct DatasetProvenance {
   std::string code_version;
@@ -96,7 +107,8 @@ struct DatasetProvenance {
   std::string config_sha256;
   std::uint64_t seed = 0;
   std::vector<DatasetDoor> doors;
-  std::vector<PlannedPart> planned = {};  ///< Empty in records of earlier builds.
+  std::vector<PlannedPart> planned = {};     ///< Empty in records of earlier builds.
+  std::vector<DatasetPolicy> policies = {};  ///< Empty where the rules did everything.
 };
 
 nlohmann::ordered_json ProvenanceToJson(const DatasetProvenance& provenance);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "doorforge/learn/train_opening.h"
@@ -37,8 +38,9 @@ std::string ConfigHash(const TrainConfig& config);
 void WritePolicy(const std::filesystem::path& folder, const OpeningNetworks& networks,
                  const PolicyProvenance& provenance);
 
-/// Throws Error(kMissing), Error(kFormat) on a damaged record or weights that do not belong to it.
-PolicyRecord ReadPolicy(const std::filesystem::path& folder);
+/// Throws Error(kMissing), Error(kFormat) on a damaged record, one of another stage, or weights
+/// that do not belong to it.
+PolicyRecord ReadPolicy(const std::filesystem::path& folder, std::string_view stage = "open");
 
 /// Writes `training.safetensors`, one file with all that TrainerState holds, so that a crash leaves
 /// either the old state or the new one.

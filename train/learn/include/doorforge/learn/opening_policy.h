@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string_view>
 
 #include "doorforge/learn/opening_networks.h"
 #include "doorforge/schemas/policy.h"
@@ -25,7 +26,8 @@ struct PolicyOptions {
   }
 };
 
-/// The policy of a folder that `doorforge train open` wrote.
+/// The policy of a folder that `doorforge train` wrote, of the stage "open" unless said otherwise:
+/// the policy that turns the handle ("handle") has the same networks.
 ///
 /// One instance serves one episode at a time and uses one thread; several threads each load their
 /// own. Act() reads the cloud and the proprioception only, and throws Error(kInvalidArgument) if
@@ -33,7 +35,8 @@ struct PolicyOptions {
 ///
 /// @throws Error(kMissing or kFormat) as ReadPolicy(), Error(kInvalidConfig) on bad options.
 std::unique_ptr<Policy> LoadPolicy(const std::filesystem::path& folder,
-                                   const PolicyOptions& options = {});
+                                   const PolicyOptions& options = {},
+                                   std::string_view stage = "open");
 
 /// The same of networks in memory.
 std::unique_ptr<Policy> MakePolicy(OpeningNetworks networks, const PolicyOptions& options = {});

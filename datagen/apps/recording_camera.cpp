@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "recording_camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "doorforge/sensor/picture.h"
+
+namespace doorforge {
+
+RecordingCamera::RecordingCamera(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
+                                 const CloudConfig& config)
+    : model_(scene.camera),
+      max_depth_m_(config.max_depth_m),
+      camera_(scene, door, robot, config),
+      occlusion_(door) {}
+
+LabelledCloud RecordingCamera::Observe(const SceneSnapshot& snapshot) {
+  return Look(snapshot).sampled.cloud;
+}
+
+LabelledCloud RecordingCamera::LookAtAll(const SceneSnapshot& snapshot) {
+  return Look(snapshot).visible;
+}
+
+Sight RecordingCamera::Look(const SceneSnapshot& snapshot) {
+  Sight sight = camera_.Look(snapshot);
+  visible_.push_back(sight.sampled.visible_count);
+  hidden_.push_back(occlusion_.Measure(sight.ideal, model_, snapshot));
+  last_ = sight.depth;
+  if (!first_) first_ = last_;
+  return sight;
+}
+
+std::vector<int> RecordingCamera::Visible(std::size_t looks) const {
+  const std::size_t count = std::min(looks, visible_.size());
+  return {visible_.begin(), visible_.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+
+nlohmann::ordered_json RecordingCamera::OcclusionRecord(std::size_t looks) const {
+  nlohmann::ordered_json record;
+  const auto add = [&](const char* key, auto&& share) {
+    record[key] = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < std::min(looks, hidden_.size()); ++i)
+      record[key].push_back(std::round(share(hidden_[i]) * 1e4) / 1e4);
+  };
+  add("handle_by_robot", [](const Occlusion& o) { return o.handle.by_robot; });
+  add("handle_by_door", [](const Occlusion& o) { return o.handle.by_door; });
+  add("leaf_by_robot", [](const Occlusion& o) { return o.leaf.by_robot; });
+  add("leaf_by_door", [](const Occlusion& o) { return o.leaf.by_door; });
+  return record;
+}
+
+std::string RecordingCamera::PreviewPng() const {
+  if (!first_) return {};
+  const Picture pictures[] = {DepthPreview(*first_, max_depth_m_),
+                              DepthPreview(*last_, max_depth_m_)};
+  return EncodePng(ContactSheet(
+      pictures, {}, {.columns = 2, .tile_width = model_.width, .tile_height = model_.height}));
+}
+
+}  // namespace doorforge

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "doorforge/rollout/camera_observer.h"
+#include "doorforge/rollout/occlusion.h"
+
+namespace doorforge {
+
+/// The policy's camera, which also keeps what an episode's record says of its looks: how many
+/// points were visible, what was hidden, the depth images of the preview.
+class RecordingCamera : public Observer {
+ public:
+  /// As CameraObserver's constructor.
+  RecordingCamera(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
+                  const CloudConfig& config);
+
+  LabelledCloud Observe(const SceneSnapshot& snapshot) override;
+  /// The same look, but every point that is visible.
+  LabelledCloud LookAtAll(const SceneSnapshot& snapshot);
+
+  /// Points inside the crop before sampling, of the first `looks` looks.
+  std::vector<int> Visible(std::size_t looks) const;
+  /// Hidden shares by name, one number a look each, of the first `looks` looks.
+  nlohmann::ordered_json OcclusionRecord(std::size_t looks) const;
+  /// Depth at the first look and at the last one; empty if there was none.
+  std::string PreviewPng() const;
+
+ private:
+  Sight Look(const SceneSnapshot& snapshot);
+
+  CameraModel model_;
+  double max_depth_m_;
+  CameraObserver camera_;
+  OcclusionMeter occlusion_;
+  std::optional<DepthImage> first_;
+  std::optional<DepthImage> last_;
+  std::vector<int> visible_;
+  std::vector<Occlusion> hidden_;
+};
+
+}  // namespace doorforge

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "stage_episode.h"
+
+#include "doorforge/core/error.h"
+#include "doorforge/rollout/run_episode.h"
+#include "doorforge/rollout/standing_place.h"
+
+#include "recording_camera.h"
+
+namespace doorforge {
+namespace {
+
+nlohmann::ordered_json CameraRecord(const CameraModel& camera) {
+  nlohmann::ordered_json matrix = nlohmann::ordered_json::array();
+  const Eigen::Matrix3d intrinsics = IntrinsicMatrix(camera);
+  for (Eigen::Index row = 0; row < 3; ++row)
+    matrix.push_back({intrinsics(row, 0), intrinsics(row, 1), intrinsics(row, 2)});
+  return {{"intrinsic_matrix_px", matrix},
+          {"world_from_camera", TransformToJson(WorldFromCamera(camera))}};
+}
+
+nlohmann::ordered_json DoorRecord(const DoorAsset& door) {
+  return {{"id", door.id},
+          {"category", NameOf(door.category)},
+          {"mechanism", NameOf(door.mechanism)},
+          {"body", IdentityToJson(door.body)},
+          {"handle", IdentityToJson(door.handle)},
+          {"license", door.license}};
+}
+
+// Who acted: "expert", "sampled", or the trained policy's hashes.
+nlohmann::ordered_json PoliciesRecord(Stage stage, const TrainedPolicies& trained) {
+  const auto actor = [](const PolicyPool* pool) {
+    return pool == nullptr ? nlohmann::ordered_json("expert")
+                           : DatasetPolicyToJson(pool->policy().identity);
+  };
+  return {{"grasp", stage == Stage::kGrasp ? "sampled" : "expert"},
+          {"unlock", actor(trained.handler)},
+          {"open", actor(trained.opener)}};
+}
+
+// The policies of one episode: lent ones where there are trained ones, rules elsewhere.
+class Actors {
+ public:
+  Actors(const StageConfig& config, const TrainedPolicies& trained)
+      : handle_rule_(config.handle), open_rule_(config.expert) {
+    if (trained.handler != nullptr) handler_ = trained.handler->Take();
+    if (trained.opener != nullptr) opener_ = trained.opener->Take();
+  }
+
+  Policy* handle() { return handler_ ? handler_.get() : &handle_rule_; }
+  Policy* open() { return opener_ ? opener_.get() : &open_rule_; }
+
+ private:
+  HandleExpert handle_rule_;
+  OpeningExpert open_rule_;
+  PolicyPool::Loan handler_;
+  PolicyPool::Loan opener_;
+};
+
+}  // namespace
+
+StageConfig DefaultsOf(Stage stage) {
+  StageConfig config;
+  config.stage = stage;
+  PhysicsConfig& physics = config.scene.physics;
+  switch (stage) {
+    case Stage::kOpen:
+      physics.max_opening_actions = 30;
+      physics.finish_hinge_rad = 1.05;
+      physics.action_noise_m = 0.01;
+      physics.action_noise_rad = 0.05;
+      break;
+    case Stage::kHandle:
+      // a hand on a locked door cannot give way: more noise would tear it off the handle
+      physics.action_noise_m = 0.004;
+      physics.action_noise_rad = 0.03;
+      config.collection.episodes_per_shard = 512;
+      break;
+    case Stage::kGrasp:
+      config.collection.episodes_per_shard = 1024;
+      break;
+  }
+  return config;
+}
+
+void CheckStageConfig(const StageConfig& config) {
+  Require(config.cloud.point_count >= 1 && config.cloud.point_count <= 1000000,
+          ErrorCode::kInvalidConfig, "config.cloud.point_count: out of 1..1000000");
+  CheckDepthNoise(config.cloud.noise);
+  CheckRandomGrasp(config.grasp);
+  Require(config.scene.physics.max_handle_actions >= 1 &&
+              config.scene.physics.max_handle_actions <= 1000,
+          ErrorCode::kInvalidConfig, "config.scene.physics.max_handle_actions: out of 1..1000");
+}
+
+CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const DoorAsset& door,
+                                 const RobotModel& robot, const StageConfig& config,
+                                 const TrainedPolicies& trained) {
+  const Scene scene =
+      SceneFor(robot, SampleScene(door, config.seed, planned.number, config.scene), door);
+  Actors actors(config, trained);
+  RecordingCamera camera(scene, door, robot, config.cloud);
+  RandomGrasp grasp(scene, door, robot, config.grasp, config.cloud.point_count,
+                    [&](const SceneSnapshot& snapshot) { return camera.LookAtAll(snapshot); });
+  EpisodeRoles roles{.recorded = config.stage, .open = actors.open()};
+  if (config.stage != Stage::kOpen) roles.handle = actors.handle();
+  if (config.stage == Stage::kGrasp) roles.grasp = &grasp;
+
+  CollectedEpisode collected;
+  collected.episode = RunStages(scene, door, robot, roles, &camera);
+  const Episode& episode = collected.episode;
+  const std::size_t decisions = episode.decisions.size();
+  collected.meta = EpisodeMetaToJson(episode);
+  collected.meta["stage"] = NameOf(config.stage);
+  collected.meta["door"] = DoorRecord(door);
+  collected.meta["camera"] = CameraRecord(scene.camera);
+  collected.meta["visible_points"] = camera.Visible(decisions);
+  collected.meta["hidden"] = camera.OcclusionRecord(decisions);
+  collected.meta["policies"] = PoliciesRecord(config.stage, trained);
+  collected.keep_failed = config.stage == Stage::kGrasp;
+  const bool is_kept = episode.outcome == EpisodeOutcome::kOpened || collected.keep_failed;
+  if (config.preview && is_kept) collected.preview_png = camera.PreviewPng();
+  return collected;
+}
+
+}  // namespace doorforge

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "stage_run.h"
+
+#include <utility>
+
+#include "doorforge/core/config_io.h"
+#include "doorforge/core/error.h"
+#include "doorforge/core/program.h"
+#include "doorforge/rollout/run_episode.h"
+
+#include "robot_meshes.h"
+
+namespace doorforge {
+namespace {
+
+RobotModel RobotFor(const StageConfig& config) {
+  RobotModel robot =
+      LoadRobot(config.scene.robot, RobotBaseNamed(config.scene.physics.base), RobotMeshes());
+  Require(HasProprioception(robot), ErrorCode::kInvalidArgument,
+          "config.scene: data are recorded for robots with two sliders or a fixed base, seven arm "
+          "joints and two fingers; let others open doors with `doorforge simulate`");
+  return robot;
+}
+
+std::unique_ptr<PolicyPool> PoolOf(const std::string& folder, Stage stage) {
+  if (folder.empty()) return nullptr;
+  auto pool = std::make_unique<PolicyPool>(ReadTrainedPolicy(folder, stage));
+  pool->Take();  // weights of another network are refused here, not in the first episode
+  return pool;
+}
+
+StageConfig Checked(const StageRequest& request) {
+  CheckStageConfig(request.config);
+  Require(
+      request.handler.empty() || request.config.stage == Stage::kGrasp, ErrorCode::kInvalidArgument,
+      "--handler: belongs to `datagen grasp`, where the handle is turned after the stage that is "
+      "recorded");
+  Require(
+      request.opener.empty() || request.config.stage != Stage::kOpen, ErrorCode::kInvalidArgument,
+      "--opener: belongs to `datagen handle` and `datagen grasp`, where the door is opened after "
+      "the stage that is recorded");
+  return request.config;
+}
+
+// There is no handle to turn where there is no latch.
+DoorFolder WithLatch(const DoorFolder& all) {
+  DoorFolder some;
+  for (std::size_t i = 0; i < all.doors.size(); ++i) {
+    if (all.doors[i].mechanism == NameOf(Mechanism::kNone)) continue;
+    some.doors.push_back(all.doors[i]);
+    some.paths.push_back(all.paths[i]);
+  }
+  Require(!some.doors.empty(), ErrorCode::kInvalidArgument,
+          "none of the " + std::to_string(all.doors.size()) +
+              " doors has a latch; the stage \"handle\" needs handles that turn");
+  return some;
+}
+
+DoorFolder DoorsFor(const StageRequest& request) {
+  DoorFolder doors = ReadDoors(request.doors, request.threads);
+  return request.config.stage == Stage::kHandle ? WithLatch(doors) : doors;
+}
+
+}  // namespace
+
+StageRun::StageRun(const StageRequest& request)
+    : config_(Checked(request)),
+      robot_(RobotFor(config_)),
+      handler_(PoolOf(request.handler, Stage::kHandle)),
+      opener_(PoolOf(request.opener, Stage::kOpen)),
+      doors_(DoorsFor(request)),
+      shelf_(doors_),
+      plan_(MakePlan(PartsOf(doors_), config_.episodes, config_.seed, config_.collection)) {}
+
+// The effective config. A comment names what else decides the bytes, so that a run on other doors,
+// with another build or another policy is noticed when it is resumed.
+std::string StageRun::ConfigText() const {
+  std::string text =
+      "# doorforge datagen " + std::string(NameOf(config_.stage)) + ", " + CodeVersion() + "\n# " +
+      std::to_string(doors_.doors.size()) + " doors, sha256 " + ContentHash(doors_) + "\n# robot " +
+      (robot_.name().empty() ? "embedded" : robot_.name() + ", sha256 " + robot_.sha256()) +
+      ", rays by " + RayCasterVersion() + "\n";
+  for (const PolicyPool* pool : {handler_.get(), opener_.get()}) {
+    if (pool != nullptr)
+      text += "# " + TrainedPolicyText(pool->policy()) + ", loops for " + PolicyArithmetic() + "\n";
+  }
+  return text + ToJson(config_).dump(2) + "\n";
+}
+
+CollectRequest StageRun::Request() const {
+  CollectRequest request;
+  request.stage = NameOf(config_.stage);
+  request.config_text = ConfigText();
+  request.provenance.code_version = CodeVersion();
+  request.provenance.compiler = __VERSION__;
+  request.provenance.libraries = {{"ray_caster", RayCasterVersion()}};
+  for (const PolicyPool* pool : {handler_.get(), opener_.get()}) {
+    if (pool != nullptr) request.provenance.policies.push_back(pool->policy().identity);
+  }
+  request.provenance.seed = config_.seed;
+  request.provenance.doors = doors_.doors;
+  return request;
+}
+
+CollectedEpisode StageRun::Run(const PlannedEpisode& planned) {
+  return RunStageEpisode(planned, *shelf_.Take(planned.door), robot_, config_,
+                         {handler_.get(), opener_.get()});
+}
+
+}  // namespace doorforge

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "doorforge/datagen/collect.h"
+#include "doorforge/datagen/collection_plan.h"
+
+#include "door_folder.h"
+#include "stage_episode.h"
+
+namespace doorforge {
+
+/// What a collection is made from, as a user names it.
+struct StageRequest {
+  StageConfig config;
+  std::vector<std::string> doors;  ///< As ReadDoors().
+  std::string handler;             ///< Folder of a trained policy; empty: the rule.
+  std::string opener;
+  int threads = 0;
+};
+
+/// A collection of one stage, ready to run: everything that can be refused has been. Not copied,
+/// not moved; Run() is thread-safe.
+class StageRun {
+ public:
+  /// @throws Error(kInvalidConfig), Error(kInvalidArgument) if the robot or a policy is not one for
+  ///     this stage or no door is left, Error(kMissing or kFormat) as the readers of doors and
+  ///     policies.
+  explicit StageRun(const StageRequest& request);
+  StageRun(const StageRun&) = delete;
+  StageRun& operator=(const StageRun&) = delete;
+
+  const StageConfig& config() const { return config_; }
+  const CollectionPlan& plan() const { return plan_; }
+  /// Those that the stage has a use for: "handle" has none for doors without a latch.
+  const DoorFolder& doors() const { return doors_; }
+
+  /// For Collect(): folder, threads and task are the caller's.
+  CollectRequest Request() const;
+  CollectedEpisode Run(const PlannedEpisode& planned);
+
+ private:
+  std::string ConfigText() const;
+
+  StageConfig config_;
+  RobotModel robot_;
+  std::unique_ptr<PolicyPool> handler_;
+  std::unique_ptr<PolicyPool> opener_;
+  DoorFolder doors_;
+  DoorShelf shelf_;
+  CollectionPlan plan_;
+};
+
+}  // namespace doorforge

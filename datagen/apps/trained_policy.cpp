@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "trained_policy.h"
+
+#include <utility>
+
+#include "doorforge/core/error.h"
+#include "doorforge/core/hash.h"
+#include "doorforge/core/json_file.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kPolicySchemaVersion = 1;
+
+std::string OptionOf(Stage stage) { return stage == Stage::kOpen ? "--opener" : "--handler"; }
+
+}  // namespace
+
+TrainedPolicy ReadTrainedPolicy(const fs::path& folder, Stage stage) {
+  const fs::path path = folder / "policy.json";
+  if (!fs::is_regular_file(path))
+    throw Error(ErrorCode::kMissing, folder.string() + ": no policy here (no policy.json); " +
+                                         OptionOf(stage) +
+                                         " takes the folder that `doorforge train " +
+                                         std::string(NameOf(stage)) + "` wrote");
+  const nlohmann::ordered_json json = ReadJsonFile(path);
+  RequireSchema(json, "doorforge.policy", kPolicySchemaVersion, path.string());
+  const auto found = ValueOf<std::string>(json, "stage", path.string());
+  if (found != NameOf(stage))
+    throw Error(ErrorCode::kInvalidArgument,
+                path.string() + ": a policy of the stage \"" + found + "\"; " + OptionOf(stage) +
+                    " takes one of the stage \"" + std::string(NameOf(stage)) + '"');
+  TrainedPolicy policy{stage, folder, {found, Sha256OfFile(path), {}, {}, {}}};
+  DatasetPolicy& identity = policy.identity;
+  identity.weights_sha256 = ValueOf<std::string>(json, "weights_sha256", path.string());
+  const fs::path weights = folder / ValueOf<std::string>(json, "weights", path.string());
+  if (Sha256OfFile(weights) != identity.weights_sha256)
+    throw Error(ErrorCode::kFormat,
+                weights.string() + ": its SHA-256 is not the one in " + path.string() +
+                    "; the training was not finished or the file has changed, train it again");
+  const nlohmann::ordered_json& provenance = MemberOf(json, "provenance", path.string());
+  const std::string where = path.string() + ".provenance";
+  identity.dataset_sha256 = ValueOf<std::string>(provenance, "dataset_sha256", where);
+  identity.code_version = ValueOf<std::string>(provenance, "code_version", where);
+  return policy;
+}
+
+std::string TrainedPolicyText(const TrainedPolicy& policy) {
+  return OptionOf(policy.stage).substr(2) + ": policy.json sha256 " + policy.identity.policy_sha256;
+}
+
+PolicyPool::Loan PolicyPool::Take() {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (!idle_.empty()) {
+      std::unique_ptr<Policy> policy = std::move(idle_.back());
+      idle_.pop_back();
+      return {policy.release(), {this}};
+    }
+  }
+  return {LoadTrainedPolicy(policy_).release(), {this}};
+}
+
+void PolicyPool::Return(std::unique_ptr<Policy> policy) {
+  const std::scoped_lock lock(mutex_);
+  idle_.push_back(std::move(policy));
+}
+
+}  // namespace doorforge

@@ -40,6 +40,10 @@ bool IsIndexed(const fs::path& folder, const ExpectedShard& shard) {
   return fs::exists(folder / (shard.Name() + ".index.json"));
 }
 
+fs::path CopyPath(const fs::path& tar) {
+  return tar.parent_path() / ("." + tar.filename().string() + ".copy");
+}
+
 class Merge {
  public:
   explicit Merge(const MergeRequest& request) : request_(request), files_(*request.files) {}
@@ -107,7 +111,9 @@ class Merge {
                                           "the shard's task again");
     files_.CreateFolder(to.parent_path());
     RemoveShardLeftovers(files_, to.parent_path(), index.header.number);
-    files_.Remove(to);  // without an index it is what a killed merge left
+    // what a killed merge left
+    if (fs::exists(CopyPath(to))) files_.Remove(CopyPath(to));
+    files_.Remove(to);
     if (files_.HardLink(from, to)) {
       files_.SyncFolder(to.parent_path());
       ++summary_.linked;
@@ -118,8 +124,7 @@ class Merge {
   }
 
   void Copy(const fs::path& from, const fs::path& to, const ShardIndex& index) {
-    const fs::path partial = to.parent_path() / ("." + to.filename().string() + ".copy");
-    files_.Remove(partial);
+    const fs::path partial = CopyPath(to);
     const int file = files_.Create(partial);
     try {
       CopyBytes(from, file, partial, index);

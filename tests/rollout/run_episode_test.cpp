@@ -55,6 +55,43 @@ TEST_F(RunEpisodeTest, TheExpertOpensRandomDoorsOfEachMechanism) {
   }
 }
 
+struct DoorKind {
+  Mechanism mechanism;
+  HingeSide hinge_side;
+  Opening opening;
+  LatchType latch;
+};
+
+class DoorKinds : public testing::TestWithParam<DoorKind> {};
+
+TEST_P(DoorKinds, AreOpenedByTheExpert) {
+  const RobotModel robot = LoadMobileFranka();
+  for (std::uint64_t i = 0; i < 3; ++i) {
+    PrimitiveDoor described = RandomPrimitive(GetParam().mechanism, 23, i);
+    described.hinge_side = GetParam().hinge_side;
+    described.opening = GetParam().opening;
+    DoorAsset door = MakePrimitiveDoor(described);
+    door.latch.type = GetParam().latch;
+    if (GetParam().latch == LatchType::kBolt) door.latch.bolt_throw_m = 0.012;
+    OpeningExpert expert;
+    const Scene scene = SampleScene(door, 23, i);
+    const Episode episode = RunEpisode(scene, door, robot, expert, nullptr);
+    EXPECT_EQ(episode.outcome, EpisodeOutcome::kOpened) << "door " << i << ": " << episode.detail;
+    // no door gives way before its handle is turned
+    EXPECT_GT(episode.peak_handle_rad, door.latch.unlock_angle_rad) << "door " << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, DoorKinds,
+    testing::Values(
+        DoorKind{Mechanism::kLever, HingeSide::kRight, Opening::kPull, LatchType::kEffort},
+        DoorKind{Mechanism::kLever, HingeSide::kLeft, Opening::kPush, LatchType::kEffort},
+        DoorKind{Mechanism::kRound, HingeSide::kRight, Opening::kPush, LatchType::kEffort},
+        DoorKind{Mechanism::kLever, HingeSide::kLeft, Opening::kPull, LatchType::kBolt},
+        DoorKind{Mechanism::kRound, HingeSide::kRight, Opening::kPull, LatchType::kBolt},
+        DoorKind{Mechanism::kLever, HingeSide::kRight, Opening::kPush, LatchType::kBolt}));
+
 TEST_F(RunEpisodeTest, DecisionsAddUpToTheDoorsAngleASixthOfASecondApart) {
   const DoorAsset door = MakePrimitiveDoor({});
   const Episode episode = Run(door, SampleScene(door, 1, 0));

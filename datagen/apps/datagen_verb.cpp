@@ -8,6 +8,7 @@
 #include <iostream>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <unistd.h>
@@ -19,6 +20,7 @@
 
 #include "door_folder.h"
 #include "forecast.h"
+#include "slurm_verb.h"
 #include "stage_run.h"
 #include "trained_policy.h"
 #include "verb_options.h"
@@ -44,6 +46,7 @@ struct Options {
   std::string task;
   int tasks = 0;
   int task_offset = 0;
+  SlurmOptions slurm;
   bool resume = false;
   bool overwrite = false;
   bool json = false;
@@ -75,13 +78,15 @@ void AddOutput(CLI::App& app, Options& options) {
   app.add_option("--task", options.task,
                  "i/N: only task i, from 0, of N; `doorforge dataset merge` joins them");
   app.add_option("--tasks", options.tasks,
-                 "N: the same, with i from SLURM_ARRAY_TASK_ID or JOB_COMPLETION_INDEX")
+                 "N: the same, with i from SLURM_ARRAY_TASK_ID or JOB_COMPLETION_INDEX; with "
+                 "--slurm the number of tasks")
       ->check(CLI::Range(1, kMostTasks));
   app.add_option("--task-offset", options.task_offset, "added to the i of --tasks")
       ->check(CLI::Range(0, kMostTasks));
   app.add_flag("--resume", options.resume,
                "go on in --out, which is done without it where the settings are the same");
   app.add_flag("--overwrite", options.overwrite, "replace the dataset in --out");
+  AddSlurmOptions(app, options.slurm);
 }
 
 StageRequest RequestOf(const Options& options) {
@@ -170,22 +175,6 @@ int Finish(const CollectSummary& summary, const CollectionTask& task, const Opti
   return 1;
 }
 
-// Trained policies need the networks' library, which only the other program of the same sources
-// has. Comes back only where there is none.
-void BecomeTrainedProgram(int argc, char** argv) {
-  const fs::path program = ProgramFolder() / "doorforge-datagen-trained";
-  std::vector<std::string> words(argv, argv + argc);
-  words.insert(words.begin(), program.string());
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  ::execv(program.c_str(), pointers.data());
-  throw Error(
-      ErrorCode::kMissing,
-      program.string() +
-          ": cannot be started; --opener and --handler need a build with the room train/learn");
-}
-
 int CollectStage(const Options& options) {
   const CollectionTask task = TaskOf(options);
   StageRun run(RequestOf(options));
@@ -197,6 +186,16 @@ int CollectStage(const Options& options) {
   const CollectSummary summary = Collect(
       run.plan(), [&](const PlannedEpisode& planned) { return run.Run(planned); }, request);
   return Finish(summary, task, options);
+}
+
+int GiveToSlurm(const Options& options, std::vector<std::string> arguments) {
+  Require(options.task.empty() && options.task_offset == 0, ErrorCode::kInvalidArgument,
+          "--task and --task-offset: --slurm numbers the tasks itself; give --tasks N");
+  const StageRun run(RequestOf(options));
+  PrepareFolder(options);
+  return RunSlurm(
+      {options.out, std::move(arguments), options.tasks, options.threads, run.plan().shards.size()},
+      options.slurm);
 }
 
 int PrintPlan(const Options& options) {
@@ -240,6 +239,20 @@ CLI::App* AddPlan(CLI::App& app, Options& options) {
 
 }  // namespace
 
+void BecomeTrainedProgram(int argc, char** argv) {
+  const fs::path program = ProgramFolder() / "doorforge-datagen-trained";
+  std::vector<std::string> words(argv, argv + argc);
+  words.insert(words.begin(), program.string());
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  ::execv(program.c_str(), pointers.data());
+  throw Error(
+      ErrorCode::kMissing,
+      program.string() +
+          ": cannot be started; --opener and --handler need a build with the room train/learn");
+}
+
 int RunDatagenVerb(int argc, char** argv) {
   Options options;
   CLI::App app("Collects a stage's dataset.", "doorforge datagen");
@@ -258,6 +271,7 @@ int RunDatagenVerb(int argc, char** argv) {
   ParseVerb(app, argc, argv);
   const bool needs_networks = !options.handler.empty() || !options.opener.empty();
   if (needs_networks && !RunsTrainedPolicies()) BecomeTrainedProgram(argc, argv);
+  if (!options.slurm.file.empty()) return GiveToSlurm(options, {argv, argv + argc});
   return plan->parsed() ? PrintPlan(options) : CollectStage(options);
 }
 

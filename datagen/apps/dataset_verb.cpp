@@ -9,8 +9,10 @@
 
 #include "doorforge/core/progress.h"
 #include "doorforge/datagen/describe_dataset.h"
+#include "doorforge/datagen/merge_dataset.h"
 #include "doorforge/datagen/verify_dataset.h"
 
+#include "regenerate_verb.h"
 #include "verb_options.h"
 
 namespace doorforge {
@@ -21,6 +23,8 @@ namespace fs = std::filesystem;
 struct Options {
   std::string folder;
   int threads = 0;
+  std::vector<std::string> parts;  // of merge
+  RegenerateOptions regenerate;
   bool json = false;
 };
 
@@ -40,8 +44,26 @@ std::vector<DatasetFinding> VerifyWithProgress(const Options& options) {
   return VerifyDataset({options.folder, options.threads, [&] { progress.Advance(); }});
 }
 
+int Info(const Options& options) {
+  const nlohmann::ordered_json description = DescribeDataset(options.folder);
+  std::cout << (options.json ? description.dump(2) + "\n" : DescriptionText(description));
+  return 0;
+}
+
+int Merge(const Options& options) {
+  const MergeSummary summary =
+      MergeDataset({options.folder, {options.parts.begin(), options.parts.end()}});
+  std::fprintf(stderr, "doorforge: %s: %llu shards, %llu linked, %llu copied\n",
+               options.folder.c_str(), static_cast<unsigned long long>(summary.shards),
+               static_cast<unsigned long long>(summary.linked),
+               static_cast<unsigned long long>(summary.copied));
+  return Info(options);
+}
+
 int Verify(const Options& options) {
-  const std::vector<DatasetFinding> findings = VerifyWithProgress(options);
+  std::vector<DatasetFinding> findings = VerifyWithProgress(options);
+  if (findings.empty() && !options.regenerate.share.empty())
+    findings = Regenerate(options.folder, options.threads, options.regenerate);
   if (options.json) {
     std::cout << FindingsToJson(findings).dump(2) << '\n';
   } else {
@@ -56,12 +78,6 @@ int Verify(const Options& options) {
   return findings.empty() ? 0 : 1;
 }
 
-int Info(const Options& options) {
-  const nlohmann::ordered_json description = DescribeDataset(options.folder);
-  std::cout << (options.json ? description.dump(2) + "\n" : DescriptionText(description));
-  return 0;
-}
-
 }  // namespace
 
 int RunDatasetVerb(int argc, char** argv) {
@@ -71,17 +87,29 @@ int RunDatasetVerb(int argc, char** argv) {
   auto* verify = app.add_subcommand(
       "verify", "every byte against its checksum, every value against what it may be");
   auto* info = app.add_subcommand("info", "counts, success rate, causes of failure");
-  for (auto* verb : {verify, info}) {
+  auto* merge = app.add_subcommand(
+      "merge", "joins the tasks of a collection and checks that all of them are there");
+  for (auto* verb : {verify, info, merge}) {
     verb->add_option("folder", options.folder, "the dataset's folder")->required();
     verb->add_flag("--json", options.json, "print one JSON document");
   }
   verify->add_option("--threads", options.threads, "threads, 0: all")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  verify->footer("example:\n  doorforge dataset verify data/open");
+  AddRegenerateOptions(*verify, options.regenerate);
+  verify->footer(
+      "examples:\n  doorforge dataset verify data/open\n"
+      "  doorforge dataset verify data/open --regenerate 1% --doors doors/train");
+  merge->add_option("parts", options.parts,
+                    "folders of tasks; none where all tasks wrote into the dataset's folder");
+  merge->footer(
+      "examples:\n  doorforge dataset merge data\n"
+      "  doorforge dataset merge data node1/data node2/data");
   info->footer("example:\n  doorforge dataset info data/open --json");
   app.footer("examples:\n  doorforge dataset verify data/open\n  doorforge dataset info data/open");
   ParseVerb(app, argc, argv);
+  if (!options.regenerate.share.empty()) PrepareRegenerate(options.regenerate, argc, argv);
+  if (merge->parsed()) return Merge(options);
   return verify->parsed() ? Verify(options) : Info(options);
 }
 

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "regenerate_verb.h"
+
+#include <cstdio>
+#include <sstream>
+
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/config_file.h"
+#include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
+#include "doorforge/datagen/regenerate.h"
+
+#include "datagen_verb.h"
+#include "stage_run.h"
+#include "trained_policy.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+
+Stage StageOf(const fs::path& folder) {
+  const fs::path path = folder / "provenance.json";
+  const DatasetProvenance provenance = ProvenanceFromJson(ReadJsonFile(path), path.string());
+  const auto stage =
+      provenance.planned.empty() ? std::nullopt : StageNamed(provenance.planned[0].stage);
+  Require(stage.has_value(), ErrorCode::kInvalidArgument,
+          path.string() + ": names no plan; datasets of earlier builds cannot be made again");
+  return *stage;
+}
+
+// Build, doors, ray caster and policies are named in the config's comment.
+void RequireSameConfig(const fs::path& path, const std::string& now) {
+  const std::string text = ReadFile(path);
+  if (text == now) return;
+  std::istringstream there(text);
+  std::istringstream here(now);
+  std::string line_there;
+  std::string line_here;
+  while (std::getline(there, line_there) && std::getline(here, line_here) &&
+         line_there == line_here) {
+  }
+  throw Error(ErrorCode::kInvalidArgument,
+              path.string() +
+                  ": made with another build, other doors or policies, so its bytes are not "
+                  "expected again\nthere: " +
+                  line_there + "\nnow:   " + line_here);
+}
+
+}  // namespace
+
+void AddRegenerateOptions(CLI::App& app, RegenerateOptions& options) {
+  auto* share = app.add_option("--regenerate", options.share,
+                               "make a share of the episodes again from their seeds, such as 1%, "
+                               "and compare every byte");
+  app.add_option("--doors", options.doors, "the doors that the dataset was made with")
+      ->needs(share);
+  app.add_option("--handler", options.handler, "the policy that turned the handle")->needs(share);
+  app.add_option("--opener", options.opener, "the policy that opened")->needs(share);
+}
+
+void PrepareRegenerate(const RegenerateOptions& options, int argc, char** argv) {
+  ParseFraction(options.share);
+  Require(!options.doors.empty(), ErrorCode::kInvalidArgument,
+          "--regenerate: needs --doors, with what the dataset was made with");
+  const bool needs_networks = !options.handler.empty() || !options.opener.empty();
+  if (needs_networks && !RunsTrainedPolicies()) BecomeTrainedProgram(argc, argv);
+}
+
+std::vector<DatasetFinding> Regenerate(const fs::path& folder, int threads,
+                                       const RegenerateOptions& options) {
+  const Stage stage = StageOf(folder);
+  StageRun run({LoadConfig<StageConfig>((folder / "config.yaml").string(), {}, DefaultsOf(stage)),
+                options.doors, options.handler, options.opener, threads});
+  RequireSameConfig(folder / "config.yaml", run.Request().config_text);
+  const RegenerateResult result = RegenerateEpisodes(
+      run.plan(), [&](const PlannedEpisode& planned) { return run.Run(planned); },
+      {folder, std::string(NameOf(stage)), ParseFraction(options.share), threads});
+  std::fprintf(stderr, "doorforge: %zu episodes made again, %zu differences\n", result.episodes,
+               result.findings.size());
+  return result.findings;
+}
+
+}  // namespace doorforge

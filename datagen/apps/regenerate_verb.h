@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "doorforge/datagen/verify_dataset.h"
+
+namespace doorforge {
+
+/// Of `dataset verify --regenerate`.
+struct RegenerateOptions {
+  std::string share;  ///< "1%"; empty: nothing is made again.
+  std::vector<std::string> doors;
+  std::string handler;
+  std::string opener;
+};
+
+void AddRegenerateOptions(CLI::App& app, RegenerateOptions& options);
+
+/// Checks the options, and goes on as the program that runs trained policies where one is named.
+/// Throws Error(kInvalidArgument).
+void PrepareRegenerate(const RegenerateOptions& options, int argc, char** argv);
+
+/// Makes a share of the dataset's episodes again. Throws Error(kInvalidArgument) if build, doors or
+/// policies are not those that it was made with.
+std::vector<DatasetFinding> Regenerate(const std::filesystem::path& folder, int threads,
+                                       const RegenerateOptions& options);
+
+}  // namespace doorforge

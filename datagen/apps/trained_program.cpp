@@ -4,7 +4,7 @@
 // The program with networks: doorforge-datagen-trained.
 
 #include "doorforge/learn/instruction_set.h"
-#include "doorforge/learn/opening_policy.h"
+#include "doorforge/learn/stage_policy.h"
 
 #include "trained_policy.h"
 

@@ -11,7 +11,7 @@
 #include "doorforge/core/json_file.h"
 #include "doorforge/evaluate/run_trials.h"
 #include "doorforge/learn/checkpoint.h"
-#include "doorforge/learn/opening_dataset.h"
+#include "doorforge/learn/stage_dataset.h"
 #include "doorforge/physics/scene_sampling.h"
 #include "doorforge/rollout/camera_observer.h"
 #include "doorforge/rollout/opening_expert.h"
@@ -47,10 +47,12 @@ void WriteDataset(const DoorAsset& door, const fs::path& folder) {
   CameraObserver camera(scene, door, robot);
   OpeningExpert expert;
   const Episode episode = RunEpisode(scene, door, robot, expert, &camera);
-  ShardWriter shard(folder / "open/train", {0, "open", "train", "config"});
-  shard.Add("ep000000", episode.decisions.size(),
-            EncodeEpisode(episode, EpisodeMetaToJson(episode), "a preview's bytes"));
-  shard.Commit();
+  for (const std::string stage : {"open", "handle"}) {
+    ShardWriter shard(folder / stage / "train", {0, stage, "train", "config"});
+    shard.Add("ep000000", episode.decisions.size(),
+              EncodeEpisode(episode, EpisodeMetaToJson(episode), "a preview's bytes"));
+    shard.Commit();
+  }
   DatasetProvenance provenance;
   provenance.doors.push_back({door.id, ContentHash(door), "interior", "lever", door.body,
                               door.handle, "CC0-1.0", "train"});
@@ -58,9 +60,10 @@ void WriteDataset(const DoorAsset& door, const fs::path& folder) {
 }
 
 // networks as they are before training: whatever they do, they do it reproducibly
-void WriteUntrainedPolicy(const fs::path& data, const fs::path& folder) {
-  const OpeningDataset dataset = ReadOpeningDataset(data, 0);
+void WriteUntrainedPolicy(const fs::path& data, const std::string& stage, const fs::path& folder) {
+  const StageDataset dataset = ReadStageDataset(data, stage, 0);
   PolicyProvenance provenance;
+  provenance.stage = stage;
   provenance.dataset_sha256 = dataset.content_sha256;
   WritePolicy(folder, InitialNetworks(MeasureNormalisation(dataset.train), false, 3), provenance);
 }
@@ -74,7 +77,8 @@ class EvaluateOpenerTest : public testing::Test {
     WriteDoorFolder(DoorNamed("body_b", "handle_a"), folder_ / "half_seen");
     WriteDoorFolder(DoorNamed("body_b", "handle_b"), folder_ / "held_out");
     WriteDataset(trained_on, folder_ / "data");
-    WriteUntrainedPolicy(folder_ / "data", folder_ / "policy");
+    WriteUntrainedPolicy(folder_ / "data", "open", folder_ / "policy");
+    WriteUntrainedPolicy(folder_ / "data", "handle", folder_ / "handler");
   }
   static void TearDownTestSuite() { fs::remove_all(folder_); }
 
@@ -141,6 +145,26 @@ TEST_F(EvaluateOpenerTest, ItMustBeKnownWhatWasSeen) {
   EvaluationRequest wrong = RequestFor("held_out");
   wrong.data = folder_ / "other_data";
   EXPECT_NE(RefusalOf(wrong).find("trained from"), std::string::npos);
+}
+
+TEST_F(EvaluateOpenerTest, ATrainedHandlePolicyTurnsTheHandleAndItsDoorsAreSeenToo) {
+  EvaluationRequest request = RequestFor("held_out");
+  request.policy = "expert";
+  request.data.clear();
+  request.config.expert_reference = false;
+  const std::string by_rule = EvaluateOpener(request).report.episodes.at(0).state_sha256;
+  request.handler = folder_ / "handler";
+  request.handler_data = folder_ / "data";
+  const EvaluationReport report = EvaluateOpener(request).report;
+  EXPECT_NE(report.episodes.at(0).state_sha256, by_rule);
+  EXPECT_EQ(report.provenance.handler_sha256, ReadPolicy(request.handler, "handle").weights_sha256);
+
+  request.doors = {(folder_ / "half_seen").string()};
+  EXPECT_NE(RefusalOf(request).find("body_b__handle_a"), std::string::npos);
+  request.handler_data.clear();
+  EXPECT_NE(RefusalOf(request).find("--handler-data"), std::string::npos);
+  request.handler = folder_ / "policy";
+  EXPECT_THROW(EvaluateOpener(request), Error) << "an opener does not turn handles";
 }
 
 TEST_F(EvaluateOpenerTest, TheExpertNeedsNeitherPolicyNorData) {

@@ -48,7 +48,7 @@ std::vector<DoorAsset> Doors() {
 }
 
 Contender Tiring() {
-  return {[] { return std::make_unique<TiringPolicy>(); }, nullptr};
+  return {[] { return Players{std::make_unique<TiringPolicy>()}; }, nullptr};
 }
 
 TEST(RunTrials, EveryDoorIsTriedInEverySeed) {
@@ -104,7 +104,7 @@ TEST(RunTrials, TheExpertOpensWhatAPolicyThatStopsDoesNot) {
   config.seeds = 1;
   const auto doors = Doors();
   const auto trials = PlanTrials(doors, config);
-  const Contender expert{[] { return std::make_unique<OpeningExpert>(); }, nullptr};
+  const Contender expert{[] { return Players{std::make_unique<OpeningExpert>()}; }, nullptr};
   const auto good = Summarise(RunTrials(doors, trials, expert));
   const auto bad = Summarise(RunTrials(doors, trials, Tiring()));
   EXPECT_EQ(good.opened.successes, 3);
@@ -138,7 +138,7 @@ TEST(TakePictures, RefusesRowsOfAnotherPolicy) {
   const std::vector<DoorAsset> doors = {Doors().front()};
   const auto trials = PlanTrials(doors, config);
   const auto rows = RunTrials(doors, trials, Tiring());
-  const Contender expert{[] { return std::make_unique<OpeningExpert>(); }, nullptr};
+  const Contender expert{[] { return Players{std::make_unique<OpeningExpert>()}; }, nullptr};
   EXPECT_THROW(TakePictures({doors, trials, rows}, expert), Error);
 }
 

@@ -55,7 +55,7 @@ TEST(Checkpoint, APolicyComesBackAsItWasWritten) {
   const TrainerState state = SomeState();
   TrainConfig config;
   config.epochs = 3;
-  const PolicyProvenance provenance{"abc", "0.1.0+test", config, 77};
+  const PolicyProvenance provenance{"open", "abc", "0.1.0+test", config, 77};
   WritePolicy(folder, state.networks, provenance);
   const PolicyRecord record = ReadPolicy(folder);
   EXPECT_EQ(record.networks.actor, state.networks.actor);
@@ -77,7 +77,7 @@ TEST(Checkpoint, APolicyComesBackAsItWasWritten) {
 TEST(Checkpoint, DamagedPoliciesAreRefused) {
   const fs::path folder = EmptyFolder("damaged");
   ExpectError(ErrorCode::kMissing, "policy.json", [&] { ReadPolicy(folder); });
-  WritePolicy(folder, SomeState().networks, {"abc", "v", {}, 1});
+  WritePolicy(folder, SomeState().networks, {"open", "abc", "v", {}, 1});
   std::string weights = ReadFile(folder / "policy.safetensors");
   weights[weights.size() / 2] ^= 1;
   CommitFile(folder / "policy.safetensors", weights);
@@ -92,7 +92,7 @@ TEST(Checkpoint, ATrainingStateComesBackExactly) {
   const fs::path folder = EmptyFolder("state");
   EXPECT_FALSE(HasTrainerState(folder));
   const TrainerState state = SomeState();
-  const PolicyProvenance provenance{"abc", "v", {}, 0};
+  const PolicyProvenance provenance{"open", "abc", "v", {}, 0};
   WriteTrainerState(folder, state, provenance);
   const TrainerState back = ReadTrainerState(folder, provenance);
   EXPECT_EQ(back.step, state.step);
@@ -108,7 +108,7 @@ TEST(Checkpoint, ATrainingStateComesBackExactly) {
 
 TEST(Checkpoint, AStateOfAnotherRunIsNotResumed) {
   const fs::path folder = EmptyFolder("other");
-  PolicyProvenance provenance{"abc", "v", {}, 0};
+  PolicyProvenance provenance{"open", "abc", "v", {}, 0};
   WriteTrainerState(folder, SomeState(), provenance);
   provenance.dataset_sha256 = "def";
   ExpectError(ErrorCode::kInvalidArgument, "dataset_sha256",
@@ -122,7 +122,7 @@ TEST(Checkpoint, LossCurvesAreWrittenForPeopleAndPrograms) {
   const fs::path folder = EmptyFolder("losses");
   WriteLosses(folder, SomeState());
   EXPECT_EQ(ReadFile(folder / "losses.csv"),
-            "step,actor.position_m,actor.rotation_rad,actor.divergence,critic.hinge_gain_rad\n"
+            "step,actor.position_m,actor.rotation_rad,actor.divergence,critic.score_rad\n"
             "1,0.1,0.2,0.3,0.4\n"
             "2,0.01,0.333333333,0.03,0.04\n");
   const std::vector<TrainingCurve> curves = ReadTrainingCurves(folder);

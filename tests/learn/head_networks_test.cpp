@@ -23,7 +23,7 @@ using internal::HeadBatch;
 
 struct Fixture {
   testing::SyntheticSamples made = testing::MakeSyntheticSamples(5, 6);
-  OpeningNetworks networks = InitialNetworks(MeasureNormalisation(made.samples), false, 1);
+  StageNetworks networks = InitialNetworks(MeasureNormalisation(made.samples), false, 1);
   HeadBatch batch;
   TrainConfig config;
 

@@ -25,7 +25,7 @@ TrainingSample MakeSample(double hinge_rad, Rng& rng) {
   action.world_from_hand_rotation = RotationAbout(Eigen::Vector3d::UnitZ(), -hinge_rad).linear() *
                                     RotationAbout(Eigen::Vector3d::UnitY(), 3.14159).linear();
   sample.action = ToVector(action);
-  sample.hinge_gain_rad = static_cast<float>(0.05 + 0.02 * s);
+  sample.score_rad = static_cast<float>(0.05 + 0.02 * s);
   return sample;
 }
 

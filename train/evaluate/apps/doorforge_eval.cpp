@@ -52,6 +52,12 @@ void AddOptions(CLI::App& app, Options& options) {
                  "folder for report.json and report.html; without it only the table is printed");
   app.add_option("--data", options.request.data,
                  "data set that the policy was trained from: says which doors it has seen");
+  app.add_option("--handler", options.request.handler,
+                 "folder of a policy of `doorforge train handle`; without it the rule turns the "
+                 "handle")
+      ->check(CLI::ExistingDirectory);
+  app.add_option("--handler-data", options.request.handler_data,
+                 "data set that --handler was trained from");
   app.add_option("--seeds", options.seeds, "repetitions with other scenes (config: seeds, 3)");
   app.add_option("--seed", options.first_seed, "the first of them (config: first_seed, 1)");
   app.add_option("--episodes-per-door", options.episodes_per_door,
@@ -70,13 +76,16 @@ void AddOptions(CLI::App& app, Options& options) {
 Options Parse(int argc, char** argv) {
   Options options;
   CLI::App app(
-      "Success of a policy in closed loop: the expert grasps and unlocks, then the policy opens.\n"
+      "Success of a policy in closed loop: the expert grasps, the rule or a trained policy turns\n"
+      "the handle, then the policy opens.\n"
       "Prints success with 95 % intervals per category and the causes of failure, and writes\n"
       "report.json and report.html.",
       "doorforge eval");
   AddOptions(app, options);
   app.footer(
       "examples:\n"
+      "  doorforge eval --policy run/opener --data run/open_data --handler run/handler "
+      "--handler-data\n    run/handle_data --doors run/doors/test --out run/report\n"
       "  doorforge eval --policy run/policy --data run/data --doors run/doors/test --out "
       "run/report\n"
       "  doorforge eval --policy expert --doors run/doors --split full:test -n 50 --seeds 3 --out "

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/evaluate/evaluate_opener.h"
 
+#include <algorithm>
 #include <atomic>
 #include <memory>
 
@@ -13,7 +14,7 @@
 #include "doorforge/evaluate/run_trials.h"
 #include "doorforge/evaluate/take_pictures.h"
 #include "doorforge/learn/checkpoint.h"
-#include "doorforge/learn/opening_dataset.h"
+#include "doorforge/learn/stage_dataset.h"
 #include "doorforge/physics/load_robot.h"
 #include "doorforge/rollout/camera_observer.h"
 #include "doorforge/rollout/opening_expert.h"
@@ -32,16 +33,25 @@ constexpr std::size_t kMostNamedDoors = 8;
 bool IsExpert(const EvaluationRequest& request) { return request.policy == "expert"; }
 
 Contender Expert() {
-  return {[] { return std::make_unique<OpeningExpert>(); }, nullptr};
+  return {[] { return Players{std::make_unique<OpeningExpert>()}; }, nullptr};
 }
 
 Contender ContenderOf(const EvaluationRequest& request) {
-  if (IsExpert(request)) return Expert();
+  if (IsExpert(request) && request.handler.empty()) return Expert();
   const std::string& base = request.config.scene.physics.base;
   const auto robot = std::make_shared<const RobotModel>(LoadRobot({}, RobotBaseNamed(base)));
   Require(HasProprioception(*robot), ErrorCode::kInvalidConfig,
           "config.scene.physics.base: a policy knows sliders or a fixed base, found " + base);
-  return {[&request] { return LoadPolicy(request.policy, request.config.policy); },
+  return {[&request] {
+            Players players;
+            if (IsExpert(request))
+              players.open = std::make_unique<OpeningExpert>();
+            else
+              players.open = LoadPolicy(request.policy, request.config.policy);
+            if (!request.handler.empty())
+              players.handle = LoadPolicy(request.handler, request.config.policy, "handle");
+            return players;
+          },
           [&request, robot](const Scene& scene, const DoorAsset& door) {
             return std::make_unique<CameraObserver>(scene, door, *robot, request.config.cloud);
           }};
@@ -53,14 +63,15 @@ std::string NameOfPolicy(const EvaluationRequest& request) {
   return (folder.has_filename() ? folder : folder.parent_path()).filename().string();
 }
 
-void RequireSameData(const PolicyRecord& policy, const EvaluationRequest& request) {
-  const std::string found = ReadOpeningDataset(request.data, 0).content_sha256;
+void RequireSameData(const PolicyRecord& policy, const fs::path& data, const char* option) {
+  const std::string& stage = policy.provenance.stage;
+  const std::string found = ReadStageDataset(data, stage, 0).content_sha256;
   if (found != policy.provenance.dataset_sha256)
-    throw Error(ErrorCode::kInvalidArgument, request.data.string() + ": has the hash " +
-                                                 found.substr(0, 12) +
-                                                 "..., but the policy was trained from " +
-                                                 policy.provenance.dataset_sha256.substr(0, 12) +
-                                                 "...; give its own data set with --data");
+    throw Error(ErrorCode::kInvalidArgument,
+                data.string() + ": has the hash " + found.substr(0, 12) +
+                    "..., but the policy of the stage \"" + stage + "\" was trained from " +
+                    policy.provenance.dataset_sha256.substr(0, 12) +
+                    "...; give its own data set with " + option);
 }
 
 void RequireHeldOut(const EvaluationReport& report) {
@@ -78,20 +89,43 @@ void RequireHeldOut(const EvaluationReport& report) {
                   names);
 }
 
-// fills in what the policy's and the data set's records say
-void AddTraining(const EvaluationRequest& request, EvaluationReport& report) {
-  const PolicyRecord policy = ReadPolicy(request.policy);
-  report.provenance.policy_sha256 = policy.weights_sha256;
-  report.provenance.dataset_sha256 = policy.provenance.dataset_sha256;
-  report.losses = internal::TrainingLosses(request.policy);
-  if (request.data.empty()) {
-    Require(request.allow_seen, ErrorCode::kInvalidArgument,
-            "--data is needed: the data set that the policy was trained from says which doors it "
-            "has seen; --allow-seen evaluates without that check");
+// a policy's own data set, which says what doors it has seen
+struct SeenData {
+  fs::path data;
+  const char* option;
+};
+
+void AddTrainingDoors(const PolicyRecord& policy, const SeenData& seen, bool allow_seen,
+                      EvaluationReport& report) {
+  if (seen.data.empty()) {
+    Require(allow_seen, ErrorCode::kInvalidArgument,
+            std::string(seen.option) +
+                " is needed: the data set that the policy was trained from says which doors it "
+                "has seen; --allow-seen evaluates without that check");
     return;
   }
-  RequireSameData(policy, request);
-  report.training_doors = internal::TrainingDoors(request.data);
+  RequireSameData(policy, seen.data, seen.option);
+  for (ReportDoor& door : internal::TrainingDoors(seen.data))
+    if (std::ranges::find(report.training_doors, door.id, &ReportDoor::id) ==
+        report.training_doors.end())
+      report.training_doors.push_back(std::move(door));
+  std::ranges::sort(report.training_doors, {}, &ReportDoor::id);
+}
+
+// fills in what the policies' and the data sets' records say
+void AddTraining(const EvaluationRequest& request, EvaluationReport& report) {
+  if (!IsExpert(request)) {
+    const PolicyRecord policy = ReadPolicy(request.policy);
+    report.provenance.policy_sha256 = policy.weights_sha256;
+    report.provenance.dataset_sha256 = policy.provenance.dataset_sha256;
+    report.losses = internal::TrainingLosses(request.policy);
+    AddTrainingDoors(policy, {request.data, "--data"}, request.allow_seen, report);
+  }
+  if (!request.handler.empty()) {
+    const PolicyRecord handler = ReadPolicy(request.handler, "handle");
+    report.provenance.handler_sha256 = handler.weights_sha256;
+    AddTrainingDoors(handler, {request.handler_data, "--handler-data"}, request.allow_seen, report);
+  }
   if (!request.allow_seen) RequireHeldOut(report);
 }
 
@@ -128,11 +162,11 @@ Evaluation EvaluateOpener(const EvaluationRequest& request) {
   Evaluation evaluation;
   EvaluationReport& report = evaluation.report;
   report = NewReport(request, doors);
-  if (!IsExpert(request)) AddTraining(request, report);
+  AddTraining(request, report);
 
   const Contender contender = ContenderOf(request);
   report.episodes = RunWithProgress("evaluate", doors, trials, contender, request.threads);
-  if (!IsExpert(request) && request.config.expert_reference)
+  if (!(IsExpert(request) && request.handler.empty()) && request.config.expert_reference)
     report.reference = RunWithProgress("expert", doors, trials, Expert(), request.threads);
 
   evaluation.pictures = TakePictures({doors, trials, report.episodes}, contender, request.threads);

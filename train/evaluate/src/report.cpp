@@ -138,13 +138,15 @@ LossCurve LossFromJson(const Json& json, const std::string& path) {
 }
 
 Json ProvenanceToJson(const ReportProvenance& provenance) {
-  return {{"policy", provenance.policy},
-          {"policy_sha256", provenance.policy_sha256},
-          {"dataset_sha256", provenance.dataset_sha256},
-          {"code_version", provenance.code_version},
-          {"command", provenance.command},
-          {"config_sha256", Sha256Hex(provenance.config.dump())},
-          {"config", provenance.config}};
+  Json json = {{"policy", provenance.policy},
+               {"policy_sha256", provenance.policy_sha256},
+               {"dataset_sha256", provenance.dataset_sha256},
+               {"code_version", provenance.code_version},
+               {"command", provenance.command},
+               {"config_sha256", Sha256Hex(provenance.config.dump())},
+               {"config", provenance.config}};
+  if (!provenance.handler_sha256.empty()) json["handler_sha256"] = provenance.handler_sha256;
+  return json;
 }
 
 ReportProvenance ProvenanceFromJson(const Json& json, const std::string& path) {
@@ -152,6 +154,8 @@ ReportProvenance ProvenanceFromJson(const Json& json, const std::string& path) {
   provenance.policy = ValueOf<std::string>(json, "policy", path);
   provenance.policy_sha256 = ValueOf<std::string>(json, "policy_sha256", path);
   provenance.dataset_sha256 = ValueOf<std::string>(json, "dataset_sha256", path);
+  if (json.contains("handler_sha256"))
+    provenance.handler_sha256 = ValueOf<std::string>(json, "handler_sha256", path);
   provenance.code_version = ValueOf<std::string>(json, "code_version", path);
   provenance.command = ValueOf<std::string>(json, "command", path);
   provenance.config = MemberOf(json, "config", path);

@@ -395,6 +395,9 @@ std::string ProvenanceSection(const EvaluationReport& report) {
                      Term("policy", Code(provenance.policy)) +
                      Term("policy SHA-256", Code(provenance.policy_sha256)) +
                      Term("data set SHA-256", Code(provenance.dataset_sha256)) +
+                     Term("handle policy SHA-256", provenance.handler_sha256.empty()
+                                                       ? std::string("none: the rule turns it")
+                                                       : Code(provenance.handler_sha256)) +
                      Term("configuration SHA-256", Code(Sha256Hex(provenance.config.dump()))) +
                      Term("seeds", SeedList(report.episodes))},
        {"config", Escape(provenance.config.dump(2))}});

@@ -17,28 +17,28 @@
 namespace doorforge {
 namespace {
 
-// Lends policy instances: as many as are ever in use at once, each to one episode at a time.
-class PolicyPool {
+// Lends sets of policies: as many as are ever in use at once, each to one episode at a time.
+class PlayerPool {
  public:
-  explicit PolicyPool(const Contender& contender) : contender_(contender) {}
+  explicit PlayerPool(const Contender& contender) : contender_(contender) {}
 
-  std::unique_ptr<Policy> Take() {
+  Players Take() {
     const std::scoped_lock lock(mutex_);
-    if (idle_.empty()) return contender_.make_policy();
-    std::unique_ptr<Policy> policy = std::move(idle_.back());
+    if (idle_.empty()) return contender_.make_players();
+    Players players = std::move(idle_.back());
     idle_.pop_back();
-    return policy;
+    return players;
   }
 
-  void Return(std::unique_ptr<Policy> policy) {
+  void Return(Players players) {
     const std::scoped_lock lock(mutex_);
-    idle_.push_back(std::move(policy));
+    idle_.push_back(std::move(players));
   }
 
  private:
   const Contender& contender_;
   std::mutex mutex_;
-  std::vector<std::unique_ptr<Policy>> idle_;
+  std::vector<Players> idle_;
 };
 
 void RequireAtLeastOne(int value, const std::string& name) {
@@ -69,12 +69,18 @@ std::vector<Trial> PlanTrials(std::span<const DoorAsset> doors, const Evaluation
   return trials;
 }
 
+Episode PlayTrial(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
+                  const Players& players, Observer* observer) {
+  return RunStages(scene, door, robot, {.handle = players.handle.get(), .open = players.open.get()},
+                   observer);
+}
+
 std::vector<EvaluatedEpisode> RunTrials(std::span<const DoorAsset> doors,
                                         std::span<const Trial> trials, const Contender& contender,
                                         const RunHooks& hooks) {
   if (trials.empty()) return {};
   const RobotModel robot = LoadRobot({}, RobotBaseNamed(trials[0].scene.physics.base));
-  PolicyPool pool(contender);
+  PlayerPool pool(contender);
   std::vector<EvaluatedEpisode> rows(trials.size());
   ParallelFor(trials.size(), hooks.threads, [&](std::size_t i) {
     Require(StopRequested() == 0, ErrorCode::kIncomplete, "evaluation interrupted");
@@ -82,9 +88,9 @@ std::vector<EvaluatedEpisode> RunTrials(std::span<const DoorAsset> doors,
     const Scene& scene = trials[i].scene;
     std::unique_ptr<Observer> observer;
     if (contender.make_observer) observer = contender.make_observer(scene, door);
-    std::unique_ptr<Policy> policy = pool.Take();
-    rows[i] = RowOf(RunEpisode(scene, door, robot, *policy, observer.get()), door.category);
-    pool.Return(std::move(policy));
+    Players players = pool.Take();
+    rows[i] = RowOf(PlayTrial(scene, door, robot, players, observer.get()), door.category);
+    pool.Return(std::move(players));
     if (hooks.done) hooks.done(rows[i]);
   });
   return rows;

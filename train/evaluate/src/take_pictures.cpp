@@ -68,14 +68,14 @@ struct FilmedTrial {
   std::optional<SceneSnapshot> first_decision;
 };
 
-FilmedTrial FilmTrial(const FinishedTrials& finished, std::size_t index, Policy& policy,
+FilmedTrial FilmTrial(const FinishedTrials& finished, std::size_t index, const Players& players,
                       const Contender& contender) {
   const Scene& scene = finished.trials[index].scene;
   const DoorAsset& door = finished.doors[finished.trials[index].door];
   const RobotModel robot = LoadRobot({}, RobotBaseNamed(scene.physics.base));
   internal::EpisodeFilm film(contender.make_observer ? contender.make_observer(scene, door)
                                                      : nullptr);
-  const Episode episode = RunEpisode(scene, door, robot, policy, &film);
+  const Episode episode = PlayTrial(scene, door, robot, players, &film);
   Require(episode.state_sha256 == finished.rows[index].state_sha256, ErrorCode::kInvalidArgument,
           door.id + ": the episode for the film strip ended in another state than the first run");
   FilmedTrial filmed;
@@ -128,11 +128,11 @@ ReportPictures TakePictures(const FinishedTrials& finished, const Contender& con
   ReportPictures pictures;
   TakeDoorPictures(finished, threads, pictures);
   const std::vector<std::size_t> trials = TrialsToFilm(finished.rows);
-  std::vector<std::unique_ptr<Policy>> policies;
-  for (std::size_t i = 0; i < trials.size(); ++i) policies.push_back(contender.make_policy());
+  std::vector<Players> players;
+  for (std::size_t i = 0; i < trials.size(); ++i) players.push_back(contender.make_players());
   std::vector<FilmedTrial> films(trials.size());
   ParallelFor(trials.size(), threads, [&](std::size_t i) {
-    films[i] = FilmTrial(finished, trials[i], *policies[i], contender);
+    films[i] = FilmTrial(finished, trials[i], players[i], contender);
   });
   for (std::size_t i = 0; i < trials.size(); ++i) {
     pictures.episodes[finished.rows[trials[i]].outcome] = std::move(films[i].film);

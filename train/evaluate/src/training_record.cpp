@@ -26,7 +26,7 @@ constexpr std::array<LossName, 4> kLossNames = {{
     {"actor.position_m", "Actor: hand position, mean L1", "m"},
     {"actor.rotation_rad", "Actor: hand rotation, geodesic angle", "rad"},
     {"actor.divergence", "Actor: divergence from N(0, I)", "nat"},
-    {"critic.hinge_gain_rad", "Critic: door angle gained, mean L1", "rad"},
+    {"critic.score_rad", "Critic: angle gained, mean L1", "rad"},
 }};
 
 ReportDoor DoorOf(const DatasetDoor& door, const std::string& path) {

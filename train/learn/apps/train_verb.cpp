@@ -21,8 +21,8 @@
 #include "doorforge/core/progress.h"
 #include "doorforge/learn/checkpoint.h"
 #include "doorforge/learn/linear_algebra.h"
-#include "doorforge/learn/opening_dataset.h"
-#include "doorforge/learn/train_opening.h"
+#include "doorforge/learn/stage_dataset.h"
+#include "doorforge/learn/train_stage.h"
 
 namespace doorforge {
 namespace {
@@ -48,7 +48,9 @@ Options Parse(int argc, char** argv) {
   Options options;
   CLI::App app("Trains a stage's policy from the shards of `doorforge datagen`.",
                "doorforge train");
-  app.add_option("stage", options.stage, "open")->required()->check(CLI::IsMember({"open"}));
+  app.add_option("stage", options.stage, "open, or handle")
+      ->required()
+      ->check(CLI::IsMember({"open", "handle"}));
   app.add_option("--data", options.data, "data set")->required()->check(CLI::ExistingDirectory);
   app.add_option("--out", options.out, "folder of the policy")->required();
   app.add_option("--epochs", options.epochs, "passes over the samples (config: epochs)");
@@ -98,14 +100,14 @@ void WarnOfSlowLinearAlgebra() {
 }
 
 std::string Note(const TrainerState& state, std::uint64_t per_epoch, const TrainConfig& config) {
-  const OpeningLosses& losses = state.steps.back();
+  const StageLosses& losses = state.steps.back();
   char text[160];
   std::snprintf(text, sizeof text,
                 "samples; epoch %.1f/%d step %llu: position %.2f mm, rotation %.2f deg, "
                 "critic %.2f deg",
                 static_cast<double>(state.step) / static_cast<double>(per_epoch), config.epochs,
                 static_cast<unsigned long long>(state.step), 1e3 * losses.position_m,
-                57.29578 * losses.rotation_rad, 57.29578 * losses.hinge_gain_rad);
+                57.29578 * losses.rotation_rad, 57.29578 * losses.score_rad);
   return text;
 }
 
@@ -121,17 +123,16 @@ void CheckFolder(const Options& options) {
   }
 }
 
-void PrintSummary(const TrainerState& state, const OpeningDataset& dataset,
-                  const Options& options) {
+void PrintSummary(const TrainerState& state, const StageDataset& dataset, const Options& options) {
   std::printf("policy:     %s\n", fs::absolute(options.out).lexically_normal().c_str());
   std::printf("samples:    %zu for training, %zu for validation\n", dataset.train.size(),
               dataset.validation.size());
   if (state.epochs.empty()) return;
   const EpochLosses& last = state.epochs.back();
-  const auto row = [](const char* name, const OpeningLosses& losses) {
+  const auto row = [](const char* name, const StageLosses& losses) {
     std::printf("%-11s position %.2f mm, rotation %.2f deg, critic %.2f deg\n", name,
                 1e3 * losses.position_m, 57.29578 * losses.rotation_rad,
-                57.29578 * losses.hinge_gain_rad);
+                57.29578 * losses.score_rad);
   };
   row("training:", last.train);
   row("validation:", last.validation);
@@ -142,8 +143,9 @@ int Train(const Options& options) {
   const TrainConfig config = ConfigOf(options);
   CheckFolder(options);
   WarnOfSlowLinearAlgebra();
-  const OpeningDataset dataset = ReadOpeningDataset(options.data, config.validation_share);
-  PolicyProvenance provenance{dataset.content_sha256, CodeVersion(), config, 0};
+  const StageDataset dataset =
+      ReadStageDataset(options.data, options.stage, config.validation_share);
+  PolicyProvenance provenance{options.stage, dataset.content_sha256, CodeVersion(), config, 0};
 
   TrainHooks hooks;
   hooks.threads = options.threads;
@@ -158,7 +160,7 @@ int Train(const Options& options) {
   const auto start = Clock::now();
   TrainerState state;
   {
-    Progress progress("train open",
+    Progress progress("train " + options.stage,
                       static_cast<std::size_t>(total - std::min(done, total)) * batch);
     hooks.on_step = [&](const TrainerState& now) {
       progress.Advance(batch, Note(now, per_epoch, config));
@@ -172,7 +174,7 @@ int Train(const Options& options) {
       return StopRequested() != 0 ||
              (options.minutes > 0 && elapsed.count() > 60 * options.minutes);
     };
-    state = TrainOpening(dataset.train, dataset.validation, config, hooks);
+    state = TrainStage(dataset.train, dataset.validation, config, hooks);
   }
   WriteTrainerState(out, state, provenance);
   WriteLosses(out, state);

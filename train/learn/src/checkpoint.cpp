@@ -66,28 +66,26 @@ std::vector<float> ReadParameters(const ParameterLayout& layout, const std::stri
   return parameters;
 }
 
-TensorFile WeightsOf(const OpeningNetworks& networks) {
+TensorFile WeightsOf(const StageNetworks& networks) {
   TensorFile file;
   AddParameters(ActorLayout(), "actor.", networks.actor, file);
   AddParameters(CriticLayout(), "critic.", networks.critic, file);
   return file;
 }
 
-void ReadWeights(const TensorFile& file, const std::string& path, OpeningNetworks& networks) {
+void ReadWeights(const TensorFile& file, const std::string& path, StageNetworks& networks) {
   networks.actor = ReadParameters(ActorLayout(), "actor.", file, path);
   networks.critic = ReadParameters(CriticLayout(), "critic.", file, path);
 }
 
-std::array<double, kLossCount> ToArray(const OpeningLosses& losses) {
-  return {losses.position_m, losses.rotation_rad, losses.divergence, losses.hinge_gain_rad};
+std::array<double, kLossCount> ToArray(const StageLosses& losses) {
+  return {losses.position_m, losses.rotation_rad, losses.divergence, losses.score_rad};
 }
 
 constexpr std::array<const char*, kLossCount> kLossNames = {
-    "actor.position_m", "actor.rotation_rad", "actor.divergence", "critic.hinge_gain_rad"};
+    "actor.position_m", "actor.rotation_rad", "actor.divergence", "critic.score_rad"};
 
-OpeningLosses FromArray(const double* values) {
-  return {values[0], values[1], values[2], values[3]};
-}
+StageLosses FromArray(const double* values) { return {values[0], values[1], values[2], values[3]}; }
 
 struct Moments {
   const char* name;
@@ -107,10 +105,10 @@ std::string ConfigText(const TrainConfig& config) { return ToJson(config).dump()
 void AddLosses(const TrainerState& state, TensorFile& file) {
   std::vector<double> steps;
   std::vector<double> epochs;
-  const auto append = [](const OpeningLosses& losses, std::vector<double>& out) {
+  const auto append = [](const StageLosses& losses, std::vector<double>& out) {
     for (const double value : ToArray(losses)) out.push_back(value);
   };
-  for (const OpeningLosses& losses : state.steps) append(losses, steps);
+  for (const StageLosses& losses : state.steps) append(losses, steps);
   for (const EpochLosses& epoch : state.epochs) {
     append(epoch.train, epochs);
     append(epoch.validation, epochs);
@@ -225,13 +223,13 @@ std::string LossTable(const TrainerState& state) {
 
 std::string ConfigHash(const TrainConfig& config) { return Sha256Hex(ConfigText(config)); }
 
-void WritePolicy(const fs::path& folder, const OpeningNetworks& networks,
+void WritePolicy(const fs::path& folder, const StageNetworks& networks,
                  const PolicyProvenance& provenance) {
   const std::string weights = EncodeTensors(WeightsOf(networks));
   CommitFile(folder / kWeightsFile, weights);
   Json json = {{"schema", "doorforge.policy"},
                {"schema_version", kPolicySchemaVersion},
-               {"stage", "open"},
+               {"stage", provenance.stage},
                {"weights", kWeightsFile},
                {"weights_sha256", Sha256Hex(weights)},
                {"sizes",
@@ -261,6 +259,7 @@ PolicyRecord ReadPolicy(const fs::path& folder, std::string_view stage) {
   record.networks.normalisation =
       NormalisationFromJson(MemberOf(json, "normalisation", path), path + ".normalisation");
   record.provenance = ProvenanceFromJson(MemberOf(json, "provenance", path), path + ".provenance");
+  record.provenance.stage = found;
 
   const std::string weights_path = (folder / kWeightsFile).string();
   const std::string weights = ReadFile(weights_path);

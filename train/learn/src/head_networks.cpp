@@ -125,7 +125,7 @@ Reconstruction Compare(const Tensor& decoded, const Tensor& wanted) {
 
 class Actor {
  public:
-  Actor(const OpeningNetworks& networks, const HeadBatch& batch, const Tensor& features,
+  Actor(const StageNetworks& networks, const HeadBatch& batch, const Tensor& features,
         bool with_gradient)
       : parameters_(ActorLayout(), networks.actor, with_gradient),
         networks_(networks),
@@ -151,13 +151,13 @@ class Actor {
 
  private:
   HeadParameters parameters_;
-  const OpeningNetworks& networks_;
+  const StageNetworks& networks_;
   Activation activation_;
   Tensor features_;
   Tensor state_;
 };
 
-Tensor CriticScore(const HeadParameters& parameters, const OpeningNetworks& networks,
+Tensor CriticScore(const HeadParameters& parameters, const StageNetworks& networks,
                    const HeadBatch& batch, const Tensor& features) {
   const auto branch = [&](const char* name, const std::vector<float>& values,
                           std::int64_t columns) {
@@ -167,7 +167,7 @@ Tensor CriticScore(const HeadParameters& parameters, const OpeningNetworks& netw
       torch::cat({features, branch("state", batch.states, 18), branch("action", batch.actions, 9),
                   branch("hand", batch.hands, 3), branch("base", batch.bases, 3)},
                  1);
-  return Denormalise(networks.normalisation.hinge_gain_rad,
+  return Denormalise(networks.normalisation.score_rad,
                      parameters.Branch("score", Activation::kRectified, joined));
 }
 
@@ -192,7 +192,7 @@ void UseOneTorchThread() {
   at::init_num_threads();
 }
 
-HeadResult ActorObjective(const OpeningNetworks& networks, const HeadBatch& batch,
+HeadResult ActorObjective(const StageNetworks& networks, const HeadBatch& batch,
                           const TrainConfig& config, std::span<float> gradient) {
   const bool with_gradient = !gradient.empty();
   const at::AutoGradMode mode(with_gradient);
@@ -222,7 +222,7 @@ HeadResult ActorObjective(const OpeningNetworks& networks, const HeadBatch& batc
   return result;
 }
 
-HeadResult CriticObjective(const OpeningNetworks& networks, const HeadBatch& batch,
+HeadResult CriticObjective(const StageNetworks& networks, const HeadBatch& batch,
                            std::span<float> gradient) {
   const bool with_gradient = !gradient.empty();
   const at::AutoGradMode mode(with_gradient);
@@ -232,19 +232,19 @@ HeadResult CriticObjective(const OpeningNetworks& networks, const HeadBatch& bat
   const Tensor objective = (score - View(batch.gains, 1)).abs().mean();
   HeadResult result;
   result.objective = objective.item<double>();
-  result.losses.hinge_gain_rad = result.objective;
+  result.losses.score_rad = result.objective;
   if (with_gradient) BackPropagate(objective, features, parameters, gradient, result);
   return result;
 }
 
-std::vector<float> DecodeActions(const OpeningNetworks& networks, const HeadBatch& batch,
+std::vector<float> DecodeActions(const StageNetworks& networks, const HeadBatch& batch,
                                  const std::vector<float>& latents) {
   const at::AutoGradMode mode(false);
   const Actor actor(networks, batch, View(batch.features, kFeatureSize), false);
   return ToVector(actor.Decode(View(latents, kLatentSize)));
 }
 
-std::vector<float> ScoreActions(const OpeningNetworks& networks, const HeadBatch& batch) {
+std::vector<float> ScoreActions(const StageNetworks& networks, const HeadBatch& batch) {
   const at::AutoGradMode mode(false);
   const HeadParameters parameters(CriticLayout(), networks.critic, false);
   return ToVector(CriticScore(parameters, networks, batch, View(batch.features, kFeatureSize)));

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "doorforge/learn/opening_networks.h"
-#include "doorforge/learn/train_opening.h"
+#include "doorforge/learn/stage_networks.h"
+#include "doorforge/learn/train_stage.h"
 
 // The parts of actor and critic behind the encoder, in libtorch. Only head_networks.cpp sees
 // libtorch's headers.
@@ -26,7 +26,7 @@ struct HeadBatch {
 };
 
 struct HeadResult {
-  OpeningLosses losses;                 ///< The network's own; the rest 0.
+  StageLosses losses;                   ///< The network's own; the rest 0.
   double objective = 0;                 ///< What is minimised.
   std::vector<float> feature_gradient;  ///< n x 128; empty if no gradient was asked for.
 };
@@ -36,19 +36,19 @@ void UseOneTorchThread();
 
 /// Objective of the actor (UniDoorManip 5.2, weights of `config`), its gradient added to `gradient`
 /// (a flat vector of ActorLayout(); may be empty: no gradient).
-HeadResult ActorObjective(const OpeningNetworks& networks, const HeadBatch& batch,
+HeadResult ActorObjective(const StageNetworks& networks, const HeadBatch& batch,
                           const TrainConfig& config, std::span<float> gradient);
 
 /// Objective of the critic (5.3, "more" variant), likewise.
-HeadResult CriticObjective(const OpeningNetworks& networks, const HeadBatch& batch,
+HeadResult CriticObjective(const StageNetworks& networks, const HeadBatch& batch,
                            std::span<float> gradient);
 
 /// Action numbers (n x 9, in the world's units) for the batch's features and states and `latents`
 /// (n x 128).
-std::vector<float> DecodeActions(const OpeningNetworks& networks, const HeadBatch& batch,
+std::vector<float> DecodeActions(const StageNetworks& networks, const HeadBatch& batch,
                                  const std::vector<float>& latents);
 
 /// The critic's scores [rad], n.
-std::vector<float> ScoreActions(const OpeningNetworks& networks, const HeadBatch& batch);
+std::vector<float> ScoreActions(const StageNetworks& networks, const HeadBatch& batch);
 
 }  // namespace doorforge::internal

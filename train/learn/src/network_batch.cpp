@@ -42,7 +42,7 @@ std::vector<std::shared_ptr<const CloudGeometry>> GeometryCache::Get(
 
 HeadBatch MakeHeadBatch(std::span<const TrainingSample> samples,
                         std::span<const std::size_t> indices,
-                        const OpeningNormalisation& normalisation) {
+                        const StageNormalisation& normalisation) {
   HeadBatch batch;
   batch.size = static_cast<int>(indices.size());
   for (const std::size_t index : indices) {
@@ -51,7 +51,7 @@ HeadBatch MakeHeadBatch(std::span<const TrainingSample> samples,
     Append(normalisation.action.Apply(sample.action), batch.actions);
     Append(normalisation.hand_m.Apply(sample.hand_m), batch.hands);
     Append(normalisation.base_m.Apply(sample.base_m), batch.bases);
-    batch.gains.push_back(sample.hinge_gain_rad);
+    batch.gains.push_back(sample.score_rad);
   }
   return batch;
 }

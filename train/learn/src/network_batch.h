@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "doorforge/learn/cloud_geometry.h"
-#include "doorforge/learn/opening_networks.h"
 #include "doorforge/learn/point_encoder.h"
+#include "doorforge/learn/stage_networks.h"
 #include "doorforge/learn/training_sample.h"
 
 #include "head_networks.h"
@@ -38,7 +38,7 @@ class GeometryCache {
 /// The normalised numbers of these samples; features and noise are left empty.
 HeadBatch MakeHeadBatch(std::span<const TrainingSample> samples,
                         std::span<const std::size_t> indices,
-                        const OpeningNormalisation& normalisation);
+                        const StageNormalisation& normalisation);
 
 /// A batch on its way through one network's encoder. Memory is reused from batch to batch.
 class EncodedBatch {

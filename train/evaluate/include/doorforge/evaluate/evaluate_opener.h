@@ -15,9 +15,12 @@ namespace doorforge {
 
 /// What is to be evaluated.
 struct EvaluationRequest {
-  std::filesystem::path policy;    ///< Folder that `doorforge train open` wrote, or "expert".
-  std::vector<std::string> doors;  ///< Folders of composed doors, see ReadDoors().
-  DoorSelection selection;         ///< Which of them.
+  std::filesystem::path policy;  ///< Folder that `doorforge train open` wrote, or "expert".
+  /// Folder that `doorforge train handle` wrote; empty: the rule turns the handle.
+  std::filesystem::path handler;
+  std::filesystem::path handler_data;  ///< As `data`, of the handler.
+  std::vector<std::string> doors;      ///< Folders of composed doors, see ReadDoors().
+  DoorSelection selection;             ///< Which of them.
   /// Data set that the policy was trained from; it says which bodies and handles were seen. Empty
   /// only with `allow_seen`, or for the expert.
   std::filesystem::path data;
@@ -33,8 +36,8 @@ struct Evaluation {
 };
 
 /// Closed-loop evaluation of the opening stage (UniDoorManip, Section 6): in every scene the expert
-/// grasps and unlocks, then the policy opens. The rule-based expert by itself with policy "expert".
-/// Progress is shown on standard error.
+/// grasps, the rule or a trained policy turns the handle, then the policy opens. The rule-based
+/// expert by itself with policy "expert". Progress is shown on standard error.
 ///
 /// Same request, same report and pictures, for any number of threads.
 ///

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "doorforge/learn/opening_policy.h"
+#include "doorforge/learn/stage_policy.h"
 #include "doorforge/physics/scene_sampling.h"
 #include "doorforge/sensor/point_cloud.h"
 

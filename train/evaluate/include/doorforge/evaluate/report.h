@@ -41,11 +41,12 @@ struct LossCurve {
 /// Where the numbers come from: hashes name the inputs, so that a report can be checked or made
 /// again. No times of day: equal inputs give equal reports.
 struct ReportProvenance {
-  std::string policy;          ///< Name of the policy's folder, or "expert".
-  std::string policy_sha256;   ///< Of its weights; empty for the expert.
-  std::string dataset_sha256;  ///< Of the data set it was trained from; empty if unknown.
-  std::string code_version;    ///< CodeVersion() of the evaluating program.
-  std::string command;         ///< The command line.
+  std::string policy;               ///< Name of the policy's folder, or "expert".
+  std::string policy_sha256;        ///< Of its weights; empty for the expert.
+  std::string dataset_sha256;       ///< Of the data set it was trained from; empty if unknown.
+  std::string handler_sha256 = {};  ///< Weights of who turned the handle; empty: the rule.
+  std::string code_version;         ///< CodeVersion() of the evaluating program.
+  std::string command;              ///< The command line.
   nlohmann::ordered_json config = nlohmann::ordered_json::object();  ///< The effective config.
 };
 

@@ -10,8 +10,10 @@
 
 #include "doorforge/evaluate/evaluated_episode.h"
 #include "doorforge/evaluate/evaluation_config.h"
+#include "doorforge/physics/robot_model.h"
 #include "doorforge/rollout/observer.h"
 #include "doorforge/schemas/door_asset.h"
+#include "doorforge/schemas/episode.h"
 #include "doorforge/schemas/policy.h"
 #include "doorforge/schemas/scene.h"
 
@@ -27,10 +29,16 @@ struct Trial {
 /// out of range.
 std::vector<Trial> PlanTrials(std::span<const DoorAsset> doors, const EvaluationConfig& config);
 
-/// Who opens the doors after the expert's grasp and unlock.
+/// Who acts in an episode. One set serves one episode at a time.
+struct Players {
+  std::unique_ptr<Policy> open;
+  std::unique_ptr<Policy> handle = nullptr;  ///< Null: the rule turns the handle.
+};
+
+/// Who opens the doors after the expert's grasp.
 struct Contender {
-  /// A new instance, equal to all others; called from one thread at a time.
-  std::function<std::unique_ptr<Policy>()> make_policy;
+  /// A new set, equal to all others; called from one thread at a time.
+  std::function<Players()> make_players;
   /// The camera of an episode; nothing for a policy that does not look. May be called from several
   /// threads at once.
   std::function<std::unique_ptr<Observer>(const Scene&, const DoorAsset&)> make_observer;
@@ -41,6 +49,10 @@ struct RunHooks {
   int threads = 0;                                    ///< 0: all processors.
   std::function<void(const EvaluatedEpisode&)> done;  ///< After each; called from any thread.
 };
+
+/// One trial, as RunTrials() runs it.
+Episode PlayTrial(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
+                  const Players& players, Observer* observer);
 
 /// Runs the trials and gives their rows in their order.
 ///

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "doorforge/learn/train_opening.h"
+#include "doorforge/learn/train_stage.h"
 
 namespace doorforge {
 
@@ -16,6 +16,7 @@ inline constexpr int kPolicySchemaVersion = 1;
 
 /// What a policy was made from.
 struct PolicyProvenance {
+  std::string stage;           ///< "open" or "handle".
   std::string dataset_sha256;  ///< DatasetReader::ContentHash() of what it was trained from.
   std::string code_version;
   TrainConfig config;
@@ -26,7 +27,7 @@ struct PolicyProvenance {
 struct PolicyRecord {
   PolicyProvenance provenance;
   std::string weights_sha256;  ///< Of policy.safetensors.
-  OpeningNetworks networks;
+  StageNetworks networks;
 };
 
 /// SHA-256 of the effective config's JSON text.
@@ -35,7 +36,7 @@ std::string ConfigHash(const TrainConfig& config);
 /// Writes `policy.safetensors` (every weight under its layer's name, after "actor." or "critic.")
 /// and then `policy.json` (schema doorforge.policy: sizes, normalisation, provenance and the
 /// weights' SHA-256). Equal arguments give equal bytes.
-void WritePolicy(const std::filesystem::path& folder, const OpeningNetworks& networks,
+void WritePolicy(const std::filesystem::path& folder, const StageNetworks& networks,
                  const PolicyProvenance& provenance);
 
 /// Throws Error(kMissing), Error(kFormat) on a damaged record, one of another stage, or weights
@@ -58,7 +59,7 @@ TrainerState ReadTrainerState(const std::filesystem::path& folder,
 /// A loss over the epochs; `validation` may hold NaN (null in the file).
 struct TrainingCurve {
   std::string name;  ///< "actor.position_m", "actor.rotation_rad", "actor.divergence",
-                     ///< "critic.hinge_gain_rad".
+                     ///< "critic.score_rad".
   std::vector<double> epoch;
   std::vector<double> train;
   std::vector<double> validation;

@@ -52,7 +52,7 @@ struct CloudGeometry {
 
 /// @param xyz 4096 x 3 finite numbers [m], world frame.
 /// @param centre Subtracted from every point; the same for all clouds of a policy.
-/// @param outputs Points whose feature will be read, ascending; the opening policy reads point 0.
+/// @param outputs Points whose feature will be read, ascending; the policies read point 0.
 /// @throws Error(kInvalidArgument) on another number of points, or numbers that are not finite.
 CloudGeometry BuildGeometry(std::span<const float> xyz, const std::array<float, 3>& centre,
                             std::span<const std::uint16_t> outputs, InstructionSet set);

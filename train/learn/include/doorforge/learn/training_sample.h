@@ -9,7 +9,7 @@
 
 namespace doorforge {
 
-/// One decision of the opening stage, as the networks see it (UniDoorManip 4.2).
+/// One decision of a stage, as the networks see it (UniDoorManip 4.2).
 struct TrainingSample {
   /// 4096 x 3, world [m]; point 0 is the visible point nearest to the hand. Not owned.
   std::span<const float> cloud;
@@ -17,7 +17,7 @@ struct TrainingSample {
   std::array<float, 3> hand_m{};  ///< World.
   std::array<float, 3> base_m{};  ///< World.
   ActionVector action{};          ///< What the expert did.
-  float hinge_gain_rad = 0;       ///< What the action gained: the critic's target.
+  float score_rad = 0;            ///< What the action gained: the critic's target.
 };
 
 }  // namespace doorforge

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/learn/opening_dataset.h"
+#include "doorforge/learn/stage_dataset.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kStage = "open";
 constexpr std::size_t kCloudFloats = std::size_t{3} * kCloudPoints;
 
 template <std::size_t N>
@@ -36,7 +35,7 @@ void AppendEpisode(const EpisodeArrays& arrays, std::vector<TrainingSample>& sam
     sample.hand_m = ToArray(HandPositionOf(proprioception));
     sample.base_m = ToArray(BasePositionOf(proprioception));
     sample.action = RowOf<std::tuple_size_v<ActionVector>>(arrays.action, t);
-    sample.hinge_gain_rad = arrays.score[t];
+    sample.score_rad = arrays.score[t];
     samples.push_back(sample);
   }
 }
@@ -59,19 +58,21 @@ std::vector<TrainingSample> SamplesOf(const DatasetReader& reader, std::size_t b
 
 }  // namespace
 
-OpeningDataset::OpeningDataset() = default;
-OpeningDataset::~OpeningDataset() = default;
-OpeningDataset::OpeningDataset(OpeningDataset&&) noexcept = default;
-OpeningDataset& OpeningDataset::operator=(OpeningDataset&&) noexcept = default;
+StageDataset::StageDataset() = default;
+StageDataset::~StageDataset() = default;
+StageDataset::StageDataset(StageDataset&&) noexcept = default;
+StageDataset& StageDataset::operator=(StageDataset&&) noexcept = default;
 
-OpeningDataset ReadOpeningDataset(const fs::path& folder, double validation_share) {
-  OpeningDataset dataset;
-  dataset.readers.push_back(std::make_unique<DatasetReader>(folder, kStage, "train"));
+StageDataset ReadStageDataset(const fs::path& folder, std::string_view stage,
+                              double validation_share) {
+  const std::string name(stage);
+  StageDataset dataset;
+  dataset.readers.push_back(std::make_unique<DatasetReader>(folder, name, "train"));
   const DatasetReader& train = *dataset.readers.back();
   std::string content = train.ContentHash();
   const std::size_t episodes = train.size();
-  if (fs::exists(folder / kStage / "val")) {
-    dataset.readers.push_back(std::make_unique<DatasetReader>(folder, kStage, "val"));
+  if (fs::exists(folder / name / "val")) {
+    dataset.readers.push_back(std::make_unique<DatasetReader>(folder, name, "val"));
     const DatasetReader& validation = *dataset.readers.back();
     content += "\n" + validation.ContentHash();
     dataset.train = SamplesOf(train, 0, episodes);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/learn/opening_networks.h"
+#include "doorforge/learn/stage_networks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -137,11 +137,11 @@ Normaliser<N> NormaliserFromJson(const Json& parent, const std::string& key,
 
 }  // namespace
 
-OpeningNormalisation MeasureNormalisation(std::span<const TrainingSample> samples) {
+StageNormalisation MeasureNormalisation(std::span<const TrainingSample> samples) {
   Require(!samples.empty(), ErrorCode::kInvalidArgument, "no sample to train from");
   constexpr float kPosition = 0.005F;
   constexpr float kRotation = 0.05F;
-  OpeningNormalisation normalisation;
+  StageNormalisation normalisation;
   normalisation.cloud_centre_m = MeanPoint(samples);
   normalisation.state =
       Measure<18>(samples, Filled<18>(0.02F), [](const TrainingSample& s) { return s.state; });
@@ -153,31 +153,30 @@ OpeningNormalisation MeasureNormalisation(std::span<const TrainingSample> sample
       Measure<3>(samples, Filled<3>(0.02F), [](const TrainingSample& s) { return s.hand_m; });
   normalisation.base_m =
       Measure<3>(samples, Filled<3>(0.02F), [](const TrainingSample& s) { return s.base_m; });
-  normalisation.hinge_gain_rad = Measure<1>(samples, {0.005F}, [](const TrainingSample& s) {
-    return std::array<float, 1>{s.hinge_gain_rad};
-  });
+  normalisation.score_rad = Measure<1>(
+      samples, {0.005F}, [](const TrainingSample& s) { return std::array<float, 1>{s.score_rad}; });
   return normalisation;
 }
 
-Json NormalisationToJson(const OpeningNormalisation& normalisation) {
+Json NormalisationToJson(const StageNormalisation& normalisation) {
   return {{"cloud_centre_m", normalisation.cloud_centre_m},
           {"cloud_scale", 1},
           {"state", NormaliserToJson(normalisation.state)},
           {"action", NormaliserToJson(normalisation.action)},
           {"hand_m", NormaliserToJson(normalisation.hand_m)},
           {"base_m", NormaliserToJson(normalisation.base_m)},
-          {"hinge_gain_rad", NormaliserToJson(normalisation.hinge_gain_rad)}};
+          {"score_rad", NormaliserToJson(normalisation.score_rad)}};
 }
 
-OpeningNormalisation NormalisationFromJson(const Json& json, const std::string& path) {
-  OpeningNormalisation normalisation;
+StageNormalisation NormalisationFromJson(const Json& json, const std::string& path) {
+  StageNormalisation normalisation;
   normalisation.cloud_centre_m =
       ArrayFromJson<3>(MemberOf(json, "cloud_centre_m", path), path + ".cloud_centre_m");
   normalisation.state = NormaliserFromJson<18>(json, "state", path);
   normalisation.action = NormaliserFromJson<9>(json, "action", path);
   normalisation.hand_m = NormaliserFromJson<3>(json, "hand_m", path);
   normalisation.base_m = NormaliserFromJson<3>(json, "base_m", path);
-  normalisation.hinge_gain_rad = NormaliserFromJson<1>(json, "hinge_gain_rad", path);
+  normalisation.score_rad = NormaliserFromJson<1>(json, "score_rad", path);
   return normalisation;
 }
 
@@ -191,8 +190,8 @@ const ParameterLayout& CriticLayout() {
   return kLayout;
 }
 
-OpeningNetworks InitialNetworks(const OpeningNormalisation& normalisation, bool linear_branches,
-                                std::uint64_t seed) {
+StageNetworks InitialNetworks(const StageNormalisation& normalisation, bool linear_branches,
+                              std::uint64_t seed) {
   return {normalisation, linear_branches, Initial(ActorLayout(), seed, "actor."),
           Initial(CriticLayout(), seed, "critic.")};
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/learn/train_opening.h"
+#include "doorforge/learn/train_stage.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,20 +33,20 @@ void ExpectEqual(const TrainerState& a, const TrainerState& b) {
   ASSERT_EQ(a.steps.size(), b.steps.size());
   for (std::size_t i = 0; i < a.steps.size(); ++i) {
     EXPECT_EQ(a.steps[i].position_m, b.steps[i].position_m);
-    EXPECT_EQ(a.steps[i].hinge_gain_rad, b.steps[i].hinge_gain_rad);
+    EXPECT_EQ(a.steps[i].score_rad, b.steps[i].score_rad);
   }
   ASSERT_EQ(a.epochs.size(), b.epochs.size());
   for (std::size_t i = 0; i < a.epochs.size(); ++i)
     EXPECT_EQ(a.epochs[i].validation.rotation_rad, b.epochs[i].validation.rotation_rad);
 }
 
-TEST(TrainOpening, GivesTheSameBitsForAnyNumberOfThreadsAndAnyInterruption) {
+TEST(TrainStage, GivesTheSameBitsForAnyNumberOfThreadsAndAnyInterruption) {
   const auto train = testing::MakeSyntheticSamples(1, 20);
   const auto validation = testing::MakeSyntheticSamples(2, 4);
   const TrainConfig config = SmallConfig();
   TrainHooks one;
   one.threads = 1;
-  const TrainerState whole = TrainOpening(train.samples, validation.samples, config, one);
+  const TrainerState whole = TrainStage(train.samples, validation.samples, config, one);
   EXPECT_EQ(whole.step, 4U);
   EXPECT_EQ(whole.epochs.size(), 2U);
 
@@ -56,12 +56,12 @@ TEST(TrainOpening, GivesTheSameBitsForAnyNumberOfThreadsAndAnyInterruption) {
   stopped.stop = [count = 0]() mutable { return ++count == 3; };
   TrainHooks resumed;
   resumed.threads = 2;
-  resumed.resume = TrainOpening(train.samples, validation.samples, config, stopped);
+  resumed.resume = TrainStage(train.samples, validation.samples, config, stopped);
   EXPECT_EQ(resumed.resume->step, 3U);
-  ExpectEqual(TrainOpening(train.samples, validation.samples, config, resumed), whole);
+  ExpectEqual(TrainStage(train.samples, validation.samples, config, resumed), whole);
 }
 
-TEST(TrainOpening, LearnsToReadTheHingeFromTheCloud) {
+TEST(TrainStage, LearnsToReadTheHingeFromTheCloud) {
   auto train = testing::MakeSyntheticSamples(3, 64);
   auto validation = testing::MakeSyntheticSamples(4, 24);
   // only the cloud tells the angle
@@ -72,37 +72,37 @@ TEST(TrainOpening, LearnsToReadTheHingeFromTheCloud) {
   config.epochs = 7;
   config.batch_size = 8;
   config.critic_interval = 4;
-  const TrainerState state = TrainOpening(train.samples, validation.samples, config, {});
+  const TrainerState state = TrainStage(train.samples, validation.samples, config, {});
   // the mean action of the training set is off by 13 degrees on average
   EXPECT_GT(state.epochs.front().train.rotation_rad, 0.15);
   EXPECT_LT(state.epochs.back().validation.rotation_rad, 0.08);
-  EXPECT_LT(state.epochs.back().validation.hinge_gain_rad, 0.005);
+  EXPECT_LT(state.epochs.back().validation.score_rad, 0.005);
 }
 
-TEST(TrainOpening, RefusesBadConfigsAndEmptySets) {
+TEST(TrainStage, RefusesBadConfigsAndEmptySets) {
   const auto train = testing::MakeSyntheticSamples(1, 1);
   TrainConfig config = SmallConfig();
-  EXPECT_THROW(TrainOpening({}, {}, config, {}), Error);
+  EXPECT_THROW(TrainStage({}, {}, config, {}), Error);
   config.schedule = "cosinus";
-  EXPECT_THROW(TrainOpening(train.samples, {}, config, {}), Error);
+  EXPECT_THROW(TrainStage(train.samples, {}, config, {}), Error);
   config = SmallConfig();
   config.batch_size = 0;
-  EXPECT_THROW(TrainOpening(train.samples, {}, config, {}), Error);
+  EXPECT_THROW(TrainStage(train.samples, {}, config, {}), Error);
 }
 
-TEST(TrainOpening, ASetSmallerThanABatchIsOneBatchWithoutValidation) {
+TEST(TrainStage, ASetSmallerThanABatchIsOneBatchWithoutValidation) {
   const auto train = testing::MakeSyntheticSamples(1, 3);
   TrainConfig config = SmallConfig();
   config.epochs = 1;
-  const TrainerState state = TrainOpening(train.samples, {}, config, {});
+  const TrainerState state = TrainStage(train.samples, {}, config, {});
   EXPECT_EQ(state.step, 1U);
   EXPECT_TRUE(std::isnan(state.epochs[0].validation.position_m));
 }
 
-TEST(TrainOpening, StopsWhenALossIsNotFinite) {
+TEST(TrainStage, StopsWhenALossIsNotFinite) {
   auto train = testing::MakeSyntheticSamples(1, 8);
-  train.samples[3].hinge_gain_rad = std::numeric_limits<float>::infinity();
-  EXPECT_THROW(TrainOpening(train.samples, {}, SmallConfig(), {}), Error);
+  train.samples[3].score_rad = std::numeric_limits<float>::infinity();
+  EXPECT_THROW(TrainStage(train.samples, {}, SmallConfig(), {}), Error);
 }
 
 TEST(Sampler, VisitsEverySampleOnceAnEpochInAnOrderOfItsOwn) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/learn/opening_policy.h"
+#include "doorforge/learn/stage_policy.h"
 
 #include <filesystem>
 #include <limits>
@@ -16,7 +16,7 @@
 namespace doorforge {
 namespace {
 
-OpeningNetworks SomeNetworks() {
+StageNetworks SomeNetworks() {
   const auto made = testing::MakeSyntheticSamples(1, 3);
   return InitialNetworks(MeasureNormalisation(made.samples), false, 4);
 }
@@ -29,10 +29,10 @@ Observation SomeObservation() {
   return observation;
 }
 
-TEST(OpeningPolicy, ActsAlikeInMemoryAndFromItsFolder) {
-  const auto folder = std::filesystem::path(::testing::TempDir()) / "doorforge_opening_policy";
+TEST(StagePolicy, ActsAlikeInMemoryAndFromItsFolder) {
+  const auto folder = std::filesystem::path(::testing::TempDir()) / "doorforge_stage_policy";
   std::filesystem::remove_all(folder);
-  WritePolicy(folder, SomeNetworks(), {"abc", "v", {}, 1});
+  WritePolicy(folder, SomeNetworks(), {"open", "abc", "v", {}, 1});
   const Observation observation = SomeObservation();
   const Action memory = MakePolicy(SomeNetworks())->Act(observation);
   const Action loaded = LoadPolicy(folder)->Act(observation);
@@ -44,7 +44,7 @@ TEST(OpeningPolicy, ActsAlikeInMemoryAndFromItsFolder) {
               0, 1e-6);
 }
 
-TEST(OpeningPolicy, RepeatsAnEpisodeAfterReset) {
+TEST(StagePolicy, RepeatsAnEpisodeAfterReset) {
   PolicyOptions options;
   options.candidates = 4;
   const auto policy = MakePolicy(SomeNetworks(), options);
@@ -57,7 +57,7 @@ TEST(OpeningPolicy, RepeatsAnEpisodeAfterReset) {
   EXPECT_EQ(policy->Act(observation).position_delta_m, second.position_delta_m);
 }
 
-TEST(OpeningPolicy, WithOneCandidateNeitherSeedNorRepetitionMatters) {
+TEST(StagePolicy, WithOneCandidateNeitherSeedNorRepetitionMatters) {
   PolicyOptions options;
   options.seed = 99;
   const Observation observation = SomeObservation();
@@ -67,7 +67,7 @@ TEST(OpeningPolicy, WithOneCandidateNeitherSeedNorRepetitionMatters) {
   EXPECT_EQ(MakePolicy(SomeNetworks())->Act(observation).position_delta_m, first.position_delta_m);
 }
 
-TEST(OpeningPolicy, RefusesObservationsItCannotRead) {
+TEST(StagePolicy, RefusesObservationsItCannotRead) {
   const auto policy = MakePolicy(SomeNetworks());
   Observation observation = SomeObservation();
   observation.cloud.xyz.resize(300);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/learn/train_opening.h"
+#include "doorforge/learn/train_stage.h"
 
 #include <algorithm>
 #include <array>
@@ -51,14 +51,14 @@ double LearningRate(const TrainConfig& config, std::uint64_t step, std::uint64_t
   return config.learning_rate * warmup * decay;
 }
 
-OpeningLosses Scaled(const OpeningLosses& losses, double factor) {
+StageLosses Scaled(const StageLosses& losses, double factor) {
   return {losses.position_m * factor, losses.rotation_rad * factor, losses.divergence * factor,
-          losses.hinge_gain_rad * factor};
+          losses.score_rad * factor};
 }
 
-OpeningLosses Sum(const OpeningLosses& a, const OpeningLosses& b) {
+StageLosses Sum(const StageLosses& a, const StageLosses& b) {
   return {a.position_m + b.position_m, a.rotation_rad + b.rotation_rad, a.divergence + b.divergence,
-          a.hinge_gain_rad + b.hinge_gain_rad};
+          a.score_rad + b.score_rad};
 }
 
 // One of the two networks with what its training needs between steps.
@@ -109,7 +109,7 @@ class Trainer {
     const std::uint64_t per_epoch = StepsPerEpoch(train_.size(), config_);
     const std::uint64_t total = per_epoch * static_cast<std::uint64_t>(config_.epochs);
     while (state_.step < total) {
-      const OpeningLosses losses = Step(per_epoch, total);
+      const StageLosses losses = Step(per_epoch, total);
       state_.steps.push_back(losses);
       ++state_.step;
       CheckFinite(losses);
@@ -141,7 +141,7 @@ class Trainer {
     return {*network.layout, "encoder.", *network.parameters, instruction_set_};
   }
 
-  OpeningLosses Step(std::uint64_t per_epoch, std::uint64_t total) {
+  StageLosses Step(std::uint64_t per_epoch, std::uint64_t total) {
     const std::size_t size = BatchSize(train_.size(), config_);
     const std::vector<std::size_t> indices = internal::BatchOf(
         config_.seed, state_.step / per_epoch, state_.step % per_epoch, train_.size(), size);
@@ -152,7 +152,7 @@ class Trainer {
     std::vector<Network*> learning = {&actor_};
     if (CriticLearns()) learning.push_back(&critic_);
     const std::vector<PointEncoder> encoders = Encode(learning, geometries);
-    OpeningLosses losses = Heads(learning, batch);
+    StageLosses losses = Heads(learning, batch);
     Backward(learning, encoders, geometries);
     const internal::AdamRates rates{LearningRate(config_, state_.step, total),
                                     config_.weight_decay};
@@ -168,7 +168,7 @@ class Trainer {
                {*network.parameters, *network.first, *network.second});
     });
     // a step without the critic repeats its last loss in the record
-    if (learning.size() == 1) losses.hinge_gain_rad = state_.steps.back().hinge_gain_rad;
+    if (learning.size() == 1) losses.score_rad = state_.steps.back().score_rad;
     return losses;
   }
 
@@ -189,8 +189,8 @@ class Trainer {
     return encoders;
   }
 
-  OpeningLosses Heads(const std::vector<Network*>& networks, HeadBatch& batch) {
-    OpeningLosses losses;
+  StageLosses Heads(const std::vector<Network*>& networks, HeadBatch& batch) {
+    StageLosses losses;
     for (Network* network : networks) {
       batch.features = network->encoded.Features(static_cast<std::size_t>(batch.size));
       network->gradient.assign(network->layout->size(), 0.0F);
@@ -234,11 +234,11 @@ class Trainer {
   }
 
   // Mean over the validation set; NaN if there is none.
-  OpeningLosses Validate() {
+  StageLosses Validate() {
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     if (validation_.empty()) return {kNone, kNone, kNone, kNone};
     constexpr std::size_t kChunk = 64;
-    OpeningLosses sum;
+    StageLosses sum;
     for (std::size_t begin = 0; begin < validation_.size(); begin += kChunk) {
       std::vector<std::size_t> indices(std::min(kChunk, validation_.size() - begin));
       std::iota(indices.begin(), indices.end(), begin);
@@ -257,9 +257,9 @@ class Trainer {
     return Scaled(sum, 1.0 / static_cast<double>(validation_.size()));
   }
 
-  void CheckFinite(const OpeningLosses& losses) const {
+  void CheckFinite(const StageLosses& losses) const {
     const double sum =
-        losses.position_m + losses.rotation_rad + losses.divergence + losses.hinge_gain_rad;
+        losses.position_m + losses.rotation_rad + losses.divergence + losses.score_rad;
     Require(std::isfinite(sum), ErrorCode::kIncomplete,
             "training diverged at step " + std::to_string(state_.step) +
                 ": a loss is not finite; lower learning_rate");
@@ -306,9 +306,9 @@ std::uint64_t StepsPerEpoch(std::size_t samples, const TrainConfig& config) {
   return samples == 0 ? 0 : samples / BatchSize(samples, config);
 }
 
-TrainerState TrainOpening(std::span<const TrainingSample> train,
-                          std::span<const TrainingSample> validation, const TrainConfig& config,
-                          const TrainHooks& hooks) {
+TrainerState TrainStage(std::span<const TrainingSample> train,
+                        std::span<const TrainingSample> validation, const TrainConfig& config,
+                        const TrainHooks& hooks) {
   CheckTrainConfig(config);
   Require(!train.empty(), ErrorCode::kInvalidArgument, "no sample to train from");
   internal::UseOneTorchThread();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/learn/opening_dataset.h"
+#include "doorforge/learn/stage_dataset.h"
 
 #include <cstdlib>
 #include <filesystem>
@@ -39,7 +39,7 @@ testing::SyntheticSamples WriteDataset(const fs::path& folder, const std::string
       for (std::size_t i = 0; i < decision.proprioception.size(); ++i)
         decision.proprioception[i] = static_cast<float>(100 * e + 40 * t + i);
       decision.action = sample.action;
-      decision.score_rad = sample.hinge_gain_rad;
+      decision.score_rad = sample.score_rad;
       episode.decisions.push_back(decision);
     }
     writer.Add("ep" + std::to_string(100000 + e), kDecisions,
@@ -55,10 +55,10 @@ fs::path EmptyFolder(const std::string& name) {
   return folder;
 }
 
-TEST(OpeningDataset, HoldsTheDecisionsOfTheShards) {
+TEST(StageDataset, HoldsTheDecisionsOfTheShards) {
   const fs::path folder = EmptyFolder("read");
   const auto made = WriteDataset(folder, "train", 4);
-  const OpeningDataset dataset = ReadOpeningDataset(folder, 0.25);
+  const StageDataset dataset = ReadStageDataset(folder, "open", 0.25);
   ASSERT_EQ(dataset.train.size(), 9U);
   ASSERT_EQ(dataset.validation.size(), 3U);
   EXPECT_EQ(dataset.content_sha256.size(), 64U);
@@ -66,23 +66,23 @@ TEST(OpeningDataset, HoldsTheDecisionsOfTheShards) {
   EXPECT_TRUE(std::equal(sample.cloud.begin(), sample.cloud.end(), made.samples[5].cloud.begin(),
                          made.samples[5].cloud.end()));
   EXPECT_EQ(sample.action, made.samples[5].action);
-  EXPECT_EQ(sample.hinge_gain_rad, made.samples[5].hinge_gain_rad);
+  EXPECT_EQ(sample.score_rad, made.samples[5].score_rad);
   EXPECT_EQ(sample.state[0], 180);  // first joint position
   EXPECT_EQ(sample.state[9], 191);  // first joint velocity
   EXPECT_EQ(sample.base_m[0], 202);
   EXPECT_EQ(sample.hand_m[2], 207);
 }
 
-TEST(OpeningDataset, UsesTheSplitForValidationWhereThereIsOne) {
+TEST(StageDataset, UsesTheSplitForValidationWhereThereIsOne) {
   const fs::path folder = EmptyFolder("val");
   WriteDataset(folder, "train", 2);
-  const std::string alone = ReadOpeningDataset(folder, 0).content_sha256;
+  const std::string alone = ReadStageDataset(folder, "open", 0).content_sha256;
   WriteDataset(folder, "val", 3);
-  const OpeningDataset dataset = ReadOpeningDataset(folder, 0.5);
+  const StageDataset dataset = ReadStageDataset(folder, "open", 0.5);
   EXPECT_EQ(dataset.train.size(), 6U);
   EXPECT_EQ(dataset.validation.size(), 9U);
   EXPECT_NE(dataset.content_sha256, alone);
-  EXPECT_THROW(ReadOpeningDataset(folder / "none", 0), Error);
+  EXPECT_THROW(ReadStageDataset(folder / "none", "open", 0), Error);
 }
 
 int RunTrain(const std::string& arguments) {

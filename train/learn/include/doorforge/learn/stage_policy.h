@@ -7,12 +7,12 @@
 #include <memory>
 #include <string_view>
 
-#include "doorforge/learn/opening_networks.h"
+#include "doorforge/learn/stage_networks.h"
 #include "doorforge/schemas/policy.h"
 
 namespace doorforge {
 
-/// How a trained opening policy chooses its action.
+/// How a trained policy chooses its action.
 struct PolicyOptions {
   /// 1: the action decoded from the latent 0. k > 1: that one and k - 1 from latents drawn from
   /// N(0, I); the critic's highest score is taken (the first of equals).
@@ -39,6 +39,6 @@ std::unique_ptr<Policy> LoadPolicy(const std::filesystem::path& folder,
                                    std::string_view stage = "open");
 
 /// The same of networks in memory.
-std::unique_ptr<Policy> MakePolicy(OpeningNetworks networks, const PolicyOptions& options = {});
+std::unique_ptr<Policy> MakePolicy(StageNetworks networks, const PolicyOptions& options = {});
 
 }  // namespace doorforge

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "doorforge/learn/opening_networks.h"
+#include "doorforge/learn/stage_networks.h"
 #include "doorforge/learn/training_sample.h"
 
 namespace doorforge {
@@ -61,26 +61,26 @@ struct TrainConfig {
 void CheckTrainConfig(const TrainConfig& config);
 
 /// Mean losses of a batch or of a set. Position and rotation are decoded from the latent 0.
-struct OpeningLosses {
-  double position_m = 0;      ///< Mean absolute error of a component.
-  double rotation_rad = 0;    ///< Mean geodesic angle.
-  double divergence = 0;      ///< Posterior against N(0, I).
-  double hinge_gain_rad = 0;  ///< Critic's mean absolute error.
+struct StageLosses {
+  double position_m = 0;    ///< Mean absolute error of a component.
+  double rotation_rad = 0;  ///< Mean geodesic angle.
+  double divergence = 0;    ///< Posterior against N(0, I).
+  double score_rad = 0;     ///< Critic's mean absolute error.
 };
 
 struct EpochLosses {
-  OpeningLosses train;  ///< Mean over the epoch's steps.
-  OpeningLosses validation;
+  StageLosses train;  ///< Mean over the epoch's steps.
+  StageLosses validation;
 };
 
 /// Everything that a run needs to go on as if it had never stopped.
 struct TrainerState {
   std::uint64_t step = 0;  ///< Steps done.
-  OpeningNetworks networks;
+  StageNetworks networks;
   /// Adam's first and second moments, as the networks' flat vectors.
   std::vector<float> actor_first, actor_second, critic_first, critic_second;
-  std::vector<OpeningLosses> steps;  ///< One a step done.
-  std::vector<EpochLosses> epochs;   ///< One an epoch done.
+  std::vector<StageLosses> steps;   ///< One a step done.
+  std::vector<EpochLosses> epochs;  ///< One an epoch done.
 };
 
 /// How a run is carried out; none of it changes the result.
@@ -101,15 +101,15 @@ struct TrainHooks {
 /// Steps of one epoch: whole batches; a set smaller than a batch is one batch.
 std::uint64_t StepsPerEpoch(std::size_t samples, const TrainConfig& config);
 
-/// Trains actor and critic of the opening stage (UniDoorManip 5; departures and their reasons are
+/// Trains actor and critic of a stage (UniDoorManip 5; departures and their reasons are
 /// in docs/design/learn.md): Adam, the losses above, batches that are a pure function of (seed,
 /// epoch, step). Gradients are summed over fixed parts of the batch in a fixed order.
 ///
 /// @returns The state at the end, or where `stop` ended it.
 /// @throws Error(kInvalidConfig), Error(kInvalidArgument) without samples or with a damaged cloud,
 ///     Error(kIncomplete) if a loss stops being finite.
-TrainerState TrainOpening(std::span<const TrainingSample> train,
-                          std::span<const TrainingSample> validation, const TrainConfig& config,
-                          const TrainHooks& hooks);
+TrainerState TrainStage(std::span<const TrainingSample> train,
+                        std::span<const TrainingSample> validation, const TrainConfig& config,
+                        const TrainHooks& hooks);
 
 }  // namespace doorforge

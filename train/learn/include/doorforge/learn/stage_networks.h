@@ -31,21 +31,21 @@ struct Normaliser {
 };
 
 /// Constants between the world's numbers and the networks'. Part of a checkpoint.
-struct OpeningNormalisation {
+struct StageNormalisation {
   std::array<float, 3> cloud_centre_m{};  ///< Subtracted from every cloud; the scale stays metres.
   Normaliser<18> state;
   Normaliser<9> action;  ///< Position [m], then the six rotation numbers.
   Normaliser<3> hand_m;
   Normaliser<3> base_m;
-  Normaliser<1> hinge_gain_rad;
+  Normaliser<1> score_rad;
 };
 
 /// Throws Error(kInvalidArgument) if there is no sample.
-OpeningNormalisation MeasureNormalisation(std::span<const TrainingSample> samples);
-nlohmann::ordered_json NormalisationToJson(const OpeningNormalisation& normalisation);
+StageNormalisation MeasureNormalisation(std::span<const TrainingSample> samples);
+nlohmann::ordered_json NormalisationToJson(const StageNormalisation& normalisation);
 /// Throws Error(kFormat), naming `path`.
-OpeningNormalisation NormalisationFromJson(const nlohmann::ordered_json& json,
-                                           const std::string& path);
+StageNormalisation NormalisationFromJson(const nlohmann::ordered_json& json,
+                                         const std::string& path);
 
 /// The actor: encoder ("encoder.*") and conditional VAE (UniDoorManip's table): action
 /// 9-128-128-64, state 18-128-128-64, posterior 256-128-128 -> mean and log-variance of 128
@@ -57,8 +57,8 @@ const ParameterLayout& ActorLayout();
 const ParameterLayout& CriticLayout();
 
 /// The trained values of both networks, each a flat vector of its layout.
-struct OpeningNetworks {
-  OpeningNormalisation normalisation;
+struct StageNetworks {
+  StageNormalisation normalisation;
   bool linear_branches = false;  ///< See TrainConfig.
   std::vector<float> actor;
   std::vector<float> critic;
@@ -66,7 +66,7 @@ struct OpeningNetworks {
 
 /// He initialisation; layers that give results start at a tenth of it, so training starts near the
 /// mean of the training set.
-OpeningNetworks InitialNetworks(const OpeningNormalisation& normalisation, bool linear_branches,
-                                std::uint64_t seed);
+StageNetworks InitialNetworks(const StageNormalisation& normalisation, bool linear_branches,
+                              std::uint64_t seed);
 
 }  // namespace doorforge

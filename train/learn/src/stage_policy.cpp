@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/learn/opening_policy.h"
+#include "doorforge/learn/stage_policy.h"
 
 #include <algorithm>
 #include <optional>
@@ -32,9 +32,9 @@ void AppendCopies(const std::vector<float>& values, int copies, std::vector<floa
 
 std::array<float, 3> ToArray(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
 
-class OpeningPolicy : public Policy {
+class StagePolicy : public Policy {
  public:
-  OpeningPolicy(OpeningNetworks networks, const PolicyOptions& options)
+  StagePolicy(StageNetworks networks, const PolicyOptions& options)
       : networks_(std::move(networks)),
         options_(options),
         actor_(ActorLayout(), "encoder.", networks_.actor, BestInstructionSet()) {
@@ -60,7 +60,7 @@ class OpeningPolicy : public Policy {
 
  private:
   HeadBatch Conditions(const Observation& observation) const {
-    const OpeningNormalisation& normalisation = networks_.normalisation;
+    const StageNormalisation& normalisation = networks_.normalisation;
     const Proprioception& proprioception = observation.proprioception;
     const int copies = options_.candidates;
     HeadBatch batch;
@@ -75,7 +75,7 @@ class OpeningPolicy : public Policy {
 
   std::vector<float> Latents() const {
     std::vector<float> latents(static_cast<std::size_t>(options_.candidates) * kLatentSize);
-    Rng rng(options_.seed, "policy/open/" + std::to_string(decision_));
+    Rng rng(options_.seed, "policy/" + std::to_string(decision_));
     for (std::size_t i = kLatentSize; i < latents.size(); ++i)
       latents[i] = static_cast<float>(rng.Normal());
     return latents;
@@ -95,7 +95,7 @@ class OpeningPolicy : public Policy {
         std::distance(scores.begin(), std::max_element(scores.begin(), scores.end())));
   }
 
-  OpeningNetworks networks_;
+  StageNetworks networks_;
   PolicyOptions options_;
   PointEncoder actor_;
   std::optional<PointEncoder> critic_;
@@ -104,10 +104,10 @@ class OpeningPolicy : public Policy {
 
 }  // namespace
 
-std::unique_ptr<Policy> MakePolicy(OpeningNetworks networks, const PolicyOptions& options) {
+std::unique_ptr<Policy> MakePolicy(StageNetworks networks, const PolicyOptions& options) {
   Require(options.candidates >= 1 && options.candidates <= 1000, ErrorCode::kInvalidConfig,
           "policy.candidates: must be 1 to 1000");
-  return std::make_unique<OpeningPolicy>(std::move(networks), options);
+  return std::make_unique<StagePolicy>(std::move(networks), options);
 }
 
 std::unique_ptr<Policy> LoadPolicy(const std::filesystem::path& folder,

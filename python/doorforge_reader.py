@@ -39,6 +39,7 @@ import json
 import math
 import mmap
 import pathlib
+import re
 import sys
 import tarfile
 from typing import Any, BinaryIO, Iterator, Optional, Sequence, Union
@@ -47,6 +48,7 @@ import numpy as np
 
 NEWEST_VERSION = 1  # of dataset.json, provenance.json and the shards' indices
 OPEN_SHARDS = 64  # mapped at once; every map holds a file descriptor
+_EARLY_INDEX_KEYS = 11  # of an index without a checksum of its own
 
 Bytes = Union[bytes, bytearray, memoryview]
 
@@ -196,11 +198,26 @@ class Statistics:
     maximum: np.ndarray
 
 
-def _read_json(path: pathlib.Path, schema: str) -> dict[str, Any]:
+def _read_text(path: pathlib.Path) -> bytes:
     try:
-        text = path.read_bytes()
+        return path.read_bytes()
     except FileNotFoundError:
         raise MissingError(f"{path}: no such file; the dataset is unfinished or this is none") from None
+
+
+def _check_index(text: bytes, path: pathlib.Path) -> None:
+    """An index ends with the CRC-32C of its text without that line; those of early builds have none."""
+    found = re.fullmatch(rb"(.*),\n  \"index_crc32c\": (\d+)\n\}\n", text, re.DOTALL)
+    if found is None:
+        if b"index_crc32c" not in text and len(json.loads(text)) <= _EARLY_INDEX_KEYS:
+            return
+    elif crc32c(found[1] + b"\n}\n") == int(found[2]):
+        return
+    raise CorruptError(f"{path}: damaged: its text is not what its own checksum says")
+
+
+def _read_json(path: pathlib.Path, schema: str) -> dict[str, Any]:
+    text = _read_text(path)
     try:
         record = json.loads(text)
     except ValueError as error:
@@ -260,6 +277,7 @@ class Shard:
         path = pathlib.Path(index_path)
         index = _read_json(path, "doorforge.shard_index")
         try:
+            _check_index(_read_text(path), path)
             self._read_index(index, path)
         except (KeyError, TypeError, ValueError, OverflowError) as error:
             if isinstance(error, DatasetError):

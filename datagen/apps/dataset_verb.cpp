@@ -12,6 +12,7 @@
 #include "doorforge/datagen/merge_dataset.h"
 #include "doorforge/datagen/verify_dataset.h"
 
+#include "dataset_downstream.h"
 #include "regenerate_verb.h"
 #include "verb_options.h"
 
@@ -86,10 +87,9 @@ int RunDatasetVerb(int argc, char** argv) {
   app.require_subcommand(1);
   auto* verify = app.add_subcommand(
       "verify", "every byte against its checksum, every value against what it may be");
-  auto* info = app.add_subcommand("info", "counts, success rate, causes of failure");
   auto* merge = app.add_subcommand(
       "merge", "joins the tasks of a collection and checks that all of them are there");
-  for (auto* verb : {verify, info, merge}) {
+  for (auto* verb : {verify, merge}) {
     verb->add_option("folder", options.folder, "the dataset's folder")->required();
     verb->add_flag("--json", options.json, "print one JSON document");
   }
@@ -105,12 +105,16 @@ int RunDatasetVerb(int argc, char** argv) {
   merge->footer(
       "examples:\n  doorforge dataset merge data\n"
       "  doorforge dataset merge data node1/data node2/data");
-  info->footer("example:\n  doorforge dataset info data/open --json");
   app.footer("examples:\n  doorforge dataset verify data/open\n  doorforge dataset info data/open");
+  const std::vector<std::function<int()>> downstream = {AddInfo(app), AddExport(app), AddCard(app)};
   ParseVerb(app, argc, argv);
   if (!options.regenerate.share.empty()) PrepareRegenerate(options.regenerate, argc, argv);
   if (merge->parsed()) return Merge(options);
-  return verify->parsed() ? Verify(options) : Info(options);
+  for (const auto& run : downstream) {
+    const int code = run();
+    if (code >= 0) return code;
+  }
+  return Verify(options);
 }
 
 }  // namespace doorforge

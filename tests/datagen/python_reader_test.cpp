@@ -80,6 +80,7 @@ for part in data.parts:
       line("label", "|u1", "4 50", std::as_bytes(arrays.label));
       line("proprio", "<f4", "4 32", std::as_bytes(arrays.proprio));
       line("score", "<f4", "4 1", std::as_bytes(arrays.score));
+      line("state", "<f8", "4 14", std::as_bytes(arrays.state));
       expected << split << ' ' << reader.entry(i).key << " door "
                << reader.Meta(i).at("scene").at("door_id").get<std::string>() << '\n';
     }

@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/error.h"
+#include "doorforge/datagen/describe_dataset.h"
+#include "doorforge/datagen/describe_episodes.h"
+#include "doorforge/sensor/picture.h"
+
+#include "dataset_downstream.h"
+
+namespace doorforge {
+namespace {
+
+struct Options {
+  std::string folder;
+  std::string png;
+  std::string html;
+  int examples = 2;
+  int threads = 0;
+  bool json = false;
+};
+
+struct Color {
+  std::uint8_t red;
+  std::uint8_t green;
+  std::uint8_t blue;
+};
+
+constexpr int kBinWidth = 12;
+constexpr int kChartHeight = 220;
+
+// A picture that is white.
+Picture Blank(int width, int height) {
+  Picture picture{width, height, {}};
+  picture.rgb.assign(static_cast<std::size_t>(3 * width * height), 255);
+  return picture;
+}
+
+void FillRows(Picture& picture, int left, int right, int height, Color color) {
+  for (int y = picture.height - height; y < picture.height; ++y) {
+    for (int x = left; x < right; ++x) {
+      std::uint8_t* pixel = &picture.rgb[static_cast<std::size_t>(3 * (y * picture.width + x))];
+      pixel[0] = color.red;
+      pixel[1] = color.green;
+      pixel[2] = color.blue;
+    }
+  }
+}
+
+// Bars of the hinge angles, a thin line every 30 degrees.
+Picture HistogramPicture(const AngleHistogram& histogram) {
+  Picture picture = Blank(AngleHistogram::kBins * kBinWidth, kChartHeight);
+  const std::uint64_t largest = std::max<std::uint64_t>(
+      *std::max_element(histogram.counts.begin(), histogram.counts.end()), 1);
+  for (int bin = 0; bin < AngleHistogram::kBins; ++bin) {
+    if (bin % 6 == 0)
+      FillRows(picture, bin * kBinWidth, bin * kBinWidth + 1, kChartHeight, {205, 209, 213});
+    const double share = static_cast<double>(histogram.counts[static_cast<std::size_t>(bin)]) /
+                         static_cast<double>(largest);
+    const int height = static_cast<int>(share * (kChartHeight - 12) + 0.5);
+    FillRows(picture, bin * kBinWidth + 2, (bin + 1) * kBinWidth - 1, height, {31, 102, 173});
+  }
+  FillRows(picture, 0, picture.width, 2, {120, 126, 132});
+  return picture;
+}
+
+std::string CaptionOf(const std::string& stage, const std::string& name,
+                      const EpisodeGroup& group) {
+  return stage + " " + name + ", 0 to 120 deg: " + std::to_string(group.succeeded) + " of " +
+         std::to_string(group.episodes);
+}
+
+// One tile a stage and category: how far its doors were opened.
+void WriteCharts(const EpisodeDescription& description, const std::string& path) {
+  std::vector<Picture> pictures;
+  std::vector<std::string> captions;
+  for (const StageEpisodes& stage : description.stages) {
+    for (const auto& [category, group] : stage.by_category) {
+      pictures.push_back(HistogramPicture(group.hinge));
+      captions.push_back(CaptionOf(stage.stage, category, group));
+    }
+  }
+  if (pictures.empty())
+    throw Error(ErrorCode::kMissing, "the dataset has no episodes, so there is nothing to draw");
+  ContactSheetConfig sheet;
+  sheet.columns = std::min<int>(3, static_cast<int>(pictures.size()));
+  WritePng(path, ContactSheet(pictures, captions, sheet));
+}
+
+int Info(const Options& options) {
+  nlohmann::ordered_json dataset = DescribeDataset(options.folder);
+  const EpisodeDescription episodes = DescribeEpisodes(
+      options.folder, options.html.empty() ? 0 : options.examples, options.threads);
+  if (!options.png.empty()) WriteCharts(episodes, options.png);
+  if (!options.html.empty()) CommitFile(options.html, DatasetPage(dataset, episodes));
+  if (options.json) {
+    dataset["stages"] = StagesToJson(episodes);
+    std::cout << dataset.dump(2) << '\n';
+  } else {
+    std::cout << DescriptionText(dataset) << StagesText(episodes);
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::function<int()> AddInfo(CLI::App& verb) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* app = verb.add_subcommand(
+      "info", "counts, success by category and mechanism, angles, causes of failure");
+  app->add_option("folder", options->folder, "the dataset's folder")->required();
+  app->add_option("--png", options->png, "picture of the hinge angles, one chart a category");
+  app->add_option("--html", options->html, "one page with everything, that needs no other file");
+  app->add_option("--examples", options->examples, "episodes a category that the page shows")
+      ->check(CLI::Range(0, 100))
+      ->capture_default_str();
+  app->add_option("--threads", options->threads, "threads, 0: all")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  app->add_flag("--json", options->json, "print one JSON document");
+  app->footer("example:\n  doorforge dataset info data --html data.html --png data.png");
+  return [options, app] { return app->parsed() ? Info(*options) : -1; };
+}
+
+}  // namespace doorforge

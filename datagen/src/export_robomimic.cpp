@@ -1,0 +1,215 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/datagen/export_robomimic.h"
+
+#include <map>
+#include <vector>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
+#include "doorforge/core/program.h"
+#include "doorforge/schemas/dataset.h"
+#include "doorforge/schemas/npy.h"
+
+#include "hdf5_file.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+using internal::Hdf5Writer;
+using Json = nlohmann::ordered_json;
+
+// Beside the arrays: groups, headers and meta data of an episode.
+constexpr std::uint64_t kOverheadPerEpisode = 32768;
+
+std::vector<DatasetPart> PartsOfStage(const fs::path& folder, const std::string& stage) {
+  std::vector<DatasetPart> parts;
+  std::string there;
+  for (const DatasetPart& part : ReadDataset(folder).parts) {
+    there += " " + part.stage + "/" + part.split;
+    if (part.stage == stage && part.episodes > 0) parts.push_back(part);
+  }
+  if (parts.empty())
+    throw Error(ErrorCode::kMissing, folder.string() + ": no episodes of stage '" + stage +
+                                         "'; the dataset has" + (there.empty() ? " none" : there));
+  return parts;
+}
+
+void RequireSpace(const fs::path& out, const std::vector<DatasetPart>& parts) {
+  std::uint64_t wanted = 0;
+  for (const DatasetPart& part : parts) wanted += part.bytes + part.episodes * kOverheadPerEpisode;
+  const fs::path folder = out.has_parent_path() ? out.parent_path() : fs::path(".");
+  const std::uint64_t free = fs::space(folder).available;
+  if (free < wanted)
+    throw Error(ErrorCode::kIo, folder.string() + ": " + std::to_string(free >> 20) +
+                                    " MiB free, the file needs about " +
+                                    std::to_string(wanted >> 20) + " MiB");
+}
+
+DatasetProvenance ProvenanceIn(const fs::path& folder) {
+  const fs::path path = folder / "provenance.json";
+  return ProvenanceFromJson(ReadJsonFile(path), path.string());
+}
+
+// A file beside `target` that takes its name when it is complete, or goes.
+class PartialFile {
+ public:
+  explicit PartialFile(const fs::path& target)
+      : target_(target),
+        path_(target.parent_path() /
+              ("." + target.filename().string() + "." + std::to_string(::getpid()) + ".partial")) {}
+  ~PartialFile() {
+    std::error_code ignored;
+    fs::remove(path_, ignored);
+  }
+  PartialFile(const PartialFile&) = delete;
+  PartialFile& operator=(const PartialFile&) = delete;
+
+  const fs::path& path() const { return path_; }
+
+  void Commit(Existing existing) {
+    SyncFile(path_);
+    if (existing == Existing::kRefuse && fs::exists(target_))
+      throw Error(ErrorCode::kInvalidArgument,
+                  target_.string() + ": appeared meanwhile; pass --overwrite to replace it");
+    fs::rename(path_, target_);
+    SyncFile(target_.has_parent_path() ? target_.parent_path() : fs::path("."));
+  }
+
+ private:
+  static void SyncFile(const fs::path& path) {
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    const bool synced = file >= 0 && ::fsync(file) == 0;
+    if (file >= 0) ::close(file);
+    Require(synced, ErrorCode::kIo, path.string() + ": fsync failed");
+  }
+
+  fs::path target_;
+  fs::path path_;
+};
+
+class Exporter {
+ public:
+  Exporter(const RobomimicRequest& request, const fs::path& path)
+      : request_(request), provenance_(ProvenanceIn(request.folder)), file_(path) {
+    for (const DatasetDoor& door : provenance_.doors) doors_[door.id] = &door;
+    file_.MakeGroup("data");
+  }
+
+  // Returns false if a signal asked to stop.
+  bool AddPart(const DatasetPart& part) {
+    const DatasetReader reader(request_.folder, part.stage, part.split);
+    for (const ShardReader& shard : reader.shards()) {
+      for (std::size_t i = 0; i < shard.index().episodes.size(); ++i) {
+        if (StopRequested() != 0) return false;
+        AddEpisode(shard, i, part.split);
+        if (request_.on_episode) request_.on_episode();
+      }
+    }
+    return true;
+  }
+
+  RobomimicSummary Finish() {
+    for (const auto& [split, demos] : masks_) file_.WriteTexts("mask/" + split, demos);
+    const Json env = {{"env_name", "doorforge"},
+                      {"type", 2},
+                      {"env_version", provenance_.code_version},
+                      {"env_kwargs", {{"stage", request_.stage}, {"seed", provenance_.seed}}}};
+    file_.SetAttribute("data", "total", static_cast<std::int64_t>(summary_.samples));
+    file_.SetAttribute("data", "env_args", env.dump());
+    file_.SetAttribute("data", "schema", "doorforge.robomimic 1");
+    file_.SetAttribute("data", "config_sha256", provenance_.config_sha256);
+    file_.Close();
+    return summary_;
+  }
+
+ private:
+  void AddEpisode(const ShardReader& shard, std::size_t episode, const std::string& split) {
+    const std::string demo = "demo_" + std::to_string(summary_.demos);
+    const std::string group = "data/" + demo;
+    std::size_t decisions = 0;
+    for (const ShardMember& member : shard.index().episodes[episode].members) {
+      if (member.name.ends_with(".npy"))
+        decisions = AddArray(shard, episode, member.name, group + "/");
+    }
+    std::vector<std::uint8_t> dones(decisions, 0);
+    if (decisions > 0) dones.back() = 1;
+    file_.WriteArray(group + "/dones", "|u1", {decisions}, std::as_bytes(std::span(dones)));
+    DescribeEpisode(shard, episode, group);
+    file_.SetAttribute(group, "num_samples", static_cast<std::int64_t>(decisions));
+    file_.SetAttribute(group, "split", split);
+    masks_[split].push_back(demo);
+    ++summary_.demos;
+    summary_.samples += decisions;
+  }
+
+  std::size_t AddArray(const ShardReader& shard, std::size_t episode, const std::string& member,
+                       const std::string& group) {
+    const std::span<const std::byte> bytes = shard.Read(episode, member);
+    const NpyHeader header = ParseNpyHeader(bytes, shard.Describe(episode, member));
+    const std::string name = member.substr(0, member.size() - 4);
+    std::vector<std::size_t> shape = header.shape;
+    std::string path = group + "obs/" + name;
+    if (name == "action") path = group + "actions";
+    if (name == "score") {
+      path = group + "rewards";
+      shape.resize(1);
+    }
+    file_.WriteArray(path, header.type, shape, bytes.subspan(header.data_offset));
+    return shape.empty() ? 0 : shape[0];
+  }
+
+  void DescribeEpisode(const ShardReader& shard, std::size_t episode, const std::string& group) {
+    const Json meta = ReadEpisodeMeta(shard, episode);
+    const std::string where = shard.Describe(episode, "meta.json");
+    file_.WriteText(group + "/meta", meta.dump());
+    file_.SetAttribute(group, "success", ValueOf<bool>(meta, "success", where) ? 1 : 0);
+    file_.SetAttribute(group, "key", shard.index().episodes[episode].key);
+    const std::string id = ValueOf<std::string>(MemberOf(meta, "scene", where), "door_id", where);
+    const auto door = doors_.find(id);
+    Require(door != doors_.end(), ErrorCode::kFormat,
+            where + ": door '" + id + "' is not in provenance.json");
+    file_.SetAttribute(group, "door_id", id);
+    file_.SetAttribute(group, "category", door->second->category);
+    file_.SetAttribute(group, "mechanism", door->second->mechanism);
+  }
+
+  const RobomimicRequest& request_;
+  DatasetProvenance provenance_;
+  std::map<std::string, const DatasetDoor*> doors_;
+  Hdf5Writer file_;
+  std::map<std::string, std::vector<std::string>> masks_;
+  RobomimicSummary summary_;
+};
+
+}  // namespace
+
+std::uint64_t CountEpisodes(const fs::path& folder, const std::string& stage) {
+  std::uint64_t episodes = 0;
+  for (const DatasetPart& part : PartsOfStage(folder, stage)) episodes += part.episodes;
+  return episodes;
+}
+
+RobomimicSummary ExportRobomimic(const RobomimicRequest& request) {
+  if (request.existing == Existing::kRefuse && fs::exists(request.out))
+    throw Error(ErrorCode::kInvalidArgument,
+                request.out.string() + ": already exists; pass --overwrite to replace it");
+  const std::vector<DatasetPart> parts = PartsOfStage(request.folder, request.stage);
+  if (request.out.has_parent_path()) fs::create_directories(request.out.parent_path());
+  RequireSpace(request.out, parts);
+  PartialFile partial(request.out);
+  Exporter exporter(request, partial.path());
+  for (const DatasetPart& part : parts) {
+    if (!exporter.AddPart(part)) return {.stopped_by_signal = StopRequested()};
+  }
+  RobomimicSummary summary = exporter.Finish();
+  partial.Commit(request.existing);
+  summary.bytes = fs::file_size(request.out);
+  return summary;
+}
+
+}  // namespace doorforge

@@ -71,24 +71,12 @@ fs::path IndexPathOf(const fs::path& folder, const ExpectedShard& shard) {
   return folder / (shard.Name() + ".index.json");
 }
 
-// What is wrong with a planned shard; empty if nothing is.
-std::string FaultOf(const fs::path& folder, const ExpectedShard& shard,
-                    const std::string& config_sha256) {
-  const fs::path path = IndexPathOf(folder, shard);
-  if (!fs::exists(path)) return "missing";
-  const ShardIndex index = ReadShardIndex(path);
-  if (index.header.config_sha256 != config_sha256) return "of another config";
-  const std::uint64_t found = index.episodes.size() + index.failures.size();
-  if (found == shard.episodes) return "";
-  return std::to_string(found) + " episodes, planned " + std::to_string(shard.episodes);
-}
-
 void RequireAllShards(const fs::path& folder, const DatasetProvenance& provenance,
                       const std::vector<ExpectedShard>& shards) {
   constexpr std::size_t kMostNamed = 20;
   std::vector<std::string> faults;
   for (std::size_t i = 0; i < shards.size(); ++i) {
-    const std::string fault = FaultOf(folder, shards[i], provenance.config_sha256);
+    const std::string fault = PlanFaultOf(folder, shards[i], provenance.config_sha256);
     if (!fault.empty())
       faults.push_back(shards[i].Name() + " (number " + std::to_string(i) +
                        " of the plan): " + fault);
@@ -132,6 +120,17 @@ std::vector<ExpectedShard> ExpectedShards(const DatasetProvenance& provenance) {
            std::min(part.episodes_per_shard, part.episodes - k * part.episodes_per_shard)});
   }
   return shards;
+}
+
+std::string PlanFaultOf(const fs::path& folder, const ExpectedShard& shard,
+                        const std::string& config_sha256) {
+  const fs::path path = IndexPathOf(folder, shard);
+  if (!fs::exists(path)) return "missing";
+  const ShardIndex index = ReadShardIndex(path);
+  if (index.header.config_sha256 != config_sha256) return "of another config";
+  const std::uint64_t found = index.episodes.size() + index.failures.size();
+  if (found == shard.episodes) return "";
+  return std::to_string(found) + " episodes, planned " + std::to_string(shard.episodes);
 }
 
 DatasetProvenance ReadProvenance(const fs::path& folder) {

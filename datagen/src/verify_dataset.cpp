@@ -15,14 +15,17 @@
 #include "doorforge/schemas/dataset.h"
 #include "doorforge/schemas/policy.h"
 
+#include "dataset_records.h"
+
 namespace doorforge {
 namespace {
 
 namespace fs = std::filesystem;
 using Findings = std::vector<DatasetFinding>;
 
-constexpr const char* kCollectAgain = "delete the shard's index and run datagen with --resume";
-constexpr const char* kRecords = "run datagen with --resume: it writes the records anew";
+constexpr const char* kCollectAgain = "delete the shard's index and give the datagen command again";
+constexpr const char* kRecords =
+    "give the datagen command again, or dataset merge: they write the records anew";
 
 void Append(Findings& to, Findings from) {
   std::move(from.begin(), from.end(), std::back_inserter(to));
@@ -175,11 +178,12 @@ ShardFiles FindShards(const fs::path& folder) {
   for (const fs::path& tar : tars) {
     const fs::path index = tar.parent_path() / (tar.stem().string() + ".index.json");
     if (indices.count(index) != 0) continue;
-    files.orphans.push_back(
-        {"DST004", tar.string(),
-         "no index; " + std::to_string(RecoverShard(tar).index.episodes.size()) +
-             " complete episodes in the tar",
-         "an index beside every tar", "run datagen with --resume: it replaces unfinished shards"});
+    files.orphans.push_back({"DST004", tar.string(),
+                             "no index; " +
+                                 std::to_string(RecoverShard(tar).index.episodes.size()) +
+                                 " complete episodes in the tar",
+                             "an index beside every tar",
+                             "give the datagen command again: it goes on with unfinished shards"});
   }
   return files;
 }
@@ -238,12 +242,27 @@ Findings CheckSplits(const std::string& path, std::span<const DatasetDoor> doors
   return findings;
 }
 
+// Every planned shard is there with all its episodes.
+Findings CheckPlan(const fs::path& folder, const DatasetProvenance& provenance) {
+  Findings findings;
+  for (const ExpectedShard& shard : ExpectedShards(provenance)) {
+    const std::string fault = PlanFaultOf(folder, shard, provenance.config_sha256);
+    if (!fault.empty())
+      findings.push_back({"DST010", (folder / shard.Name()).string(), fault,
+                          std::to_string(shard.episodes) + " episodes as planned",
+                          "give the datagen command again"});
+  }
+  return findings;
+}
+
 Findings CheckRecords(const fs::path& folder, const std::vector<fs::path>& indices) {
   Findings findings;
   try {
     Append(findings, CheckCounts(folder, ReadDataset(folder), indices));
     const fs::path path = folder / "provenance.json";
-    const auto doors = ProvenanceFromJson(ReadJsonFile(path), path.string()).doors;
+    const DatasetProvenance provenance = ReadProvenance(folder);
+    const std::vector<DatasetDoor>& doors = provenance.doors;
+    Append(findings, CheckPlan(folder, provenance));
     Append(findings, CheckSplits(path.string(), doors, &DatasetDoor::body));
     Append(findings, CheckSplits(path.string(), doors, &DatasetDoor::handle));
     for (const char* name : {"config.yaml", "failures.jsonl", "README.md"}) {

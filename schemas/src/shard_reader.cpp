@@ -22,7 +22,7 @@ std::string CrcFault(const std::string& where, const ShardMember& member, std::u
   return where + ": bytes " + std::to_string(member.offset) + " to " +
          std::to_string(member.offset + member.size) + " are damaged (CRC32C " +
          std::to_string(found) + ", written as " + std::to_string(member.crc32c) +
-         "); collect this shard again with --resume after deleting its index";
+         "); delete the index and give the datagen command again to make this shard anew";
 }
 
 // Headers in the tar against members in the index.

@@ -78,6 +78,7 @@ TEST_F(VerifyDatasetTest, FindsATarWithoutIndex) {
   const std::set<std::string> codes = Codes();
   EXPECT_EQ(codes.count("DST004"), 1U);
   EXPECT_EQ(codes.count("DST008"), 1U);  // and the counts no longer agree
+  EXPECT_EQ(codes.count("DST010"), 1U);  // nor does the plan
 }
 
 TEST_F(VerifyDatasetTest, FindsAnIndexThatIsNotJson) {

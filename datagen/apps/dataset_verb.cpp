@@ -14,6 +14,7 @@
 
 #include "dataset_downstream.h"
 #include "regenerate_verb.h"
+#include "reobserve_verb.h"
 #include "verb_options.h"
 
 namespace doorforge {
@@ -26,6 +27,7 @@ struct Options {
   int threads = 0;
   std::vector<std::string> parts;  // of merge
   RegenerateOptions regenerate;
+  ReobserveRequest reobserve;
   bool json = false;
 };
 
@@ -89,6 +91,7 @@ int RunDatasetVerb(int argc, char** argv) {
       "verify", "every byte against its checksum, every value against what it may be");
   auto* merge = app.add_subcommand(
       "merge", "joins the tasks of a collection and checks that all of them are there");
+  const auto* reobserve = AddReobserve(app, options.reobserve);
   for (auto* verb : {verify, merge}) {
     verb->add_option("folder", options.folder, "the dataset's folder")->required();
     verb->add_flag("--json", options.json, "print one JSON document");
@@ -110,6 +113,7 @@ int RunDatasetVerb(int argc, char** argv) {
   ParseVerb(app, argc, argv);
   if (!options.regenerate.share.empty()) PrepareRegenerate(options.regenerate, argc, argv);
   if (merge->parsed()) return Merge(options);
+  if (reobserve->parsed()) return RunReobserve(options.reobserve);
   for (const auto& run : downstream) {
     const int code = run();
     if (code >= 0) return code;

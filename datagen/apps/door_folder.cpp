@@ -125,6 +125,18 @@ std::vector<fs::path> OfSplit(const std::vector<fs::path>& doors, const std::str
   return meant;
 }
 
+// Folders of all doors that are meant.
+std::vector<fs::path> PathsOf(const std::vector<std::string>& names, int threads) {
+  const NamedDoors named = Divide(names);
+  std::set<fs::path> found;
+  for (const fs::path& folder : named.folders) {
+    const std::vector<fs::path> doors = FindDoors(folder);
+    found.insert(doors.begin(), doors.end());
+  }
+  std::vector<fs::path> paths(found.begin(), found.end());
+  return named.split ? OfSplit(paths, *named.split, threads) : paths;
+}
+
 void RequireReadable(const std::vector<ReadResult>& results) {
   constexpr int kMostNamed = 20;
   int count = 0;
@@ -143,14 +155,7 @@ void RequireReadable(const std::vector<ReadResult>& results) {
 }  // namespace
 
 DoorFolder ReadDoors(const std::vector<std::string>& names, int threads) {
-  const NamedDoors named = Divide(names);
-  std::set<fs::path> found;
-  for (const fs::path& folder : named.folders) {
-    const std::vector<fs::path> doors = FindDoors(folder);
-    found.insert(doors.begin(), doors.end());
-  }
-  std::vector<fs::path> paths(found.begin(), found.end());
-  if (named.split) paths = OfSplit(paths, *named.split, threads);
+  const std::vector<fs::path> paths = PathsOf(names, threads);
   std::vector<ReadResult> results(paths.size());
   ParallelFor(paths.size(), threads, [&](std::size_t i) {
     try {
@@ -169,6 +174,29 @@ DoorFolder ReadDoors(const std::vector<std::string>& names, int threads) {
     doors.doors.push_back(std::move(*results[i].door));
     doors.paths.push_back(paths[i]);
   }
+  return doors;
+}
+
+DoorFolder FindRecordedDoors(const std::vector<std::string>& names,
+                             const std::vector<DatasetDoor>& recorded, int threads) {
+  const std::vector<fs::path> paths = PathsOf(names, threads);
+  std::vector<std::string> ids(paths.size());
+  ParallelFor(paths.size(), threads, [&](std::size_t i) {
+    const fs::path record = paths[i] / "door.json";
+    ids[i] = ValueOf<std::string>(ReadJsonFile(record), "id", record.string());
+  });
+  std::map<std::string, fs::path> by_id;
+  for (std::size_t i = 0; i < paths.size(); ++i) by_id[ids[i]] = paths[i];
+  DoorFolder doors{recorded, {}};
+  bool any = false;
+  for (const DatasetDoor& door : recorded) {
+    const auto found = by_id.find(door.id);
+    doors.paths.push_back(found == by_id.end() ? fs::path() : found->second);
+    any = any || found != by_id.end();
+  }
+  Require(any, ErrorCode::kInvalidArgument,
+          "--doors: none of the dataset's doors is among the " + std::to_string(paths.size()) +
+              " there, such as " + recorded.at(0).id);
   return doors;
 }
 
@@ -195,7 +223,10 @@ std::shared_ptr<const DoorAsset> DoorShelf::Take(std::size_t door) {
       return found->second.door;
     }
   }
-  auto read = std::make_shared<const DoorAsset>(ReadDoor(folder_.paths.at(door)));
+  if (folder_.paths.at(door).empty())
+    throw Error(ErrorCode::kMissing,
+                "door \"" + folder_.doors[door].id + "\": not in the folders of --doors");
+  auto read = std::make_shared<const DoorAsset>(ReadDoor(folder_.paths[door]));
   if (ContentHash(*read) != folder_.doors[door].sha256)
     throw Error(ErrorCode::kFormat, folder_.paths[door].string() +
                                         ": the door has changed since this run began; put it back "

@@ -32,6 +32,15 @@ struct DoorFolder {
 ///     read, Error(kInvalidArgument) if two doors have one id, an unknown side or two splits.
 DoorFolder ReadDoors(const std::vector<std::string>& names, int threads);
 
+/// Where the doors of a record lie, in its order; those that are nowhere at or below the named
+/// folders have an empty path. What is found is compared with the record when it is taken from a
+/// DoorShelf.
+///
+/// @throws Error(kMissing) if there is no door at all, Error(kInvalidArgument) if none of the
+/// record.
+DoorFolder FindRecordedDoors(const std::vector<std::string>& names,
+                             const std::vector<DatasetDoor>& recorded, int threads);
+
 /// What the plan needs of the doors, in their order.
 std::vector<DoorParts> PartsOf(const DoorFolder& folder);
 

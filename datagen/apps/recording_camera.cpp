@@ -11,10 +11,10 @@
 namespace doorforge {
 
 RecordingCamera::RecordingCamera(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
-                                 const CloudConfig& config)
+                                 const CloudConfig& config, bool sees_robot)
     : model_(scene.camera),
       max_depth_m_(config.max_depth_m),
-      camera_(scene, door, robot, config),
+      camera_(scene, door, robot, config, sees_robot),
       occlusion_(door) {}
 
 LabelledCloud RecordingCamera::Observe(const SceneSnapshot& snapshot) {

@@ -18,9 +18,9 @@ namespace doorforge {
 /// points were visible, what was hidden, the depth images of the preview.
 class RecordingCamera : public Observer {
  public:
-  /// As CameraObserver's constructor.
+  /// As CameraObserver's constructor. Without `sees_robot` only the door is there.
   RecordingCamera(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
-                  const CloudConfig& config);
+                  const CloudConfig& config, bool sees_robot = true);
 
   LabelledCloud Observe(const SceneSnapshot& snapshot) override;
   /// The same look, but every point that is visible.

@@ -6,28 +6,11 @@
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/rollout/standing_place.h"
 
+#include "episode_records.h"
 #include "recording_camera.h"
 
 namespace doorforge {
 namespace {
-
-nlohmann::ordered_json CameraRecord(const CameraModel& camera) {
-  nlohmann::ordered_json matrix = nlohmann::ordered_json::array();
-  const Eigen::Matrix3d intrinsics = IntrinsicMatrix(camera);
-  for (Eigen::Index row = 0; row < 3; ++row)
-    matrix.push_back({intrinsics(row, 0), intrinsics(row, 1), intrinsics(row, 2)});
-  return {{"intrinsic_matrix_px", matrix},
-          {"world_from_camera", TransformToJson(WorldFromCamera(camera))}};
-}
-
-nlohmann::ordered_json DoorRecord(const DoorAsset& door) {
-  return {{"id", door.id},
-          {"category", NameOf(door.category)},
-          {"mechanism", NameOf(door.mechanism)},
-          {"body", IdentityToJson(door.body)},
-          {"handle", IdentityToJson(door.handle)},
-          {"license", door.license}};
-}
 
 // Who acted: "expert", "sampled", or the trained policy's hashes.
 nlohmann::ordered_json PoliciesRecord(Stage stage, const TrainedPolicies& trained) {
@@ -115,6 +98,7 @@ CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const DoorAsset&
   collected.meta = EpisodeMetaToJson(episode);
   collected.meta["stage"] = NameOf(config.stage);
   collected.meta["door"] = DoorRecord(door);
+  collected.meta["poses"] = PosesRecord(episode.scene);
   collected.meta["camera"] = CameraRecord(scene.camera);
   collected.meta["visible_points"] = camera.Visible(decisions);
   collected.meta["hidden"] = camera.OcclusionRecord(decisions);

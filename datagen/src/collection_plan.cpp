@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <numeric>
-#include <utility>
 
 #include "doorforge/core/error.h"
-#include "doorforge/core/rng.h"
+
+#include "balanced_draw.h"
 
 namespace doorforge {
 namespace {
@@ -17,23 +16,6 @@ std::string KeyOf(std::uint64_t number) {
   char text[32];
   std::snprintf(text, sizeof text, "ep%06llu", static_cast<unsigned long long>(number));
   return text;
-}
-
-std::vector<std::size_t> SortedById(std::span<const DoorParts> doors) {
-  std::vector<std::size_t> order(doors.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return doors[a].door_id < doors[b].door_id; });
-  return order;
-}
-
-// Doors in the order in which round number `round` opens them.
-std::vector<std::size_t> RoundOf(std::vector<std::size_t> order, std::uint64_t round,
-                                 std::uint64_t seed) {
-  Rng rng(seed, "plan/round/" + std::to_string(round));
-  for (std::size_t i = order.size(); i > 1; --i)
-    std::swap(order[i - 1], order[rng.Index(static_cast<std::uint32_t>(i))]);
-  return order;
 }
 
 void AppendShards(const std::vector<PlannedEpisode>& episodes, const std::string& split,
@@ -60,13 +42,11 @@ CollectionPlan MakePlan(std::span<const DoorParts> doors, std::uint64_t episodes
           "config.val_fraction: out of 0..0.5");
   CollectionPlan plan;
   plan.sides = SplitDoors(doors, config.val_fraction, seed);
-  const std::vector<std::size_t> order = SortedById(doors);
+  BalancedDraw draw(doors, seed);
   std::vector<PlannedEpisode> training;
   std::vector<PlannedEpisode> validating;
-  std::vector<std::size_t> round;
   for (std::uint64_t number = 0; number < episodes; ++number) {
-    if (number % order.size() == 0) round = RoundOf(order, number / order.size(), seed);
-    const std::size_t door = round[number % order.size()];
+    const std::size_t door = draw.Next();
     auto& side = plan.sides[door] == DoorSide::kTrain ? training : validating;
     side.push_back({number, door, KeyOf(number)});
   }

@@ -45,6 +45,11 @@ void RequireOutside(const CameraModel& camera, const Scene& scene, const DoorAss
   }
 }
 
+std::vector<VisibleMesh> WithoutRobot(std::vector<VisibleMesh> meshes) {
+  std::erase_if(meshes, [](const VisibleMesh& mesh) { return mesh.link >= kDoorLinks; });
+  return meshes;
+}
+
 }  // namespace
 
 std::vector<VisibleMesh> VisibleMeshesOf(const DoorAsset& door, const RobotModel& robot) {
@@ -70,13 +75,14 @@ std::vector<RigidTransform> LinkPosesOf(const SceneSnapshot& snapshot) {
 }
 
 CameraObserver::CameraObserver(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
-                               const CloudConfig& config)
+                               const CloudConfig& config, bool sees_robot)
     : seed_(scene.seed),
       stream_("sensor/" + scene.door_id + "/" + std::to_string(scene.episode) + "/"),
       model_(scene.camera),
       believed_(BelievedCamera(scene.camera, config.noise, Stream("calibration"))),
       config_(config),
-      camera_(VisibleMeshesOf(door, robot)) {
+      camera_(sees_robot ? VisibleMeshesOf(door, robot)
+                         : WithoutRobot(VisibleMeshesOf(door, robot))) {
   RequireOutside(model_, scene, door);
 }
 

@@ -47,9 +47,14 @@ struct CollectionPlan {
 
 std::string_view SplitNameOf(DoorSide side);  ///< "train", "val"
 
-/// Every door is opened once before any is opened twice, in an order drawn anew for each round.
-/// Episodes keep their numbers when more are asked for. Shards hold a fixed number of planned
-/// episodes, so that their bytes depend neither on threads nor on which episodes fail.
+/// Doors are drawn evenly over categories, within a category over mechanisms, within a mechanism
+/// over bodies, in rounds whose order is drawn anew: the numbers of episodes differ by one at most.
+/// A body meets the handle that was used least with its mechanism, so that handles differ by one as
+/// well where every body meets every handle, and of these the one that it has met least. So the
+/// doors of the catalogue's largest category, half of all doors, are a sixth of the episodes.
+/// Neither order nor number of the doors matters otherwise. Episodes keep their numbers when more
+/// are asked for. Shards hold a fixed number of planned episodes, so that their bytes depend
+/// neither on threads nor on which episodes fail.
 ///
 /// A pure function of its arguments.
 ///

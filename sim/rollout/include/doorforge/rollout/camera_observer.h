@@ -36,8 +36,9 @@ class CameraObserver : public Observer {
   /// @throws Error(kInvalidArgument) as DepthCamera does, or if the camera is inside the closed
   ///     door; Error(kInvalidConfig) as
   ///     CheckDepthNoise().
+  /// @param sees_robot False: only the door is there.
   CameraObserver(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
-                 const CloudConfig& config = {});
+                 const CloudConfig& config = {}, bool sees_robot = true);
 
   Sight Look(const SceneSnapshot& snapshot);
   LabelledCloud Observe(const SceneSnapshot& snapshot) override;

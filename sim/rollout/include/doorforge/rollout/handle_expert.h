@@ -11,11 +11,13 @@ struct HandleExpertConfig {
   /// does not wind it up. UniDoorManip's rules: 20 to 25 degrees on knobs, 6 cm on levers.
   double step_rad = 0.2;
   double first_step_rad = 0.1;  ///< Of the first action, where the grasp still settles.
+  double most_slip_rad = 0.4;   ///< By which the hand may get ahead of what it holds.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
     visit("step_rad", self.step_rad);
     visit("first_step_rad", self.first_step_rad);
+    visit("most_slip_rad", self.most_slip_rad);
   }
 };
 

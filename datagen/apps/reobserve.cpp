@@ -1,0 +1,284 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reobserve.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/config_file.h"
+#include "doorforge/core/error.h"
+#include "doorforge/core/hash.h"
+#include "doorforge/core/json_file.h"
+#include "doorforge/core/program.h"
+#include "doorforge/rollout/run_episode.h"
+#include "doorforge/schemas/episode_arrays.h"
+#include "doorforge/schemas/shard.h"
+
+#include "door_folder.h"
+#include "episode_records.h"
+#include "recording_camera.h"
+#include "robot_meshes.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// Where an episode of the plan lies in the existing dataset.
+struct Source {
+  std::size_t shard = 0;
+  std::optional<std::size_t> episode;    // written
+  std::optional<FailedEpisode> failure;  // or not
+};
+
+// The numbers of one decision, from the arrays.
+template <class T, std::size_t N>
+std::array<T, N> RowOf(std::span<const T> values, std::size_t row) {
+  std::array<T, N> out{};
+  std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(row * N), N, out.begin());
+  return out;
+}
+
+Decision DecisionOf(const EpisodeArrays& arrays, std::size_t t, double time_s) {
+  Decision decision;
+  decision.proprioception = RowOf<float, std::tuple_size_v<Proprioception>>(arrays.proprio, t);
+  decision.action = RowOf<float, std::tuple_size_v<ActionVector>>(arrays.action, t);
+  decision.state = RowOf<double, std::tuple_size_v<JointState>>(arrays.state, t);
+  decision.time_s = time_s;
+  decision.hinge_rad = static_cast<double>(arrays.joints[2 * t]);
+  decision.handle_rad = static_cast<double>(arrays.joints[2 * t + 1]);
+  decision.score_rad = static_cast<double>(arrays.score[t]);
+  return decision;
+}
+
+SceneSnapshot SnapshotOf(const Decision& decision, const Scene& scene, const DoorAsset& door,
+                         const RobotModel& robot) {
+  const auto skipped = static_cast<std::ptrdiff_t>(kSliderCount - robot.base_count());
+  JointVector position(robot.joint_count());
+  std::copy_n(decision.state.begin() + skipped, position.size(), position.begin());
+  SceneSnapshot snapshot;
+  snapshot.robot = robot.PoseAt(position, scene.world_from_robot_base);
+  snapshot.door = DoorFromLinks(door, decision.state[kStateHinge], decision.state[kStateHandle]);
+  for (RigidTransform& pose : snapshot.door) pose = scene.world_from_door * pose;
+  snapshot.time_s = decision.time_s;
+  return snapshot;
+}
+
+// The plan that the shards were made by, failed episodes included.
+class SourceDataset {
+ public:
+  explicit SourceDataset(const fs::path& folder) : folder_(folder) {
+    const fs::path path = folder / "provenance.json";
+    ReadDataset(folder);  // refuses an unfinished one
+    provenance_ = ProvenanceFromJson(ReadJsonFile(path), path.string());
+    Require(!provenance_.planned.empty(), ErrorCode::kInvalidArgument,
+            path.string() + ": names no plan; datasets of earlier builds hold no joint states");
+    for (std::size_t i = 0; i < provenance_.doors.size(); ++i) {
+      doors_[provenance_.doors[i].id] = i;
+      plan_.sides.push_back(provenance_.doors[i].split == "train" ? DoorSide::kTrain
+                                                                  : DoorSide::kVal);
+    }
+    for (const PlannedPart& part : provenance_.planned) AddPart(part.split);
+  }
+
+  const std::string& stage() const { return provenance_.planned.front().stage; }
+  const DatasetProvenance& provenance() const { return provenance_; }
+  const CollectionPlan& plan() const { return plan_; }
+  const std::vector<ShardReader>& shards() const { return shards_; }
+  const Source& SourceOf(const std::string& key) const { return sources_.at(key); }
+
+  /// Identity of what is looked at again.
+  std::string ContentHash() const {
+    Sha256 hash;
+    for (const ShardReader& shard : shards_) hash.Update(shard.index().tar_sha256);
+    return hash.HexDigest();
+  }
+
+ private:
+  void AddPart(const std::string& split) {
+    if (!fs::is_directory(folder_ / stage() / split)) return;
+    for (const fs::path& path : ShardIndices(folder_, stage(), split)) {
+      shards_.emplace_back(path);
+      AddShard(split);
+    }
+  }
+
+  void AddShard(const std::string& split) {
+    const std::size_t shard = shards_.size() - 1;
+    const ShardIndex& index = shards_.back().index();
+    PlannedShard planned{split, index.header.number, {}};
+    for (std::size_t i = 0; i < index.episodes.size(); ++i) {
+      const Json meta = ReadEpisodeMeta(shards_.back(), i);
+      const std::string where = shards_.back().Describe(i, "meta.json");
+      const auto door = ValueOf<std::string>(MemberOf(meta, "scene", where), "door_id", where);
+      AddEpisode(index.episodes[i].key, door, {shard, i, {}}, planned);
+    }
+    for (const FailedEpisode& failure : index.failures)
+      AddEpisode(failure.key, failure.door_id, {shard, {}, failure}, planned);
+    std::sort(planned.episodes.begin(), planned.episodes.end(),
+              [](const auto& a, const auto& b) { return a.number < b.number; });
+    plan_.shards.push_back(std::move(planned));
+  }
+
+  void AddEpisode(const std::string& key, const std::string& door_id, Source source,
+                  PlannedShard& planned) {
+    const auto door = doors_.find(door_id);
+    if (door == doors_.end() || !key.starts_with("ep"))
+      throw Error(ErrorCode::kFormat, folder_.string() + ": episode " + key + " of door \"" +
+                                          door_id + "\" does not fit provenance.json");
+    planned.episodes.push_back({std::stoull(key.substr(2)), door->second, key});
+    sources_[key] = std::move(source);
+  }
+
+  fs::path folder_;
+  DatasetProvenance provenance_;
+  CollectionPlan plan_;
+  std::map<std::string, std::size_t> doors_;
+  std::vector<ShardReader> shards_;
+  std::map<std::string, Source> sources_;
+};
+
+// A failed episode stays one.
+CollectedEpisode FailedAgain(const FailedEpisode& failure) {
+  CollectedEpisode collected;
+  const auto outcome = EpisodeOutcomeNamed(failure.outcome);
+  if (!outcome) throw Error(ErrorCode::kInvalidArgument, failure.detail);
+  collected.episode.outcome = *outcome;
+  collected.episode.detail = failure.detail;
+  collected.episode.peak_hinge_rad = failure.peak_hinge_rad;
+  collected.episode.peak_handle_rad = failure.peak_handle_rad;
+  return collected;
+}
+
+class Reobservation {
+ public:
+  Reobservation(const SourceDataset& source, const ReobserveConfig& config,
+                const std::string& robot_file, const DoorFolder& doors)
+      : source_(source), config_(config), robot_file_(robot_file), shelf_(doors) {}
+
+  CollectedEpisode Look(const PlannedEpisode& planned) {
+    const Source& source = source_.SourceOf(planned.key);
+    if (!source.episode) return FailedAgain(*source.failure);
+    const ShardReader& reader = source_.shards()[source.shard];
+    const Json meta = ReadEpisodeMeta(reader, *source.episode);
+    const std::string where = reader.Describe(*source.episode, "meta.json");
+    CollectedEpisode collected;
+    collected.episode = EpisodeFromMeta(meta, where);
+    collected.meta = meta;
+    collected.keep_failed = true;
+    ReadPoses(meta, where, collected.episode.scene);
+    if (config_.own_camera) collected.episode.scene.camera = CameraOf(config_.camera);
+    LookAtDecisions(ViewEpisode(reader, *source.episode), *shelf_.Take(planned.door), where,
+                    collected);
+    return collected;
+  }
+
+ private:
+  void LookAtDecisions(const EpisodeArrays& arrays, const DoorAsset& door, const std::string& where,
+                       CollectedEpisode& collected) const {
+    Require(!arrays.state.empty(), ErrorCode::kInvalidArgument,
+            where + ": the episode holds no joint states (state.npy); collect it anew");
+    Episode& episode = collected.episode;
+    const RobotModel robot = RobotOf(episode.scene);
+    RecordingCamera camera(episode.scene, door, robot, config_.cloud, config_.robot);
+    for (std::size_t t = 0; t < arrays.decisions; ++t) {
+      Decision decision = DecisionOf(arrays, t, episode.decisions.at(t).time_s);
+      const SceneSnapshot snapshot = SnapshotOf(decision, episode.scene, door, robot);
+      const Eigen::Vector3d start =
+          source_.stage() == NameOf(Stage::kGrasp)
+              ? Eigen::Vector3d(decision.action[0], decision.action[1], decision.action[2])
+              : snapshot.robot.world_from_tcp.translation();
+      decision.cloud =
+          SampleCloud(camera.LookAtAll(snapshot), start, config_.cloud.point_count).cloud;
+      episode.decisions[t] = std::move(decision);
+    }
+    Describe(camera, collected);
+  }
+
+  void Describe(const RecordingCamera& camera, CollectedEpisode& collected) const {
+    const std::size_t decisions = collected.episode.decisions.size();
+    Json& meta = collected.meta;
+    meta["scene"]["camera"] = CameraToJson(collected.episode.scene.camera);
+    meta["camera"] = CameraRecord(collected.episode.scene.camera);
+    meta["visible_points"] = camera.Visible(decisions);
+    meta["hidden"] = camera.OcclusionRecord(decisions);
+    if (!config_.robot) meta["robot_seen"] = false;
+    if (config_.preview) collected.preview_png = camera.PreviewPng();
+  }
+
+  RobotModel RobotOf(const Scene& scene) const {
+    RobotModel robot = LoadRobot(robot_file_, RobotBaseNamed(scene.physics.base), RobotMeshes());
+    Require(robot.sha256() == scene.robot.sha256, ErrorCode::kInvalidArgument,
+            "robot \"" + scene.robot.name + "\" is another one than in the dataset");
+    return robot;
+  }
+
+  const SourceDataset& source_;
+  const ReobserveConfig& config_;
+  std::string robot_file_;
+  DoorShelf shelf_;
+};
+
+// The cloud's settings as they were, and the file of the robot, from the existing config.yaml.
+struct SourceConfig {
+  ReobserveConfig config;
+  std::string robot_file;
+};
+
+SourceConfig ReadSourceConfig(const fs::path& folder) {
+  const fs::path path = folder / "config.yaml";
+  const Json json = ParseYaml(ReadFile(path), path.string());
+  SourceConfig source;
+  if (json.contains("cloud")) Assign(json["cloud"], source.config.cloud, path.string() + ".cloud");
+  if (json.contains("preview"))
+    source.config.preview = ValueOf<bool>(json, "preview", path.string());
+  if (json.contains("robot") && json["robot"].is_boolean())
+    source.config.robot = json["robot"].get<bool>();
+  if (json.contains("scene"))
+    source.robot_file = ValueOf<std::string>(json["scene"], "robot", path.string() + ".scene");
+  return source;
+}
+
+ReobserveConfig ConfigOf(const ReobserveRequest& request, const ReobserveConfig& as_it_was) {
+  ReobserveConfig config = LoadConfig<ReobserveConfig>(request.config, request.settings, as_it_was);
+  if (request.without_robot) config.robot = false;
+  config.own_camera = config.own_camera || ToJson(config.camera) != ToJson(CameraConfig{});
+  CheckDepthNoise(config.cloud.noise);
+  if (config.own_camera) CameraOf(config.camera);
+  return config;
+}
+
+}  // namespace
+
+CollectSummary ReobserveDataset(const ReobserveRequest& request) {
+  const SourceDataset source(request.folder);
+  const SourceConfig source_config = ReadSourceConfig(request.folder);
+  const ReobserveConfig config = ConfigOf(request, source_config.config);
+  const DoorFolder doors =
+      FindRecordedDoors(request.doors, source.provenance().doors, request.threads);
+  Reobservation reobservation(source, config, source_config.robot_file, doors);
+  CollectRequest collect;
+  collect.folder = request.out;
+  collect.stage = source.stage();
+  collect.threads = request.threads;
+  collect.provenance = source.provenance();
+  collect.provenance.code_version = CodeVersion();
+  collect.provenance.compiler = __VERSION__;
+  collect.provenance.libraries = {{"ray_caster", RayCasterVersion()},
+                                  {"looked_at_again", source.ContentHash()}};
+  collect.config_text = "# doorforge dataset re-observe, " + CodeVersion() +
+                        "\n# of shards sha256 " + source.ContentHash() + ", config sha256 " +
+                        source.provenance().config_sha256 + "\n# rays by " + RayCasterVersion() +
+                        "\n" + ToJson(config).dump(2) + "\n";
+  fs::create_directories(request.out);
+  return Collect(
+      source.plan(), [&](const PlannedEpisode& planned) { return reobservation.Look(planned); },
+      collect);
+}
+
+}  // namespace doorforge

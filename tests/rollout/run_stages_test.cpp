@@ -1,0 +1,213 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "doorforge/core/error.h"
+#include "doorforge/physics/scene_sampling.h"
+#include "doorforge/rollout/handle_expert.h"
+#include "doorforge/rollout/opening_expert.h"
+#include "doorforge/rollout/random_grasp.h"
+#include "doorforge/rollout/run_episode.h"
+
+#include "../physics/primitive_door.h"
+
+namespace doorforge {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+class RunStagesTest : public testing::Test {
+ protected:
+  RunStagesTest() : robot_(LoadMobileFranka()) {}
+
+  Episode Run(const DoorAsset& door, const Scene& scene, EpisodeRoles roles) const {
+    OpeningExpert opens;
+    roles.open = &opens;
+    return RunStages(scene, door, robot_, roles, nullptr);
+  }
+
+  RobotModel robot_;
+};
+
+TEST_F(RunStagesTest, TurnsOfTheHandleAddUpToDoneAndTheDoorOpens) {
+  for (const Mechanism mechanism : {Mechanism::kLever, Mechanism::kRound}) {
+    for (std::uint64_t i = 0; i < 4; ++i) {
+      const DoorAsset door = MakePrimitiveDoor(RandomPrimitive(mechanism, 21, i));
+      HandleExpert turns;
+      const Episode episode =
+          Run(door, SampleScene(door, 21, i), {.recorded = Stage::kHandle, .handle = &turns});
+      EXPECT_EQ(episode.outcome, EpisodeOutcome::kOpened)
+          << NameOf(mechanism) << " " << i << ": " << episode.detail;
+      ASSERT_FALSE(episode.decisions.empty());
+      double handle = episode.decisions[0].handle_rad;
+      for (const Decision& decision : episode.decisions) {
+        EXPECT_DOUBLE_EQ(decision.handle_rad, handle);
+        EXPECT_LT(decision.hinge_rad, 1 * kDegree);
+        handle += decision.score_rad;
+      }
+      EXPECT_GE(handle, door.latch.handle_done_angle_rad);
+    }
+  }
+}
+
+TEST_F(RunStagesTest, AHandThatDoesNotTurnLeavesTheHandleStuck) {
+  class Staying : public Policy {
+   public:
+    Action Act(const Observation& observation) override {
+      return {Eigen::Vector3d::Zero(), observation.privileged.world_from_hand.linear()};
+    }
+  } stays;
+  const DoorAsset door = MakePrimitiveDoor({});
+  Scene scene = SampleScene(door, 1, 0);
+  scene.physics.max_handle_actions = 3;
+  const Episode episode = Run(door, scene, {.recorded = Stage::kHandle, .handle = &stays});
+  EXPECT_EQ(episode.outcome, EpisodeOutcome::kHandleStuck) << episode.detail;
+  EXPECT_EQ(episode.decisions.size(), 3U);
+}
+
+TEST_F(RunStagesTest, TheRecordedJointsSayWhereTheHandIs) {
+  const DoorAsset door = MakePrimitiveDoor({});
+  HandleExpert turns;
+  const Scene scene = SampleScene(door, 1, 0);
+  const Episode episode = Run(door, scene, {.recorded = Stage::kHandle, .handle = &turns});
+  ASSERT_FALSE(episode.decisions.empty());
+  for (const Decision& decision : episode.decisions) {
+    JointVector joints(kRobotJointCount);
+    std::copy_n(decision.state.begin(), kRobotJointCount, joints.begin());
+    const Eigen::Vector3d hand =
+        robot_.PoseAt(joints, scene.world_from_robot_base).world_from_hand.translation();
+    const Eigen::Vector3f known = HandPositionOf(decision.proprioception);
+    EXPECT_LT((hand.cast<float>() - known).norm(), 1e-6F);
+    EXPECT_EQ(decision.state[kStateHinge], decision.hinge_rad);
+    EXPECT_EQ(decision.state[kStateHandle], decision.handle_rad);
+  }
+}
+
+// Takes hold at a point given in the handle's grasp frame.
+class FixedGrasp : public GraspChooser {
+ public:
+  FixedGrasp(const DoorAsset& door, const RobotModel& robot, const Eigen::Vector3d& offset_m)
+      : handle_from_grasp_(door.handle_from_grasp),
+        tcp_from_hand_(robot.hand_from_tcp().linear().transpose()),
+        offset_m_(offset_m) {}
+
+  std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override {
+    const RigidTransform grasp = snapshot.door[kHandleLink] * handle_from_grasp_;
+    ChosenGrasp chosen;
+    chosen.contact_m = grasp * (offset_m_ - kGraspInsertion * Eigen::Vector3d::UnitZ());
+    chosen.world_from_hand_rotation = grasp.linear() * tcp_from_hand_;
+    return chosen;
+  }
+
+ private:
+  RigidTransform handle_from_grasp_;
+  Eigen::Matrix3d tcp_from_hand_;
+  Eigen::Vector3d offset_m_;
+};
+
+TEST_F(RunStagesTest, AGoodGraspScoresTheDoorsFinalAngleAndAnEmptyOneNothing) {
+  const DoorAsset door = MakePrimitiveDoor({});
+  const Scene scene = SampleScene(door, 1, 0);
+  HandleExpert turns;
+  FixedGrasp good(door, robot_, {0, 0, 0});
+  const Episode opened =
+      Run(door, scene, {.recorded = Stage::kGrasp, .grasp = &good, .handle = &turns});
+  EXPECT_EQ(opened.outcome, EpisodeOutcome::kOpened) << opened.detail;
+  ASSERT_EQ(opened.decisions.size(), 1U);
+  EXPECT_GT(opened.decisions[0].score_rad, 45 * kDegree);
+  EXPECT_EQ(opened.decisions[0].time_s, 0);
+
+  FixedGrasp empty(door, robot_, {0, 0, -0.12});
+  const Episode missed =
+      Run(door, scene, {.recorded = Stage::kGrasp, .grasp = &empty, .handle = &turns});
+  EXPECT_EQ(missed.outcome, EpisodeOutcome::kGraspMissed) << missed.detail;
+  ASSERT_EQ(missed.decisions.size(), 1U);
+  EXPECT_LT(missed.decisions[0].score_rad, 0.01);
+}
+
+TEST_F(RunStagesTest, ADoorWithoutALatchNeedsNoTurn) {
+  const DoorAsset door = MakePrimitiveDoor({.mechanism = Mechanism::kNone});
+  HandleExpert turns;
+  const Episode episode =
+      Run(door, SampleScene(door, 1, 0), {.recorded = Stage::kHandle, .handle = &turns});
+  EXPECT_EQ(episode.outcome, EpisodeOutcome::kOpened) << episode.detail;
+  EXPECT_TRUE(episode.decisions.empty());
+}
+
+TEST_F(RunStagesTest, RefusesAStageAtWhichNobodyDecides) {
+  const DoorAsset door = MakePrimitiveDoor({});
+  EXPECT_THROW(Run(door, SampleScene(door, 1, 0), {.recorded = Stage::kHandle}), Error);
+  EXPECT_THROW(Run(door, SampleScene(door, 1, 0), {.recorded = Stage::kGrasp}), Error);
+}
+
+// ---- sampled grasps -----------------------------------------------------------------------------
+
+// A leaf of 20 x 20 points at x = 0, and a handle of 5 in front of it.
+LabelledCloud SmallCloud() {
+  LabelledCloud cloud;
+  const auto add = [&](double x, double y, double z, PointLabel label) {
+    for (const double c : {x, y, z}) cloud.xyz.push_back(static_cast<float>(c));
+    cloud.label.push_back(static_cast<std::uint8_t>(label));
+  };
+  for (int i = 0; i < 20; ++i) {
+    for (int k = 0; k < 20; ++k) add(0, 0.05 * i, 0.5 + 0.05 * k, PointLabel::kBody);
+  }
+  for (int i = 0; i < 5; ++i) add(0.02, 0.4 + 0.02 * i, 1, PointLabel::kHandle);
+  return cloud;
+}
+
+struct Sampled {
+  int on_handle = 0;
+  int near = 0;  // turned less than three spreads from the handle's own grasp
+};
+
+TEST_F(RunStagesTest, SampledGraspsAreOnTheHandleAndTurnedAsAskedFor) {
+  const DoorAsset door = MakePrimitiveDoor({});
+  Scene scene = SampleScene(door, 1, 0);
+  const RandomGraspConfig config{.near_share = 0.5, .near_turn_rad = 0.05, .beside_share = 0.25};
+  SceneSnapshot snapshot;
+  const auto links = DoorFromLinks(door, 0, 0);
+  snapshot.door = {links[0], links[1], links[2]};
+  const Eigen::Matrix3d own = links[kHandleLink].linear() * door.handle_from_grasp.linear() *
+                              robot_.hand_from_tcp().linear().transpose();
+  constexpr int kCount = 400;
+  Sampled sampled;
+  for (int i = 0; i < kCount; ++i) {
+    scene.episode = static_cast<std::uint64_t>(i);
+    RandomGrasp random(scene, door, robot_, config, 64, [](const auto&) { return SmallCloud(); });
+    const auto chosen = random.Choose(snapshot);
+    ASSERT_TRUE(chosen.has_value());
+    ASSERT_EQ(chosen->cloud.label.size(), 64U);
+    for (int k = 0; k < 3; ++k)
+      EXPECT_EQ(chosen->cloud.xyz[static_cast<std::size_t>(k)],
+                static_cast<float>(chosen->contact_m[k]));
+    sampled.on_handle += chosen->cloud.label[0] == 1 ? 1 : 0;
+    const Eigen::Matrix3d turn = own.transpose() * chosen->world_from_hand_rotation;
+    EXPECT_LT((turn.transpose() * turn - Eigen::Matrix3d::Identity()).norm(), 1e-9);
+    sampled.near += std::abs(std::atan2(turn(1, 0), turn(0, 0))) < 0.15 ? 1 : 0;
+  }
+  // binomial, five standard deviations: 0.75; 0.5 * 0.997 + 0.5 * 0.3 / pi = 0.546
+  EXPECT_NEAR(sampled.on_handle / double{kCount}, 0.75, 5 * 0.0217);
+  EXPECT_NEAR(sampled.near / double{kCount}, 0.546, 5 * 0.025);
+}
+
+TEST_F(RunStagesTest, NothingIsChosenWhereNoHandleIsInView) {
+  const DoorAsset door = MakePrimitiveDoor({});
+  const Scene scene = SampleScene(door, 1, 0);
+  RandomGrasp random(scene, door, robot_, {}, 64, [](const auto&) {
+    LabelledCloud cloud = SmallCloud();
+    std::fill(cloud.label.begin(), cloud.label.end(), std::uint8_t{0});
+    return cloud;
+  });
+  HandleExpert turns;
+  const Episode episode =
+      Run(door, scene, {.recorded = Stage::kGrasp, .grasp = &random, .handle = &turns});
+  EXPECT_EQ(episode.outcome, EpisodeOutcome::kNotReached);
+  EXPECT_TRUE(episode.decisions.empty());
+}
+
+}  // namespace
+}  // namespace doorforge

@@ -18,6 +18,7 @@ import numpy as np
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 GOLDEN = SOURCE / "tests/golden/dataset_v1"
+GRASPS = SOURCE / "tests/golden/dataset_v1_grasp"
 BUILD = pathlib.Path(sys.argv.pop(1)) if len(sys.argv) > 1 else SOURCE / "build/dev"
 sys.path.insert(0, str(SOURCE / "python"))
 sys.dont_write_bytecode = True
@@ -96,6 +97,15 @@ class Robomimic(DownstreamTest):
         self.run_dataset("export", GOLDEN, "--to", "robomimic", "--out", out, "--overwrite")
         self.assertEqual(out.read_bytes(), first)
         self.assertEqual([path.name for path in self.folder.iterdir()], ["a.hdf5"])
+
+    def test_failed_grasps_keep_their_label(self):
+        import h5py
+
+        out = self.folder / "grasp.hdf5"
+        self.run_dataset("export", GRASPS, "--to", "robomimic", "--stage", "grasp", "--out", out)
+        with h5py.File(out) as file:
+            self.assertEqual([int(file[f"data/demo_{i}"].attrs["success"]) for i in range(4)], [1, 0, 1, 0])
+            self.assertEqual(file["data/demo_0/obs/state"].dtype, np.float64)
 
     def test_damage_and_a_stage_that_is_not_there_end_without_a_file(self):
         folder, out = self.copy(), self.folder / "a.hdf5"
@@ -193,6 +203,12 @@ class Info(DownstreamTest):
         self.assertEqual(stage["by_category"]["car"]["success_rate"], 0.5)
         self.assertEqual({name: group["episodes"] for name, group in stage["by_split"].items()}, {"train": 7, "val": 2})
 
+    def test_grasps_that_were_kept_though_they_failed_count_as_failed(self):
+        document = json.loads(self.run_dataset("info", GRASPS, "--json"))
+        self.assertEqual(document["parts"][0]["success_rate"], 0.4)
+        self.assertEqual(document["stages"][0]["all"]["causes"], {"collision": 2, "not_reached": 1})
+        self.assertIn(" 40.0 %", self.run_dataset("info", GRASPS))
+
     def test_the_text_names_categories_and_causes(self):
         text = self.run_dataset("info", GOLDEN)
         for word in ("refrigerator", "lever", "door_stuck", "success"):
@@ -228,12 +244,16 @@ class Schemas(DownstreamTest):
         return jsonschema.Draft202012Validator(schema)
 
     def records(self):
-        """Pairs of schema and record of the golden data set."""
-        yield "dataset", json.loads((GOLDEN / "dataset.json").read_text())
-        yield "provenance", json.loads((GOLDEN / "provenance.json").read_text())
-        for path in GOLDEN.rglob("*.index.json"):
+        """Pairs of schema and record of the golden data sets."""
+        for folder in (GOLDEN, GRASPS):
+            yield from self.records_of(folder)
+
+    def records_of(self, folder):
+        yield "dataset", json.loads((folder / "dataset.json").read_text())
+        yield "provenance", json.loads((folder / "provenance.json").read_text())
+        for path in folder.rglob("*.index.json"):
             yield "shard_index", json.loads(path.read_text())
-        data = reader.Dataset(GOLDEN)
+        data = reader.Dataset(folder)
         for part in data.parts:
             for episode in data.episodes(part.stage, part.split):
                 yield "episode", episode.meta

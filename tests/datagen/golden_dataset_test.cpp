@@ -26,6 +26,31 @@ TEST(GoldenDatasetTest, TheFilesAreTheOnesThatWereCommitted) {
   EXPECT_EQ(synthetic::HashesBelow(kGolden), listed);
 }
 
+// Written by the first builds that kept failed grasps, joint states and a checksum of the index.
+const std::filesystem::path kGoldenGrasps = DOORFORGE_SOURCE_DIR "/tests/golden/dataset_v1_grasp";
+
+TEST(GoldenDatasetTest, GraspsThatFailedAreReadAndCountedAsFailed) {
+  std::istringstream lines(ReadFile(DOORFORGE_SOURCE_DIR "/tests/golden/dataset_v1_grasp.sha256"));
+  std::map<std::string, std::string> listed;
+  std::string hash;
+  std::string path;
+  while (lines >> hash >> path) listed[path] = hash;
+  EXPECT_EQ(synthetic::HashesBelow(kGoldenGrasps), listed);
+  const DatasetReader reader(kGoldenGrasps, "grasp", "train");
+  ASSERT_EQ(reader.size(), 4U);
+  for (std::size_t i = 0; i < reader.size(); ++i) {
+    const EpisodeArrays arrays = reader.Arrays(i);
+    EXPECT_EQ(arrays.decisions, 1U);
+    EXPECT_EQ(arrays.state.size(), 14U);
+    EXPECT_EQ(reader.Meta(i).at("success"), arrays.score[0] > 0.7F);
+  }
+  for (const DatasetFinding& finding : VerifyDataset({kGoldenGrasps, 1, {}}))
+    ADD_FAILURE() << finding.code << ' ' << finding.where << ": " << finding.measured;
+  const EpisodeDescription description = DescribeEpisodes(kGoldenGrasps, 0);
+  EXPECT_EQ(description.stages.at(0).all.episodes, 5U);
+  EXPECT_EQ(description.stages.at(0).all.succeeded, 2U);
+}
+
 TEST(GoldenDatasetTest, IsReadByThisVersion) {
   const DatasetReader train(kGolden, "open", "train");
   const DatasetReader val(kGolden, "open", "val");

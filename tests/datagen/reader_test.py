@@ -154,6 +154,24 @@ class Golden(unittest.TestCase):
                 self.assertEqual(found, raw)
 
 
+class GoldenGrasps(unittest.TestCase):
+    """Failed grasps beside those that succeeded, joint states, an index with a checksum of its own."""
+    FOLDER = GOLDEN.parent / "dataset_v1_grasp"
+
+    def test_it_is_read_as_tarfile_and_numpy_do(self):
+        data = reader.Dataset(self.FOLDER)
+        raw = members(self.FOLDER / "grasp/train/shard-000000.tar")
+        episodes = data.episodes("grasp", "train")
+        self.assertEqual([episode.meta["success"] for episode in episodes], [True, False, True, False])
+        for episode in episodes:
+            self.assertEqual(episode["state"].dtype.str, "<f8")
+            self.assertEqual(episode["state"].shape, (1, 14))
+            for name, array in episode.arrays().items():
+                np.testing.assert_array_equal(array, np.load(io.BytesIO(raw[f"{episode.key}.{name}.npy"])))
+        self.assertEqual([failure["outcome"] for failure in data.failures()], ["not_reached"])
+        self.assertIn(b"index_crc32c", (self.FOLDER / "grasp/train/shard-000000.index.json").read_bytes())
+
+
 class Order(unittest.TestCase):
     def test_it_is_a_permutation_that_depends_on_seed_and_epoch(self):
         orders = [reader.order(1000, seed, epoch) for seed in (0, 7) for epoch in (0, 1, 2)]

@@ -51,6 +51,25 @@ TEST(MakePart, AnOpenBoxIsClosed) {
   EXPECT_NE(made.pieces[1].repair.outcome, RepairOutcome::kAlreadyClosed);
 }
 
+// The cap over the open edge lies 1.4 % of the diagonal from the drawn faces.
+TEST(MakePart, ALeafDrawnHollowBecomesSolid) {
+  PartDraft draft = BoxBody();
+  draft.pieces[1].mesh = BoxMesh({-0.03, 0, 0}, {0.03, 0.6, 2});
+  TriangleMesh& leaf = draft.pieces[1].mesh;
+  std::erase_if(leaf.triangles, [&](const Eigen::Vector3i& t) {
+    return leaf.vertices[static_cast<std::size_t>(t[0])].z() +
+               leaf.vertices[static_cast<std::size_t>(t[1])].z() +
+               leaf.vertices[static_cast<std::size_t>(t[2])].z() ==
+           0;
+  });
+  ASSERT_EQ(leaf.triangles.size(), 10U);
+  const MadePart made = MakePart(draft, {});
+  ASSERT_TRUE(made.part.has_value()) << ProblemOf(made);
+  EXPECT_EQ(made.pieces[1].repair.holes_filled, 1);
+  // 0.06 x 0.6 x 2 m at 350 kg/m3
+  EXPECT_NEAR(FindPiece(*made.part, "leaf")->mass.mass_kg, 25.2, 1e-3);
+}
+
 TEST(MakePart, KeepsMassesWhereARobotCanMoveThem) {
   PartDraft draft = BoxBody();
   draft.pieces[1].mesh = BoxMesh({-0.3, 0, 0}, {0.3, 2, 3});

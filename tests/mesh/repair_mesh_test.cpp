@@ -74,13 +74,39 @@ TEST(RepairMesh, FillsASmallHole) {
   EXPECT_LT(result.report.output_to_input.max_m, 0.02);
 }
 
-TEST(RepairMesh, FillsAFlatHoleThatIsSmallBesideItsPiece) {
-  // a long bar without one end: the end is 1/40 of the area
+// A long bar without one end: the end is 1/40 of the area, and its middle 50 mm from the border.
+TriangleMesh BarWithoutEnd() {
   TriangleMesh bar = Box(Eigen::Vector3d::Zero(), Eigen::Vector3d(1, 0.1, 0.1));
   bar.triangles.resize(10);
-  const RepairResult result = Repaired(bar);
+  return bar;
+}
+
+TEST(RepairMesh, FillsAFlatHoleThatIsSmallBesideItsPieceWhereCapsMayBeFar) {
+  RepairConfig config;
+  config.max_cap_fraction = 1;
+  const RepairResult result = Repaired(BarWithoutEnd(), config);
   EXPECT_EQ(result.report.outcome, RepairOutcome::kRepaired);
   EXPECT_NEAR(VolumeAfter(result), 0.01, 1e-15);
+}
+
+TEST(RepairMesh, MakesWallsWhereACapWouldLieFarFromTheSurface) {
+  const RepairResult result = Repaired(BarWithoutEnd());
+  EXPECT_EQ(result.report.outcome, RepairOutcome::kRepaired);
+  EXPECT_EQ(result.report.holes_filled, 0);
+  EXPECT_EQ(result.report.sheets_thickened, 1);
+  const double half = result.report.before.bounds.diagonal().norm() / 1200;
+  EXPECT_LT(result.report.output_to_input.max_m, 2 * half);
+  // four sides and one end, 0.41 m2
+  EXPECT_NEAR(VolumeAfter(result), 0.41 * 2 * half, 0.02 * 0.41 * 2 * half);
+}
+
+// The distance decides, not the size: the plate behind the hole keeps the cap near.
+TEST(RepairMesh, FillsAHoleWhoseCapKeepsNearAnotherPiece) {
+  const TriangleMesh plate =
+      Box(Eigen::Vector3d(1.002, -0.1, -0.1), Eigen::Vector3d(1.1, 0.2, 0.2));
+  const RepairResult result = Repaired(Together(BarWithoutEnd(), plate));
+  EXPECT_EQ(result.report.holes_filled, 1);
+  EXPECT_NEAR(VolumeAfter(result), 0.01 + 0.098 * 0.09, 1e-9);
 }
 
 // A box with one corner pulled out through the opposite sides.
@@ -180,6 +206,20 @@ TEST(RepairMesh, UnitesPiecesToTheSameBytesTwice) {
   EXPECT_EQ(a.mesh->mesh().triangles, b.mesh->mesh().triangles);
 }
 
+// CGAL orders some of what it makes by addresses; what was done before must not matter.
+TEST(RepairMesh, UnitesPiecesToTheSameBytesOnAnotherHeap) {
+  TriangleMesh crossing = Torus(1, 0.3, 24, 12);
+  crossing.vertices[0] = {-2, 0.1, 0.1};
+  const RepairResult a = Repaired(crossing);
+  ASSERT_EQ(a.report.outcome, RepairOutcome::kRepaired) << a.report.reason;
+  std::vector<std::vector<char>> blocks;
+  for (std::size_t i = 0; i < 40000; ++i) blocks.emplace_back(24 + 40 * (i * i % 97));
+  for (std::size_t i = 0; i < blocks.size(); i += 1 + i % 3) blocks[i] = {};
+  const RepairResult b = Repaired(crossing);
+  EXPECT_EQ(a.mesh->mesh().vertices, b.mesh->mesh().vertices);
+  EXPECT_EQ(a.mesh->mesh().triangles, b.mesh->mesh().triangles);
+}
+
 TEST(RepairMesh, DropsAPieceHiddenInsideAnother) {
   TriangleMesh mesh =
       Together(UnitBox(), Box(Eigen::Vector3d(0.2, 0.2, 0.2), Eigen::Vector3d(0.7, 0.7, 0.7)));
@@ -205,6 +245,33 @@ TEST(RepairMesh, ThickensASheetByItsOffset) {
   EXPECT_NEAR(wrap.report.output_to_input.mean_m, offset, 0.3 * offset);
 }
 
+// A sheet drawn with both its sides, without a common edge between their triangles.
+TEST(RepairMesh, MakesAWallOfASheetWithTwoSides) {
+  const RepairResult result = Repaired(FlatPillow(), Coarse());
+  EXPECT_EQ(result.report.outcome, RepairOutcome::kRepaired) << result.report.reason;
+  EXPECT_FALSE(result.report.self_intersects);
+  const double half = std::sqrt(2.0) * 0.005;
+  EXPECT_NEAR(VolumeAfter(result), 2 * half, 0.2 * half);
+}
+
+// Two sheets that cross, so that each of their triangles becomes a wall, and on one a triangle
+// without width whose middle vertex is on its longest edge.
+TEST(RepairMesh, LeavesTrianglesWithoutWidthOutOfItsWalls) {
+  TriangleMesh sheets{{{0, 0, 0},
+                       {1, 0, 0},
+                       {1, 1, 0},
+                       {0, 1, 0},
+                       {0.5, 1e-17, 0},
+                       {0.5, 0.5, -0.5},
+                       {0.5, 0.5, 0.5},
+                       {0.5, -0.5, 0.5}},
+                      {{0, 4, 1}, {0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}}};
+  const RepairResult result = Repaired(sheets, Coarse());
+  EXPECT_EQ(result.report.outcome, RepairOutcome::kRepaired) << result.report.reason;
+  EXPECT_FALSE(result.report.self_intersects);
+  EXPECT_LT(result.report.visible_input_to_output.max_m, 0.01 * std::sqrt(2.5));
+}
+
 // Where three sheets meet in one edge, none of them is a surface with the others.
 TEST(RepairMesh, UnitesSheetsThatMeetInOneEdge) {
   TriangleMesh sheets{{{0, 0, 0}, {1, 0, 0}}, {}};
@@ -228,10 +295,12 @@ TEST(RepairMesh, UnitesSheetsThatMeetInOneEdge) {
 TEST(RepairMesh, SaysWhyItFailsWhereItMayNotWrap) {
   RepairConfig config;
   config.wrap = "never";
-  const RepairResult result = Repaired(FlatPillow(), config);
+  TriangleMesh crossing = Torus(1, 0.3, 60, 60);
+  crossing.vertices[0] = {-2, 0.1, 0.1};
+  const RepairResult result = Repaired(crossing, config);
   EXPECT_EQ(result.report.outcome, RepairOutcome::kFailed);
   EXPECT_FALSE(result.mesh);
-  EXPECT_EQ(result.report.reason, "1 piece of 1 without thickness");
+  EXPECT_EQ(result.report.reason, "a piece of 7200 triangles crosses itself");
 }
 
 TEST(RepairMesh, FailsOnAMeshWithoutAnArea) {

@@ -28,7 +28,9 @@ class RepairVerb : public testing::Test {
     folder_ = fs::path(DOORFORGE_BINARY_DIR) / "repair_verb_test" / test->name();
     fs::remove_all(folder_);
     CommitFile(folder_ / "torus.stl", WriterFor("x.stl")(Torus(1, 0.3, 24, 12)));
-    CommitFile(folder_ / "flat.ply", WriterFor("x.ply")(FlatPillow()));
+    TriangleMesh crossing = Torus(1, 0.3, 60, 60);
+    crossing.vertices[0] = {-2, 0.1, 0.1};
+    CommitFile(folder_ / "crossing.ply", WriterFor("x.ply")(crossing));
   }
   void TearDown() override { fs::remove_all(folder_); }
 
@@ -60,7 +62,7 @@ TEST_F(RepairVerb, WritesAClosedMeshOfEachFormatWithItsReport) {
 }
 
 TEST_F(RepairVerb, ReportsAMeshThatCannotBeClosedAndWritesNothing) {
-  EXPECT_EQ(Run({In("flat.ply"), In("a.obj"), "--wrap", "never"}), 1);
+  EXPECT_EQ(Run({In("crossing.ply"), In("a.obj"), "--wrap", "never"}), 1);
   EXPECT_FALSE(fs::exists(In("a.obj")));
   EXPECT_FALSE(fs::exists(In("a.obj.report.json")));
 }

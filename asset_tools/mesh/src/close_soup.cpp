@@ -20,6 +20,7 @@
 
 #include "surface_mesh.h"
 #include "surface_operations.h"
+#include "triangle_tree.h"
 
 namespace doorforge {
 namespace {
@@ -77,14 +78,45 @@ double FlatArea(const std::vector<Eigen::Vector3d>& border, double flatness_m) {
   return 0.5 * doubled.norm();
 }
 
-int FillHoles(SurfaceMesh& surface, const HoleLimits& limits) {
+// Whether a point of the triangle lies farther than `limit_m` from the tree; finds those that lie a
+// tenth farther.
+bool ReachesBeyond(const std::array<Eigen::Vector3d, 3>& corners, const TriangleTree& tree,
+                   double limit_m) {
+  const Eigen::Vector3d center = (corners[0] + corners[1] + corners[2]) / 3;
+  double radius = 0;
+  for (const Eigen::Vector3d& corner : corners) radius = std::max(radius, (corner - center).norm());
+  const double distance = tree.Distance(center);
+  if (distance > limit_m) return true;
+  if (distance + radius <= 1.1 * limit_m) return false;
+  std::array<Eigen::Vector3d, 3> middles;
+  for (std::size_t k = 0; k < 3; ++k) middles[k] = (corners[k] + corners[(k + 1) % 3]) / 2;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (ReachesBeyond({corners[k], middles[k], middles[(k + 2) % 3]}, tree, limit_m)) return true;
+  }
+  return ReachesBeyond(middles, tree, limit_m);
+}
+
+bool IsFar(const SurfaceMesh& surface, const std::vector<SurfaceMesh::Face_index>& cap,
+           const TriangleTree& tree, double limit_m) {
+  return std::any_of(cap.begin(), cap.end(), [&](SurfaceMesh::Face_index face) {
+    std::array<Eigen::Vector3d, 3> corners;
+    std::size_t k = 0;
+    for (const auto vertex : CGAL::vertices_around_face(surface.halfedge(face), surface)) {
+      const Point& p = surface.point(vertex);
+      corners[k++] = {p.x(), p.y(), p.z()};
+    }
+    return ReachesBeyond(corners, tree, limit_m);
+  });
+}
+
+void FillHoles(SurfaceMesh& surface, const HoleLimits& limits, const TriangleTree& tree,
+               ClosedSoup& counts) {
   auto piece_of = surface.add_property_map<SurfaceMesh::Face_index, std::size_t>("f:piece").first;
   std::vector<double> area_of(pmp::connected_components(surface, piece_of), 0.0);
   for (const SurfaceMesh::Face_index face : surface.faces())
     area_of[piece_of[face]] += pmp::face_area(face, surface);
   std::vector<SurfaceMesh::Halfedge_index> borders;
   pmp::extract_boundary_cycles(surface, std::back_inserter(borders));
-  int filled = 0;
   for (const SurfaceMesh::Halfedge_index border : borders) {
     const std::vector<Eigen::Vector3d> corners = BorderOf(surface, border);
     const double area = area_of[piece_of[surface.face(surface.opposite(border))]];
@@ -93,9 +125,14 @@ int FillHoles(SurfaceMesh& surface, const HoleLimits& limits) {
     if (!flat && !IsSmall(corners, limits.max_size_m)) continue;
     std::vector<SurfaceMesh::Face_index> faces;
     pmp::triangulate_hole(surface, border, std::back_inserter(faces));
-    filled += !faces.empty();
+    if (!IsFar(surface, faces, tree, limits.max_cap_distance_m)) {
+      counts.holes_filled += !faces.empty();
+      continue;
+    }
+    ++counts.far_caps;
+    for (const SurfaceMesh::Face_index face : faces)
+      CGAL::Euler::remove_face(surface.halfedge(face), surface);
   }
-  return filled;
 }
 
 }  // namespace
@@ -113,7 +150,7 @@ ClosedSoup CloseSoup(const TriangleMesh& soup, const HoleLimits& holes) {
   pmp::polygon_soup_to_polygon_mesh(points, polygons, surface);
   pmp::stitch_borders(surface);
   closed.split_vertices += static_cast<int>(pmp::duplicate_non_manifold_vertices(surface));
-  closed.holes_filled = FillHoles(surface, holes);
+  FillHoles(surface, holes, TriangleTree(soup), closed);
   surface.collect_garbage();
   closed.mesh = TrianglesOf(surface);
   return closed;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesh_pieces.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -154,6 +155,38 @@ TriangleMesh Joined(const std::vector<TriangleMesh>& pieces) {
       joined.triangles.push_back(t + Eigen::Vector3i::Constant(offset));
   }
   return joined;
+}
+
+TriangleMesh InVertexOrder(const TriangleMesh& mesh) {
+  std::vector<int> order(mesh.vertices.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto at = [&](int i) -> const Eigen::Vector3d& {
+    return mesh.vertices[static_cast<std::size_t>(i)];
+  };
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    return std::lexicographical_compare(at(a).begin(), at(a).end(), at(b).begin(), at(b).end());
+  });
+  TriangleMesh renumbered;
+  std::vector<int> new_index(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    new_index[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
+    renumbered.vertices.push_back(at(order[i]));
+  }
+  for (const Eigen::Vector3i& t : mesh.triangles)
+    renumbered.triangles.emplace_back(
+        t.unaryExpr([&](int i) { return new_index[static_cast<std::size_t>(i)]; }));
+  return renumbered;
+}
+
+TriangleMesh InCanonicalOrder(const TriangleMesh& mesh) {
+  TriangleMesh ordered = InVertexOrder(mesh);
+  for (Eigen::Vector3i& t : ordered.triangles)
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  std::sort(ordered.triangles.begin(), ordered.triangles.end(),
+            [](const Eigen::Vector3i& a, const Eigen::Vector3i& b) {
+              return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+            });
+  return ordered;
 }
 
 TriangleMesh TurnedInsideOut(TriangleMesh mesh) {

@@ -19,6 +19,13 @@ std::vector<TriangleMesh> PiecesOf(const TriangleMesh& mesh);
 /// All in one, in order, without welding.
 TriangleMesh Joined(const std::vector<TriangleMesh>& pieces);
 
+/// Vertices in lexicographic order.
+TriangleMesh InVertexOrder(const TriangleMesh& mesh);
+
+/// The same, and triangles in the order of their corners, from the smallest: one order for one
+/// surface, however it was numbered.
+TriangleMesh InCanonicalOrder(const TriangleMesh& mesh);
+
 TriangleMesh TurnedInsideOut(TriangleMesh mesh);
 
 }  // namespace doorforge

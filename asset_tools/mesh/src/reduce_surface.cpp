@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "doorforge/core/error.h"
 #include "doorforge/mesh/convex_parts.h"
 
+#include "mesh_pieces.h"
 #include "surface_mesh.h"
 #include "surface_operations.h"
 
@@ -77,26 +77,6 @@ using Edge = std::pair<int, int>;
 Point PointAt(const TriangleMesh& mesh, int index) {
   const Eigen::Vector3d& v = mesh.vertices[static_cast<std::size_t>(index)];
   return {v.x(), v.y(), v.z()};
-}
-
-// Vertices in lexicographic order.
-TriangleMesh Renumbered(const TriangleMesh& mesh) {
-  std::vector<int> order(mesh.vertices.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto at = [&](int i) { return mesh.vertices[static_cast<std::size_t>(i)]; };
-  std::sort(order.begin(), order.end(), [&](int a, int b) {
-    return std::lexicographical_compare(at(a).begin(), at(a).end(), at(b).begin(), at(b).end());
-  });
-  TriangleMesh renumbered;
-  std::vector<int> new_index(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    new_index[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
-    renumbered.vertices.push_back(at(order[i]));
-  }
-  for (const Eigen::Vector3i& t : mesh.triangles)
-    renumbered.triangles.emplace_back(
-        t.unaryExpr([&](int i) { return new_index[static_cast<std::size_t>(i)]; }));
-  return renumbered;
 }
 
 // For each triangle the first one of its facet: triangles in one plane, joined across edges.
@@ -169,7 +149,7 @@ std::vector<std::vector<int>> FacetPolygons(const TriangleMesh& hull) {
 // same points give other triangles each time. The facets themselves are unique: they are cut into
 // fans here, in lexicographic order.
 TriangleMesh CanonicalHull(const TriangleMesh& hull) {
-  const TriangleMesh sorted = Renumbered(hull);
+  const TriangleMesh sorted = InVertexOrder(hull);
   TriangleMesh canonical;
   std::vector<int> new_index(sorted.vertices.size(), -1);
   const std::vector<std::vector<int>> polygons = FacetPolygons(sorted);

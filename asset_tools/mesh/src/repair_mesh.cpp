@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <iterator>
 #include <utility>
 
 #include "doorforge/core/error.h"
@@ -22,7 +23,7 @@ constexpr double kWeldFraction = 1e-6;  // of D: what exporters round away
 constexpr double kFlatFraction = 1e-6;  // of D: thinner closed pieces have no inside to speak of
 constexpr double kFlatHoleSize = 0.35;  // of D: larger flat holes are openings that someone meant
 constexpr double kFlatHoleFraction = 1e-4;  // of D: how far a flat hole may leave its plane
-constexpr double kFlatAreaShare = 0.01;  // of all area: less than this may be lost with flat pieces
+constexpr double kFlatAreaShare = 0.01;   // of all area: flat pieces of more than this become walls
 constexpr double kFreeErrorShare = 0.25;  // of the offset: error of a wrap that costs nothing
 constexpr double kShiftFraction = 3e-5;   // of D: how far pieces move so that nothing only touches
 
@@ -44,6 +45,8 @@ void CheckConfig(const RepairConfig& config) {
           "repair.max_hole_fraction: allowed 0..1");
   require(config.max_flat_hole_share >= 0 && config.max_flat_hole_share <= 1,
           "repair.max_flat_hole_share: allowed 0..1");
+  require(config.max_cap_fraction >= 0 && config.max_cap_fraction <= 1,
+          "repair.max_cap_fraction: allowed 0..1");
   require(config.max_triangles == 0 || config.max_triangles >= 100,
           "repair.max_triangles: allowed 0 (any number) or 100 and more");
 }
@@ -126,7 +129,8 @@ class Repair {
     report_.outcome = is_closed ? RepairOutcome::kAlreadyClosed : RepairOutcome::kRepaired;
     if (!is_closed) surface_ = Closed();
     std::vector<TriangleMesh> pieces = PiecesOf(surface_);
-    if (!DropFlat(pieces) || !ThickenOpen(pieces)) return {};
+    std::vector<TriangleMesh> sheets;  // closed ones without an inside
+    if (!SortOutFlat(pieces, sheets) || !AddWalls(pieces, std::move(sheets))) return {};
     if (is_closed) {
       OrientKeepingCavities(pieces);
     } else {
@@ -138,10 +142,12 @@ class Repair {
   }
 
   TriangleMesh Closed() {
-    ClosedSoup closed = CloseSoup(soup_, {.max_size_m = config_.max_hole_fraction * diagonal_m_,
-                                          .max_flat_size_m = kFlatHoleSize * diagonal_m_,
-                                          .max_flat_area_share = config_.max_flat_hole_share,
-                                          .flatness_m = kFlatHoleFraction * diagonal_m_});
+    ClosedSoup closed =
+        CloseSoup(soup_, {.max_size_m = config_.max_hole_fraction * diagonal_m_,
+                          .max_flat_size_m = kFlatHoleSize * diagonal_m_,
+                          .max_flat_area_share = config_.max_flat_hole_share,
+                          .flatness_m = kFlatHoleFraction * diagonal_m_,
+                          .max_cap_distance_m = config_.max_cap_fraction * diagonal_m_});
     if (closed.degenerate_triangles > 0)
       Did("dropped " + Count(closed.degenerate_triangles, "degenerate triangle"));
     if (closed.duplicate_triangles > 0)
@@ -150,40 +156,51 @@ class Repair {
     if (closed.split_vertices > 0)
       Did("cut non-manifold places apart at " + Count(closed.split_vertices, "vertex copy"));
     if (closed.holes_filled > 0) Did("filled " + Count(closed.holes_filled, "hole"));
+    if (closed.far_caps > 0)
+      Did("left " + Count(closed.far_caps, "hole") + " open whose cap would lie more than " +
+          std::to_string(1000 * config_.max_cap_fraction * diagonal_m_) + " mm from the surface");
     report_.holes_filled = closed.holes_filled;
     return std::move(closed.mesh);
   }
 
-  // Removes closed pieces without thickness. False, with a reason, if they matter.
-  bool DropFlat(std::vector<TriangleMesh>& pieces) {
-    double flat_area = 0;
-    const std::size_t before = pieces.size();
-    std::erase_if(pieces, [&](const TriangleMesh& piece) {
-      const MeshTopology topology = MeasureTopology(piece);
-      const double thickness_m = 2 * std::abs(topology.volume_m3) / topology.area_m2;
-      const bool flat =
-          topology.boundary_edges == 0 && !(thickness_m > kFlatFraction * diagonal_m_);
-      if (flat) flat_area += topology.area_m2;
-      return flat;
-    });
-    const int flat = static_cast<int>(before - pieces.size());
-    if (pieces.empty() || flat_area > kFlatAreaShare * report_.before.area_m2) {
-      report_.reason =
-          Count(flat, "piece") + " of " + std::to_string(before) + " without thickness";
-      return false;
-    }
-    if (flat > 0) Did("dropped " + Count(flat, "piece") + " without thickness");
-    report_.components_dropped += flat;
-    return true;
+  // Closed without an inside, as a sheet that is drawn with both its sides, or all needle.
+  bool IsFlat(const TriangleMesh& piece) const {
+    const MeshTopology topology = MeasureTopology(piece);
+    const double thickness_m = topology.boundary_edges == 0
+                                   ? 2 * std::abs(topology.volume_m3) / topology.area_m2
+                                   : 2 * topology.area_m2 / topology.bounds.diagonal().norm();
+    return !(thickness_m > kFlatFraction * diagonal_m_);
   }
 
-  // Makes walls of the pieces that are still open. False, with a reason, where one would cross
-  // itself.
-  bool ThickenOpen(std::vector<TriangleMesh>& pieces) {
+  // Removes pieces without thickness, or moves those that matter to the pieces that become walls.
+  // False, with a reason, if none has any extent.
+  bool SortOutFlat(std::vector<TriangleMesh>& pieces, std::vector<TriangleMesh>& sheets) {
+    const auto first_flat = std::stable_partition(
+        pieces.begin(), pieces.end(), [&](const TriangleMesh& piece) { return !IsFlat(piece); });
+    std::vector<TriangleMesh> flat(std::make_move_iterator(first_flat),
+                                   std::make_move_iterator(pieces.end()));
+    pieces.erase(first_flat, pieces.end());
+    double flat_area = 0;
+    for (const TriangleMesh& piece : flat) flat_area += MeasureTopology(piece).area_m2;
+    if (pieces.empty() || flat_area > kFlatAreaShare * report_.before.area_m2) {
+      for (TriangleMesh& piece : flat) {
+        if (MeasureTopology(piece).boundary_edges == 0) sheets.push_back(std::move(piece));
+      }
+      std::erase_if(flat, [](const TriangleMesh& piece) { return piece.triangles.empty(); });
+    }
+    if (!flat.empty())
+      Did("dropped " + Count(static_cast<int>(flat.size()), "piece") + " without thickness");
+    report_.components_dropped += static_cast<int>(flat.size());
+    if (pieces.empty() && sheets.empty()) report_.reason = "no piece has an extent";
+    return !pieces.empty() || !sheets.empty();
+  }
+
+  // Makes walls of the pieces that are still open and of the sheets. False, with a reason, where
+  // one would cross itself.
+  bool AddWalls(std::vector<TriangleMesh>& pieces, std::vector<TriangleMesh> sheets) {
     const double half_m = config_.offset_fraction * diagonal_m_;
     int thickened = 0;
-    for (TriangleMesh& piece : pieces) {
-      if (MeasureTopology(piece).boundary_edges == 0) continue;
+    const auto thicken = [&](TriangleMesh& piece) {
       std::optional<TriangleMesh> wall = WallsOf(piece, half_m);
       if (!wall) {
         report_.reason = "an open piece of " +
@@ -193,6 +210,14 @@ class Repair {
       }
       piece = *std::move(wall);
       ++thickened;
+      return true;
+    };
+    for (TriangleMesh& piece : pieces) {
+      if (MeasureTopology(piece).boundary_edges > 0 && !thicken(piece)) return false;
+    }
+    for (TriangleMesh& sheet : sheets) {
+      if (!thicken(sheet)) return false;
+      pieces.push_back(std::move(sheet));
     }
     if (thickened > 0)
       Did("made walls " + std::to_string(2000 * half_m) + " mm thick of " +

@@ -92,6 +92,14 @@ std::optional<TriangleMesh> SimpleWallOf(const TriangleMesh& sheet, double half_
   return std::nullopt;
 }
 
+// Too narrow for a wall: its long sides lie in its neighbours, and a wall of it would be all
+// sliver.
+bool IsNeedle(const TriangleMesh& patch, double half_m) {
+  constexpr double kNarrow = 1e-3;  // of half the wall
+  const MeshTopology topology = MeasureTopology(patch);
+  return !(2 * topology.area_m2 > kNarrow * half_m * topology.bounds.diagonal().norm());
+}
+
 // Walls of the surface's patches, and of their patches where one makes no simple wall. False where
 // there would be too many.
 bool AddWalls(const TriangleMesh& surface, double half_m, std::vector<TriangleMesh>& walls) {
@@ -100,7 +108,7 @@ bool AddWalls(const TriangleMesh& surface, double half_m, std::vector<TriangleMe
   if (surface.triangles.size() > kMostTriangles) return false;
   for (const TriangleMesh& patch : Patches(surface)) {
     if (walls.size() >= kMostWalls) return false;
-    if (!(MeasureTopology(patch).area_m2 > 0)) continue;
+    if (IsNeedle(patch, half_m)) continue;
     std::optional<TriangleMesh> wall = SimpleWallOf(patch, half_m);
     if (wall)
       walls.push_back(*std::move(wall));

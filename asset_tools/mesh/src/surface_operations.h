@@ -18,12 +18,13 @@
 namespace doorforge {
 
 /// A hole is filled if it is small, or flat, not large, and closed by little beside the area of its
-/// piece.
+/// piece; and if its cap keeps near the soup.
 struct HoleLimits {
   double max_size_m = 0;           ///< Diagonal of the bounding box.
   double max_flat_size_m = 0;      ///< The same for a flat hole.
   double max_flat_area_share = 0;  ///< Of the piece's area.
   double flatness_m = 0;           ///< How far a flat hole's border may leave its plane.
+  double max_cap_distance_m = 0;   ///< How far a point of its cap may lie from the soup.
 };
 
 struct ClosedSoup {
@@ -32,6 +33,7 @@ struct ClosedSoup {
   int degenerate_triangles = 0;  ///< Those with a repeated corner.
   int split_vertices = 0;        ///< Copies made where the surface was not manifold.
   int holes_filled = 0;
+  int far_caps = 0;  ///< Holes that would have been filled but for their caps' distance.
 };
 
 /// Makes an oriented surface of a triangle soup: duplicate and degenerate triangles dropped,

@@ -9,6 +9,7 @@
 
 #include "doorforge/core/rng.h"
 
+#include "mesh_pieces.h"
 #include "surface_mesh.h"
 #include "surface_operations.h"
 
@@ -57,7 +58,8 @@ std::optional<TriangleMesh> United(const std::vector<TriangleMesh>& solids, doub
         const bool done = pmp::corefine_and_compute_union(
             surfaces[i], surfaces[i + 1], both, CGAL::parameters::throw_on_self_intersection(true));
         if (!done) return std::nullopt;
-        both.collect_garbage();
+        // CGAL numbers what is new by addresses
+        both = SurfaceOf(InCanonicalOrder(TrianglesOf(both)));
       }
       if (surfaces.size() % 2 == 1) halved.push_back(std::move(surfaces.back()));
       surfaces = std::move(halved);

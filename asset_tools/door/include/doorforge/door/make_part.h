@@ -15,7 +15,7 @@
 namespace doorforge {
 
 struct MakePartConfig {
-  RepairConfig repair = {};
+  RepairConfig repair = {.max_cap_fraction = 1};  ///< Hollow leaves become solid.
   /// A grid sees depths to within a third of the bound: this keeps nearly all within a centimetre.
   ConvexPartsConfig frame_convex{.max_parts = 32, .max_concavity_m = 0.009};
   ConvexPartsConfig leaf_convex{.max_parts = 32, .max_concavity_m = 0.009};

@@ -21,6 +21,9 @@ struct RepairConfig {
   double offset_fraction = 1.0 / 1200;  ///< The wrap lies this times D outside the input.
   double max_hole_fraction = 0.05;      ///< Holes up to this times D across are filled.
   double max_flat_hole_share = 0.15;  ///< So are flat holes up to this part of their piece's area.
+  /// But only where the cap stays within this times D of the surface; a piece with another hole
+  /// becomes walls. 1: caps may lie anywhere, so hollow models become solid.
+  double max_cap_fraction = 0.01;
   /// Of the output, and of a wrap never more than three times the input's and 5,000. More are kept
   /// where fewer would cross. 0: any number.
   int max_triangles = 6000;
@@ -32,6 +35,7 @@ struct RepairConfig {
     visit("offset_fraction", self.offset_fraction);
     visit("max_hole_fraction", self.max_hole_fraction);
     visit("max_flat_hole_share", self.max_flat_hole_share);
+    visit("max_cap_fraction", self.max_cap_fraction);
     visit("max_triangles", self.max_triangles);
   }
 };

@@ -32,7 +32,6 @@ from __future__ import annotations
 
 import ast
 import collections
-import collections.abc
 import dataclasses
 import functools
 import json
@@ -42,7 +41,7 @@ import pathlib
 import re
 import sys
 import tarfile
-from typing import Any, BinaryIO, Iterator, Optional, Sequence, Union
+from typing import Any, BinaryIO, Dict, Iterator, Optional, Sequence, Union
 
 import numpy as np
 
@@ -136,7 +135,7 @@ def _fold(words: np.ndarray, state: int) -> np.ndarray:
     rest = work[folded:]
     rows = np.zeros((-(-len(rest) // _ROW), _ROW), dtype=np.uint32)
     rows.ravel()[rows.size - len(rest):] = rest
-    row = rows[0]
+    row: np.ndarray = rows[0]
     for following in rows[1:]:
         halves = row.astype("<u4", copy=False).view("<u2")
         row = _LOW[halves[0::2]] ^ _HIGH[halves[1::2]] ^ following
@@ -406,7 +405,8 @@ class Episode:
     @property
     def meta(self) -> dict[str, Any]:
         try:
-            return json.loads(bytes(self.member("meta.json")))
+            meta: dict[str, Any] = json.loads(bytes(self.member("meta.json")))
+            return meta
         except ValueError as error:
             if isinstance(error, DatasetError):
                 raise
@@ -417,7 +417,7 @@ class Episode:
         return self.shard.member(self.position, name)
 
 
-class Episodes(collections.abc.Sequence):
+class Episodes(Sequence[Episode]):
     """All episodes of a stage's split in shard order, by index."""
 
     def __init__(self, shards: list[Shard]) -> None:
@@ -454,7 +454,7 @@ class Episodes(collections.abc.Sequence):
         return np.concatenate([shard.decisions for shard in self.shards] or [np.zeros(0, dtype=np.int64)])
 
 
-class Samples(collections.abc.Sequence):
+class Samples(Sequence[Dict[str, np.ndarray]]):
     """All decisions of a stage's split, by index: dicts of one row of each array."""
 
     def __init__(self, episodes: Episodes, names: Optional[Sequence[str]] = None) -> None:
@@ -550,7 +550,8 @@ def stream(file: BinaryIO, index: Optional[dict[str, Any]] = None) -> Iterator[t
     wanted: dict[str, int] = {}
     if index is not None:
         wanted = {f"{e['key']}.{m['name']}": m["crc32c"] for e in index["episodes"] for m in e["members"]}
-    key, members, seen = "", {}, 0
+    members: dict[str, bytes] = {}
+    key, seen = "", 0
     try:
         with tarfile.open(fileobj=file, mode="r|") as archive:
             for item in archive:

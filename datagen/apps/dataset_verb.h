@@ -4,7 +4,8 @@
 
 namespace doorforge {
 
-/// `doorforge dataset verify|info|merge|export|card DIR`; argv[0] is "dataset". Returns the exit code.
+/// `doorforge dataset verify|info|merge|export|card DIR`; argv[0] is "dataset". Returns the exit
+/// code.
 int RunDatasetVerb(int argc, char** argv);
 
 }  // namespace doorforge

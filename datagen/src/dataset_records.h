@@ -26,8 +26,8 @@ struct ExpectedShard {
 /// In the plan's order.
 std::vector<ExpectedShard> ExpectedShards(const DatasetProvenance& provenance);
 
-/// What is wrong with a planned shard: missing, of another config, or of another number of episodes;
-/// empty if nothing is. Throws as ReadShardIndex().
+/// What is wrong with a planned shard: missing, of another config, or of another number of
+/// episodes; empty if nothing is. Throws as ReadShardIndex().
 std::string PlanFaultOf(const std::filesystem::path& folder, const ExpectedShard& shard,
                         const std::string& config_sha256);
 

@@ -175,10 +175,39 @@ int Finish(const CollectSummary& summary, const CollectionTask& task, const Opti
   return 1;
 }
 
+double BytesBelow(const fs::path& folder) {
+  double bytes = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) bytes += static_cast<double>(entry.file_size());
+  }
+  return bytes;
+}
+
+// Refuses what certainly has no room, and warns where there may be none: episodes have about 16
+// decisions where they open, 1 to 25 in general, and clouds are nearly all of their bytes.
+void RequireSpace(const Options& options, const StageRun& run, const CollectionTask& task) {
+  constexpr double kBytesAPoint = 13;
+  constexpr double kGiB = 1 << 30;
+  const double decisions = run.config().stage == Stage::kGrasp ? 1 : 16;
+  const double whole = static_cast<double>(run.config().episodes) * decisions * kBytesAPoint *
+                       run.config().cloud.point_count / task.count;
+  const double needed = whole - BytesBelow(options.out);
+  const auto available = static_cast<double>(fs::space(options.out).available);
+  if (available > needed) return;
+  char text[200];
+  std::snprintf(text, sizeof text,
+                ": about %.1f GiB are needed, %.1f GiB are free; make room, choose another --out, "
+                "or ask for fewer --episodes",
+                needed / kGiB, available / kGiB);
+  if (available < needed / 4) throw Error(ErrorCode::kIo, options.out + text);
+  std::fprintf(stderr, "doorforge: warning: %s%s\n", options.out.c_str(), text);
+}
+
 int CollectStage(const Options& options) {
   const CollectionTask task = TaskOf(options);
   StageRun run(RequestOf(options));
   PrepareFolder(options);
+  RequireSpace(options, run, task);
   CollectRequest request = run.Request();
   request.folder = options.out;
   request.threads = options.threads;

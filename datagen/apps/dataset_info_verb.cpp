@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "doorforge/core/committed_file.h"
@@ -96,24 +94,10 @@ void WriteCharts(const EpisodeDescription& description, const std::string& path)
   WritePng(path, ContactSheet(pictures, captions, sheet));
 }
 
-// Episodes in shards may have failed, as grasps do; the indices alone do not say which.
-void CorrectSuccess(nlohmann::ordered_json& dataset, const EpisodeDescription& episodes) {
-  std::map<std::pair<std::string, std::string>, double> rates;
-  for (const StageEpisodes& stage : episodes.stages)
-    for (const auto& [split, group] : stage.by_split)
-      rates[{stage.stage, split}] =
-          static_cast<double>(group.succeeded) / static_cast<double>(group.episodes);
-  for (auto& part : dataset["parts"]) {
-    const auto rate = rates.find({part["stage"], part["split"]});
-    if (rate != rates.end()) part["success_rate"] = rate->second;
-  }
-}
-
 int Info(const Options& options) {
   nlohmann::ordered_json dataset = DescribeDataset(options.folder);
   const EpisodeDescription episodes = DescribeEpisodes(
       options.folder, options.html.empty() ? 0 : options.examples, options.threads);
-  CorrectSuccess(dataset, episodes);
   if (!options.png.empty()) WriteCharts(episodes, options.png);
   if (!options.html.empty()) CommitFile(options.html, DatasetPage(dataset, episodes));
   if (options.json) {

@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "doorforge/core/json_file.h"
+#include "doorforge/datagen/describe_episodes.h"
 #include "doorforge/schemas/dataset.h"
+#include "doorforge/schemas/episode.h"
 
 namespace doorforge {
 namespace {
@@ -54,6 +56,19 @@ FailureCounts CountFailures(const fs::path& folder, const DatasetRecord& record)
     }
   }
   return counts;
+}
+
+// Grasps are kept whether they succeed or not, and the indices alone do not say which did.
+void CountKeptFailures(const fs::path& folder, Json& parts) {
+  const auto keeps = [](const Json& part) { return part.at("stage") == NameOf(Stage::kGrasp); };
+  if (std::none_of(parts.begin(), parts.end(), keeps)) return;
+  for (const StageEpisodes& stage : DescribeEpisodes(folder, 0).stages)
+    for (Json& part : parts) {
+      const auto group = stage.by_split.find(part.at("split").get<std::string>());
+      if (part.at("stage") == stage.stage && group != stage.by_split.end())
+        part["success_rate"] = static_cast<double>(group->second.succeeded) /
+                               static_cast<double>(group->second.episodes);
+    }
 }
 
 std::string PartLine(const Json& part) {
@@ -101,6 +116,7 @@ Json DescribeDataset(const fs::path& folder) {
   }
   Json parts = Json::array();
   for (const DatasetPart& part : record.parts) parts.push_back(PartToJson(part));
+  CountKeptFailures(folder, parts);
   Json doors = Json::array();
   for (const auto& [kind, count] : kinds)
     doors.push_back({{"category", kind.first},

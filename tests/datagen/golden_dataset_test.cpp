@@ -49,6 +49,8 @@ TEST(GoldenDatasetTest, GraspsThatFailedAreReadAndCountedAsFailed) {
   const EpisodeDescription description = DescribeEpisodes(kGoldenGrasps, 0);
   EXPECT_EQ(description.stages.at(0).all.episodes, 5U);
   EXPECT_EQ(description.stages.at(0).all.succeeded, 2U);
+  EXPECT_EQ(DescribeDataset(kGoldenGrasps).at("parts").at(0).at("success_rate").get<double>(),
+            2.0 / static_cast<double>(description.stages.at(0).all.episodes));
 }
 
 TEST(GoldenDatasetTest, IsReadByThisVersion) {

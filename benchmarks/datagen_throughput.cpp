@@ -208,9 +208,9 @@ std::string PlotOf(const std::vector<Run>& runs) {
     return kTop + kSize - kSize * (std::log10(seconds) - 0) / 4;
   };
   std::ostringstream svg;
-  svg << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"640\" height=\"500\" "
+  svg << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"700\" height=\"500\" "
          "font-family=\"sans-serif\" font-size=\"12\">\n"
-         "<rect width=\"640\" height=\"500\" fill=\"white\"/>\n";
+         "<rect width=\"700\" height=\"500\" fill=\"white\"/>\n";
   for (int decade = 0; decade <= 4; ++decade) {
     const double at_x = kLeft + kSize * decade / 4;
     const double at_y = kTop + kSize - kSize * decade / 4;

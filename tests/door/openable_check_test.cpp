@@ -64,7 +64,7 @@ std::vector<Mutation> AllMutations() {
              BoxOf({0.04, -0.12, -0.05}, {0.052, 0.01, 0.05});
        },
        ""},
-      {"OPN006", [](DoorAsset& d) { d.latch.handle_spring_nm_per_rad = 1e6; }, "diverged"},
+      {"OPN006", [](DoorAsset& d) { d.latch.handle_spring_nm_per_rad = 1e9; }, "diverged"},
       {"OPN007", [](DoorAsset& d) { d.latch.relatch = d.latch.unlocks_ajar = true; }, "choose"},
   };
 }

@@ -3,7 +3,10 @@
 #include "doorforge/sensor/depth_camera.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 
@@ -80,12 +83,42 @@ SeenPlane Look(const TrianglePlane& plane, const MeshView& view) {
   return seen;
 }
 
-// Ray parameter at the plane. `traced` is Embree's own; it stands where the ray runs almost within
+// The planes that a packet's rays hit, lane by lane, so that the compiler can take several at once.
+struct PlaneLanes {
+  alignas(64) std::array<double, kRays> x{};  // normals in the world
+  alignas(64) std::array<double, kRays> y{};
+  alignas(64) std::array<double, kRays> z{};
+  alignas(64) std::array<double, kRays> height{};
+
+  void Set(std::size_t lane, const SeenPlane& plane) {
+    x[lane] = plane.normal_in_world.x();
+    y[lane] = plane.normal_in_world.y();
+    z[lane] = plane.normal_in_world.z();
+    height[lane] = plane.height;
+  }
+};
+
+// Ray parameters at the planes. Embree's own (`ray.tfar`) stands where the ray runs almost within
 // the plane, or the triangle has no area.
-float DepthAt(const SeenPlane& plane, const Eigen::Vector3d& direction, float traced) {
-  const double depth = plane.height / plane.normal_in_world.dot(direction);
-  const bool plausible = std::fabs(depth - traced) <= 1e-4 * traced;
-  return plausible ? static_cast<float>(depth) : traced;
+std::array<float, kRays> DepthsAt(const PlaneLanes& planes, const RTCRay16& ray) {
+  std::array<float, kRays> depths;
+  for (std::size_t lane = 0; lane < kRays; ++lane) {
+    const double slope = planes.x[lane] * static_cast<double>(ray.dir_x[lane]) +
+                         (planes.y[lane] * static_cast<double>(ray.dir_y[lane]) +
+                          planes.z[lane] * static_cast<double>(ray.dir_z[lane]));
+    const double depth = planes.height[lane] / slope;
+    const double traced = ray.tfar[lane];
+    const bool plausible = std::fabs(depth - traced) <= 1e-4 * traced;
+    depths[lane] = static_cast<float>(plausible ? depth : traced);
+  }
+  return depths;
+}
+
+std::uint32_t LanesThatHit(const RTCHit16& hit) {
+  std::uint32_t lanes = 0;
+  for (std::uint32_t lane = 0; lane < kRays; ++lane)
+    lanes |= static_cast<std::uint32_t>(hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID) << lane;
+  return lanes;
 }
 
 class TileRenderer {
@@ -115,34 +148,48 @@ class TileRenderer {
     std::fill_n(packet_.hit.geomID, kRays, RTC_INVALID_GEOMETRY_ID);
     std::fill_n(packet_.hit.instID[0], kRays, RTC_INVALID_GEOMETRY_ID);
     rtcIntersect16(tile.valid, scene_.top(), &context_, &packet_);
-    for (int lane = 0; lane < kRays; ++lane) {
-      if (packet_.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) continue;
-      const int pixel = (top + lane / kTile) * image_.width + left + lane % kTile;
-      Store(lane, static_cast<std::size_t>(pixel));
-    }
+    const std::uint32_t lanes = LanesThatHit(packet_.hit);
+    if (lanes != 0) Store(lanes, top * image_.width + left);
   }
 
  private:
-  void Store(int lane, std::size_t pixel) {
-    const unsigned mesh = packet_.hit.instID[0][lane];
-    const unsigned triangle = packet_.hit.primID[lane];
-    const MeshView& view = views_[mesh];
-    if (mesh != plane_.mesh || triangle != plane_.triangle) {  // neighbours often hit the same one
-      plane_ = Look(scene_.PlaneOf(mesh, triangle), view);
-      plane_.mesh = mesh;
-      plane_.triangle = triangle;
+  void Store(std::uint32_t lanes, int corner) {
+    // All planes are asked for before the first is used: waiting for them one by one would be most
+    // of what a render costs beyond Embree.
+    for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+      __builtin_prefetch(&scene_.PlaneOf(packet_.hit.instID[0][lane], packet_.hit.primID[lane]));
     }
-    const Eigen::Vector3d direction(packet_.ray.dir_x[lane], packet_.ray.dir_y[lane],
-                                    packet_.ray.dir_z[lane]);
-    image_.depth_m[pixel] = DepthAt(plane_, direction, packet_.ray.tfar[lane]);
-    image_.link[pixel] = view.link;
-    image_.label[pixel] = view.label;
+    for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+      LookAt(packet_.hit.instID[0][lane], packet_.hit.primID[lane]);
+      planes_.Set(lane, plane_);
+    }
+    const std::array<float, kRays> depths = DepthsAt(planes_, packet_.ray);
+    for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
+      const int lane = std::countr_zero(left);
+      const auto pixel =
+          static_cast<std::size_t>(corner + lane / kTile * image_.width + lane % kTile);
+      const MeshView& view = views_[packet_.hit.instID[0][lane]];
+      image_.depth_m[pixel] = depths[static_cast<std::size_t>(lane)];
+      image_.link[pixel] = view.link;
+      image_.label[pixel] = view.label;
+    }
+  }
+
+  void LookAt(unsigned mesh, unsigned triangle) {
+    if (mesh == plane_.mesh && triangle == plane_.triangle)
+      return;  // neighbours often hit the same
+    plane_ = Look(scene_.PlaneOf(mesh, triangle), views_[mesh]);
+    plane_.mesh = mesh;
+    plane_.triangle = triangle;
   }
 
   const SceneGeometry::Runtime& scene_;
   std::vector<MeshView> views_;
   DepthImage& image_;
-  SeenPlane plane_{};
+  SeenPlane plane_{};  // the last one looked at
+  PlaneLanes planes_{};
   RTCIntersectContext context_{};
   RTCRayHit16 packet_{};
 };

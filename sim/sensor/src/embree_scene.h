@@ -13,7 +13,7 @@ namespace doorforge {
 
 /// Plane of a triangle in its mesh's frame: normal * p = offset. The normal has unit length; it is
 /// zero for a triangle without area.
-struct TrianglePlane {
+struct alignas(32) TrianglePlane {  // never across two cache lines
   Eigen::Vector3d normal;
   double offset;
 };

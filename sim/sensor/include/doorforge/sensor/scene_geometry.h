@@ -27,14 +27,14 @@ struct VisibleMesh {
 /// Vector instructions with which rays are traced.
 enum class RayIsa { kSse42, kAvx2, kAvx512 };
 
-/// AVX2 where the processor has it, otherwise SSE 4.2. Not the widest: rays that graze an edge may
-/// hit the other triangle at another level, and data sets should not depend on the machine. Record
-/// it (NameOf) beside what was rendered.
+/// The widest that the processor has. AVX2 and AVX-512 give the same images (docs/design/sensor.md
+/// has the count of rays); with SSE 4.2 a ray that grazes an edge may hit the other triangle.
 RayIsa DefaultRayIsa();
 bool IsSupported(RayIsa isa);
 std::string_view NameOf(RayIsa isa);  ///< "sse4.2", "avx2", "avx512".
 
-/// Library, version and default instruction set, such as "Embree 3.13.5, avx2". For provenance.
+/// Library, version and class of instruction sets that give the same images, such as
+/// "Embree 3.13.5, avx2 or wider". For provenance.
 std::string RayCasterVersion();
 
 /// Meshes prepared for ray casting: one search tree a mesh, built once; one instance a mesh, moved

@@ -71,6 +71,29 @@ void DrawCaption(cv::Mat& sheet, const std::string& caption, const cv::Rect& box
               cv::LINE_AA);
 }
 
+constexpr std::uint32_t kMostPixels = 8192;  // a side
+
+struct PngHeader {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  int bits = 0;
+  int color_type = 0;  // 0: grey
+};
+
+// read here, so that a small file that claims to be huge is refused before memory is asked for
+PngHeader HeaderOf(std::string_view bytes, const std::string& name) {
+  constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
+  if (!bytes.starts_with(kSignature) || bytes.size() < 26)
+    throw Error(ErrorCode::kFormat, name + ": is no PNG");
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
+  const auto number = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < 4; ++i) value = value << 8U | byte(at + i);
+    return value;
+  };
+  return {number(16), number(20), byte(24), byte(25)};
+}
+
 }  // namespace
 
 cv::Mat ToMat(const Picture& picture) {
@@ -106,6 +129,37 @@ std::string EncodeDepthPng(const DepthImage& image) {
       pixels[i] = static_cast<std::uint16_t>(rounded);
   }
   return Encode(millimetres);
+}
+
+DepthImage DecodeDepthPng(std::string_view bytes, double metres_per_unit, const std::string& name) {
+  const PngHeader header = HeaderOf(bytes, name);
+  const bool allowed = header.width >= 1 && header.height >= 1 && header.width <= kMostPixels &&
+                       header.height <= kMostPixels && header.bits == 16 && header.color_type == 0;
+  if (!allowed)
+    throw Error(ErrorCode::kFormat,
+                name + ": a PNG of " + std::to_string(header.width) + " x " +
+                    std::to_string(header.height) + " pixels, " + std::to_string(header.bits) +
+                    " bits" + (header.color_type == 0 ? "" : ", not grey") +
+                    "; expected a depth picture: 16-bit grey, 1 to 8192 pixels a side");
+  const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8UC1,
+                        const_cast<char*>(bytes.data()));  // only read from
+  cv::Mat units;
+  try {
+    units = cv::imdecode(encoded, cv::IMREAD_UNCHANGED);
+  } catch (const cv::Exception&) {  // reported below
+  }
+  if (units.type() != CV_16UC1 || units.cols != static_cast<int>(header.width) ||
+      units.rows != static_cast<int>(header.height))
+    throw Error(ErrorCode::kFormat, name + ": the PNG is damaged");
+  DepthImage image{units.cols, units.rows, {}, {}, {}};
+  image.depth_m.assign(units.total(), std::numeric_limits<float>::infinity());
+  image.link.assign(units.total(), -1);
+  image.label.assign(units.total(), static_cast<std::uint8_t>(PointLabel::kOther));
+  const auto* pixels = units.ptr<std::uint16_t>();
+  for (std::size_t i = 0; i < image.depth_m.size(); ++i) {
+    if (pixels[i] != 0) image.depth_m[i] = static_cast<float>(pixels[i] * metres_per_unit);
+  }
+  return image;
 }
 
 void WritePng(const std::filesystem::path& path, const Picture& picture) {

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "doorforge/schemas/camera_model.h"
+#include "doorforge/sensor/pinhole_view.h"
 
 namespace doorforge {
 
@@ -12,23 +12,21 @@ namespace doorforge {
 /// ray's parameter is the depth of the point it reaches.
 class PixelRays {
  public:
-  explicit PixelRays(const CameraModel& camera)
-      : world_from_camera_(WorldFromCamera(camera)), intrinsics_(IntrinsicMatrix(camera)) {}
+  explicit PixelRays(const PinholeView& view) : view_(view) {}
+  explicit PixelRays(const CameraModel& camera) : PixelRays(ViewOf(camera)) {}
 
-  Eigen::Vector3d origin() const { return world_from_camera_.translation(); }
-  Eigen::Vector3d forward() const { return world_from_camera_.linear().col(2); }
+  Eigen::Vector3d origin() const { return view_.world_from_camera.translation(); }
+  Eigen::Vector3d forward() const { return view_.world_from_camera.linear().col(2); }
 
   /// Direction through (u, v) [pixels]; (0.5, 0.5) is the centre of the first pixel. Rounded to
   /// float, which is what the ray caster is given.
   Eigen::Vector3f Direction(double u, double v) const {
-    const Eigen::Vector3d in_camera((u - intrinsics_(0, 2)) / intrinsics_(0, 0),
-                                    (v - intrinsics_(1, 2)) / intrinsics_(1, 1), 1);
-    return (world_from_camera_.linear() * in_camera).cast<float>();
+    const Eigen::Vector3d in_camera((u - view_.cx) / view_.fx, (v - view_.cy) / view_.fy, 1);
+    return (view_.world_from_camera.linear() * in_camera).cast<float>();
   }
 
  private:
-  RigidTransform world_from_camera_;
-  Eigen::Matrix3d intrinsics_;
+  PinholeView view_;
 };
 
 }  // namespace doorforge

@@ -34,11 +34,22 @@ void AppendPoint(const LabelledCloud& from, std::size_t index, LabelledCloud& to
 
 }  // namespace
 
+PinholeView ViewOf(const CameraModel& camera) {
+  const Eigen::Matrix3d intrinsics = IntrinsicMatrix(camera);
+  return {camera.width,     camera.height,    intrinsics(0, 0),       intrinsics(1, 1),
+          intrinsics(0, 2), intrinsics(1, 2), WorldFromCamera(camera)};
+}
+
 LabelledCloud CropCloud(const DepthImage& image, const CameraModel& camera,
                         const CloudConfig& config) {
-  Require(image.width == camera.width && image.height == camera.height, ErrorCode::kInvalidArgument,
+  return CropCloud(image, ViewOf(camera), config);
+}
+
+LabelledCloud CropCloud(const DepthImage& image, const PinholeView& view,
+                        const CloudConfig& config) {
+  Require(image.width == view.width && image.height == view.height, ErrorCode::kInvalidArgument,
           "point cloud: image and camera differ in size");
-  const PixelRays rays(camera);
+  const PixelRays rays(view);
   LabelledCloud cloud;
   for (int row = 0; row < image.height; ++row) {
     for (int column = 0; column < image.width; ++column) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "doorforge/sensor/depth_camera.h"
@@ -26,6 +27,14 @@ std::string EncodePng(const Picture& picture);
 /// 16-bit grey PNG of the depth in millimetres, rounded; 0 where nothing is seen or beyond 65.535
 /// m.
 std::string EncodeDepthPng(const DepthImage& image);
+
+/// The depth image of a 16-bit grey PNG, as EncodeDepthPng() or a sensor's driver writes them: 0 is
+/// no depth, and becomes infinity; every link is -1, every label kOther.
+///
+/// @param metres_per_unit 0.001 for millimetres.
+/// @param name Of the picture, for messages.
+/// @throws Error(kFormat) unless it is such a PNG of at most 8192 pixels a side.
+DepthImage DecodeDepthPng(std::string_view bytes, double metres_per_unit, const std::string& name);
 
 /// EncodePng() or EncodeDepthPng() committed to a file (see core/committed_file.h).
 void WritePng(const std::filesystem::path& path, const Picture& picture);

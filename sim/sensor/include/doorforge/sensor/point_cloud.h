@@ -8,6 +8,7 @@
 #include "doorforge/schemas/cloud.h"
 #include "doorforge/sensor/depth_camera.h"
 #include "doorforge/sensor/depth_noise.h"
+#include "doorforge/sensor/pinhole_view.h"
 
 namespace doorforge {
 
@@ -34,6 +35,8 @@ struct CloudConfig {
 /// @param image Rendered with this very `camera`, or with the one that it is believed to be.
 /// @throws Error(kInvalidArgument) if the sizes of image and camera differ.
 LabelledCloud CropCloud(const DepthImage& image, const CameraModel& camera,
+                        const CloudConfig& config = {});
+LabelledCloud CropCloud(const DepthImage& image, const PinholeView& view,
                         const CloudConfig& config = {});
 
 struct SampledCloud {

@@ -1,0 +1,350 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/evaluate/robot_sight.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
+#include "doorforge/learn/checkpoint.h"
+#include "doorforge/learn/stage_policy.h"
+#include "doorforge/physics/scene_sampling.h"
+#include "doorforge/rollout/camera_observer.h"
+#include "doorforge/rollout/run_episode.h"
+#include "doorforge/sensor/picture.h"
+
+#include "../physics/primitive_door.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr int kActions = 5;
+constexpr int kCandidates = 4;
+
+// networks as they are before training, whose actions have the size of a trained policy's
+StageNetworks UntrainedNetworks() {
+  StageNormalisation normalisation;
+  normalisation.cloud_centre_m = {0.16F, 0, 0.83F};
+  normalisation.state.deviation.fill(0.3F);
+  normalisation.action.deviation.fill(0.3F);
+  for (std::size_t i = 0; i < 3; ++i) normalisation.action.deviation.at(i) = 0.02F;
+  normalisation.action.mean = {0.02F, 0, 0, 0, 0, -1, 0, 1, 0};
+  normalisation.hand_m.deviation.fill(0.2F);
+  normalisation.base_m.deviation.fill(0.2F);
+  normalisation.score_rad.deviation.fill(0.1F);
+  return InitialNetworks(normalisation, false, 3);
+}
+
+void WriteUntrained(const fs::path& folder, const std::string& stage) {
+  PolicyProvenance provenance;
+  provenance.stage = stage;
+  provenance.dataset_sha256 = std::string(64, 'a');
+  WritePolicy(folder, UntrainedNetworks(), provenance);
+}
+
+// The camera of an episode, which keeps every picture that it made.
+class Photographer : public Observer {
+ public:
+  Photographer(const Scene& scene, const DoorAsset& door, const RobotModel& robot)
+      : camera_(scene, door, robot) {}
+  LabelledCloud Observe(const SceneSnapshot& snapshot) override {
+    Sight sight = camera_.Look(snapshot);
+    pictures.push_back(std::move(sight.depth));
+    hands.push_back(snapshot.robot.world_from_hand);
+    return sight.sampled.cloud;
+  }
+
+  std::vector<DepthImage> pictures;
+  std::vector<RigidTransform> hands;
+
+ private:
+  CameraObserver camera_;
+};
+
+struct Answer {
+  int code = 0;
+  std::string text;
+};
+
+Answer RunAct(const std::string& arguments, const std::string& errors = "2>&1") {
+  const std::string command =
+      std::string(DOORFORGE_BINARY_DIR "/bin/doorforge-act act ") + arguments + " " + errors;
+  Answer answer;
+  FILE* pipe = ::popen(command.c_str(), "r");
+  std::array<char, 4096> buffer{};
+  while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), pipe))
+    answer.text.append(buffer.data(), count);
+  answer.code = WEXITSTATUS(::pclose(pipe));
+  return answer;
+}
+
+Json CameraFile(const CameraModel& camera, double pixel_centre) {
+  const Eigen::Matrix3d k = IntrinsicMatrix(camera);
+  return {{"width", camera.width},
+          {"height", camera.height},
+          {"fx", k(0, 0)},
+          {"fy", k(1, 1)},
+          {"cx", k(0, 2) - 0.5 + pixel_centre},
+          {"cy", k(1, 2) - 0.5 + pixel_centre},
+          {"pixel_centre", pixel_centre},
+          {"world_from_camera", TransformToJson(WorldFromCamera(camera))}};
+}
+
+Json StateFile(const Decision& decision, const Scene& scene) {
+  Json state;
+  for (std::size_t i = 0; i < 11; ++i) {
+    state["joint_positions"].push_back(decision.state.at(i));
+    state["joint_velocities"].push_back(decision.proprioception.at(11 + i));
+  }
+  state["world_from_base"] = TransformToJson(scene.world_from_robot_base);
+  return state;
+}
+
+/// One simulated episode in which an untrained policy opens, and its files as a robot has them.
+class RobotSightTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = fs::temp_directory_path() / ("robot_sight_test_" + std::to_string(::getpid()));
+    WriteUntrained(folder_ / "opener", "open");
+    WriteUntrained(folder_ / "handler", "handle");
+    const DoorAsset door = MakePrimitiveDoor({});
+    SceneConfig config;
+    config.physics.max_opening_actions = kActions;
+    scene_ = SampleScene(door, 7, 0, config);
+    Photographer photographer(scene_, door, robot_);
+    PolicyOptions options;
+    options.candidates = kCandidates;
+    const auto policy = MakePolicy(UntrainedNetworks(), options);
+    episode_ = RunEpisode(scene_, door, robot_, *policy, &photographer);
+    pictures_ = std::move(photographer.pictures);
+    hands_ = std::move(photographer.hands);
+    for (std::size_t i = 0; i < pictures_.size(); ++i) {
+      WriteDepthPng(Depth(i), pictures_[i]);
+      WriteJsonFile(State(i), StateFile(episode_.decisions[i], scene_));
+    }
+    WriteJsonFile(folder_ / "camera.yaml", CameraFile(scene_.camera, 0));
+    WriteJsonFile(folder_ / "camera_corner.yaml", CameraFile(scene_.camera, 0.5));
+  }
+  static void TearDownTestSuite() { fs::remove_all(folder_); }
+
+  static fs::path Depth(std::size_t i) { return folder_ / ("d" + std::to_string(i) + ".png"); }
+  static fs::path State(std::size_t i) { return folder_ / ("s" + std::to_string(i) + ".yaml"); }
+
+  // the simulator's picture in whole millimetres, and what its camera makes of it
+  static DepthImage Rounded(std::size_t i) {
+    DepthImage rounded = pictures_[i];
+    for (float& depth : rounded.depth_m)
+      if (std::isfinite(depth)) depth = static_cast<float>(std::round(depth * 1000.0) * 0.001);
+    return rounded;
+  }
+  static LabelledCloud Sampled(const DepthImage& depth, std::size_t i) {
+    const RigidTransform tcp = hands_[i] * robot_.hand_from_tcp();
+    return ObserveCloud(depth, scene_.camera, tcp.translation()).cloud;
+  }
+
+  static std::string With(const std::string& camera, const std::string& more) {
+    return "--camera " + (folder_ / camera).string() + " --policy " +
+           (folder_ / "opener").string() + " " + more;
+  }
+
+  static std::string Line(const fs::path& depth, const fs::path& state) {
+    return Json{{"depth", depth.string()}, {"state", state.string()}}.dump() + "\n";
+  }
+
+  // one process, one answer a line
+  static std::vector<Json> Stream(const std::string& arguments, const std::string& lines,
+                                  int code = 0) {
+    CommitFile(folder_ / "lines", lines);
+    const Answer answer =
+        RunAct(arguments + " --stream < " + (folder_ / "lines").string(), "2>/dev/null");
+    EXPECT_EQ(answer.code, code) << answer.text;
+    std::istringstream rows(answer.text);
+    std::vector<Json> answers;
+    for (std::string row; std::getline(rows, row);) answers.push_back(Json::parse(row));
+    return answers;
+  }
+
+  static fs::path WriteState(const std::string& name, const Json& change) {
+    Json state = ReadJsonFile(State(0));
+    for (const auto& [key, value] : change.items()) {
+      if (value.is_null())
+        state.erase(key);
+      else
+        state[key] = value;
+    }
+    WriteJsonFile(folder_ / name, state);
+    return folder_ / name;
+  }
+
+  static fs::path folder_;
+  static Scene scene_;
+  static Episode episode_;
+  static std::vector<DepthImage> pictures_;
+  static std::vector<RigidTransform> hands_;
+  static const RobotModel robot_;
+};
+fs::path RobotSightTest::folder_;
+Scene RobotSightTest::scene_;
+Episode RobotSightTest::episode_;
+std::vector<DepthImage> RobotSightTest::pictures_;
+std::vector<RigidTransform> RobotSightTest::hands_;
+const RobotModel RobotSightTest::robot_ = LoadMobileFranka();
+
+TEST_F(RobotSightTest, APictureAndAStateGiveWhatThePolicySawInTheSimulator) {
+  ASSERT_GE(pictures_.size(), 3U);
+  for (const char* file : {"camera.yaml", "camera_corner.yaml"}) {
+    const CalibratedCamera camera = ReadCalibratedCamera(folder_ / file);
+    for (std::size_t i = 0; i < pictures_.size(); ++i) {
+      const RobotState state = ReadRobotState(State(i), robot_);
+      EXPECT_LT((state.world_from_hand.matrix() - hands_[i].matrix()).norm(), 1e-9);
+      for (std::size_t k = 0; k < 32; ++k)
+        EXPECT_NEAR(state.proprioception.at(k), episode_.decisions[i].proprioception.at(k), 1e-6);
+      const DepthImage depth = DecodeDepthPng(ReadFile(Depth(i)), 0.001, "depth");
+      const DepthImage rounded = Rounded(i);
+      const std::vector<float> found = CropCloud(depth, camera.view).xyz;
+      const std::vector<float> expected = CropCloud(rounded, scene_.camera).xyz;
+      ASSERT_EQ(found.size(), expected.size());
+      for (std::size_t k = 0; k < found.size(); ++k) ASSERT_NEAR(found[k], expected[k], 2e-6);
+      // a pose in decimals is off by its last bit, which decides between points equally far
+      const RobotSight sight = ObserveDepth(depth, {ViewOf(scene_.camera)}, state);
+      EXPECT_EQ(sight.observation.cloud.xyz, Sampled(rounded, i).xyz);
+      EXPECT_EQ(static_cast<std::size_t>(sight.visible_count), expected.size() / 3);
+    }
+  }
+}
+
+// candidates are drawn decision by decision, so the whole episode is given to one process
+TEST_F(RobotSightTest, TheProgramDecidesAsThePolicyDidInTheSimulator) {
+  std::string lines;
+  for (std::size_t i = 0; i < pictures_.size(); ++i) lines += Line(Depth(i), State(i));
+  const std::vector<Json> decisions = Stream(
+      With("camera.yaml", "--stage open --candidates " + std::to_string(kCandidates)), lines);
+  ASSERT_EQ(decisions.size(), pictures_.size());
+  PolicyOptions options;
+  options.candidates = kCandidates;
+  const auto policy = MakePolicy(UntrainedNetworks(), options);
+  for (std::size_t i = 0; i < pictures_.size(); ++i) {
+    const Json& decision = decisions[i];
+    const Eigen::Vector3d delta = Vector3FromJson(decision["position_delta_m"], "delta");
+    const RigidTransform target = TransformFromJson(decision["world_from_hand"], "hand");
+    // the same numbers where the simulator's picture is rounded to millimetres, too
+    Observation rounded;
+    rounded.cloud = Sampled(Rounded(i), i);
+    rounded.proprioception = episode_.decisions[i].proprioception;
+    const Action same = policy->Act(rounded);
+    EXPECT_LT((delta - same.position_delta_m).norm(), 1e-5) << i;
+    EXPECT_LT((target.linear() - same.world_from_hand_rotation).norm(), 1e-4) << i;
+    EXPECT_LT((target.translation() - hands_[i].translation() - delta).norm(), 1e-6) << i;
+    // and what the rounding is worth: 2 mm and 2 degrees, docs/act.md
+    const Action simulated = FromVector(episode_.decisions[i].action);
+    EXPECT_LT((delta - simulated.position_delta_m).norm(), 0.002) << i;
+    EXPECT_LT(
+        RotationVector(target.linear().transpose() * simulated.world_from_hand_rotation).norm(),
+        2 * 3.14159265 / 180)
+        << i;
+  }
+}
+
+TEST_F(RobotSightTest, TheStateSaysWhoActsAndWhatIsUnlockedStaysSo) {
+  const fs::path locked = WriteState("locked.yaml", {{"unlocked", false}});
+  const fs::path unlocked = WriteState("unlocked.yaml", {{"unlocked", true}});
+  const std::vector<Json> answers =
+      Stream(With("camera_corner.yaml", "--handler " + (folder_ / "handler").string()),
+             Line(Depth(0), State(0)) + Line(Depth(0), locked) + Line(Depth(0), unlocked) +
+                 Line(Depth(0), locked) + "not json\n",
+             1);
+  std::vector<std::string> stages;
+  for (const Json& answer : answers) stages.push_back(answer.value("stage", "error"));
+  EXPECT_EQ(stages, (std::vector<std::string>{"error", "handle", "open", "open", "error"}));
+  EXPECT_NE(answers.at(0)["error"].get<std::string>().find("unlocked"), std::string::npos);
+}
+
+TEST_F(RobotSightTest, APictureOrAStateThatCannotBeUsedIsNamedAndTheLoopGoesOn) {
+  std::vector<std::string> words;
+  std::string lines;
+  const auto add = [&](const fs::path& depth, const fs::path& state, const std::string& word) {
+    lines += Line(depth, state);
+    words.push_back(word);
+  };
+  const auto add_state = [&](const Json& change, const std::string& word) {
+    add(Depth(0), WriteState("state" + std::to_string(words.size()) + ".yaml", change), word);
+  };
+  add_state({{"joint_positions", nullptr}}, "joint_positions");
+  add_state({{"joint_position", 1}}, "did you mean");
+  add_state({{"joint_velocities", Json::array({1, 2})}}, "expected 11 numbers");
+  Json degrees = ReadJsonFile(State(0))["joint_positions"];
+  for (Json& angle : degrees) angle = angle.get<double>() * 57.3;
+  add_state({{"joint_positions", degrees}}, "radians");
+  add_state({{"world_from_base", {{"position_m", {0, 0, 0}}}}}, "quaternion_xyzw");
+  add_state({{"world_from_hand", TransformToJson(RigidTransform::Identity())}}, "panda_hand");
+  add_state({{"unlocked", "yes"}}, "true or false");
+  add_state({{"unlocked", false}}, "--handler");
+  CommitFile(folder_ / "nan.yaml", "joint_positions: [.nan, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\n");
+  add(Depth(0), folder_ / "nan.yaml", "nan");
+  DepthImage empty = pictures_[0];
+  empty.depth_m.assign(empty.depth_m.size(), std::numeric_limits<float>::infinity());
+  WriteDepthPng(folder_ / "empty.png", empty);
+  const fs::path good = WriteState("good.yaml", {{"unlocked", true}});
+  add(folder_ / "empty.png", good, "gives 0 points");
+  for (std::size_t i = 0; i < 4095; ++i) empty.depth_m[i] = 1;
+  WriteDepthPng(folder_ / "few.png", empty);
+  add(folder_ / "few.png", good, "4095 of 65536 pixels");
+  WritePng(folder_ / "colour.png", DepthPreview(pictures_[0]));
+  add(folder_ / "colour.png", good, "16-bit grey");
+  CommitFile(folder_ / "cut.png", ReadFile(Depth(0)).substr(0, 2000));
+  add(folder_ / "cut.png", good, "damaged");
+  CommitFile(folder_ / "text.png", "a picture");
+  add(folder_ / "text.png", good, "no PNG");
+  add(folder_ / "missing.png", good, "missing.png");
+  const std::vector<Json> answers =
+      Stream(With("camera.yaml", ""), lines + Line(Depth(0), good), 1);
+  ASSERT_EQ(answers.size(), words.size() + 1);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string error = answers[i].value("error", "none");
+    EXPECT_NE(error.find(words[i]), std::string::npos) << words[i] << " not in: " << error;
+  }
+  EXPECT_EQ(answers.back().value("stage", ""), "open");
+}
+
+TEST_F(RobotSightTest, ACameraFileWithAMissingKeyAndAPolicyOfAnotherStageAreRefused) {
+  Json camera = CameraFile(scene_.camera, 0);
+  camera["width"] = 128;
+  WriteJsonFile(folder_ / "narrow.yaml", camera);
+  camera.erase("fx");
+  WriteJsonFile(folder_ / "no_fx.yaml", camera);
+  const auto refusal = [&](const std::string& file) -> std::string {
+    try {
+      ObserveDepth(pictures_[0], ReadCalibratedCamera(folder_ / file),
+                   ReadRobotState(State(0), robot_));
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(refusal("narrow.yaml").find("256 x 256"), std::string::npos);
+  EXPECT_NE(refusal("no_fx.yaml").find("\"fx\" is missing"), std::string::npos);
+  const Answer answer = RunAct("--camera " + (folder_ / "camera.yaml").string() + " --policy " +
+                               (folder_ / "handler").string() + " --depth " + Depth(0).string() +
+                               " --state " + State(0).string());
+  EXPECT_EQ(answer.code, 3) << answer.text;
+  EXPECT_NE(answer.text.find("handle"), std::string::npos) << answer.text;
+}
+
+}  // namespace
+}  // namespace doorforge

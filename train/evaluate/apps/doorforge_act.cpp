@@ -1,0 +1,257 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+
+// From a real depth picture and a robot's state to the hand's next pose.
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/config_file.h"
+#include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
+#include "doorforge/core/program.h"
+#include "doorforge/evaluate/robot_sight.h"
+#include "doorforge/learn/checkpoint.h"
+#include "doorforge/learn/stage_policy.h"
+#include "doorforge/physics/load_robot.h"
+#include "doorforge/schemas/episode.h"
+#include "doorforge/sensor/picture.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr int kDecisionSchemaVersion = 1;
+constexpr std::uint64_t kMostPictureBytes = 512ULL << 20U;
+
+/// What --set holds.
+struct ActConfig {
+  PolicyOptions policy;
+  CloudConfig cloud;  ///< As in the data set that the policies were trained from.
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    visit("policy", self.policy);
+    visit("cloud", self.cloud);
+  }
+};
+
+struct Options {
+  std::string depth;
+  std::string state;
+  std::string camera;
+  std::string policy;
+  std::string handler;
+  std::string stage = "auto";
+  std::string base = "sliders";
+  std::string config;
+  std::vector<std::string> settings;
+  std::optional<int> candidates;
+  bool stream = false;
+};
+
+void AddOptions(CLI::App& app, Options& options) {
+  app.add_option("--depth", options.depth, "16-bit depth picture (PNG)");
+  app.add_option("--state", options.state, "robot's state at that moment (YAML)");
+  app.add_flag("--stream", options.stream,
+               "instead of --depth and --state: a decision for every line of standard input, "
+               "{\"depth\": FILE, \"state\": FILE}");
+  app.add_option("--camera", options.camera, "intrinsics and pose of the camera (YAML)")
+      ->required();
+  app.add_option("--policy", options.policy, "folder of a policy of `doorforge train open`");
+  app.add_option("--handler", options.handler, "folder of a policy of `doorforge train handle`");
+  app.add_option("--stage", options.stage,
+                 "which of them acts: open, handle, or auto: as the state says (unlocked)")
+      ->check(CLI::IsMember({"auto", "open", "handle"}))
+      ->capture_default_str();
+  app.add_option("--base", options.base, "what the robot stands on")
+      ->check(CLI::IsMember({"sliders", "fixed"}))
+      ->capture_default_str();
+  app.add_option("--candidates", options.candidates,
+                 "actions among which the critic chooses (config: policy.candidates, 1)");
+  app.add_option("--config", options.config, "YAML file with settings")->check(CLI::ExistingFile);
+  app.add_option("--set", options.settings, "a.b=c overrides one setting, e.g. cloud.max_depth_m");
+  app.footer(
+      "Prints the hand's next pose as JSON. docs/act.md has the files of camera and state.\n\n"
+      "examples:\n"
+      "  doorforge act --depth d.png --camera camera.yaml --state state.yaml --policy run/opener "
+      "--stage open\n"
+      "  doorforge act --stream --camera camera.yaml --policy run/opener --handler run/handler");
+}
+
+Options Parse(int argc, char** argv) {
+  Options options;
+  CLI::App app("From a depth picture and the robot's state to the hand's next pose.",
+               "doorforge act");
+  AddOptions(app, options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& help) {
+    std::exit(app.exit(help));
+  } catch (const CLI::ParseError& error) {
+    throw Error(ErrorCode::kInvalidArgument,
+                std::string(error.what()) + "; see `doorforge act --help`");
+  }
+  const bool one = !options.depth.empty() && !options.state.empty();
+  const bool none = options.depth.empty() && options.state.empty();
+  if (options.stream ? !none : !one)
+    throw Error(ErrorCode::kInvalidArgument,
+                "--depth and --state, or --stream in place of both, are required; see `doorforge "
+                "act --help`");
+  if (options.policy.empty() && options.handler.empty())
+    throw Error(ErrorCode::kInvalidArgument,
+                "--policy or --handler is required; see `doorforge "
+                "act --help`");
+  return options;
+}
+
+ActConfig ConfigOf(const Options& options) {
+  auto config = LoadConfig<ActConfig>(options.config, options.settings);
+  if (options.candidates) config.policy.candidates = *options.candidates;
+  Require(config.cloud.point_count == 4096, ErrorCode::kInvalidConfig,
+          "cloud.point_count: policies read 4096 points");
+  return config;
+}
+
+/// A policy of one stage, ready to act, and the hash of its weights.
+struct Actor {
+  std::unique_ptr<Policy> policy;
+  std::string weights_sha256;
+};
+
+std::optional<Actor> LoadActor(const std::string& folder, Stage stage,
+                               const PolicyOptions& options) {
+  if (folder.empty()) return std::nullopt;
+  PolicyRecord record = ReadPolicy(folder, NameOf(stage));
+  Actor actor{MakePolicy(std::move(record.networks), options), record.weights_sha256};
+  actor.policy->Reset();
+  return actor;
+}
+
+/// Decides picture by picture, as one episode: what has been unlocked stays unlocked.
+class Decider {
+ public:
+  explicit Decider(const Options& options)
+      : stage_(options.stage),
+        config_(ConfigOf(options)),
+        robot_(LoadRobot({}, RobotBaseNamed(options.base))),
+        camera_(ReadCalibratedCamera(options.camera)),
+        opener_(LoadActor(options.policy, Stage::kOpen, config_.policy)),
+        handler_(LoadActor(options.handler, Stage::kHandle, config_.policy)) {}
+
+  Json Decide(const fs::path& depth_path, const fs::path& state_path) {
+    const RobotState state = ReadRobotState(state_path, robot_);
+    const DepthImage depth = DecodeDepthPng(ReadFile(depth_path, kMostPictureBytes),
+                                            camera_.metres_per_unit, depth_path.string());
+    const Stage stage = StageOf(state, state_path.string());
+    const RobotSight sight = ObserveDepth(depth, camera_, state, config_.cloud);
+    Actor& actor = ActorOf(stage);
+    return Record(stage, actor, state, sight, actor.policy->Act(sight.observation));
+  }
+
+ private:
+  Stage StageOf(const RobotState& state, const std::string& path) {
+    if (stage_ != "auto") return *StageNamed(stage_);
+    if (!state.unlocked && !unlocked_)
+      throw Error(ErrorCode::kInvalidConfig,
+                  path +
+                      ": the key \"unlocked\" is missing, which says whether the handle has "
+                      "been turned; or pass --stage");
+    unlocked_ = unlocked_ || *state.unlocked;
+    return unlocked_ ? Stage::kOpen : Stage::kHandle;
+  }
+
+  Actor& ActorOf(Stage stage) {
+    std::optional<Actor>& actor = stage == Stage::kOpen ? opener_ : handler_;
+    if (!actor)
+      throw Error(ErrorCode::kInvalidArgument,
+                  stage == Stage::kOpen
+                      ? "the door is to be opened, and --policy, which opens, was not given"
+                      : "the handle is to be turned (unlocked: false), and --handler, which turns "
+                        "it, was not given; pass it, or --stage open");
+    return *actor;
+  }
+
+  Json Record(Stage stage, const Actor& actor, const RobotState& state, const RobotSight& sight,
+              const Action& action) const {
+    RigidTransform target = RigidTransform::Identity();
+    target.linear() = action.world_from_hand_rotation;
+    target.translation() = state.world_from_hand.translation() + action.position_delta_m;
+    return {{"schema", "doorforge.decision"},
+            {"schema_version", kDecisionSchemaVersion},
+            {"stage", NameOf(stage)},
+            {"world_from_hand", TransformToJson(target)},
+            {"position_delta_m", Vector3ToJson(action.position_delta_m)},
+            {"candidates", config_.policy.candidates},
+            {"visible_points", sight.visible_count},
+            {"weights_sha256", actor.weights_sha256}};
+  }
+
+  std::string stage_;
+  ActConfig config_;
+  RobotModel robot_;
+  CalibratedCamera camera_;
+  std::optional<Actor> opener_;
+  std::optional<Actor> handler_;
+  bool unlocked_ = false;
+};
+
+Json DecideLine(Decider& decider, const std::string& line) {
+  Json request = Json::parse(line, nullptr, false);
+  if (!request.is_object())
+    throw Error(ErrorCode::kFormat, "expected a line {\"depth\": FILE, \"state\": FILE}");
+  return decider.Decide(ValueOf<std::string>(request, "depth", "line"),
+                        ValueOf<std::string>(request, "state", "line"));
+}
+
+// A picture that cannot be used is answered and the loop goes on: the robot holds still meanwhile.
+int Stream(Decider& decider) {
+  int failures = 0;
+  for (std::string line; StopRequested() == 0 && std::getline(std::cin, line);) {
+    if (line.empty()) continue;
+    Json answer;
+    try {
+      answer = DecideLine(decider, line);
+    } catch (const Error& error) {
+      ++failures;
+      answer = {{"schema", "doorforge.decision"},
+                {"schema_version", kDecisionSchemaVersion},
+                {"error", error.what()}};
+    }
+    std::cout << answer.dump() << std::endl;  // flushed: a robot waits for it
+  }
+  if (StopRequested() != 0) return 128 + StopRequested();
+  return failures == 0 ? 0 : 1;
+}
+
+// `doorforge act ...` starts this program with the verb as first argument
+int Run(int argc, char** argv) {
+  if (argc > 1 && std::string_view(argv[1]) == "act") {
+    --argc;
+    ++argv;
+  }
+  const Options options = Parse(argc, argv);
+  Decider decider(options);
+  if (options.stream) return Stream(decider);
+  std::cout << decider.Decide(options.depth, options.state).dump(2) << "\n";
+  return 0;
+}
+
+}  // namespace
+}  // namespace doorforge
+
+int main(int argc, char** argv) {
+  return doorforge::RunProgram([&] { return doorforge::Run(argc, argv); });
+}

@@ -18,6 +18,7 @@
 #include "doorforge/core/nearest_name.h"
 #include "doorforge/core/program.h"
 
+#include "pipeline_verb.h"
 #include "quickstart_verb.h"
 
 namespace doorforge {
@@ -31,6 +32,7 @@ struct Verb {
 
 constexpr std::array kVerbs = {
     Verb{"quickstart", "", "the whole chain at small size, ends in report.html"},
+    Verb{"pipeline", "", "collect, train and evaluate all stages, step by step"},
     Verb{"catalog", "doorforge-assets", "list, show and build the embedded door parts"},
     Verb{"import", "doorforge-assets", "foreign door objects -> parts"},
     Verb{"repair", "doorforge-assets", "any mesh -> a closed mesh with a measured report"},
@@ -43,6 +45,7 @@ constexpr std::array kVerbs = {
     Verb{"dataset", "doorforge-datagen", "verify and describe datasets"},
     Verb{"train", "doorforge-train", "train a stage's policy from shards"},
     Verb{"eval", "doorforge-eval", "success of a policy per category, with a report"},
+    Verb{"act", "doorforge-act", "a real depth picture -> the hand's next pose"},
     Verb{"doctor", "doorforge-train", "what is installed, and what to do about it"},
 };
 
@@ -81,7 +84,8 @@ int Run(int argc, char** argv) {
     return 0;
   }
   const Verb& verb = FindVerb(name);
-  if (*verb.program == '\0') return RunQuickstartVerb(argc - 1, argv + 1);
+  if (name == "quickstart") return RunQuickstartVerb(argc - 1, argv + 1);
+  if (name == "pipeline") return RunPipelineVerb(argc - 1, argv + 1);
   const std::string program = (ProgramFolder() / verb.program).string();
   ::execv(program.c_str(), argv);
   throw Error(ErrorCode::kMissing, program + ": cannot be started: " + std::strerror(errno) +

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 
 #include <spawn.h>
 #include <sys/wait.h>
@@ -22,10 +23,22 @@ namespace {
 namespace fs = std::filesystem;
 
 volatile std::sig_atomic_t stop_signal = 0;
+timespec stop_time{};  // of the first one
+
+// A terminal's Ctrl-C reaches a child twice: from the terminal, and passed on by its parent.
+constexpr double kOnePress = 0.5;  // [s]
 
 void HandleStop(int signal) {
-  if (stop_signal != 0) ::_exit(128 + signal);
-  stop_signal = signal;
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  if (stop_signal == 0) {
+    stop_time = now;
+    stop_signal = signal;
+    return;
+  }
+  const double since = static_cast<double>(now.tv_sec - stop_time.tv_sec) +
+                       1e-9 * static_cast<double>(now.tv_nsec - stop_time.tv_nsec);
+  if (since > kOnePress) ::_exit(128 + signal);
 }
 
 void InstallHandlers() {

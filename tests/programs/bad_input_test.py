@@ -74,13 +74,14 @@ class BadInput(ProgramTest):
 
     def test_wrong_use_is_told_apart_from_bad_input(self):
         for arguments in (["frobnicate"], ["repair"], ["compose", "--body", "x"], ["datagen", "open", "--wrong"],
-                          ["eval", "--seeds"], ["train", "open"], ["validate"]):
+                          ["eval", "--seeds"], ["train", "open"], ["validate"], ["pipeline", "quick"],
+                          ["pipeline", "nothing", "--out", "x"], ["act", "--depth", "x.png"]):
             with self.subTest(arguments):
                 self.assert_refused(run(*arguments), 2)
 
     def test_every_verb_explains_itself_with_an_example(self):
         for verb in ("quickstart", "catalog", "import", "repair", "compose", "validate", "simulate",
-                     "datagen", "dataset", "train", "eval", "doctor"):
+                     "datagen", "dataset", "train", "eval", "act", "pipeline", "doctor"):
             with self.subTest(verb):
                 result = run(verb, "--help")
                 self.assert_ends(result, 0)

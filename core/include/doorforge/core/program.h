@@ -12,7 +12,7 @@ namespace doorforge {
 /// Runs the body of a `main` and turns its end into an exit code: the body's own result, or the
 /// code of an Error (its message goes to standard error as "doorforge: ..."). Any other exception
 /// is reported the same way with exit code 3. Installs handlers for SIGINT and SIGTERM, see
-/// StopRequested(); a second signal ends the process at once.
+/// StopRequested(); a second signal, half a second later or more, ends the process at once.
 int RunProgram(const std::function<int()>& body);
 
 /// The signal (SIGINT or SIGTERM) that asked the program to save its state and end, or 0. Long

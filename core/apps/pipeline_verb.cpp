@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline_verb.h"
+
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "doorforge/core/error.h"
+
+#include "pipeline_graph.h"
+#include "pipeline_run.h"
+
+namespace doorforge {
+namespace {
+
+struct Options {
+  std::vector<std::string> preset;  // "plan" may come before it
+  std::vector<std::string> doors;
+  std::vector<std::string> settings;
+  PipelineRun run;
+  bool dry_run = false;
+};
+
+std::string PresetLines() {
+  std::string lines;
+  for (const std::string& name : PipelinePresets()) {
+    const Pipeline pipeline = ReadPipeline(name, {});
+    lines += "  " + name + std::string(name.size() < 11 ? 11 - name.size() : 1, ' ') +
+             pipeline.about + "\n";
+  }
+  return lines;
+}
+
+void ParseOptions(int argc, char** argv, Options& options) {
+  CLI::App app(
+      "The conditioned chain: collect and train a stage, then the one before it with what was\n"
+      "trained in the loop, then evaluate. A step is skipped while nothing that it was made from\n"
+      "has changed; stopped, the same command goes on.",
+      "doorforge pipeline");
+  app.add_option("preset", options.preset,
+                 "a preset, or a .yaml file; with `plan` before it: as --dry-run")
+      ->required()
+      ->expected(1, 2);
+  app.add_option("--out", options.run.out, "folder for everything that is made")->required();
+  app.add_option("--doors", options.doors, "folders of composed doors, instead of the catalogue's");
+  app.add_option("--threads", options.run.threads, "threads, 0: all; changes no byte")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  app.add_option("--set", options.settings, "key=value changes one of the preset's settings");
+  app.add_flag("--dry-run", options.dry_run,
+               "print the steps, why each would run, and the expected time and space");
+  app.add_flag("--json", options.run.json, "the plan as one JSON document");
+  app.add_flag("--overwrite", options.run.overwrite,
+               "replace what steps made whose inputs have changed since");
+  app.footer("presets:\n" + PresetLines() +
+             "\nexamples:\n"
+             "  doorforge pipeline plan quick --out run/quick\n"
+             "  doorforge pipeline quick --out run/quick\n"
+             "  doorforge pipeline paper --out run/paper --doors run/doors --set open_epochs=8");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& help) {
+    std::exit(app.exit(help));
+  } catch (const CLI::ParseError& error) {
+    throw Error(ErrorCode::kInvalidArgument,
+                std::string(error.what()) + "; see `doorforge pipeline --help`");
+  }
+  if (options.preset.size() == 2) {
+    if (options.preset[0] != "plan")
+      throw Error(ErrorCode::kInvalidArgument,
+                  "\"" + options.preset[0] +
+                      "\": expected one preset, or "
+                      "`plan` and one; see `doorforge pipeline --help`");
+    options.dry_run = true;
+    options.preset.erase(options.preset.begin());
+  }
+  if (options.run.json && !options.dry_run)
+    throw Error(ErrorCode::kInvalidArgument, "--json: belongs to `pipeline plan`");
+}
+
+}  // namespace
+
+int RunPipelineVerb(int argc, char** argv) {
+  Options options;
+  ParseOptions(argc, argv, options);
+  Pipeline pipeline = ReadPipeline(options.preset[0], options.settings);
+  if (!options.doors.empty()) GiveOutput(pipeline, "doors", options.doors);
+  return options.dry_run ? PlanPipeline(pipeline, options.run) : RunPipeline(pipeline, options.run);
+}
+
+}  // namespace doorforge

@@ -185,7 +185,8 @@ class Reobservation {
             where + ": the episode holds no joint states (state.npy); collect it anew");
     Episode& episode = collected.episode;
     const RobotModel robot = RobotOf(episode.scene);
-    RecordingCamera camera(episode.scene, door, robot, config_.cloud, config_.robot);
+    const bool sees_robot = config_.robot && collected.meta.value("robot_seen", true);
+    RecordingCamera camera(episode.scene, door, robot, config_.cloud, sees_robot);
     for (std::size_t t = 0; t < arrays.decisions; ++t) {
       Decision decision = DecisionOf(arrays, t, episode.decisions.at(t).time_s);
       const SceneSnapshot snapshot = SnapshotOf(decision, episode.scene, door, robot);

@@ -14,7 +14,9 @@ namespace doorforge {
 
 /// How an existing dataset is looked at again. By default as it was: same camera, same cloud.
 struct ReobserveConfig {
-  bool robot = true;        ///< False: only the door is seen, as if nobody stood before it.
+  /// False: only the door is seen, as if nobody stood before it. What was looked at without the
+  /// robot, as at the stage "grasp", stays so.
+  bool robot = true;
   bool own_camera = false;  ///< True: `camera` for all episodes; false: each episode's own.
   CameraConfig camera;
   CloudConfig cloud;

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stage_episode.h"
 
+#include <optional>
+
 #include "doorforge/core/error.h"
+#include "doorforge/rollout/camera_observer.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/rollout/standing_place.h"
 
@@ -84,15 +87,21 @@ CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const DoorAsset&
   const Scene scene =
       SceneFor(robot, SampleScene(door, config.seed, planned.number, config.scene), door);
   Actors actors(config, trained);
-  RecordingCamera camera(scene, door, robot, config.cloud);
+  const bool at_grasp = config.stage == Stage::kGrasp;
+  // the grasp is chosen before the robot stands between camera and handle
+  RecordingCamera camera(scene, door, robot, config.cloud, /*sees_robot=*/!at_grasp);
+  std::optional<CameraObserver> later;
+  if (at_grasp) later.emplace(scene, door, robot, config.cloud);
   RandomGrasp grasp(scene, door, robot, config.grasp, config.cloud.point_count,
                     [&](const SceneSnapshot& snapshot) { return camera.LookAtAll(snapshot); });
   EpisodeRoles roles{.recorded = config.stage, .open = actors.open()};
   if (config.stage != Stage::kOpen) roles.handle = actors.handle();
-  if (config.stage == Stage::kGrasp) roles.grasp = &grasp;
+  if (at_grasp) roles.grasp = &grasp;
 
   CollectedEpisode collected;
-  collected.episode = RunStages(scene, door, robot, roles, &camera);
+  Observer* observer = &camera;
+  if (later) observer = &*later;
+  collected.episode = RunStages(scene, door, robot, roles, observer);
   const Episode& episode = collected.episode;
   const std::size_t decisions = episode.decisions.size();
   collected.meta = EpisodeMetaToJson(episode);
@@ -103,7 +112,8 @@ CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const DoorAsset&
   collected.meta["visible_points"] = camera.Visible(decisions);
   collected.meta["hidden"] = camera.OcclusionRecord(decisions);
   collected.meta["policies"] = PoliciesRecord(config.stage, trained);
-  collected.keep_failed = config.stage == Stage::kGrasp;
+  if (at_grasp) collected.meta["robot_seen"] = false;
+  collected.keep_failed = at_grasp;
   const bool is_kept = episode.outcome == EpisodeOutcome::kOpened || collected.keep_failed;
   if (config.preview && is_kept) collected.preview_png = camera.PreviewPng();
   return collected;

@@ -74,6 +74,27 @@ TEST(Checkpoint, APolicyComesBackAsItWasWritten) {
   EXPECT_EQ(ReadFile(folder / "policy.json"), before);
 }
 
+TEST(Checkpoint, AGraspComesBackAsItWasWrittenAndIsNoOtherStagesPolicy) {
+  const fs::path folder = EmptyFolder("grasp");
+  const auto made = testing::MakeSyntheticSamples(1, 3);
+  const StageNetworks networks =
+      InitialNetworks(MeasureNormalisation(made.samples), false, 9, NetworkFamily::kGrasp);
+  TrainConfig config;
+  config.family = NetworkFamily::kGrasp;
+  config.sampled_points = 7;
+  WritePolicy(folder, networks, {"grasp", "abc", "0.1.0+test", config, 77});
+  const PolicyRecord record = ReadPolicy(folder, "grasp");
+  EXPECT_EQ(record.networks.family, NetworkFamily::kGrasp);
+  EXPECT_EQ(record.networks.actor, networks.actor);
+  EXPECT_EQ(record.networks.critic, networks.critic);
+  EXPECT_EQ(record.provenance.config.sampled_points, 7);
+  const std::string weights = ReadFile(folder / "policy.safetensors");
+  EXPECT_NE(weights.find("\"discriminator.action.2.weight\""), std::string::npos);
+  EXPECT_NE(weights.find("\"affordance.point.0.weight\""), std::string::npos);
+  ExpectError(ErrorCode::kFormat, "of the stage \"grasp\", where one of the stage \"open\"",
+              [&] { ReadPolicy(folder); });
+}
+
 TEST(Checkpoint, DamagedPoliciesAreRefused) {
   const fs::path folder = EmptyFolder("damaged");
   ExpectError(ErrorCode::kMissing, "policy.json", [&] { ReadPolicy(folder); });
@@ -116,6 +137,19 @@ TEST(Checkpoint, AStateOfAnotherRunIsNotResumed) {
   provenance.dataset_sha256 = "abc";
   provenance.config.learning_rate = 2e-3;
   ExpectError(ErrorCode::kInvalidArgument, "config", [&] { ReadTrainerState(folder, provenance); });
+}
+
+TEST(Checkpoint, TheGraspsLossesHaveTheirOwnNamesAndGapsUntilTheyAreKnown) {
+  const fs::path folder = EmptyFolder("grasp_losses");
+  TrainerState state = SomeState();
+  state.networks.family = NetworkFamily::kGrasp;
+  state.steps = {UnknownLosses(), UnknownLosses()};
+  state.steps[0].score_rad = 0.5;
+  state.steps[1].score_rad = 0.25;
+  state.steps[1].affordance_rad = 0.125;
+  WriteLosses(folder, state);
+  EXPECT_EQ(ReadFile(folder / "losses.csv"),
+            "step,discriminator.score_rad,affordance.score_rad\n1,0.5,nan\n2,0.25,0.125\n");
 }
 
 TEST(Checkpoint, LossCurvesAreWrittenForPeopleAndPrograms) {

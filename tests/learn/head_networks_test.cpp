@@ -94,6 +94,93 @@ TEST(HeadNetworks, TheCriticsGradientIsThatOfFiniteDifferences) {
   ExpectGradientOfLayers(CriticLayout(), f.networks.critic, gradient, value);
 }
 
+// ---- grasp --------------------------------------------------------------------------------------
+
+struct GraspFixture : Fixture {
+  GraspFixture() {
+    networks = InitialNetworks(MeasureNormalisation(made.samples), false, 1, NetworkFamily::kGrasp);
+    for (std::size_t i = 0; i < batch.actions.size(); i += 9)
+      batch.points.insert(batch.points.end(), batch.actions.begin() + static_cast<long>(i),
+                          batch.actions.begin() + static_cast<long>(i + 3));
+  }
+};
+
+TEST(HeadNetworks, TheDiscriminatorsGradientIsThatOfFiniteDifferencesForBothLosses) {
+  for (const char* loss : {"squared", "absolute"}) {
+    GraspFixture f;
+    f.config.score_loss = loss;
+    std::vector<float> gradient(CriticLayout(NetworkFamily::kGrasp).size());
+    // angles of doors, not of single actions, so that the loss has something to differ in
+    for (std::size_t i = 0; i < f.batch.gains.size(); ++i) f.batch.gains[i] = i % 2 ? 0.8F : 0.0F;
+    f.networks.normalisation.score_rad.deviation = {0.4F};
+    const auto value = [&] {
+      return DiscriminatorObjective(f.networks, f.batch, f.config, {}).objective;
+    };
+    const auto result = DiscriminatorObjective(f.networks, f.batch, f.config, gradient);
+    EXPECT_EQ(result.objective, value());
+    ExpectGradientOfLayers(CriticLayout(NetworkFamily::kGrasp), f.networks.critic, gradient, value);
+    std::vector<float> direction = result.feature_gradient;
+    const double norm = Norm(direction);
+    for (float& d : direction) d = static_cast<float>(d / norm);
+    EXPECT_NEAR(Slope(f.batch.features, 0, direction, value) / norm, 1, 0.03);
+  }
+}
+
+TEST(HeadNetworks, TheAffordancesGradientIsThatOfFiniteDifferences) {
+  GraspFixture f;
+  std::vector<float> gradient(ActorLayout(NetworkFamily::kGrasp).size());
+  for (float& gain : f.batch.gains) gain += 0.5F;
+  const auto value = [&] { return AffordanceObjective(f.networks, f.batch, {}).objective; };
+  EXPECT_EQ(AffordanceObjective(f.networks, f.batch, gradient).objective, value());
+  ExpectGradientOfLayers(ActorLayout(NetworkFamily::kGrasp), f.networks.actor, gradient, value);
+}
+
+// Written out with loops: what the paper's table says of D_grasp.
+std::vector<double> DenseByHand(const ParameterLayout& layout, const std::vector<float>& weights,
+                                const std::string& name, const std::vector<double>& x) {
+  for (const DenseLayer& layer : layout.layers()) {
+    if (layer.name != name) continue;
+    EXPECT_EQ(static_cast<std::size_t>(layer.inputs), x.size()) << name;
+    std::vector<double> y;
+    for (int o = 0; o < layer.outputs; ++o) {
+      double sum = weights[layer.bias_offset() + static_cast<std::size_t>(o)];
+      for (int i = 0; i < layer.inputs; ++i)
+        sum +=
+            static_cast<double>(weights[layer.offset + static_cast<std::size_t>(o) * layer.inputs +
+                                        static_cast<std::size_t>(i)]) *
+            x[static_cast<std::size_t>(i)];
+      y.push_back(sum);
+    }
+    return y;
+  }
+  ADD_FAILURE() << name;
+  return {};
+}
+
+TEST(HeadNetworks, TheDiscriminatorIsThePapersTable) {
+  const GraspFixture f;
+  const ParameterLayout& layout = CriticLayout(NetworkFamily::kGrasp);
+  const std::vector<float> scores = ScoreGrasps(f.networks, f.batch);
+  for (std::size_t n = 0; n < scores.size(); ++n) {
+    std::vector<double> x(f.batch.actions.begin() + static_cast<long>(9 * n),
+                          f.batch.actions.begin() + static_cast<long>(9 * n + 9));
+    for (const char* name : {"action.0", "action.1", "action.2"}) {
+      x = DenseByHand(layout, f.networks.critic, name, x);
+      if (std::string(name) == "action.2") break;
+      for (double& v : x) v = std::max(v, 0.0);
+    }
+    std::vector<double> joined(
+        f.batch.features.begin() + static_cast<long>(kFeatureSize * n),
+        f.batch.features.begin() + static_cast<long>(kFeatureSize * (n + 1)));
+    joined.insert(joined.end(), x.begin(), x.end());
+    std::vector<double> hidden = DenseByHand(layout, f.networks.critic, "score.0", joined);
+    for (double& v : hidden) v = v > 0 ? v : 0.01 * v;
+    const double score = DenseByHand(layout, f.networks.critic, "score.1", hidden)[0];
+    const auto& normaliser = f.networks.normalisation.score_rad;
+    EXPECT_NEAR(scores[n], score * normaliser.deviation[0] + normaliser.mean[0], 1e-5);
+  }
+}
+
 // With a decoder of zeros the prediction is the training set's mean action.
 TEST(HeadNetworks, LossesOfAKnownPredictionAreTheClosedForm) {
   Fixture f;

@@ -3,6 +3,7 @@
 #include "train_verb.h"
 
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -48,12 +49,13 @@ Options Parse(int argc, char** argv) {
   Options options;
   CLI::App app("Trains a stage's policy from the shards of `doorforge datagen`.",
                "doorforge train");
-  app.add_option("stage", options.stage, "open, or handle")
+  app.add_option("stage", options.stage, "open, handle or grasp")
       ->required()
-      ->check(CLI::IsMember({"open", "handle"}));
+      ->check(CLI::IsMember({"open", "handle", "grasp"}));
   app.add_option("--data", options.data, "data set")->required()->check(CLI::ExistingDirectory);
   app.add_option("--out", options.out, "folder of the policy")->required();
-  app.add_option("--epochs", options.epochs, "passes over the samples (config: epochs)");
+  app.add_option("--epochs", options.epochs,
+                 "passes over the samples, for each of the two networks of grasp (config: epochs)");
   app.add_option("--minutes", options.minutes,
                  "stop after this time, at the end of a step; --resume goes on")
       ->check(CLI::PositiveNumber);
@@ -83,7 +85,9 @@ Options Parse(int argc, char** argv) {
 }
 
 TrainConfig ConfigOf(const Options& options) {
-  auto config = LoadConfig<TrainConfig>(options.config, options.settings);
+  TrainConfig defaults;
+  defaults.family = FamilyOf(options.stage);
+  auto config = LoadConfig<TrainConfig>(options.config, options.settings, defaults);
   if (options.epochs) config.epochs = *options.epochs;
   if (options.seed) config.seed = *options.seed;
   CheckTrainConfig(config);
@@ -99,16 +103,34 @@ void WarnOfSlowLinearAlgebra() {
                found.gflops, found.blas_library.c_str(), LinearAlgebraRemedy().c_str());
 }
 
-std::string Note(const TrainerState& state, std::uint64_t per_epoch, const TrainConfig& config) {
-  const StageLosses& losses = state.steps.back();
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "samples; epoch %.1f/%d step %llu: position %.2f mm, rotation %.2f deg, "
-                "critic %.2f deg",
-                static_cast<double>(state.step) / static_cast<double>(per_epoch), config.epochs,
-                static_cast<unsigned long long>(state.step), 1e3 * losses.position_m,
-                57.29578 * losses.rotation_rad, 57.29578 * losses.score_rad);
+// The losses in units that people think in; what is not known yet is left out.
+std::string LossText(const StageLosses& losses, NetworkFamily family) {
+  struct Shown {
+    const char* format;
+    double value;
+  };
+  const double to_degrees = 57.29578;
+  const std::vector<Shown> motion = {{"position %.2f mm", 1e3 * losses.position_m},
+                                     {"rotation %.2f deg", to_degrees * losses.rotation_rad},
+                                     {"critic %.2f deg", to_degrees * losses.score_rad}};
+  const std::vector<Shown> grasp = {{"discriminator %.2f deg", to_degrees * losses.score_rad},
+                                    {"affordance %.2f deg", to_degrees * losses.affordance_rad}};
+  std::string text;
+  for (const Shown& shown : family == NetworkFamily::kGrasp ? grasp : motion) {
+    if (std::isnan(shown.value)) continue;
+    char part[64];
+    std::snprintf(part, sizeof part, shown.format, shown.value);
+    text += (text.empty() ? "" : ", ") + std::string(part);
+  }
   return text;
+}
+
+std::string Note(const TrainerState& state, std::uint64_t per_epoch, const TrainConfig& config) {
+  char text[80];
+  std::snprintf(text, sizeof text, "samples; epoch %.1f/%d step %llu: ",
+                static_cast<double>(state.step) / static_cast<double>(per_epoch), EpochsOf(config),
+                static_cast<unsigned long long>(state.step));
+  return text + LossText(state.steps.back(), config.family);
 }
 
 // A folder that holds a training is only touched if the user said how.
@@ -129,13 +151,10 @@ void PrintSummary(const TrainerState& state, const StageDataset& dataset, const 
               dataset.validation.size());
   if (state.epochs.empty()) return;
   const EpochLosses& last = state.epochs.back();
-  const auto row = [](const char* name, const StageLosses& losses) {
-    std::printf("%-11s position %.2f mm, rotation %.2f deg, critic %.2f deg\n", name,
-                1e3 * losses.position_m, 57.29578 * losses.rotation_rad,
-                57.29578 * losses.score_rad);
-  };
-  row("training:", last.train);
-  row("validation:", last.validation);
+  const NetworkFamily family = state.networks.family;
+  std::printf("training:   %s\n", LossText(last.train, family).c_str());
+  if (!dataset.validation.empty())
+    std::printf("validation: %s\n", LossText(last.validation, family).c_str());
 }
 
 int Train(const Options& options) {
@@ -153,7 +172,7 @@ int Train(const Options& options) {
   CommitFile(out / "config.yaml", ToJson(config).dump(2) + "\n");
 
   const std::uint64_t per_epoch = StepsPerEpoch(dataset.train.size(), config);
-  const std::uint64_t total = per_epoch * static_cast<std::uint64_t>(config.epochs);
+  const std::uint64_t total = per_epoch * static_cast<std::uint64_t>(EpochsOf(config));
   const std::uint64_t done = hooks.resume ? hooks.resume->step : 0;
   const std::size_t batch =
       std::min(dataset.train.size(), static_cast<std::size_t>(config.batch_size));

@@ -28,7 +28,6 @@ constexpr const char* kRecordFile = "policy.json";
 constexpr const char* kStateFile = "training.safetensors";
 constexpr const char* kLossesFile = "losses.json";
 constexpr int kLossesSchemaVersion = 1;
-constexpr std::size_t kLossCount = 4;
 
 // Every layer's weight and bias under its own name.
 void AddParameters(const ParameterLayout& layout, const std::string& prefix,
@@ -66,70 +65,77 @@ std::vector<float> ReadParameters(const ParameterLayout& layout, const std::stri
   return parameters;
 }
 
+std::string Prefix(const char* network) { return std::string(network) + "."; }
+
 TensorFile WeightsOf(const StageNetworks& networks) {
   TensorFile file;
-  AddParameters(ActorLayout(), "actor.", networks.actor, file);
-  AddParameters(CriticLayout(), "critic.", networks.critic, file);
+  const NetworkNames names = NamesOf(networks.family);
+  AddParameters(ActorLayout(networks.family), Prefix(names.actor), networks.actor, file);
+  AddParameters(CriticLayout(networks.family), Prefix(names.critic), networks.critic, file);
   return file;
 }
 
 void ReadWeights(const TensorFile& file, const std::string& path, StageNetworks& networks) {
-  networks.actor = ReadParameters(ActorLayout(), "actor.", file, path);
-  networks.critic = ReadParameters(CriticLayout(), "critic.", file, path);
+  const NetworkNames names = NamesOf(networks.family);
+  networks.actor = ReadParameters(ActorLayout(networks.family), Prefix(names.actor), file, path);
+  networks.critic = ReadParameters(CriticLayout(networks.family), Prefix(names.critic), file, path);
 }
-
-std::array<double, kLossCount> ToArray(const StageLosses& losses) {
-  return {losses.position_m, losses.rotation_rad, losses.divergence, losses.score_rad};
-}
-
-constexpr std::array<const char*, kLossCount> kLossNames = {
-    "actor.position_m", "actor.rotation_rad", "actor.divergence", "critic.score_rad"};
-
-StageLosses FromArray(const double* values) { return {values[0], values[1], values[2], values[3]}; }
 
 struct Moments {
-  const char* name;
+  std::string name;
   std::vector<float> TrainerState::*values;
   std::size_t size;
 };
 
-std::array<Moments, 4> MomentsOfState() {
-  return {Moments{"adam.actor.first", &TrainerState::actor_first, ActorLayout().size()},
-          Moments{"adam.actor.second", &TrainerState::actor_second, ActorLayout().size()},
-          Moments{"adam.critic.first", &TrainerState::critic_first, CriticLayout().size()},
-          Moments{"adam.critic.second", &TrainerState::critic_second, CriticLayout().size()}};
+std::array<Moments, 4> MomentsOfState(NetworkFamily family) {
+  const NetworkNames names = NamesOf(family);
+  const std::string actor = "adam." + Prefix(names.actor);
+  const std::string critic = "adam." + Prefix(names.critic);
+  const std::size_t actor_size = ActorLayout(family).size();
+  const std::size_t critic_size = CriticLayout(family).size();
+  return {Moments{actor + "first", &TrainerState::actor_first, actor_size},
+          Moments{actor + "second", &TrainerState::actor_second, actor_size},
+          Moments{critic + "first", &TrainerState::critic_first, critic_size},
+          Moments{critic + "second", &TrainerState::critic_second, critic_size}};
 }
 
 std::string ConfigText(const TrainConfig& config) { return ToJson(config).dump(); }
 
 void AddLosses(const TrainerState& state, TensorFile& file) {
+  const std::vector<LossColumn> columns = LossColumnsOf(state.networks.family);
   std::vector<double> steps;
   std::vector<double> epochs;
-  const auto append = [](const StageLosses& losses, std::vector<double>& out) {
-    for (const double value : ToArray(losses)) out.push_back(value);
+  const auto append = [&](const StageLosses& losses, std::vector<double>& out) {
+    for (const LossColumn& column : columns) out.push_back(losses.*(column.value));
   };
   for (const StageLosses& losses : state.steps) append(losses, steps);
   for (const EpochLosses& epoch : state.epochs) {
     append(epoch.train, epochs);
     append(epoch.validation, epochs);
   }
-  file.tensors["losses.steps"] = MakeTensor<double>(steps, {state.steps.size(), kLossCount});
-  file.tensors["losses.epochs"] = MakeTensor<double>(epochs, {state.epochs.size(), 2, kLossCount});
+  file.tensors["losses.steps"] = MakeTensor<double>(steps, {state.steps.size(), columns.size()});
+  file.tensors["losses.epochs"] =
+      MakeTensor<double>(epochs, {state.epochs.size(), 2, columns.size()});
 }
 
 // Length of the leading axis of a tensor that is checked in full right after.
 std::uint64_t LengthOf(const Tensor& tensor) { return tensor.shape.empty() ? 0 : tensor.shape[0]; }
 
 void ReadLosses(const TensorFile& file, const std::string& path, TrainerState& state) {
+  const std::vector<LossColumn> columns = LossColumnsOf(state.networks.family);
   const Tensor& steps = TensorNamed(file, "losses.steps", path);
   const Tensor& epochs = TensorNamed(file, "losses.epochs", path);
-  const auto of_steps = ValuesOf<double>(steps, {LengthOf(steps), kLossCount}, path);
-  const auto of_epochs = ValuesOf<double>(epochs, {LengthOf(epochs), 2, kLossCount}, path);
-  for (std::size_t i = 0; i < of_steps.size(); i += kLossCount)
-    state.steps.push_back(FromArray(of_steps.data() + i));
-  for (std::size_t i = 0; i < of_epochs.size(); i += 2 * kLossCount)
-    state.epochs.push_back(
-        {FromArray(of_epochs.data() + i), FromArray(of_epochs.data() + i + kLossCount)});
+  const auto of_steps = ValuesOf<double>(steps, {LengthOf(steps), columns.size()}, path);
+  const auto of_epochs = ValuesOf<double>(epochs, {LengthOf(epochs), 2, columns.size()}, path);
+  const auto losses_at = [&](const std::vector<double>& values, std::size_t row) {
+    StageLosses losses = UnknownLosses();
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      losses.*(columns[i].value) = values[row * columns.size() + i];
+    return losses;
+  };
+  for (std::size_t i = 0; i < LengthOf(steps); ++i) state.steps.push_back(losses_at(of_steps, i));
+  for (std::size_t i = 0; i < LengthOf(epochs); ++i)
+    state.epochs.push_back({losses_at(of_epochs, 2 * i), losses_at(of_epochs, 2 * i + 1)});
 }
 
 const std::string& MetadataOf(const TensorFile& file, const std::string& key,
@@ -158,8 +164,10 @@ Json ProvenanceToJson(const PolicyProvenance& provenance) {
           {"step", provenance.step}};
 }
 
-PolicyProvenance ProvenanceFromJson(const Json& json, const std::string& path) {
+PolicyProvenance ProvenanceFromJson(const Json& json, NetworkFamily family,
+                                    const std::string& path) {
   PolicyProvenance provenance;
+  provenance.config.family = family;
   try {
     Assign(MemberOf(json, "config", path), provenance.config, path + ".config");
   } catch (const Error& error) {
@@ -191,27 +199,29 @@ std::vector<double> NumbersFromJson(const Json& json, const std::string& path) {
 }
 
 std::vector<TrainingCurve> CurvesOf(const TrainerState& state) {
-  std::vector<TrainingCurve> curves(kLossCount);
-  for (std::size_t i = 0; i < kLossCount; ++i) {
-    curves[i].name = kLossNames[i];
+  std::vector<TrainingCurve> curves;
+  for (const LossColumn& column : LossColumnsOf(state.networks.family)) {
+    TrainingCurve& curve = curves.emplace_back();
+    curve.name = column.name;
     for (std::size_t e = 0; e < state.epochs.size(); ++e) {
-      curves[i].epoch.push_back(static_cast<double>(e + 1));
-      curves[i].train.push_back(ToArray(state.epochs[e].train)[i]);
-      curves[i].validation.push_back(ToArray(state.epochs[e].validation)[i]);
+      curve.epoch.push_back(static_cast<double>(e + 1));
+      curve.train.push_back(state.epochs[e].train.*(column.value));
+      curve.validation.push_back(state.epochs[e].validation.*(column.value));
     }
   }
   return curves;
 }
 
 std::string LossTable(const TrainerState& state) {
+  const std::vector<LossColumn> columns = LossColumnsOf(state.networks.family);
   std::string text = "step";
-  for (const char* name : kLossNames) text.append(",").append(name);
+  for (const LossColumn& column : columns) text.append(",").append(column.name);
   text += "\n";
   for (std::size_t i = 0; i < state.steps.size(); ++i) {
     text += std::to_string(i + 1);
-    for (const double value : ToArray(state.steps[i])) {
+    for (const LossColumn& column : columns) {
       char number[32];
-      std::snprintf(number, sizeof number, ",%.9g", value);
+      std::snprintf(number, sizeof number, ",%.9g", state.steps[i].*(column.value));
       text += number;
     }
     text += "\n";
@@ -255,10 +265,12 @@ PolicyRecord ReadPolicy(const fs::path& folder, std::string_view stage) {
                                         "\" is needed");
   PolicyRecord record;
   record.weights_sha256 = ValueOf<std::string>(json, "weights_sha256", path);
+  record.networks.family = FamilyOf(found);
   record.networks.linear_branches = ValueOf<bool>(json, "linear_branches", path);
   record.networks.normalisation =
       NormalisationFromJson(MemberOf(json, "normalisation", path), path + ".normalisation");
-  record.provenance = ProvenanceFromJson(MemberOf(json, "provenance", path), path + ".provenance");
+  record.provenance = ProvenanceFromJson(MemberOf(json, "provenance", path), record.networks.family,
+                                         path + ".provenance");
   record.provenance.stage = found;
 
   const std::string weights_path = (folder / kWeightsFile).string();
@@ -273,7 +285,7 @@ PolicyRecord ReadPolicy(const fs::path& folder, std::string_view stage) {
 void WriteTrainerState(const fs::path& folder, const TrainerState& state,
                        const PolicyProvenance& provenance) {
   TensorFile file = WeightsOf(state.networks);
-  for (const Moments& moments : MomentsOfState())
+  for (const Moments& moments : MomentsOfState(state.networks.family))
     file.tensors[moments.name] = MakeTensor<float>(state.*(moments.values), {moments.size});
   AddLosses(state, file);
   file.metadata = {{"config", ConfigText(provenance.config)},
@@ -291,9 +303,10 @@ TrainerState ReadTrainerState(const fs::path& folder, const PolicyProvenance& ex
   RequireSame(file, "dataset_sha256", expected.dataset_sha256, path);
   RequireSame(file, "config", ConfigText(expected.config), path);
   TrainerState state;
+  state.networks.family = FamilyOf(expected.stage);
   state.networks.linear_branches = expected.config.linear_branches;
   ReadWeights(file, path, state.networks);
-  for (const Moments& moments : MomentsOfState())
+  for (const Moments& moments : MomentsOfState(state.networks.family))
     state.*(moments.values) =
         ValuesOf<float>(TensorNamed(file, moments.name, path), {moments.size}, path);
   ReadLosses(file, path, state);

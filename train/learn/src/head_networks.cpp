@@ -171,6 +171,26 @@ Tensor CriticScore(const HeadParameters& parameters, const StageNetworks& networ
                      parameters.Branch("score", Activation::kRectified, joined));
 }
 
+// The two heads of the grasp: a branch, and two layers of score behind it and the feature.
+Tensor GraspScore(const HeadParameters& parameters, const StageNetworks& networks,
+                  const Tensor& features, const Tensor& branch) {
+  const Tensor hidden = parameters.Dense("score.0", torch::cat({features, branch}, 1));
+  return Denormalise(networks.normalisation.score_rad,
+                     parameters.Dense("score.1", torch::leaky_relu(hidden, kLeakySlope)));
+}
+
+Tensor DiscriminatorScore(const HeadParameters& parameters, const StageNetworks& networks,
+                          const HeadBatch& batch, const Tensor& features) {
+  return GraspScore(parameters, networks, features,
+                    parameters.Branch("action", Activation::kRectified, View(batch.actions, 9)));
+}
+
+Tensor AffordanceScore(const HeadParameters& parameters, const StageNetworks& networks,
+                       const HeadBatch& batch, const Tensor& features) {
+  return GraspScore(parameters, networks, features,
+                    parameters.Branch("point", Activation::kRectified, View(batch.points, 3)));
+}
+
 void BackPropagate(const Tensor& objective, const Tensor& features,
                    const HeadParameters& parameters, std::span<float> gradient,
                    HeadResult& result) {
@@ -237,6 +257,40 @@ HeadResult CriticObjective(const StageNetworks& networks, const HeadBatch& batch
   return result;
 }
 
+HeadResult DiscriminatorObjective(const StageNetworks& networks, const HeadBatch& batch,
+                                  const TrainConfig& config, std::span<float> gradient) {
+  const bool with_gradient = !gradient.empty();
+  const at::AutoGradMode mode(with_gradient);
+  const Tensor features = View(batch.features, kFeatureSize).set_requires_grad(with_gradient);
+  const HeadParameters parameters(CriticLayout(NetworkFamily::kGrasp), networks.critic,
+                                  with_gradient);
+  const Tensor difference =
+      DiscriminatorScore(parameters, networks, batch, features) - View(batch.gains, 1);
+  const Tensor absolute = difference.abs().mean();
+  const Tensor objective = config.score_loss == "squared" ? difference.square().mean() : absolute;
+  HeadResult result;
+  result.objective = objective.item<double>();
+  result.losses.score_rad = absolute.item<double>();
+  if (with_gradient) BackPropagate(objective, features, parameters, gradient, result);
+  return result;
+}
+
+HeadResult AffordanceObjective(const StageNetworks& networks, const HeadBatch& batch,
+                               std::span<float> gradient) {
+  const bool with_gradient = !gradient.empty();
+  const at::AutoGradMode mode(with_gradient);
+  const Tensor features = View(batch.features, kFeatureSize).set_requires_grad(with_gradient);
+  const HeadParameters parameters(ActorLayout(NetworkFamily::kGrasp), networks.actor,
+                                  with_gradient);
+  const Tensor score = AffordanceScore(parameters, networks, batch, features);
+  const Tensor objective = (score - View(batch.gains, 1)).abs().mean();
+  HeadResult result;
+  result.objective = objective.item<double>();
+  result.losses.affordance_rad = result.objective;
+  if (with_gradient) BackPropagate(objective, features, parameters, gradient, result);
+  return result;
+}
+
 std::vector<float> DecodeActions(const StageNetworks& networks, const HeadBatch& batch,
                                  const std::vector<float>& latents) {
   const at::AutoGradMode mode(false);
@@ -248,6 +302,19 @@ std::vector<float> ScoreActions(const StageNetworks& networks, const HeadBatch& 
   const at::AutoGradMode mode(false);
   const HeadParameters parameters(CriticLayout(), networks.critic, false);
   return ToVector(CriticScore(parameters, networks, batch, View(batch.features, kFeatureSize)));
+}
+
+std::vector<float> ScoreGrasps(const StageNetworks& networks, const HeadBatch& batch) {
+  const at::AutoGradMode mode(false);
+  const HeadParameters parameters(CriticLayout(NetworkFamily::kGrasp), networks.critic, false);
+  return ToVector(
+      DiscriminatorScore(parameters, networks, batch, View(batch.features, kFeatureSize)));
+}
+
+std::vector<float> ScorePoints(const StageNetworks& networks, const HeadBatch& batch) {
+  const at::AutoGradMode mode(false);
+  const HeadParameters parameters(ActorLayout(NetworkFamily::kGrasp), networks.actor, false);
+  return ToVector(AffordanceScore(parameters, networks, batch, View(batch.features, kFeatureSize)));
 }
 
 }  // namespace doorforge::internal

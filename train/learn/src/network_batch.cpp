@@ -17,22 +17,18 @@ void Append(const std::array<float, N>& values, std::vector<float>& out) {
 
 }  // namespace
 
-GeometryCache::GeometryCache(std::span<const TrainingSample> samples,
-                             const std::array<float, 3>& centre, std::size_t budget_bytes)
-    : samples_(samples),
-      centre_(centre),
-      kept_(std::min(samples.size(), budget_bytes / kGeometryBytes)),
+GeometryCache::GeometryCache(std::size_t samples, std::size_t points, std::size_t budget_bytes,
+                             Build build)
+    : build_(std::move(build)),
+      kept_(std::min(samples, budget_bytes / (points * kGeometryBytes))),
       geometry_(kept_) {}
 
-std::vector<std::shared_ptr<const CloudGeometry>> GeometryCache::Get(
-    std::span<const std::size_t> indices, int threads) {
-  std::vector<std::shared_ptr<const CloudGeometry>> found(indices.size());
+Geometries GeometryCache::Get(std::span<const std::size_t> indices, int threads) {
+  Geometries found(indices.size());
   ParallelFor(indices.size(), threads, [&](std::size_t i) {
     const std::size_t index = indices[i];
     if (index < kept_) found[i] = geometry_[index];
-    if (found[i] == nullptr)
-      found[i] =
-          std::make_shared<const CloudGeometry>(BuildGeometry(samples_[index].cloud, centre_));
+    if (found[i] == nullptr) found[i] = std::make_shared<const CloudGeometry>(build_(index));
   });
   for (std::size_t i = 0; i < indices.size(); ++i) {
     if (indices[i] < kept_) geometry_[indices[i]] = found[i];

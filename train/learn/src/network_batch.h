@@ -18,21 +18,24 @@
 
 namespace doorforge::internal {
 
+using Geometries = std::vector<std::shared_ptr<const CloudGeometry>>;
+
 /// Geometries of a set of samples, kept up to a number of them.
 class GeometryCache {
  public:
-  GeometryCache(std::span<const TrainingSample> samples, const std::array<float, 3>& centre,
-                std::size_t budget_bytes);
+  /// Of the sample with this index; called from several threads.
+  using Build = std::function<CloudGeometry(std::size_t)>;
+
+  /// @param points Output points of a geometry, for its size in memory.
+  GeometryCache(std::size_t samples, std::size_t points, std::size_t budget_bytes, Build build);
 
   /// Of the samples with these indices, found on `threads` threads where not yet known.
-  std::vector<std::shared_ptr<const CloudGeometry>> Get(std::span<const std::size_t> indices,
-                                                        int threads);
+  Geometries Get(std::span<const std::size_t> indices, int threads);
 
  private:
-  std::span<const TrainingSample> samples_;
-  std::array<float, 3> centre_;
+  Build build_;
   std::size_t kept_;  // samples below this index are kept
-  std::vector<std::shared_ptr<const CloudGeometry>> geometry_;
+  Geometries geometry_;
 };
 
 /// The normalised numbers of these samples; features and noise are left empty.

@@ -8,7 +8,9 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/learn/cloud_geometry.h"
+#include "doorforge/learn/stage_networks.h"
 #include "doorforge/schemas/dataset.h"
+#include "doorforge/schemas/episode.h"
 
 namespace doorforge {
 namespace {
@@ -26,11 +28,19 @@ std::array<float, N> RowOf(std::span<const float> values, std::size_t row) {
 
 std::array<float, 3> ToArray(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
 
+// Straight into the closed leaf, against the outward x of the door's frame.
+std::array<float, 3> ApproachOf(const DatasetReader& reader, std::size_t episode) {
+  const std::string path = "episode " + reader.entry(episode).key + ": meta.json";
+  const Scene scene = EpisodeFromMeta(reader.Meta(episode), path).scene;
+  return ToArray(-scene.world_from_door.linear().col(0).cast<float>());
+}
+
 void AppendEpisode(const EpisodeArrays& arrays, std::vector<TrainingSample>& samples) {
   for (std::size_t t = 0; t < arrays.decisions; ++t) {
     const auto proprioception = RowOf<std::tuple_size_v<Proprioception>>(arrays.proprio, t);
     TrainingSample sample;
     sample.cloud = arrays.cloud.subspan(t * kCloudFloats, kCloudFloats);
+    sample.label = arrays.label.subspan(t * kCloudPoints, kCloudPoints);
     sample.state = PolicyStateOf(proprioception);
     sample.hand_m = ToArray(HandPositionOf(proprioception));
     sample.base_m = ToArray(BasePositionOf(proprioception));
@@ -41,8 +51,8 @@ void AppendEpisode(const EpisodeArrays& arrays, std::vector<TrainingSample>& sam
 }
 
 // Episodes [begin, end) of a split.
-std::vector<TrainingSample> SamplesOf(const DatasetReader& reader, std::size_t begin,
-                                      std::size_t end) {
+std::vector<TrainingSample> SamplesOf(const DatasetReader& reader, const std::string& stage,
+                                      std::size_t begin, std::size_t end) {
   std::vector<TrainingSample> samples;
   for (std::size_t i = begin; i < end; ++i) {
     const EpisodeArrays arrays = reader.Arrays(i);
@@ -52,6 +62,7 @@ std::vector<TrainingSample> SamplesOf(const DatasetReader& reader, std::size_t b
                                           " points; the networks read " +
                                           std::to_string(kCloudPoints));
     AppendEpisode(arrays, samples);
+    if (FamilyOf(stage) == NetworkFamily::kGrasp) samples.back().approach = ApproachOf(reader, i);
   }
   return samples;
 }
@@ -75,14 +86,14 @@ StageDataset ReadStageDataset(const fs::path& folder, std::string_view stage,
     dataset.readers.push_back(std::make_unique<DatasetReader>(folder, name, "val"));
     const DatasetReader& validation = *dataset.readers.back();
     content += "\n" + validation.ContentHash();
-    dataset.train = SamplesOf(train, 0, episodes);
-    dataset.validation = SamplesOf(validation, 0, validation.size());
+    dataset.train = SamplesOf(train, name, 0, episodes);
+    dataset.validation = SamplesOf(validation, name, 0, validation.size());
   } else {
     const auto aside = std::min(
         episodes > 0 ? episodes - 1 : 0,
         static_cast<std::size_t>(std::ceil(validation_share * static_cast<double>(episodes))));
-    dataset.train = SamplesOf(train, 0, episodes - aside);
-    dataset.validation = SamplesOf(train, episodes - aside, episodes);
+    dataset.train = SamplesOf(train, name, 0, episodes - aside);
+    dataset.validation = SamplesOf(train, name, episodes - aside, episodes);
   }
   dataset.content_sha256 = Sha256Hex(content);
   return dataset;

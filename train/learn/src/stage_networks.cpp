@@ -47,13 +47,28 @@ ParameterLayout MakeCriticLayout() {
   return layout;
 }
 
+ParameterLayout MakeAffordanceLayout() {
+  ParameterLayout layout;
+  AddEncoderLayers("encoder.", layout);
+  AddBranch("point", {3, 128, 128, 128}, layout);
+  AddBranch("score", {kFeatureSize + 128, 128, 1}, layout);
+  return layout;
+}
+
+ParameterLayout MakeDiscriminatorLayout() {
+  ParameterLayout layout;
+  AddEncoderLayers("encoder.", layout);
+  AddBranch("action", {9, 128, 128, 128}, layout);
+  AddBranch("score", {kFeatureSize + 128, 128, 1}, layout);
+  return layout;
+}
+
 std::vector<float> Initial(const ParameterLayout& layout, std::uint64_t seed,
                            const std::string& prefix) {
   std::vector<float> parameters = HeInitialisation(layout, seed, prefix);
   for (const DenseLayer& layer : layout.layers()) {
-    if (layer.name != "mean" && layer.name != "log_variance" && layer.name != "decoder.2" &&
-        layer.name != "score.2")
-      continue;
+    const bool gives_result = &layer == &layout.layers().back();
+    if (layer.name != "mean" && layer.name != "log_variance" && !gives_result) continue;
     for (std::size_t i = layer.offset; i < layer.bias_offset(); ++i) parameters[i] *= kResultScale;
   }
   return parameters;
@@ -180,20 +195,33 @@ StageNormalisation NormalisationFromJson(const Json& json, const std::string& pa
   return normalisation;
 }
 
-const ParameterLayout& ActorLayout() {
-  static const ParameterLayout kLayout = MakeActorLayout();
-  return kLayout;
+NetworkFamily FamilyOf(std::string_view stage) {
+  return stage == "grasp" ? NetworkFamily::kGrasp : NetworkFamily::kMotion;
 }
 
-const ParameterLayout& CriticLayout() {
-  static const ParameterLayout kLayout = MakeCriticLayout();
-  return kLayout;
+NetworkNames NamesOf(NetworkFamily family) {
+  return family == NetworkFamily::kGrasp ? NetworkNames{"affordance", "discriminator"}
+                                         : NetworkNames{"actor", "critic"};
+}
+
+const ParameterLayout& ActorLayout(NetworkFamily family) {
+  static const ParameterLayout kActor = MakeActorLayout();
+  static const ParameterLayout kAffordance = MakeAffordanceLayout();
+  return family == NetworkFamily::kGrasp ? kAffordance : kActor;
+}
+
+const ParameterLayout& CriticLayout(NetworkFamily family) {
+  static const ParameterLayout kCritic = MakeCriticLayout();
+  static const ParameterLayout kDiscriminator = MakeDiscriminatorLayout();
+  return family == NetworkFamily::kGrasp ? kDiscriminator : kCritic;
 }
 
 StageNetworks InitialNetworks(const StageNormalisation& normalisation, bool linear_branches,
-                              std::uint64_t seed) {
-  return {normalisation, linear_branches, Initial(ActorLayout(), seed, "actor."),
-          Initial(CriticLayout(), seed, "critic.")};
+                              std::uint64_t seed, NetworkFamily family) {
+  const NetworkNames names = NamesOf(family);
+  return {normalisation, linear_branches,
+          Initial(ActorLayout(family), seed, std::string(names.actor) + "."),
+          Initial(CriticLayout(family), seed, std::string(names.critic) + "."), family};
 }
 
 }  // namespace doorforge

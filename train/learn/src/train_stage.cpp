@@ -20,16 +20,18 @@
 #include "head_networks.h"
 #include "network_batch.h"
 #include "sampler.h"
+#include "stage_task.h"
 
 namespace doorforge {
 namespace {
 
 using internal::EncodedBatch;
-using internal::GeometryCache;
-using internal::HeadBatch;
+using internal::Geometries;
 using internal::HeadResult;
-
-using Geometries = std::vector<std::shared_ptr<const CloudGeometry>>;
+using internal::Minibatch;
+using internal::NetworkRole;
+using internal::SampleSet;
+using internal::StageTask;
 
 // A batch's gradient is the sum of this many parts, each summed over its samples in order, so that
 // it does not depend on the number of threads.
@@ -51,26 +53,33 @@ double LearningRate(const TrainConfig& config, std::uint64_t step, std::uint64_t
   return config.learning_rate * warmup * decay;
 }
 
-StageLosses Scaled(const StageLosses& losses, double factor) {
-  return {losses.position_m * factor, losses.rotation_rad * factor, losses.divergence * factor,
-          losses.score_rad * factor};
+constexpr std::array<double StageLosses::*, 5> kLosses = {
+    &StageLosses::position_m, &StageLosses::rotation_rad, &StageLosses::divergence,
+    &StageLosses::score_rad, &StageLosses::affordance_rad};
+
+// `losses` with those values of `newer` that are known.
+StageLosses Updated(StageLosses losses, const StageLosses& newer) {
+  for (const auto value : kLosses) {
+    if (!std::isnan(newer.*value)) losses.*value = newer.*value;
+  }
+  return losses;
 }
 
-StageLosses Sum(const StageLosses& a, const StageLosses& b) {
-  return {a.position_m + b.position_m, a.rotation_rad + b.rotation_rad, a.divergence + b.divergence,
-          a.score_rad + b.score_rad};
+void AddScaled(const StageLosses& losses, double factor, StageLosses& sum) {
+  for (const auto value : kLosses) sum.*value += factor * losses.*value;
 }
 
 // One of the two networks with what its training needs between steps.
 struct Network {
+  NetworkRole role;
   const ParameterLayout* layout;
   std::vector<float>* parameters;
   std::vector<float>* first;
   std::vector<float>* second;
-  EncodedBatch encoded;
-  std::array<std::vector<float>, kGradientParts> parts;
-  std::vector<float> gradient;
-  std::vector<float> feature_gradient;
+  EncodedBatch encoded{};
+  std::array<std::vector<float>, kGradientParts> parts{};
+  std::vector<float> gradient{};
+  std::vector<float> feature_gradient{};
 };
 
 class Trainer {
@@ -84,36 +93,24 @@ class Trainer {
         threads_(ThreadCount(hooks.threads)),
         instruction_set_(BestInstructionSet()),
         state_(hooks.resume ? *hooks.resume : InitialState()),
-        geometry_(train, state_.networks.normalisation.cloud_centre_m, hooks.geometry_cache_bytes),
-        validation_geometry_(validation, state_.networks.normalisation.cloud_centre_m,
-                             hooks.geometry_cache_bytes / 4) {
-    actor_ = {&ActorLayout(),
-              &state_.networks.actor,
-              &state_.actor_first,
-              &state_.actor_second,
-              {},
-              {},
-              {},
-              {}};
-    critic_ = {&CriticLayout(),
-               &state_.networks.critic,
-               &state_.critic_first,
-               &state_.critic_second,
-               {},
-               {},
-               {},
-               {}};
-  }
+        networks_{Network{NetworkRole::kActor, &ActorLayout(config.family), &state_.networks.actor,
+                          &state_.actor_first, &state_.actor_second},
+                  Network{NetworkRole::kCritic, &CriticLayout(config.family),
+                          &state_.networks.critic, &state_.critic_first, &state_.critic_second}},
+        task_(MakeTask()) {}
 
   TrainerState Run() {
     const std::uint64_t per_epoch = StepsPerEpoch(train_.size(), config_);
-    const std::uint64_t total = per_epoch * static_cast<std::uint64_t>(config_.epochs);
+    const std::uint64_t per_lesson = per_epoch * static_cast<std::uint64_t>(config_.epochs);
+    const std::uint64_t total = per_epoch * static_cast<std::uint64_t>(EpochsOf(config_));
+    int lesson = -1;
     while (state_.step < total) {
-      const StageLosses losses = Step(per_epoch, total);
-      state_.steps.push_back(losses);
+      const int now = static_cast<int>(state_.step / per_lesson);
+      if (now != lesson) task_->Begin(lesson = now, state_.networks);
+      const StageLosses losses = Step(lesson, per_epoch, per_lesson);
+      state_.steps.push_back(Updated(LastLosses(), losses));
       ++state_.step;
-      CheckFinite(losses);
-      if (state_.step % per_epoch == 0) EndEpoch(per_epoch);
+      if (state_.step % per_epoch == 0) EndEpoch(lesson, per_epoch);
       if (hooks_.on_step) hooks_.on_step(state_);
       if (hooks_.stop && hooks_.stop()) break;
     }
@@ -123,52 +120,74 @@ class Trainer {
  private:
   TrainerState InitialState() const {
     TrainerState state;
-    state.networks =
-        InitialNetworks(MeasureNormalisation(train_), config_.linear_branches, config_.seed);
-    state.actor_first.resize(ActorLayout().size());
-    state.actor_second.resize(ActorLayout().size());
-    state.critic_first.resize(CriticLayout().size());
-    state.critic_second.resize(CriticLayout().size());
+    state.networks = InitialNetworks(MeasureNormalisation(train_), config_.linear_branches,
+                                     config_.seed, config_.family);
+    state.actor_first.resize(state.networks.actor.size());
+    state.actor_second.resize(state.networks.actor.size());
+    state.critic_first.resize(state.networks.critic.size());
+    state.critic_second.resize(state.networks.critic.size());
     return state;
   }
 
-  // The critic is left out on some steps if the config says so.
-  bool CriticLearns() const {
-    return state_.step % static_cast<std::uint64_t>(config_.critic_interval) == 0;
+  std::unique_ptr<StageTask> MakeTask() const {
+    const internal::TaskInput input{
+        train_, validation_, &config_, &state_.networks, hooks_.geometry_cache_bytes, threads_};
+    return config_.family == NetworkFamily::kGrasp ? internal::MakeGraspTask(input)
+                                                   : internal::MakeMotionTask(input);
+  }
+
+  // A step without a network repeats its last loss in the record.
+  StageLosses LastLosses() const {
+    return state_.steps.empty() ? UnknownLosses() : state_.steps.back();
+  }
+
+  std::uint64_t Interval(const Network& network) const {
+    return static_cast<std::uint64_t>(task_->Interval(network.role));
+  }
+
+  // Those of the lesson's networks whose turn it is.
+  std::vector<Network*> Learning(int lesson, std::uint64_t lesson_step) {
+    std::vector<Network*> learning;
+    for (Network* network : Taught(lesson)) {
+      if (lesson_step % Interval(*network) == 0) learning.push_back(network);
+    }
+    return learning;
+  }
+
+  std::vector<Network*> Taught(int lesson) {
+    std::vector<Network*> taught;
+    for (const NetworkRole role : task_->Taught(lesson))
+      taught.push_back(&networks_.at(static_cast<std::size_t>(role)));
+    return taught;
   }
 
   PointEncoder EncoderOf(const Network& network) const {
     return {*network.layout, "encoder.", *network.parameters, instruction_set_};
   }
 
-  StageLosses Step(std::uint64_t per_epoch, std::uint64_t total) {
-    const std::size_t size = BatchSize(train_.size(), config_);
-    const std::vector<std::size_t> indices = internal::BatchOf(
-        config_.seed, state_.step / per_epoch, state_.step % per_epoch, train_.size(), size);
-    const Geometries geometries = geometry_.Get(indices, threads_);
-    HeadBatch batch = internal::MakeHeadBatch(train_, indices, state_.networks.normalisation);
-    batch.noise = internal::LatentNoise(config_.seed, state_.step, size * kLatentSize);
-
-    std::vector<Network*> learning = {&actor_};
-    if (CriticLearns()) learning.push_back(&critic_);
+  StageLosses Step(int lesson, std::uint64_t per_epoch, std::uint64_t per_lesson) {
+    const std::uint64_t lesson_step = state_.step % per_lesson;
+    const Minibatch batch{
+        SampleSet::kTrain,
+        internal::BatchOf(config_.seed, state_.step / per_epoch, state_.step % per_epoch,
+                          train_.size(), BatchSize(train_.size(), config_)),
+        state_.step};
+    const Geometries geometries = task_->GeometriesOf(lesson, batch);
+    const std::vector<Network*> learning = Learning(lesson, lesson_step);
     const std::vector<PointEncoder> encoders = Encode(learning, geometries);
-    StageLosses losses = Heads(learning, batch);
+    StageLosses losses = UnknownLosses();
+    for (Network* network : learning) losses = Updated(losses, Head(*network, batch));
     Backward(learning, encoders, geometries);
-    const internal::AdamRates rates{LearningRate(config_, state_.step, total),
+    const internal::AdamRates rates{LearningRate(config_, lesson_step, per_lesson),
                                     config_.weight_decay};
     ParallelFor(learning.size(), threads_, [&](std::size_t n) {
       Network& network = *learning[n];
       for (const std::vector<float>& part : network.parts) {
         for (std::size_t i = 0; i < part.size(); ++i) network.gradient[i] += part[i];
       }
-      const std::uint64_t updates =
-          &network == &actor_ ? state_.step
-                              : state_.step / static_cast<std::uint64_t>(config_.critic_interval);
-      AdamStep(rates, updates + 1, network.gradient,
+      AdamStep(rates, lesson_step / Interval(network) + 1, network.gradient,
                {*network.parameters, *network.first, *network.second});
     });
-    // a step without the critic repeats its last loss in the record
-    if (learning.size() == 1) losses.score_rad = state_.steps.back().score_rad;
     return losses;
   }
 
@@ -189,27 +208,21 @@ class Trainer {
     return encoders;
   }
 
-  StageLosses Heads(const std::vector<Network*>& networks, HeadBatch& batch) {
-    StageLosses losses;
-    for (Network* network : networks) {
-      batch.features = network->encoded.Features(static_cast<std::size_t>(batch.size));
-      network->gradient.assign(network->layout->size(), 0.0F);
-      HeadResult result = RunHead(*network, batch, true);
-      network->feature_gradient = std::move(result.feature_gradient);
-      losses = Sum(losses, result.losses);
-    }
-    return losses;
-  }
-
-  HeadResult RunHead(Network& network, const HeadBatch& batch, bool with_gradient) const {
-    const std::span<float> gradient =
-        with_gradient ? std::span<float>(network.gradient) : std::span<float>();
-    if (&network == &critic_) return CriticObjective(state_.networks, batch, gradient);
-    return ActorObjective(state_.networks, batch, config_, gradient);
+  // Fills the network's gradient behind the encoder, and that of its features.
+  StageLosses Head(Network& network, const Minibatch& batch) {
+    network.gradient.assign(network.layout->size(), 0.0F);
+    HeadResult result = task_->Objective(
+        network.role, batch, network.encoded.Features(batch.indices.size()), network.gradient);
+    Require(std::isfinite(result.objective), ErrorCode::kIncomplete,
+            "training diverged at step " + std::to_string(state_.step + 1) +
+                ": a loss is not finite; lower learning_rate");
+    network.feature_gradient = std::move(result.feature_gradient);
+    return result.losses;
   }
 
   void Backward(const std::vector<Network*>& networks, const std::vector<PointEncoder>& encoders,
                 const Geometries& geometries) const {
+    const std::vector<std::size_t> offsets = FeatureOffsets(geometries);
     ParallelFor(networks.size() * kGradientParts, threads_, [&](std::size_t task) {
       Network& network = *networks[task / kGradientParts];
       const std::size_t p = task % kGradientParts;
@@ -220,49 +233,53 @@ class Trainer {
       for (std::size_t i = begin; i < end; ++i)
         encoders[task / kGradientParts].AddGradient(
             *geometries[i], network.encoded.trace(i),
-            std::span(network.feature_gradient).subspan(i * kFeatureSize, kFeatureSize), part);
+            std::span(network.feature_gradient).subspan(offsets[i], offsets[i + 1] - offsets[i]),
+            part);
     });
   }
 
-  void EndEpoch(std::uint64_t per_epoch) {
+  // Where each cloud's features begin among those of the batch.
+  static std::vector<std::size_t> FeatureOffsets(const Geometries& geometries) {
+    std::vector<std::size_t> offsets = {0};
+    for (const auto& geometry : geometries)
+      offsets.push_back(offsets.back() + geometry->upsampling[0].size() * kFeatureSize);
+    return offsets;
+  }
+
+  void EndEpoch(int lesson, std::uint64_t per_epoch) {
     EpochLosses epoch;
     for (std::uint64_t i = state_.step - per_epoch; i < state_.step; ++i)
-      epoch.train = Sum(epoch.train, Scaled(state_.steps[i], 1.0 / static_cast<double>(per_epoch)));
-    epoch.validation = Validate();
+      AddScaled(state_.steps[i], 1.0 / static_cast<double>(per_epoch), epoch.train);
+    const StageLosses before =
+        state_.epochs.empty() ? UnknownLosses() : state_.epochs.back().validation;
+    epoch.validation = Updated(before, Validate(lesson));
     state_.epochs.push_back(epoch);
     if (hooks_.on_epoch) hooks_.on_epoch(state_);
   }
 
-  // Mean over the validation set; NaN if there is none.
-  StageLosses Validate() {
-    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    if (validation_.empty()) return {kNone, kNone, kNone, kNone};
+  // Mean over the validation set of what the lesson teaches.
+  StageLosses Validate(int lesson) {
+    if (validation_.empty()) return UnknownLosses();
     constexpr std::size_t kChunk = 64;
     StageLosses sum;
     for (std::size_t begin = 0; begin < validation_.size(); begin += kChunk) {
-      std::vector<std::size_t> indices(std::min(kChunk, validation_.size() - begin));
-      std::iota(indices.begin(), indices.end(), begin);
-      const Geometries geometries = validation_geometry_.Get(indices, threads_);
-      HeadBatch batch =
-          internal::MakeHeadBatch(validation_, indices, state_.networks.normalisation);
-      batch.noise.assign(indices.size() * kLatentSize, 0.0F);
-      const std::vector<Network*> both = {&actor_, &critic_};
-      Encode(both, geometries);
-      for (Network* network : both) {
-        batch.features = network->encoded.Features(indices.size());
-        const HeadResult result = RunHead(*network, batch, false);
-        sum = Sum(sum, Scaled(result.losses, static_cast<double>(indices.size())));
-      }
+      Minibatch batch{SampleSet::kValidation, {}, 0};
+      batch.indices.resize(std::min(kChunk, validation_.size() - begin));
+      std::iota(batch.indices.begin(), batch.indices.end(), begin);
+      const std::vector<Network*> taught = Taught(lesson);
+      Encode(taught, task_->GeometriesOf(lesson, batch));
+      StageLosses losses = UnknownLosses();
+      for (Network* network : taught)
+        losses =
+            Updated(losses, task_
+                                ->Objective(network->role, batch,
+                                            network->encoded.Features(batch.indices.size()), {})
+                                .losses);
+      AddScaled(losses, static_cast<double>(batch.indices.size()), sum);
     }
-    return Scaled(sum, 1.0 / static_cast<double>(validation_.size()));
-  }
-
-  void CheckFinite(const StageLosses& losses) const {
-    const double sum =
-        losses.position_m + losses.rotation_rad + losses.divergence + losses.score_rad;
-    Require(std::isfinite(sum), ErrorCode::kIncomplete,
-            "training diverged at step " + std::to_string(state_.step) +
-                ": a loss is not finite; lower learning_rate");
+    StageLosses mean;
+    AddScaled(sum, 1.0 / static_cast<double>(validation_.size()), mean);
+    return mean;
   }
 
   std::span<const TrainingSample> train_;
@@ -272,10 +289,8 @@ class Trainer {
   int threads_;
   InstructionSet instruction_set_;
   TrainerState state_;
-  GeometryCache geometry_;
-  GeometryCache validation_geometry_;
-  Network actor_{};
-  Network critic_{};
+  std::array<Network, 2> networks_;  // by NetworkRole
+  std::unique_ptr<StageTask> task_;
 };
 
 void RequireConfig(bool condition, const char* key, const char* allowed) {
@@ -284,6 +299,8 @@ void RequireConfig(bool condition, const char* key, const char* allowed) {
 }
 
 }  // namespace
+
+int internal::LessonsOf(NetworkFamily family) { return family == NetworkFamily::kGrasp ? 2 : 1; }
 
 void CheckTrainConfig(const TrainConfig& config) {
   RequireConfig(config.epochs >= 1, "epochs", "at least 1");
@@ -298,12 +315,41 @@ void CheckTrainConfig(const TrainConfig& config) {
                     config.lambda_kl >= 0 && config.prior_reconstruction >= 0,
                 "lambda_*", "at least 0");
   RequireConfig(config.critic_interval >= 1, "critic_interval", "at least 1");
+  RequireConfig(config.score_loss == "squared" || config.score_loss == "absolute", "score_loss",
+                "squared or absolute");
+  RequireConfig(config.sampled_points >= 1 && config.sampled_points <= kCloudPoints,
+                "sampled_points", "1 to 4096");
+  RequireConfig(config.sampled_orientations >= 1 && config.sampled_orientations <= 10000,
+                "sampled_orientations", "1 to 10000");
+  RequireConfig(
+      config.best_orientations >= 1 && config.best_orientations <= config.sampled_orientations,
+      "best_orientations", "1 to sampled_orientations");
+  RequireConfig(config.tilt_rad >= 0 && config.tilt_rad < 1, "tilt_rad", "in [0, 1)");
   RequireConfig(config.validation_share >= 0 && config.validation_share < 1, "validation_share",
                 "in [0, 1)");
 }
 
 std::uint64_t StepsPerEpoch(std::size_t samples, const TrainConfig& config) {
   return samples == 0 ? 0 : samples / BatchSize(samples, config);
+}
+
+int EpochsOf(const TrainConfig& config) {
+  return config.epochs * internal::LessonsOf(config.family);
+}
+
+StageLosses UnknownLosses() {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  return {kNone, kNone, kNone, kNone, kNone};
+}
+
+std::vector<LossColumn> LossColumnsOf(NetworkFamily family) {
+  if (family == NetworkFamily::kGrasp)
+    return {{"discriminator.score_rad", &StageLosses::score_rad},
+            {"affordance.score_rad", &StageLosses::affordance_rad}};
+  return {{"actor.position_m", &StageLosses::position_m},
+          {"actor.rotation_rad", &StageLosses::rotation_rad},
+          {"actor.divergence", &StageLosses::divergence},
+          {"critic.score_rad", &StageLosses::score_rad}};
 }
 
 TrainerState TrainStage(std::span<const TrainingSample> train,

@@ -16,7 +16,7 @@ inline constexpr int kPolicySchemaVersion = 1;
 
 /// What a policy was made from.
 struct PolicyProvenance {
-  std::string stage;           ///< "open" or "handle".
+  std::string stage;           ///< "open", "handle" or "grasp".
   std::string dataset_sha256;  ///< DatasetReader::ContentHash() of what it was trained from.
   std::string code_version;
   TrainConfig config;
@@ -33,9 +33,9 @@ struct PolicyRecord {
 /// SHA-256 of the effective config's JSON text.
 std::string ConfigHash(const TrainConfig& config);
 
-/// Writes `policy.safetensors` (every weight under its layer's name, after "actor." or "critic.")
-/// and then `policy.json` (schema doorforge.policy: sizes, normalisation, provenance and the
-/// weights' SHA-256). Equal arguments give equal bytes.
+/// Writes `policy.safetensors` (every weight under its layer's name, after the network's, see
+/// NetworkNames) and then `policy.json` (schema doorforge.policy: sizes, normalisation, provenance
+/// and the weights' SHA-256). Equal arguments give equal bytes.
 void WritePolicy(const std::filesystem::path& folder, const StageNetworks& networks,
                  const PolicyProvenance& provenance);
 
@@ -58,8 +58,7 @@ TrainerState ReadTrainerState(const std::filesystem::path& folder,
 
 /// A loss over the epochs; `validation` may hold NaN (null in the file).
 struct TrainingCurve {
-  std::string name;  ///< "actor.position_m", "actor.rotation_rad", "actor.divergence",
-                     ///< "critic.score_rad".
+  std::string name;  ///< As LossColumn.
   std::vector<double> epoch;
   std::vector<double> train;
   std::vector<double> validation;

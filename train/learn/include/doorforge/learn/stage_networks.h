@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -34,7 +35,7 @@ struct Normaliser {
 struct StageNormalisation {
   std::array<float, 3> cloud_centre_m{};  ///< Subtracted from every cloud; the scale stays metres.
   Normaliser<18> state;
-  Normaliser<9> action;  ///< Position [m], then the six rotation numbers.
+  Normaliser<9> action;  ///< Position or contact point [m], then the six rotation numbers.
   Normaliser<3> hand_m;
   Normaliser<3> base_m;
   Normaliser<1> score_rad;
@@ -47,26 +48,42 @@ nlohmann::ordered_json NormalisationToJson(const StageNormalisation& normalisati
 StageNormalisation NormalisationFromJson(const nlohmann::ordered_json& json,
                                          const std::string& path);
 
+/// Which networks a stage has. Each stage has one that proposes and one that judges: actor and
+/// critic where the hand is moved, affordance and discriminator where a grasp is chosen
+/// (UniDoorManip 5.2 to 5.4).
+enum class NetworkFamily { kMotion, kGrasp };
+NetworkFamily FamilyOf(std::string_view stage);
+
+/// What files call the two: "actor" and "critic", or "affordance" and "discriminator".
+struct NetworkNames {
+  const char* actor;
+  const char* critic;
+};
+NetworkNames NamesOf(NetworkFamily family);
+
 /// The actor: encoder ("encoder.*") and conditional VAE (UniDoorManip's table): action
 /// 9-128-128-64, state 18-128-128-64, posterior 256-128-128 -> mean and log-variance of 128
-/// latents, decoder 320-512-256-9.
-const ParameterLayout& ActorLayout();
+/// latents, decoder 320-512-256-9. The affordance: encoder, contact point 3-128-128-128, score
+/// 256-128-1.
+const ParameterLayout& ActorLayout(NetworkFamily family = NetworkFamily::kMotion);
 
 /// The critic: encoder of its own, state 18-128-128-64, action 9-128-128-64, hand and base position
-/// 3-128-128-64 each, score 384-256-128-1.
-const ParameterLayout& CriticLayout();
+/// 3-128-128-64 each, score 384-256-128-1. The discriminator: encoder, action 9-128-128-128, score
+/// 256-128-1.
+const ParameterLayout& CriticLayout(NetworkFamily family = NetworkFamily::kMotion);
 
 /// The trained values of both networks, each a flat vector of its layout.
 struct StageNetworks {
   StageNormalisation normalisation;
   bool linear_branches = false;  ///< See TrainConfig.
-  std::vector<float> actor;
-  std::vector<float> critic;
+  std::vector<float> actor;      ///< At "grasp" the affordance.
+  std::vector<float> critic;     ///< At "grasp" the discriminator.
+  NetworkFamily family = NetworkFamily::kMotion;
 };
 
 /// He initialisation; layers that give results start at a tenth of it, so training starts near the
 /// mean of the training set.
 StageNetworks InitialNetworks(const StageNormalisation& normalisation, bool linear_branches,
-                              std::uint64_t seed);
+                              std::uint64_t seed, NetworkFamily family = NetworkFamily::kMotion);
 
 }  // namespace doorforge

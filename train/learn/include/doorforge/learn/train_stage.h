@@ -17,6 +17,10 @@ namespace doorforge {
 /// What decides a training run besides its samples. Two runs of equal configs on equal samples give
 /// equal bytes, for any number of threads and any interruption.
 struct TrainConfig {
+  /// Not a setting: decides which ones there are.
+  NetworkFamily family = NetworkFamily::kMotion;
+  /// Of a stage's networks; at "grasp" of the discriminator, and as many of the affordance after
+  /// it.
   int epochs = 10;
   int batch_size = 32;  ///< UniDoorManip 5.5; an epoch leaves out the last, incomplete batch.
   double learning_rate = 1e-3;
@@ -35,6 +39,13 @@ struct TrainConfig {
   bool linear_branches = false;
   /// The critic learns on every n-th step only; 1: on all.
   int critic_interval = 1;
+  /// What the discriminator minimises: "squared" error, which makes its score the expected angle,
+  /// or "absolute" (UniDoorManip), which makes it the median.
+  std::string score_loss = "squared";
+  int sampled_points = 4;         ///< Of each cloud's handle, that the affordance learns from.
+  int sampled_orientations = 50;  ///< Rated by the discriminator at each of them (UniDoorManip).
+  int best_orientations = 10;     ///< Whose mean rating is the affordance's target (likewise).
+  double tilt_rad = 0.1;          ///< Of sampled orientations, as OrientationSampling.
   double validation_share = 0.1;  ///< Of the episodes, if the data set has no split "val".
   std::uint64_t seed = 1;
 
@@ -46,12 +57,20 @@ struct TrainConfig {
     visit("weight_decay", self.weight_decay);
     visit("schedule", self.schedule);
     visit("warmup_steps", self.warmup_steps);
-    visit("lambda_position", self.lambda_position);
-    visit("lambda_rotation", self.lambda_rotation);
-    visit("lambda_kl", self.lambda_kl);
-    visit("prior_reconstruction", self.prior_reconstruction);
-    visit("linear_branches", self.linear_branches);
-    visit("critic_interval", self.critic_interval);
+    if (self.family == NetworkFamily::kMotion) {
+      visit("lambda_position", self.lambda_position);
+      visit("lambda_rotation", self.lambda_rotation);
+      visit("lambda_kl", self.lambda_kl);
+      visit("prior_reconstruction", self.prior_reconstruction);
+      visit("linear_branches", self.linear_branches);
+      visit("critic_interval", self.critic_interval);
+    } else {
+      visit("score_loss", self.score_loss);
+      visit("sampled_points", self.sampled_points);
+      visit("sampled_orientations", self.sampled_orientations);
+      visit("best_orientations", self.best_orientations);
+      visit("tilt_rad", self.tilt_rad);
+    }
     visit("validation_share", self.validation_share);
     visit("seed", self.seed);
   }
@@ -60,13 +79,24 @@ struct TrainConfig {
 /// Throws Error(kInvalidConfig) on a value out of range, naming it.
 void CheckTrainConfig(const TrainConfig& config);
 
-/// Mean losses of a batch or of a set. Position and rotation are decoded from the latent 0.
+/// Mean losses of a batch or of a set; NaN: not of this stage, or not measured. Position and
+/// rotation are decoded from the latent 0.
 struct StageLosses {
-  double position_m = 0;    ///< Mean absolute error of a component.
-  double rotation_rad = 0;  ///< Mean geodesic angle.
-  double divergence = 0;    ///< Posterior against N(0, I).
-  double score_rad = 0;     ///< Critic's mean absolute error.
+  double position_m = 0;      ///< Mean absolute error of a component.
+  double rotation_rad = 0;    ///< Mean geodesic angle.
+  double divergence = 0;      ///< Posterior against N(0, I).
+  double score_rad = 0;       ///< Critic's or discriminator's mean absolute error.
+  double affordance_rad = 0;  ///< Affordance's, to the mean of the best ratings.
 };
+StageLosses UnknownLosses();  ///< All NaN.
+
+/// A loss by its name in files, such as "critic.score_rad".
+struct LossColumn {
+  const char* name;
+  double StageLosses::*value;
+};
+/// The losses that a stage has.
+std::vector<LossColumn> LossColumnsOf(NetworkFamily family);
 
 struct EpochLosses {
   StageLosses train;  ///< Mean over the epoch's steps.
@@ -100,10 +130,14 @@ struct TrainHooks {
 
 /// Steps of one epoch: whole batches; a set smaller than a batch is one batch.
 std::uint64_t StepsPerEpoch(std::size_t samples, const TrainConfig& config);
+/// Epochs of the whole run: the grasp's two networks learn one after the other.
+int EpochsOf(const TrainConfig& config);
 
-/// Trains actor and critic of a stage (UniDoorManip 5; departures and their reasons are
+/// Trains a stage's networks (UniDoorManip 5; departures and their reasons are
 /// in docs/design/learn.md): Adam, the losses above, batches that are a pure function of (seed,
-/// epoch, step). Gradients are summed over fixed parts of the batch in a fixed order.
+/// epoch, step). Gradients are summed over fixed parts of the batch in a fixed order. Actor and
+/// critic learn side by side; the discriminator learns before the affordance, whose targets are its
+/// ratings.
 ///
 /// @returns The state at the end, or where `stop` ended it.
 /// @throws Error(kInvalidConfig), Error(kInvalidArgument) without samples or with a damaged cloud,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 
 #include "doorforge/schemas/policy.h"
@@ -11,13 +12,20 @@ namespace doorforge {
 
 /// One decision of a stage, as the networks see it (UniDoorManip 4.2).
 struct TrainingSample {
-  /// 4096 x 3, world [m]; point 0 is the visible point nearest to the hand. Not owned.
+  /// 4096 x 3, world [m]; point 0 is the visible point nearest to the hand, at "grasp" to the
+  /// contact. Not owned.
   std::span<const float> cloud;
+  /// PointLabel of each point. Not owned; the stage "grasp" alone reads it.
+  std::span<const std::uint8_t> label{};
   PolicyState state{};
   std::array<float, 3> hand_m{};  ///< World.
   std::array<float, 3> base_m{};  ///< World.
-  ActionVector action{};          ///< What the expert did.
-  float score_rad = 0;            ///< What the action gained: the critic's target.
+  /// What the expert did; at the stage "grasp" the contact point in the world and the rotation that
+  /// were tried.
+  ActionVector action{};
+  float score_rad = 0;  ///< What the action gained: the critic's target.
+  /// Unit, world: straight into the closed leaf. Of the stage "grasp".
+  std::array<float, 3> approach{};
 };
 
 }  // namespace doorforge

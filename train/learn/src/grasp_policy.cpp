@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/learn/grasp_policy.h"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "doorforge/core/error.h"
+#include "doorforge/core/rng.h"
+#include "doorforge/learn/checkpoint.h"
+#include "doorforge/learn/orientation_sampling.h"
+
+#include "grasp_rating.h"
+#include "handle_points.h"
+#include "head_networks.h"
+
+namespace doorforge {
+namespace {
+
+Eigen::Vector3d PointOf(const std::vector<float>& xyz, std::size_t i) {
+  return Eigen::Vector3f(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]).cast<double>();
+}
+
+class TrainedGraspPolicy : public GraspPolicy {
+ public:
+  TrainedGraspPolicy(StageNetworks networks, const GraspOptions& options)
+      : networks_(std::move(networks)),
+        options_(options),
+        affordance_(ActorLayout(NetworkFamily::kGrasp), "encoder.", networks_.actor,
+                    BestInstructionSet()),
+        rater_(networks_) {}
+
+  std::optional<GraspChoice> Choose(const GraspView& view) override {
+    internal::UseOneTorchThread();
+    const LabelledCloud& visible = view.visible;
+    Require(visible.xyz.size() == 3 * visible.label.size(), ErrorCode::kInvalidArgument,
+            "grasp: the cloud has " + std::to_string(visible.xyz.size() / 3) + " points and " +
+                std::to_string(visible.label.size()) + " labels");
+    const std::vector<std::size_t> handle = internal::HandlePointsOf(visible.label);
+    if (handle.empty()) return std::nullopt;
+    const std::size_t middle = internal::MiddlePoint(visible.xyz, handle);
+    GraspChoice choice = ScoredPoints(view.sample(PointOf(visible.xyz, middle)));
+    TakeBest(view, choice);
+    return choice;
+  }
+
+ private:
+  // The affordance of the cloud's handle points.
+  GraspChoice ScoredPoints(const LabelledCloud& cloud) const {
+    const std::vector<std::size_t> handle = internal::HandlePointsOf(cloud.label);
+    const std::vector<std::uint16_t> outputs(handle.begin(), handle.end());
+    const StageNormalisation& normalisation = networks_.normalisation;
+    GraspChoice choice;
+    internal::HeadBatch batch;
+    batch.size = static_cast<int>(outputs.size());
+    batch.features = affordance_
+                         .Forward(BuildGeometry(cloud.xyz, normalisation.cloud_centre_m, outputs,
+                                                BestInstructionSet()))
+                         .features;
+    for (const std::size_t point : handle) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const float coordinate = cloud.xyz[3 * point + k];
+        choice.point_xyz.push_back(coordinate);
+        batch.points.push_back((coordinate - normalisation.action.mean.at(k)) /
+                               normalisation.action.deviation.at(k));
+      }
+    }
+    choice.affordance_rad = internal::ScorePoints(networks_, batch);
+    return choice;
+  }
+
+  // Points by falling affordance, the first of equals first.
+  static std::vector<std::size_t> Ranked(const std::vector<float>& affordance) {
+    std::vector<std::size_t> order(affordance.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return affordance[a] > affordance[b]; });
+    return order;
+  }
+
+  void TakeBest(const GraspView& view, GraspChoice& choice) const {
+    const std::vector<std::size_t> order = Ranked(choice.affordance_rad);
+    const std::size_t tried = std::min(order.size(), static_cast<std::size_t>(options_.points));
+    for (std::size_t i = 0; i < tried; ++i) {
+      Rng rng(options_.seed, "grasp/orientations/" + std::to_string(i));
+      const std::vector<Eigen::Matrix3d> orientations =
+          SampleOrientations(view.approach, {options_.orientations, options_.tilt_rad}, rng);
+      LabelledCloud cloud = view.sample(PointOf(choice.point_xyz, order[i]));
+      const std::vector<float> ratings = rater_.Rate(cloud.xyz, orientations);
+      const auto best = std::max_element(ratings.begin(), ratings.end());
+      if (i > 0 && static_cast<double>(*best) <= choice.score_rad) continue;
+      choice.score_rad = static_cast<double>(*best);
+      choice.contact_m = PointOf(cloud.xyz, 0);
+      choice.world_from_hand_rotation =
+          orientations[static_cast<std::size_t>(std::distance(ratings.begin(), best))];
+      choice.cloud = std::move(cloud);
+    }
+  }
+
+  StageNetworks networks_;
+  GraspOptions options_;
+  PointEncoder affordance_;
+  internal::GraspRater rater_;
+};
+
+}  // namespace
+
+std::unique_ptr<GraspPolicy> MakeGraspPolicy(StageNetworks networks, const GraspOptions& options) {
+  const auto require = [](bool condition, const char* problem) {
+    Require(condition, ErrorCode::kInvalidConfig, std::string("grasp.") + problem);
+  };
+  require(options.points >= 1 && options.points <= 1000, "points: must be 1 to 1000");
+  require(options.orientations >= 1 && options.orientations <= 10000,
+          "orientations: must be 1 to 10000");
+  require(options.tilt_rad >= 0 && options.tilt_rad < 1, "tilt_rad: must be in [0, 1)");
+  Require(networks.family == NetworkFamily::kGrasp, ErrorCode::kInvalidArgument,
+          "grasp: the networks are those of another stage");
+  return std::make_unique<TrainedGraspPolicy>(std::move(networks), options);
+}
+
+std::unique_ptr<GraspPolicy> LoadGraspPolicy(const std::filesystem::path& folder,
+                                             const GraspOptions& options) {
+  return MakeGraspPolicy(ReadPolicy(folder, "grasp").networks, options);
+}
+
+}  // namespace doorforge

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
+#include "sampler.h"
+#include "stage_task.h"
+
+namespace doorforge::internal {
+namespace {
+
+class MotionTask : public StageTask {
+ public:
+  explicit MotionTask(const TaskInput& input)
+      : input_(input),
+        train_(CacheOf(input.train, input.cache_bytes)),
+        validation_(CacheOf(input.validation, input.cache_bytes / 4)) {}
+
+  std::vector<NetworkRole> Taught(int /*lesson*/) const override {
+    return {NetworkRole::kActor, NetworkRole::kCritic};
+  }
+
+  int Interval(NetworkRole role) const override {
+    return role == NetworkRole::kCritic ? input_.config->critic_interval : 1;
+  }
+
+  void Begin(int /*lesson*/, const StageNetworks& /*networks*/) override {}
+
+  Geometries GeometriesOf(int /*lesson*/, const Minibatch& batch) override {
+    GeometryCache& cache = batch.set == SampleSet::kTrain ? train_ : validation_;
+    return cache.Get(batch.indices, input_.threads);
+  }
+
+  HeadResult Objective(NetworkRole role, const Minibatch& batch, std::vector<float> features,
+                       std::span<float> gradient) override {
+    const StageNetworks& networks = *input_.networks;
+    const bool trains = batch.set == SampleSet::kTrain;
+    HeadBatch head = MakeHeadBatch(trains ? input_.train : input_.validation, batch.indices,
+                                   networks.normalisation);
+    head.features = std::move(features);
+    if (role == NetworkRole::kCritic) return CriticObjective(networks, head, gradient);
+    const std::size_t draws = batch.indices.size() * kLatentSize;
+    head.noise = trains ? LatentNoise(input_.config->seed, batch.step, draws)
+                        : std::vector<float>(draws, 0.0F);
+    return ActorObjective(networks, head, *input_.config, gradient);
+  }
+
+ private:
+  GeometryCache CacheOf(std::span<const TrainingSample> samples, std::size_t bytes) const {
+    const std::array<float, 3> centre = input_.networks->normalisation.cloud_centre_m;
+    return {samples.size(), 1, bytes,
+            [samples, centre](std::size_t i) { return BuildGeometry(samples[i].cloud, centre); }};
+  }
+
+  TaskInput input_;
+  GeometryCache train_;
+  GeometryCache validation_;
+};
+
+}  // namespace
+
+std::unique_ptr<StageTask> MakeMotionTask(const TaskInput& input) {
+  return std::make_unique<MotionTask>(input);
+}
+
+}  // namespace doorforge::internal

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "doorforge/learn/stage_networks.h"
+#include "doorforge/learn/train_stage.h"
+#include "doorforge/learn/training_sample.h"
+
+#include "head_networks.h"
+#include "network_batch.h"
+
+namespace doorforge::internal {
+
+/// The two networks of a stage, see NetworkFamily.
+enum class NetworkRole { kActor, kCritic };
+
+enum class SampleSet { kTrain, kValidation };
+
+/// Some samples on their way through a network.
+struct Minibatch {
+  SampleSet set = SampleSet::kTrain;
+  std::vector<std::size_t> indices;
+  std::uint64_t step = 0;  ///< Of the run: names the random draws. Validation draws nothing.
+};
+
+/// What a stage teaches its networks, in lessons of equal length one after the other. The loop of
+/// TrainStage() knows steps, gradients and checkpoints, and nothing of what is learnt; a task knows
+/// nothing of steps but the number that names a step's draws.
+class StageTask {
+ public:
+  virtual ~StageTask() = default;
+
+  /// Networks that a lesson teaches; all read the same geometries.
+  virtual std::vector<NetworkRole> Taught(int lesson) const = 0;
+  /// A network learns on every n-th step of its lesson.
+  virtual int Interval(NetworkRole role) const = 0;
+  /// Called before a lesson's first step in this process: once in a run, again when it is resumed.
+  virtual void Begin(int lesson, const StageNetworks& networks) = 0;
+  virtual Geometries GeometriesOf(int lesson, const Minibatch& batch) = 0;
+  /// Of one network; the gradient is added to `gradient` unless that is empty.
+  virtual HeadResult Objective(NetworkRole role, const Minibatch& batch,
+                               std::vector<float> features, std::span<float> gradient) = 0;
+};
+
+/// Lessons of a family: 1, or 2 where one network learns from the other's ratings.
+int LessonsOf(NetworkFamily family);
+
+/// What a task learns from.
+struct TaskInput {
+  std::span<const TrainingSample> train;
+  std::span<const TrainingSample> validation;
+  const TrainConfig* config;
+  const StageNetworks* networks;  ///< In training; outlives the task.
+  std::size_t cache_bytes;
+  int threads;
+};
+
+/// Actor and critic, side by side.
+std::unique_ptr<StageTask> MakeMotionTask(const TaskInput& input);
+/// Discriminator, then affordance.
+std::unique_ptr<StageTask> MakeGraspTask(const TaskInput& input);
+
+}  // namespace doorforge::internal

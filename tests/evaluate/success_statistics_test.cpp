@@ -95,6 +95,26 @@ TEST(SuccessStatistics, TheAngleCurveCountsPeaksBeyondEachThreshold) {
   EXPECT_NEAR(curve[3].angle_rad, 45 * kDegree, 1e-15);
 }
 
+TEST(SuccessStatistics, TimeIsOfOpenedEpisodesForceAndHandleOfAll) {
+  std::vector<EvaluatedEpisode> rows = {
+      Row(EpisodeOutcome::kOpened, 50), Row(EpisodeOutcome::kOpened, 50),
+      Row(EpisodeOutcome::kOpened, 50), Row(EpisodeOutcome::kHandleStuck, 0),
+      Row(EpisodeOutcome::kGripLost, 20)};
+  const double seconds[] = {9, 5, 6, 1, 1};
+  const double newtons[] = {80, 90, 70, 10, 400};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].simulated_s = seconds[i];
+    rows[i].peak_force_n = newtons[i];
+    rows[i].handle_done = rows[i].outcome != EpisodeOutcome::kHandleStuck;
+  }
+  const SuccessSummary summary = Summarise(rows);
+  EXPECT_EQ(summary.median_opening_s, 6);
+  EXPECT_EQ(summary.median_force_n, 80);
+  EXPECT_EQ(summary.peak_force_n, 400);
+  EXPECT_EQ(summary.handle_done.successes, 4);
+  EXPECT_EQ(summary.handle_done.episodes, 5);
+}
+
 // Rates 1/2, 1, 0: mean 1/2, unbiased variance ((0)^2 + (1/2)^2 + (1/2)^2) / 2 = 1/4.
 TEST(SuccessStatistics, SeedsGiveMeanAndUnbiasedVariance) {
   const std::vector<EvaluatedEpisode> rows = {

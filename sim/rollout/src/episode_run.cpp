@@ -217,6 +217,7 @@ EpisodeRun::Failure EpisodeRun::Grasp() {
     StepHand();
     contacts = world_.Contacts();
     NoteSelfContact(contacts);
+    NoteForce(contacts);
     both = contacts.BothPads() ? both + 1 : 0;
     CenterHand(contacts);
   }
@@ -254,7 +255,9 @@ EpisodeRun::Failure EpisodeRun::Unlock() {
         std::min({commanded + kTurnSpeed * dt, state.handle_rad + kTurnLead, goal + kTurnLead});
     controller_.FollowHand(WorldFromHandle(commanded) * handle_from_hand_at_grasp_);
     StepHand();
-    lost = world_.Contacts().AnyPad() ? 0 : lost + 1;
+    const DoorContacts contacts = world_.Contacts();
+    NoteForce(contacts);
+    lost = contacts.AnyPad() ? 0 : lost + 1;
     if (lost > StepsIn(kLostTime)) break;
   }
   Watch("unlock");
@@ -299,9 +302,15 @@ void EpisodeRun::NoteSelfContact(const DoorContacts& contacts) {
     touched_itself_ = contacts.self_touches + Format(" with %.0f N", contacts.self_force_n);
 }
 
+void EpisodeRun::NoteForce(const DoorContacts& contacts) {
+  const double force = contacts.pad_force_n[0] + contacts.pad_force_n[1] + contacts.arm_force_n;
+  episode_.peak_force_n = std::max(episode_.peak_force_n, force);
+}
+
 void EpisodeRun::NoteContacts() {
   const DoorContacts contacts = world_.Contacts();
   NoteSelfContact(contacts);
+  NoteForce(contacts);
   const int per_action = episode_.scene.physics.steps_per_action;
   if (!contacts.AnyPad() && last_pad_step_ == step_ - 1) {
     held_up_at_loss_ = HeldUpBy(contacts);
@@ -408,6 +417,7 @@ EpisodeRun::Failure EpisodeRun::Open(Policy& opening) {
   // a hand that has been off the door for a second does not come back by itself
   const int given_up = 6 * physics.steps_per_action;
   opening.Reset();
+  episode_.handle_done = true;
   actions_ = 0;
   last_touch_step_ = step_;
   for (int i = 0; i < physics.max_opening_actions && !coasted_ && !diverged_; ++i) {

@@ -55,6 +55,7 @@ class EpisodeRun {
                                 bool noisy);
   void HoldAction();
   void NoteContacts();
+  void NoteForce(const DoorContacts& contacts);
   void NoteSelfContact(const DoorContacts& contacts);
   Failure HeldUpBy(const DoorContacts& contacts);
   std::string Detail(Failure failure) const;

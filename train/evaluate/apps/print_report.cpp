@@ -30,6 +30,14 @@ std::string Row(const std::string& name, Episodes episodes, Episodes reference) 
   return row + "\n";
 }
 
+std::string EffortLine(const SuccessSummary& summary) {
+  return Format(
+      "handle turned: %.1f %%; median time to open %.1f s; greatest force %.0f N (median), %.0f "
+      "N\n",
+      100 * summary.handle_done.rate, summary.median_opening_s, summary.median_force_n,
+      summary.peak_force_n);
+}
+
 std::string AngleLine(const SuccessSummary& summary) {
   std::string line = "door angle passed: ";
   for (const AngleSuccess& angle : summary.over_angle) {
@@ -67,7 +75,8 @@ std::string ReportTable(const EvaluationReport& report) {
     text += Row(std::string(NameOf(category)), OfCategory(report.episodes, category),
                 OfCategory(report.reference, category));
   }
-  return text + AngleLine(Summarise(report.episodes)) + Causes(report);
+  const SuccessSummary all = Summarise(report.episodes);
+  return text + EffortLine(all) + AngleLine(all) + Causes(report);
 }
 
 }  // namespace doorforge

@@ -33,6 +33,8 @@ EvaluatedEpisode RowOf(const Episode& episode, Category category) {
           .peak_hinge_rad = episode.peak_hinge_rad,
           .peak_handle_rad = episode.peak_handle_rad,
           .simulated_s = episode.simulated_s,
+          .handle_done = episode.handle_done,
+          .peak_force_n = episode.peak_force_n,
           .state_sha256 = episode.state_sha256};
 }
 
@@ -47,6 +49,8 @@ nlohmann::ordered_json EvaluatedEpisodeToJson(const EvaluatedEpisode& episode) {
           {"peak_hinge_rad", episode.peak_hinge_rad},
           {"peak_handle_rad", episode.peak_handle_rad},
           {"simulated_s", episode.simulated_s},
+          {"handle_done", episode.handle_done},
+          {"peak_force_n", episode.peak_force_n},
           {"state_sha256", episode.state_sha256}};
 }
 
@@ -62,6 +66,8 @@ EvaluatedEpisode EvaluatedEpisodeFromJson(const nlohmann::ordered_json& json,
           .peak_hinge_rad = ValueOf<double>(json, "peak_hinge_rad", path),
           .peak_handle_rad = ValueOf<double>(json, "peak_handle_rad", path),
           .simulated_s = ValueOf<double>(json, "simulated_s", path),
+          .handle_done = ValueOf<bool>(json, "handle_done", path),
+          .peak_force_n = ValueOf<double>(json, "peak_force_n", path),
           .state_sha256 = ValueOf<std::string>(json, "state_sha256", path)};
 }
 

@@ -64,6 +64,13 @@ Json CausesToJson(const SuccessSummary& summary) {
 
 void AddSuccess(Episodes episodes, Json& json) {
   json["success"] = ByCategory(episodes, [](const auto& s) { return RateToJson(s.opened); });
+  json["handle_success"] =
+      ByCategory(episodes, [](const auto& s) { return RateToJson(s.handle_done); });
+  json["effort"] = ByCategory(episodes, [](const auto& s) {
+    return Json{{"median_opening_s", s.median_opening_s},
+                {"median_force_n", s.median_force_n},
+                {"peak_force_n", s.peak_force_n}};
+  });
   json["over_seeds"] =
       ByCategory(episodes, [](const auto& s) { return SpreadToJson(s.over_seeds); });
   json["over_angle"] =

@@ -49,6 +49,16 @@ std::string SpreadText(const SeedSpread& spread) {
          "\u00a0%";
 }
 
+std::string EffortText(const SuccessSummary& summary) {
+  return Fill(
+      R"(<td class="number">{handle}</td><td class="number">{time}</td><td class="number">{force} <span class="soft">/ {peak}</span></td>)",
+      {{"handle", Percent(summary.handle_done.rate)},
+       {"time",
+        summary.opened.successes > 0 ? Fixed(summary.median_opening_s, 1) + "\u00a0s" : "–"},
+       {"force", Fixed(summary.median_force_n, 0)},
+       {"peak", Fixed(summary.peak_force_n, 0) + "\u00a0N"}});
+}
+
 // one row of the table of success
 std::string SuccessRow(const std::string& name, Episodes episodes, Episodes reference,
                        bool overall) {
@@ -57,7 +67,7 @@ std::string SuccessRow(const std::string& name, Episodes episodes, Episodes refe
   return Fill(
       R"(<tr{class}><td>{name}</td><td>{bar}</td><td class="number">{rate}</td>)"
       R"(<td class="number soft">{interval}</td><td class="number">{opened} / {episodes}</td>)"
-      R"(<td class="number">{spread}</td>{expert}</tr>)",
+      R"(<td class="number">{spread}</td>{expert}{effort}</tr>)",
       {{"class", overall ? R"( class="overall")" : ""},
        {"name", name},
        {"bar", RateBar(summary.opened, expert.opened)},
@@ -66,6 +76,7 @@ std::string SuccessRow(const std::string& name, Episodes episodes, Episodes refe
        {"opened", std::to_string(summary.opened.successes)},
        {"episodes", std::to_string(summary.opened.episodes)},
        {"spread", SpreadText(summary.over_seeds)},
+       {"effort", EffortText(summary)},
        {"expert", reference.empty()
                       ? ""
                       : R"(<td class="number">)" + Percent(expert.opened.rate) + "</td>"}});
@@ -295,7 +306,7 @@ std::string SuccessSection(const EvaluationReport& report) {
       R"(<div class="legend"><span><svg viewBox="0 0 34 12"><rect class="fill" y="1" width="34" height="10" rx="2"/></svg>{policy}</span>)"
       R"(<span><svg viewBox="0 0 34 12"><path class="whisker" d="M1 6H33M1 2v8M33 2v8"/></svg>95&#160;% interval</span>{expert_legend}</div>)"
       R"(<div class="scroll"><table><thead><tr><th>category</th><th></th><th class="number">success</th><th class="number">95&#160;% interval</th>)"
-      R"(<th class="number">opened</th><th class="number">over seeds</th>{expert_head}</tr></thead><tbody>{rows}</tbody></table></div></section>)",
+      R"(<th class="number">opened</th><th class="number">over seeds</th>{expert_head}<th class="number">handle turned</th><th class="number">time to open</th><th class="number">peak force, median / most</th></tr></thead><tbody>{rows}</tbody></table></div></section>)",
       {{"policy", PolicyName(report)},
        {"expert_legend", expert_legend},
        {"expert_head", report.reference.empty() ? "" : R"(<th class="number">expert</th>)"},

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "doorforge/core/error.h"
 
@@ -34,6 +35,14 @@ SeedSpread SpreadOf(std::span<const EvaluatedEpisode> episodes) {
   return spread;
 }
 
+// The upper of the two in the middle of an even number; 0 of none.
+double MedianOf(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 }  // namespace
 
 SuccessRate WilsonRate(int successes, int episodes) {
@@ -60,6 +69,18 @@ SuccessSummary Summarise(std::span<const EvaluatedEpisode> episodes) {
   const int all = static_cast<int>(episodes.size());
   summary.opened = WilsonRate(summary.outcomes[static_cast<int>(EpisodeOutcome::kOpened)], all);
   summary.over_seeds = SpreadOf(episodes);
+  std::vector<double> times;
+  std::vector<double> forces;
+  int done = 0;
+  for (const EvaluatedEpisode& episode : episodes) {
+    done += episode.handle_done ? 1 : 0;
+    forces.push_back(episode.peak_force_n);
+    if (episode.outcome == EpisodeOutcome::kOpened) times.push_back(episode.simulated_s);
+    summary.peak_force_n = std::max(summary.peak_force_n, episode.peak_force_n);
+  }
+  summary.handle_done = WilsonRate(done, all);
+  summary.median_opening_s = MedianOf(times);
+  summary.median_force_n = MedianOf(forces);
   for (const double angle : kSuccessAngles) {
     const auto beyond = std::count_if(episodes.begin(), episodes.end(),
                                       [&](const auto& e) { return e.peak_hinge_rad > angle; });

@@ -72,10 +72,14 @@ struct Episode {
   double peak_hinge_rad = 0;
   double peak_handle_rad = 0;
   double simulated_s = 0;
+  bool handle_done = false;  ///< The stages before opening succeeded: held, turned, unlocked.
+  /// Greatest sum of the normal forces between robot and door in one step, from the grasp on [N].
+  double peak_force_n = 0;
   std::string state_sha256;  ///< Hash of the final joint state: equal runs have equal hashes.
 };
 
-/// The record in a shard's .meta.json: scene, outcome, peaks, per-decision times. No arrays.
+/// The record in a shard's .meta.json: scene, outcome, peaks, per-decision times. No arrays,
+/// and none of `handle_done` and `peak_force_n`, which are for those who run the episode.
 nlohmann::ordered_json EpisodeMetaToJson(const Episode& episode);
 Episode EpisodeFromMeta(const nlohmann::ordered_json& json, const std::string& path);
 

@@ -14,7 +14,7 @@
 
 namespace doorforge {
 
-inline constexpr int kReportSchemaVersion = 2;
+inline constexpr int kReportSchemaVersion = 3;
 
 /// What a report says of a door.
 struct ReportDoor {

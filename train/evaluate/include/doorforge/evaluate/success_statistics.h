@@ -46,9 +46,13 @@ inline constexpr std::array<double, 4> kSuccessAngles = {0.1, 0.2617993877991494
                                                          0.5235987755982988, 0.7853981633974483};
 
 struct SuccessSummary {
+  SuccessRate handle_done;               ///< Handle held, turned and unlocked.
   SuccessRate opened;                    ///< Episodes that ended as EpisodeOutcome::kOpened.
   SeedSpread over_seeds;                 ///< Of the same.
   std::vector<AngleSuccess> over_angle;  ///< At kSuccessAngles, in order.
+  double median_opening_s = 0;  ///< Simulated time of episodes that opened; 0 where none did.
+  double median_force_n = 0;    ///< Of the episodes' peak forces; 0 where there are no episodes.
+  double peak_force_n = 0;      ///< Greatest of them.
   std::array<int, kEpisodeOutcomeCount> outcomes{};  ///< Episodes by EpisodeOutcome.
 };
 

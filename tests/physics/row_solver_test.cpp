@@ -125,7 +125,7 @@ class Jaw {
 };
 
 void ExpectTheStateOfBulletsOwnSolver(bool free_base) {
-  Jaw own(std::make_unique<RowSolver>(), free_base);
+  Jaw own(std::make_unique<RowSolver>(DeepFriction::kFull), free_base);
   Jaw bullets(std::make_unique<btMultiBodyConstraintSolver>(), free_base);
   int most_contacts = 0;
   for (int step = 0; step < 240; ++step) {
@@ -147,6 +147,54 @@ TEST(RowSolver, GivesTheStatesOfBulletsOwnSolverForBodiesThatStandFast) {
 
 TEST(RowSolver, GivesTheStatesOfBulletsOwnSolverForABodyThatIsFree) {
   ExpectTheStateOfBulletsOwnSolver(true);
+}
+
+// A block that lies `depth` deep in another and slides on it: speed that friction took from it in
+// one step, by the speed with which it was pushed out.
+double FrictionPerPush(double depth) {
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher(&configuration);
+  btDbvtBroadphase broadphase;
+  RowSolver solver;
+  btMultiBodyDynamicsWorld world(&dispatcher, &broadphase, &solver, &configuration);
+  world.setGravity(btVector3(0, 0, 0));
+  world.getSolverInfo().m_splitImpulse = 0;
+  world.getSolverInfo().m_solverMode = SOLVER_USE_2_FRICTION_DIRECTIONS;
+
+  btBoxShape shape(btVector3(0.1, 0.1, 0.1));
+  btCollisionObject ground;
+  ground.setCollisionShape(&shape);
+  ground.setFriction(0.4);
+  world.addCollisionObject(&ground, btBroadphaseProxy::StaticFilter, btBroadphaseProxy::AllFilter);
+  // does not tilt
+  btMultiBody block(0, 1.0, btVector3(1e6, 1e6, 1e6), false, false);
+  block.setLinearDamping(0);
+  block.finalizeMultiDof();
+  block.setBasePos(btVector3(0, 0, 0.2 - depth));
+  block.setBaseVel(btVector3(1, 0, 0));
+  btMultiBodyLinkCollider collider(&block, -1);
+  collider.setCollisionShape(&shape);
+  collider.setFriction(1);
+  collider.setWorldTransform(block.getBaseWorldTransform());
+  block.setBaseCollider(&collider);
+  world.addMultiBody(&block);
+  world.addCollisionObject(&collider, btBroadphaseProxy::DefaultFilter,
+                           btBroadphaseProxy::AllFilter);
+  world.stepSimulation(kStepS, 0);
+  const btVector3 velocity = block.getBaseVel();
+  world.removeCollisionObject(&collider);
+  world.removeCollisionObject(&ground);
+  world.removeMultiBody(&block);
+  EXPECT_GT(velocity.z(), 0) << "nothing pushed it out";
+  return (1 - velocity.x()) / velocity.z();
+}
+
+TEST(RowSolver, FrictionIsCoulombsAndFadesInBodiesThatAreInsideEachOther) {
+  EXPECT_NEAR(FrictionPerPush(0.001), 0.4, 1e-6);
+  EXPECT_NEAR(FrictionPerPush(0.0029), 0.4, 1e-6);
+  EXPECT_NEAR(FrictionPerPush(0.0045), 0.2, 1e-6);
+  EXPECT_NEAR(FrictionPerPush(0.0061), 0, 1e-6);
+  EXPECT_NEAR(FrictionPerPush(0.02), 0, 1e-6);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <BulletCollision/NarrowPhaseCollision/btManifoldPoint.h>
+
 namespace doorforge::internal {
 namespace {
 
@@ -19,6 +21,20 @@ __attribute__((target_clones("avx2", "default"))) void SubtractScaled(double* to
   auto* target = reinterpret_cast<Four*>(to);
   const auto* source = reinterpret_cast<const Four*>(from);
   for (Eigen::Index i = 0; i < count / 4; ++i) target[i] -= source[i] * factor;
+}
+
+// Contacts of a hand at work overlap by less than 3 mm [m].
+constexpr double kFullFriction = 0.003;
+constexpr double kNoFriction = 0.006;
+
+// What presses bodies apart that are inside each other is a correction, not a load. Friction in
+// proportion to it holds them in: a pad that was wedged against a handle sank in by a centimetre,
+// until the way out led across the handle and threw it off.
+double FadingFriction(const btMultiBodySolverConstraint& normal,
+                      const btMultiBodySolverConstraint& row) {
+  const auto& point = *static_cast<const btManifoldPoint*>(normal.m_originalContactPoint);
+  const double left = (kNoFriction + point.getDistance()) / (kNoFriction - kFullFriction);
+  return row.m_friction * std::clamp(left, 0.0, 1.0);
 }
 
 Eigen::Index RoundedUpToFour(std::size_t count) {
@@ -48,6 +64,13 @@ void RowSolver::CollectRows() {
        {&m_multiBodyNonContactConstraints, &m_multiBodyNormalContactConstraints,
         &m_multiBodyFrictionContactConstraints})
     for (int i = 0; i < rows->size(); ++i) rows_.push_back(&(*rows)[i]);
+  friction_.clear();
+  for (int i = 0; i < normal_rows_; ++i) {
+    const btMultiBodySolverConstraint& row = m_multiBodyFrictionContactConstraints[2 * i];
+    friction_.push_back(deep_friction_ == DeepFriction::kFull
+                            ? row.m_friction
+                            : FadingFriction(m_multiBodyNormalContactConstraints[i], row));
+  }
 }
 
 void RowSolver::AddBody(btMultiBody* body, int bullet_velocity) {
@@ -125,7 +148,8 @@ void RowSolver::SolveRow(int row) {
 // Coulomb's cone: both directions are solved before either is applied, and shortened together.
 void RowSolver::SolveFrictionPair(int first) {
   const btMultiBodySolverConstraint& row = *rows_[static_cast<std::size_t>(first)];
-  const double most = row.m_friction * impulse_[joint_rows_ + row.m_frictionIndex];
+  const double most = friction_[static_cast<std::size_t>(row.m_frictionIndex)] *
+                      impulse_[joint_rows_ + row.m_frictionIndex];
   double along = impulse_[first] + want_[first];
   double across = impulse_[first + 1] + want_[first + 1];
   const double squared = along * along + across * across;

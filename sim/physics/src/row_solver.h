@@ -9,12 +9,20 @@
 
 namespace doorforge::internal {
 
+/// Friction of contacts that overlap by more than 3 mm: fades, to none at 6 mm; or Bullet's.
+enum class DeepFriction { kFades, kFull };
+
 /// Bullet's projected Gauss-Seidel iterations with the rows' effect on each other worked out once a
 /// step (the Delassus matrix) instead of by way of the joints' velocities in each iteration: the
 /// same rows in the same order with the same clamping, so that the result is Bullet's but for
-/// rounding, in a small part of the time. Groups with rows of other kinds than it knows (rolling
-/// friction, bodies that are no multibodies) are left to Bullet. Deterministic.
+/// rounding, in a small part of the time; and but for the friction of deep contacts, unless that is
+/// to be full. Groups with rows of other kinds than it knows (rolling friction, bodies that are no
+/// multibodies) are left to Bullet. Deterministic.
 class RowSolver : public btMultiBodyConstraintSolver {
+ public:
+  explicit RowSolver(DeepFriction deep_friction = DeepFriction::kFades)
+      : deep_friction_(deep_friction) {}
+
  protected:
   btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count,
                                              btPersistentManifold** manifolds, int manifold_count,
@@ -42,10 +50,12 @@ class RowSolver : public btMultiBodyConstraintSolver {
   void Iterate(int iteration);
   void WriteBack();
 
+  DeepFriction deep_friction_;
   // joints, then contacts' normals, then friction in pairs
   std::vector<const btMultiBodySolverConstraint*> rows_;
   int joint_rows_ = 0;
   int normal_rows_ = 0;
+  std::vector<double> friction_;  // of each normal's pair
   std::vector<Body> bodies_;
   int dofs_ = 0;
   Eigen::MatrixXd jacobian_;  // row, padded to a multiple of four, x joint velocity

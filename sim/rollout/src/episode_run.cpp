@@ -9,6 +9,8 @@
 #include <numbers>
 #include <utility>
 
+#include "doorforge/rollout/standing_place.h"
+
 namespace doorforge::internal {
 namespace {
 
@@ -41,16 +43,6 @@ Format(const char* format, ...) {
   return text;
 }
 
-JointVector StartOf(const Scene& scene, const RobotModel& robot) {
-  JointVector start = robot.InitialPosition();
-  const int arm_joints = robot.arm_count() - robot.base_count();
-  for (std::size_t i = 0; i < scene.arm_start_offset_rad.size(); ++i) {
-    if (static_cast<int>(i) < arm_joints)
-      start[robot.base_count() + static_cast<Eigen::Index>(i)] += scene.arm_start_offset_rad[i];
-  }
-  return start;
-}
-
 }  // namespace
 
 EpisodeRun::EpisodeRun(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
@@ -59,8 +51,8 @@ EpisodeRun::EpisodeRun(const Scene& scene, const DoorAsset& door, const RobotMod
       robot_(robot),
       recorded_(recorded),
       observer_(observer),
-      world_(scene, door, robot, StartOf(scene, robot)),
-      controller_(robot, scene.world_from_robot_base, StartOf(scene, robot)),
+      world_(scene, door, robot, StartPosition(scene, robot)),
+      controller_(robot, scene.world_from_robot_base, StartPosition(scene, robot)),
       action_noise_(scene.seed,
                     "episode/" + scene.door_id + "/" + std::to_string(scene.episode) + "/actions") {
   episode_.scene = scene;

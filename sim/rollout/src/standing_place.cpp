@@ -5,9 +5,13 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <string>
 #include <vector>
 
+#include "doorforge/core/error.h"
 #include "doorforge/physics/inverse_kinematics.h"
+#include "doorforge/physics/start_probe.h"
 #include "doorforge/rollout/grasp_plan.h"
 
 namespace doorforge {
@@ -16,6 +20,8 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kClearOfLeaf = 0.25;  // [m] from the base's axis
 constexpr double kFree = 0.1;          // [rad] to every limit: good enough to stop the search
+constexpr double kStepBack = 0.02;     // [m]
+constexpr int kMostStepsBack = 30;     // the sliders bring the arm back by 1 m
 
 // Where the tool is led along: before the grasp, at it, the handle turned, the door opened.
 std::vector<RigidTransform> WayOf(const Scene& scene, const DoorAsset& door) {
@@ -79,7 +85,36 @@ double ScoreOf(const RobotModel& robot, const RigidTransform& world_from_base,
   return best;
 }
 
+// Whether the arm, in its start posture, or the base would be inside the door.
+class StartCheck {
+ public:
+  StartCheck(const RobotModel& robot, const Scene& scene, const DoorAsset& door)
+      : robot_(robot), scene_(scene), probe_(door, robot), start_(StartPosition(scene, robot)) {}
+
+  std::optional<StartOverlap> At(const RigidTransform& world_from_base) const {
+    return probe_.Find(robot_.PoseAt(start_, world_from_base), scene_.world_from_door);
+  }
+
+  /// Throws Error(kInvalidArgument) where the robot would start inside the door.
+  void Require(const RigidTransform& world_from_base, const std::string& tried) const {
+    const auto overlap = At(world_from_base);
+    if (!overlap) return;
+    throw Error(
+        ErrorCode::kInvalidArgument,
+        "scene: door \"" + scene_.door_id + "\": the robot's \"" + overlap->robot +
+            "\" would start inside its \"" + overlap->door + "\", " + tried +
+            "; no robot can stand in front of a body that reaches so far beyond its handle");
+  }
+
+ private:
+  const RobotModel& robot_;
+  const Scene& scene_;
+  StartProbe probe_;
+  JointVector start_;
+};
+
 RigidTransform StandingPlace(const RobotModel& robot, const Scene& scene, const DoorAsset& door) {
+  const StartCheck start(robot, scene, door);
   const std::vector<RigidTransform> way = WayOf(scene, door);
   const Eigen::Vector3d grasp = way[1].translation();
   const double all = static_cast<double>(way.size()) + kFree;
@@ -93,6 +128,7 @@ RigidTransform StandingPlace(const RobotModel& robot, const Scene& scene, const 
         const RigidTransform base =
             Translation({place.x(), place.y(), scene.world_from_robot_base.translation().z()}) *
             RotationAbout(Eigen::Vector3d::UnitZ(), std::numbers::pi + turn);
+        if (start.At(base)) continue;
         const double score = ScoreOf(robot, base, way);
         if (score > most) {
           most = score;
@@ -102,15 +138,36 @@ RigidTransform StandingPlace(const RobotModel& robot, const Scene& scene, const 
       }
     }
   }
+  start.Require(best, "wherever it reaches the handle");
   return best;
+}
+
+// A bulging body reaches to where robots stand before others of its category.
+RigidTransform SteppedBack(const RobotModel& robot, const Scene& scene, const DoorAsset& door) {
+  const StartCheck start(robot, scene, door);
+  RigidTransform base = scene.world_from_robot_base;
+  for (int i = 0; i < kMostStepsBack && start.At(base); ++i) base.translation().x() += kStepBack;
+  start.Require(base, "0.6 m farther back too");
+  return base;
 }
 
 }  // namespace
 
+JointVector StartPosition(const Scene& scene, const RobotModel& robot) {
+  JointVector start = robot.InitialPosition();
+  const int arm_joints = robot.arm_count() - robot.base_count();
+  for (std::size_t i = 0; i < scene.arm_start_offset_rad.size(); ++i) {
+    if (static_cast<int>(i) < arm_joints)
+      start[robot.base_count() + static_cast<Eigen::Index>(i)] += scene.arm_start_offset_rad[i];
+  }
+  return start;
+}
+
 Scene SceneFor(const RobotModel& robot, Scene scene, const DoorAsset& door) {
   scene.robot = {robot.name(), robot.sha256()};
-  if (robot.base() == RobotBase::kFixed)
-    scene.world_from_robot_base = StandingPlace(robot, scene, door);
+  scene.world_from_robot_base = robot.base() == RobotBase::kFixed
+                                    ? StandingPlace(robot, scene, door)
+                                    : SteppedBack(robot, scene, door);
   return scene;
 }
 

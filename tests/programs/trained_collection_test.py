@@ -1,0 +1,77 @@
+# SPDX-FileCopyrightText: 2026 The doorforge authors
+# SPDX-License-Identifier: Apache-2.0
+"""Trained policies in the rules' place while data are collected: recorded, checked, the same bytes."""
+import hashlib
+import json
+import pathlib
+import shutil
+import unittest
+
+from programs import ProgramTest, run
+
+
+def digests(folder: pathlib.Path) -> dict[str, str]:
+    return {str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
+            for path in sorted(folder.rglob("*")) if path.is_file()}
+
+
+def sha256(path: pathlib.Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+class TrainedCollection(ProgramTest):
+    def collect(self, stage: str, out: str, threads: int, *options: object):
+        return run("datagen", stage, "--doors", self.folder / "door", "--out", self.folder / out, "--episodes", 2,
+                   "--seed", 3, "--set", "preview=false", "-j", threads, *options)
+
+    def train(self, stage: str, seed: int, out: str) -> pathlib.Path:
+        """A policy that has seen a handful of samples once."""
+        self.assert_ends(run("train", stage, "--data", self.folder / f"data_{stage}", "--out", self.folder / out,
+                             "--epochs", 1, "--seed", seed, "--threads", 2), 0)
+        return self.folder / out
+
+    def test_both_policies_act_are_recorded_and_are_the_only_ones_to_go_on_with(self):
+        self.assert_ends(run("compose", "--body", "interior_flush_01", "--handle", "interior_lever_tube_02",
+                             "--out", self.folder / "door"), 0)
+        self.assert_ends(self.collect("open", "data_open", 2), 0)
+        opener = self.train("open", 1, "opener")
+        self.assert_ends(self.collect("handle", "data_handle", 2), 0)
+        handler = self.train("handle", 1, "handler")
+
+        policies = ["--opener", opener, "--handler", handler]
+        self.assert_ends(self.collect("grasp", "one", 1, *policies), 0)
+        self.assert_ends(self.collect("grasp", "two", 2, *policies), 0)
+        files = digests(self.folder / "one")
+        self.assertGreater(sum(name.endswith(".tar") for name in files), 0)
+        self.assertEqual(files, digests(self.folder / "two"))
+
+        recorded = json.loads((self.folder / "one/provenance.json").read_text())["policies"]
+        self.assertEqual([(policy["stage"], policy["policy_sha256"]) for policy in recorded],
+                         [("handle", sha256(handler / "policy.json")), ("open", sha256(opener / "policy.json"))])
+        self.assert_ends(run("dataset", "verify", self.folder / "one", "--regenerate", "100%", "--doors",
+                             self.folder / "door", *policies), 0)
+
+        # another opener is not the one that the data set was begun with
+        other = self.train("open", 2, "other")
+        changed = ["--opener", other, "--handler", handler]
+        refused = self.collect("grasp", "one", 1, *changed)
+        self.assert_refused(refused, 2)
+        self.assertIn(sha256(opener / "policy.json"), refused.stderr)
+        refused = run("dataset", "verify", self.folder / "one", "--regenerate", "100%", "--doors",
+                      self.folder / "door", *changed)
+        self.assert_refused(refused, 1, 2)
+        self.assertIn("open", refused.stderr)
+        self.assertEqual(files, digests(self.folder / "one"))
+
+        # nor is one whose weights are not those of its record
+        stale = self.folder / "stale"
+        shutil.copytree(opener, stale)
+        shutil.copy(other / "policy.safetensors", stale / "policy.safetensors")
+        refused = self.collect("grasp", "three", 1, "--opener", stale)
+        self.assert_refused(refused, 3)
+        self.assertIn("its SHA-256 is not the one in", refused.stderr)
+        self.assertFalse((self.folder / "three").exists())
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -43,7 +43,15 @@ import sys
 import tarfile
 from typing import Any, BinaryIO, Dict, Iterator, Optional, Sequence, Union
 
-import numpy as np
+try:
+    import numpy as np
+except ImportError as error:
+    _MISSING = (f"doorforge_reader needs numpy, which {sys.executable} does not have: apt-get install python3-numpy "
+                f"and run /usr/bin/python3, or {sys.executable} -m pip install numpy")
+    if __name__ == "__main__":
+        print(_MISSING, file=sys.stderr)
+        sys.exit(3)
+    raise ImportError(_MISSING) from error
 
 NEWEST_VERSION = 1  # of dataset.json, provenance.json and the shards' indices
 OPEN_SHARDS = 64  # mapped at once; every map holds a file descriptor

@@ -7,6 +7,7 @@ import json
 import pathlib
 import pickle
 import shutil
+import subprocess
 import sys
 import tarfile
 import tempfile
@@ -29,6 +30,18 @@ def tars(split):
 def members(path):
     with tarfile.open(path) as archive:
         return {item.name: archive.extractfile(item).read() for item in archive}
+
+
+class WithoutNumpy(unittest.TestCase):
+    def test_the_message_says_what_to_install(self):
+        path = str(SOURCE / "python/doorforge_reader.py")
+        for name, code in (("__main__", 3), ("doorforge_reader", 1)):
+            program = ("import runpy, sys; sys.modules['numpy'] = None; "
+                       f"sys.argv = [{path!r}, {str(GOLDEN)!r}]; runpy.run_path({path!r}, run_name={name!r})")
+            done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+            self.assertEqual(done.returncode, code, done.stderr)
+            self.assertIn("apt-get install python3-numpy", done.stderr)
+            self.assertEqual("Traceback" in done.stderr, code == 1)
 
 
 class Crc(unittest.TestCase):

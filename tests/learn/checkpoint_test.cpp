@@ -148,17 +148,19 @@ TEST(Checkpoint, TheGraspsLossesHaveTheirOwnNamesAndGapsUntilTheyAreKnown) {
   state.steps[1].score_rad = 0.25;
   state.steps[1].affordance_rad = 0.125;
   WriteLosses(folder, state);
-  EXPECT_EQ(ReadFile(folder / "losses.csv"),
-            "step,discriminator.score_rad,affordance.score_rad\n1,0.5,nan\n2,0.25,0.125\n");
+  EXPECT_EQ(ReadFile(folder / "losses.jsonl"),
+            "{\"step\": 1, \"discriminator.score_rad\": 0.5}\n"
+            "{\"step\": 2, \"discriminator.score_rad\": 0.25, \"affordance.score_rad\": 0.125}\n");
 }
 
 TEST(Checkpoint, LossCurvesAreWrittenForPeopleAndPrograms) {
   const fs::path folder = EmptyFolder("losses");
   WriteLosses(folder, SomeState());
-  EXPECT_EQ(ReadFile(folder / "losses.csv"),
-            "step,actor.position_m,actor.rotation_rad,actor.divergence,critic.score_rad\n"
-            "1,0.1,0.2,0.3,0.4\n"
-            "2,0.01,0.333333333,0.03,0.04\n");
+  EXPECT_EQ(ReadFile(folder / "losses.jsonl"),
+            "{\"step\": 1, \"actor.position_m\": 0.1, \"actor.rotation_rad\": 0.2, "
+            "\"actor.divergence\": 0.3, \"critic.score_rad\": 0.4}\n"
+            "{\"step\": 2, \"actor.position_m\": 0.01, \"actor.rotation_rad\": 0.333333333, "
+            "\"actor.divergence\": 0.03, \"critic.score_rad\": 0.04}\n");
   const std::vector<TrainingCurve> curves = ReadTrainingCurves(folder);
   ASSERT_EQ(curves.size(), 4U);
   EXPECT_EQ(curves[1].name, "actor.rotation_rad");

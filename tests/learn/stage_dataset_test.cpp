@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <thread>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -85,8 +86,9 @@ TEST(StageDataset, UsesTheSplitForValidationWhereThereIsOne) {
   EXPECT_THROW(ReadStageDataset(folder / "none", "open", 0), Error);
 }
 
-int RunTrain(const std::string& arguments) {
-  const std::string command = std::string(DOORFORGE_BINARY_DIR "/bin/doorforge-train train open ") +
+int RunTrain(const std::string& arguments, const std::string& variables = {}) {
+  const std::string command = variables +
+                              std::string(DOORFORGE_BINARY_DIR "/bin/doorforge-train train open ") +
                               arguments + " > /dev/null 2> /dev/null";
   const int status = std::system(command.c_str());  // NOLINT: fixed program
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -106,9 +108,46 @@ TEST(TrainProgram, ResumesToTheBytesOfAnUninterruptedRun) {
   EXPECT_EQ(RunTrain(common + cut), 2) << "a folder with a training is not overwritten";
   EXPECT_EQ(RunTrain(common + cut + " --resume --set learning_rate=1e-4"), 2);
   ASSERT_EQ(RunTrain(common + cut + " --threads 2 --resume"), 0);
-  for (const char* file : {"policy.safetensors", "policy.json", "training.safetensors",
-                           "losses.csv", "losses.json", "config.yaml"})
+  for (const char* file :
+       {"policy.safetensors", "policy.json", "training.safetensors", "losses.jsonl", "losses.json",
+        "config.yaml", "events.out.tfevents.doorforge"})
     EXPECT_EQ(ReadFile(fs::path(cut) / file), ReadFile(fs::path(whole) / file)) << file;
+}
+
+TEST(TrainProgram, TwoProcessesEndInTheBytesOfOne) {
+  const fs::path folder = EmptyFolder("nodes");
+  WriteDataset(folder / "data", "train", 4);
+  const auto arguments = [&](const char* out) {
+    return "--data " + (folder / "data").string() +
+           " --epochs 1 --set batch_size=8 --threads 1 --out " + (folder / out).string();
+  };
+  ASSERT_EQ(RunTrain(arguments("one")), 0);
+  const auto run = [&](int rank) {
+    return RunTrain(
+        arguments("two") + " --nodes",
+        "WORLD_SIZE=2 MASTER_ADDR=127.0.0.1 MASTER_PORT=29537 RANK=" + std::to_string(rank) + " ");
+  };
+  int second = -1;
+  {
+    std::jthread other([&] { second = run(1); });
+    const int first = run(0);
+    if (first == 2) GTEST_SKIP() << "this build has no distributed back end";
+    ASSERT_EQ(first, 0);
+  }
+  EXPECT_EQ(second, 0);
+  for (const char* file : {"policy.safetensors", "policy.json", "training.safetensors"})
+    EXPECT_EQ(ReadFile(folder / "two" / file), ReadFile(folder / "one" / file)) << file;
+}
+
+TEST(TrainProgram, RefusesAbsurdPlacesInAGroup) {
+  const fs::path folder = EmptyFolder("places");
+  fs::create_directories(folder);
+  const std::string use = "--nodes --data " + folder.string() + " --out " + (folder / "o").string();
+  const std::string place = "MASTER_ADDR=127.0.0.1 MASTER_PORT=29538 ";
+  EXPECT_EQ(RunTrain(use, "env -u RANK "), 2);
+  EXPECT_EQ(RunTrain(use, place + "WORLD_SIZE=3 RANK=0 "), 2) << "not a power of two";
+  EXPECT_EQ(RunTrain(use, place + "WORLD_SIZE=2 RANK=2 "), 2);
+  EXPECT_EQ(RunTrain(use, place + "WORLD_SIZE=2x RANK=0 "), 2);
 }
 
 TEST(TrainProgram, RefusesWrongUse) {

@@ -3,8 +3,10 @@
 #include "doorforge/learn/train_stage.h"
 
 #include <algorithm>
+#include <barrier>
 #include <cmath>
 #include <set>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -59,6 +61,67 @@ TEST(TrainStage, GivesTheSameBitsForAnyNumberOfThreadsAndAnyInterruption) {
   resumed.resume = TrainStage(train.samples, validation.samples, config, stopped);
   EXPECT_EQ(resumed.resume->step, 3U);
   ExpectEqual(TrainStage(train.samples, validation.samples, config, resumed), whole);
+}
+
+// Threads in place of processes.
+class Meeting {
+ public:
+  explicit Meeting(int size)
+      : given_(static_cast<std::size_t>(size)), barrier_(static_cast<std::ptrdiff_t>(size)) {}
+
+  class Member : public ProcessGroup {
+   public:
+    Member(Meeting& meeting, int rank) : meeting_(meeting), rank_(rank) {}
+    int rank() const override { return rank_; }
+    int size() const override { return static_cast<int>(meeting_.given_.size()); }
+    std::vector<float> Gather(std::span<const float> mine) override {
+      meeting_.given_[static_cast<std::size_t>(rank_)].assign(mine.begin(), mine.end());
+      meeting_.barrier_.arrive_and_wait();
+      std::vector<float> all;
+      for (const auto& part : meeting_.given_) all.insert(all.end(), part.begin(), part.end());
+      meeting_.barrier_.arrive_and_wait();
+      return all;
+    }
+
+   private:
+    Meeting& meeting_;
+    int rank_;
+  };
+
+ private:
+  std::vector<std::vector<float>> given_;
+  std::barrier<> barrier_;
+};
+
+// 20 samples in batches of 10 over 4 processes: 2, 3, 2 and 3 of a batch.
+TEST(TrainStage, GivesTheSameBitsForAnyNumberOfProcesses) {
+  const auto train = testing::MakeSyntheticSamples(1, 20);
+  const auto validation = testing::MakeSyntheticSamples(2, 5);
+  TrainConfig config = SmallConfig();
+  config.batch_size = 10;
+  const TrainerState whole = TrainStage(train.samples, validation.samples, config, {});
+  constexpr int kProcesses = 4;
+  Meeting meeting(kProcesses);
+  std::vector<TrainerState> states(kProcesses);
+  {
+    std::vector<std::jthread> processes;
+    for (int rank = 0; rank < kProcesses; ++rank) {
+      processes.emplace_back([&, rank] {
+        Meeting::Member member(meeting, rank);
+        TrainHooks hooks;
+        hooks.threads = 1;
+        hooks.group = &member;
+        // one process alone is asked to stop: all do, after the same step
+        hooks.stop = [rank, count = 0]() mutable { return ++count == 3 && rank == 2; };
+        TrainerState& state = states[static_cast<std::size_t>(rank)];
+        state = TrainStage(train.samples, validation.samples, config, hooks);
+        hooks.resume = state;
+        hooks.stop = nullptr;
+        state = TrainStage(train.samples, validation.samples, config, hooks);
+      });
+    }
+  }
+  for (const TrainerState& state : states) ExpectEqual(state, whole);
 }
 
 TEST(TrainStage, LearnsToReadTheHingeFromTheCloud) {

@@ -43,6 +43,7 @@ struct Options {
   int threads = 0;
   bool resume = false;
   bool overwrite = false;
+  bool nodes = false;
 };
 
 Options Parse(int argc, char** argv) {
@@ -68,11 +69,17 @@ Options Parse(int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("--resume", options.resume, "go on from the state in --out, if there is one");
   app.add_flag("--overwrite", options.overwrite, "start anew where --out holds a training");
+  app.add_flag("--nodes", options.nodes,
+               "one of 2, 4 or 8 processes that share the batches: RANK, WORLD_SIZE, MASTER_ADDR\n"
+               "and MASTER_PORT say which, as torchrun sets them; the result is that of one");
   app.footer(
-      "Writes policy.safetensors and policy.json (the policy), losses.csv and losses.json (the\n"
-      "curves), config.yaml and training.safetensors (what --resume reads).\n\n"
-      "example:\n"
-      "  doorforge train open --data run/data --out run/policy --epochs 10 --set batch_size=32");
+      "Writes policy.safetensors and policy.json (the policy), losses.jsonl, losses.json and an\n"
+      "event file for TensorBoard (the curves), config.yaml and training.safetensors (what\n"
+      "--resume reads).\n\n"
+      "examples:\n"
+      "  doorforge train open --data run/data --out run/policy --epochs 10 --set batch_size=32\n"
+      "  torchrun --nproc-per-node 2 --no-python doorforge train open --data run/data \\\n"
+      "      --out run/policy --threads 1 --nodes");
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {
@@ -160,7 +167,9 @@ void PrintSummary(const TrainerState& state, const StageDataset& dataset, const 
 int Train(const Options& options) {
   const fs::path out = options.out;
   const TrainConfig config = ConfigOf(options);
-  CheckFolder(options);
+  const auto group = options.nodes ? ProcessGroupFromEnvironment() : SoleProcess();
+  const bool first = group->rank() == 0;  // which alone writes
+  if (first) CheckFolder(options);
   WarnOfSlowLinearAlgebra();
   const StageDataset dataset =
       ReadStageDataset(options.data, options.stage, config.validation_share);
@@ -168,8 +177,9 @@ int Train(const Options& options) {
 
   TrainHooks hooks;
   hooks.threads = options.threads;
+  hooks.group = group.get();
   if (options.resume && HasTrainerState(out)) hooks.resume = ReadTrainerState(out, provenance);
-  CommitFile(out / "config.yaml", ToJson(config).dump(2) + "\n");
+  if (first) CommitFile(out / "config.yaml", ToJson(config).dump(2) + "\n");
 
   const std::uint64_t per_epoch = StepsPerEpoch(dataset.train.size(), config);
   const std::uint64_t total = per_epoch * static_cast<std::uint64_t>(EpochsOf(config));
@@ -179,15 +189,18 @@ int Train(const Options& options) {
   const auto start = Clock::now();
   TrainerState state;
   {
-    Progress progress("train " + options.stage,
-                      static_cast<std::size_t>(total - std::min(done, total)) * batch);
-    hooks.on_step = [&](const TrainerState& now) {
-      progress.Advance(batch, Note(now, per_epoch, config));
-    };
-    hooks.on_epoch = [&](const TrainerState& now) {
-      WriteTrainerState(out, now, provenance);
-      WriteLosses(out, now);
-    };
+    std::optional<Progress> progress;
+    if (first) {
+      progress.emplace("train " + options.stage,
+                       static_cast<std::size_t>(total - std::min(done, total)) * batch);
+      hooks.on_step = [&](const TrainerState& now) {
+        progress->Advance(batch, Note(now, per_epoch, config));
+      };
+      hooks.on_epoch = [&](const TrainerState& now) {
+        WriteTrainerState(out, now, provenance);
+        WriteLosses(out, now);
+      };
+    }
     hooks.stop = [&] {
       const std::chrono::duration<double> elapsed = Clock::now() - start;
       return StopRequested() != 0 ||
@@ -195,6 +208,7 @@ int Train(const Options& options) {
     };
     state = TrainStage(dataset.train, dataset.validation, config, hooks);
   }
+  if (!first) return state.step < total && StopRequested() != 0 ? 128 + StopRequested() : 0;
   WriteTrainerState(out, state, provenance);
   WriteLosses(out, state);
   const bool finished = state.step >= total;

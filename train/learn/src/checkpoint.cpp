@@ -14,6 +14,7 @@
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/learn/cloud_geometry.h"
+#include "doorforge/learn/event_log.h"
 #include "doorforge/learn/point_encoder.h"
 #include "doorforge/schemas/safetensors.h"
 
@@ -212,21 +213,38 @@ std::vector<TrainingCurve> CurvesOf(const TrainerState& state) {
   return curves;
 }
 
-std::string LossTable(const TrainerState& state) {
+// A line a step; a loss that is not known yet is left out.
+std::string LossLines(const TrainerState& state) {
   const std::vector<LossColumn> columns = LossColumnsOf(state.networks.family);
-  std::string text = "step";
-  for (const LossColumn& column : columns) text.append(",").append(column.name);
-  text += "\n";
+  std::string text;
   for (std::size_t i = 0; i < state.steps.size(); ++i) {
-    text += std::to_string(i + 1);
+    text += "{\"step\": " + std::to_string(i + 1);
     for (const LossColumn& column : columns) {
-      char number[32];
-      std::snprintf(number, sizeof number, ",%.9g", state.steps[i].*(column.value));
-      text += number;
+      const double value = state.steps[i].*(column.value);
+      if (!std::isfinite(value)) continue;
+      char number[64];
+      std::snprintf(number, sizeof number, "\": %.9g", value);
+      text.append(", \"").append(column.name).append(number);
     }
-    text += "\n";
+    text += "}\n";
   }
   return text;
+}
+
+// The steps' losses, and behind each epoch those of the validation.
+std::vector<ScalarEvent> EventsOf(const TrainerState& state) {
+  const std::size_t per_epoch = state.epochs.empty() ? 0 : state.steps.size() / state.epochs.size();
+  std::vector<ScalarEvent> events;
+  const auto add = [&](const char* kind, std::size_t step, const StageLosses& losses) {
+    for (const LossColumn& column : LossColumnsOf(state.networks.family)) {
+      const double value = losses.*(column.value);
+      if (std::isfinite(value)) events.push_back({step, std::string(kind) + column.name, value});
+    }
+  };
+  for (std::size_t i = 0; i < state.steps.size(); ++i) add("train/", i + 1, state.steps[i]);
+  for (std::size_t i = 0; i < state.epochs.size(); ++i)
+    add("validation/", (i + 1) * per_epoch, state.epochs[i].validation);
+  return events;
 }
 
 }  // namespace
@@ -320,7 +338,8 @@ TrainerState ReadTrainerState(const fs::path& folder, const PolicyProvenance& ex
 }
 
 void WriteLosses(const fs::path& folder, const TrainerState& state) {
-  CommitFile(folder / "losses.csv", LossTable(state));
+  CommitFile(folder / "losses.jsonl", LossLines(state));
+  CommitFile(folder / "events.out.tfevents.doorforge", TensorboardEvents(EventsOf(state)));
   Json curves = Json::array();
   for (const TrainingCurve& curve : CurvesOf(state))
     curves.push_back({{"name", curve.name},

@@ -9,7 +9,9 @@
 #include "doorforge/core/error.h"
 
 #ifdef DOORFORGE_HAS_GLOO
-#define USE_C10D_GLOO  // the header declares nothing without it
+#ifndef USE_C10D_GLOO  // without it the header declares nothing; libtorch's CMake files may set it
+#define USE_C10D_GLOO
+#endif
 #include <ATen/ATen.h>
 #include <torch/csrc/distributed/c10d/ProcessGroupGloo.hpp>
 #include <torch/csrc/distributed/c10d/TCPStore.hpp>

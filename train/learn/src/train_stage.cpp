@@ -11,6 +11,7 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/parallel_for.h"
@@ -33,9 +34,21 @@ using internal::NetworkRole;
 using internal::SampleSet;
 using internal::StageTask;
 
-// A batch's gradient is the sum of this many parts, each summed over its samples in order, so that
-// it does not depend on the number of threads.
+// A batch's gradient is the sum of this many parts, each summed over its samples in order, and the
+// parts are summed in pairs, pairs of pairs and so on: so it depends neither on the number of
+// threads nor on that of processes, each of which has a subtree.
 constexpr std::size_t kGradientParts = 8;
+
+// Sums equally long parts, a power of two of them, as a binary tree; the sum is left in the first.
+void SumAsTree(std::span<std::span<float>> parts) {
+  for (std::size_t stride = 1; stride < parts.size(); stride *= 2) {
+    for (std::size_t i = 0; i < parts.size(); i += 2 * stride) {
+      const std::span<float> sum = parts[i];
+      const std::span<float> addend = parts[i + stride];
+      for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += addend[k];
+    }
+  }
+}
 
 std::size_t BatchSize(std::size_t samples, const TrainConfig& config) {
   return std::min(samples, static_cast<std::size_t>(config.batch_size));
@@ -90,6 +103,8 @@ class Trainer {
         validation_(validation),
         config_(config),
         hooks_(hooks),
+        alone_(hooks.group == nullptr ? SoleProcess() : nullptr),
+        group_(hooks.group == nullptr ? *alone_ : *hooks.group),
         threads_(ThreadCount(hooks.threads)),
         instruction_set_(BestInstructionSet()),
         state_(hooks.resume ? *hooks.resume : InitialState()),
@@ -112,7 +127,7 @@ class Trainer {
       ++state_.step;
       if (state_.step % per_epoch == 0) EndEpoch(lesson, per_epoch);
       if (hooks_.on_step) hooks_.on_step(state_);
-      if (hooks_.stop && hooks_.stop()) break;
+      if (StopsSomewhere()) break;
     }
     return std::move(state_);
   }
@@ -134,6 +149,14 @@ class Trainer {
         train_, validation_, &config_, &state_.networks, hooks_.geometry_cache_bytes, threads_};
     return config_.family == NetworkFamily::kGrasp ? internal::MakeGraspTask(input)
                                                    : internal::MakeMotionTask(input);
+  }
+
+  // All processes of a group stop after the same step.
+  bool StopsSomewhere() {
+    if (!hooks_.stop) return false;
+    const float stops = hooks_.stop() ? 1.0F : 0.0F;
+    const std::vector<float> all = group_.Gather(std::span(&stops, 1));
+    return std::any_of(all.begin(), all.end(), [](float one) { return one != 0; });
   }
 
   // A step without a network repeats its last loss in the record.
@@ -172,23 +195,35 @@ class Trainer {
         internal::BatchOf(config_.seed, state_.step / per_epoch, state_.step % per_epoch,
                           train_.size(), BatchSize(train_.size(), config_)),
         state_.step};
-    const Geometries geometries = task_->GeometriesOf(lesson, batch);
+    const Geometries geometries = task_->GeometriesOf(lesson, OwnShare(batch));
     const std::vector<Network*> learning = Learning(lesson, lesson_step);
     const std::vector<PointEncoder> encoders = Encode(learning, geometries);
     StageLosses losses = UnknownLosses();
-    for (Network* network : learning) losses = Updated(losses, Head(*network, batch));
-    Backward(learning, encoders, geometries);
+    for (Network* network : learning)
+      losses = Updated(losses, Head(*network, batch, geometries.size()));
+    Backward(learning, encoders, geometries, batch.indices.size());
+    for (Network* network : learning) AddPartsOfAll(*network);
     const internal::AdamRates rates{LearningRate(config_, lesson_step, per_lesson),
                                     config_.weight_decay};
     ParallelFor(learning.size(), threads_, [&](std::size_t n) {
       Network& network = *learning[n];
-      for (const std::vector<float>& part : network.parts) {
-        for (std::size_t i = 0; i < part.size(); ++i) network.gradient[i] += part[i];
-      }
       AdamStep(rates, lesson_step / Interval(network) + 1, network.gradient,
                {*network.parameters, *network.first, *network.second});
     });
     return losses;
+  }
+
+  std::size_t OwnParts() const { return kGradientParts / static_cast<std::size_t>(group_.size()); }
+  std::size_t FirstOwnPart() const { return OwnParts() * static_cast<std::size_t>(group_.rank()); }
+
+  // The batch's samples that this process encodes.
+  Minibatch OwnShare(const Minibatch& batch) const {
+    const std::size_t size = batch.indices.size();
+    const auto begin = batch.indices.begin();
+    const auto cut = [&](std::size_t part) {
+      return begin + static_cast<std::ptrdiff_t>(part * size / kGradientParts);
+    };
+    return {batch.set, {cut(FirstOwnPart()), cut(FirstOwnPart() + OwnParts())}, batch.step};
   }
 
   std::vector<PointEncoder> Encode(const std::vector<Network*>& networks,
@@ -208,34 +243,81 @@ class Trainer {
     return encoders;
   }
 
-  // Fills the network's gradient behind the encoder, and that of its features.
-  StageLosses Head(Network& network, const Minibatch& batch) {
+  // Features of the whole batch, of which each process has encoded its share.
+  struct BatchFeatures {
+    std::vector<float> all;
+    std::size_t own_begin = 0;
+    std::size_t own_size = 0;
+  };
+
+  BatchFeatures GatherFeatures(std::vector<float> own) {
+    BatchFeatures features{{}, 0, own.size()};
+    if (group_.size() == 1) {
+      features.all = std::move(own);
+      return features;
+    }
+    const auto own_size = static_cast<float>(own.size());  // below 2^24: exact
+    const std::vector<float> sizes = group_.Gather(std::span(&own_size, 1));
+    const auto longest = static_cast<std::size_t>(*std::max_element(sizes.begin(), sizes.end()));
+    own.resize(longest);
+    const std::vector<float> padded = group_.Gather(own);
+    for (std::size_t rank = 0; rank < sizes.size(); ++rank) {
+      if (std::cmp_equal(rank, group_.rank())) features.own_begin = features.all.size();
+      const auto begin = padded.begin() + static_cast<std::ptrdiff_t>(rank * longest);
+      features.all.insert(features.all.end(), begin,
+                          begin + static_cast<std::ptrdiff_t>(sizes[rank]));
+    }
+    return features;
+  }
+
+  // Fills the network's gradient behind the encoder, and that of its own share of the features.
+  // The head is small: every process does the whole batch's.
+  StageLosses Head(Network& network, const Minibatch& batch, std::size_t own_clouds) {
     network.gradient.assign(network.layout->size(), 0.0F);
-    HeadResult result = task_->Objective(
-        network.role, batch, network.encoded.Features(batch.indices.size()), network.gradient);
+    BatchFeatures features = GatherFeatures(network.encoded.Features(own_clouds));
+    HeadResult result =
+        task_->Objective(network.role, batch, std::move(features.all), network.gradient);
     Require(std::isfinite(result.objective), ErrorCode::kIncomplete,
             "training diverged at step " + std::to_string(state_.step + 1) +
                 ": a loss is not finite; lower learning_rate");
-    network.feature_gradient = std::move(result.feature_gradient);
+    const auto own =
+        result.feature_gradient.begin() + static_cast<std::ptrdiff_t>(features.own_begin);
+    network.feature_gradient.assign(own, own + static_cast<std::ptrdiff_t>(features.own_size));
     return result.losses;
   }
 
   void Backward(const std::vector<Network*>& networks, const std::vector<PointEncoder>& encoders,
-                const Geometries& geometries) const {
+                const Geometries& geometries, std::size_t batch_size) const {
     const std::vector<std::size_t> offsets = FeatureOffsets(geometries);
-    ParallelFor(networks.size() * kGradientParts, threads_, [&](std::size_t task) {
-      Network& network = *networks[task / kGradientParts];
-      const std::size_t p = task % kGradientParts;
+    const std::size_t first = FirstOwnPart() * batch_size / kGradientParts;
+    ParallelFor(networks.size() * OwnParts(), threads_, [&](std::size_t task) {
+      Network& network = *networks[task / OwnParts()];
+      const std::size_t p = FirstOwnPart() + task % OwnParts();
       std::vector<float>& part = network.parts[p];
       part.assign(network.layout->size(), 0.0F);
-      const std::size_t begin = p * geometries.size() / kGradientParts;
-      const std::size_t end = (p + 1) * geometries.size() / kGradientParts;
+      const std::size_t begin = p * batch_size / kGradientParts - first;
+      const std::size_t end = (p + 1) * batch_size / kGradientParts - first;
       for (std::size_t i = begin; i < end; ++i)
-        encoders[task / kGradientParts].AddGradient(
+        encoders[task / OwnParts()].AddGradient(
             *geometries[i], network.encoded.trace(i),
             std::span(network.feature_gradient).subspan(offsets[i], offsets[i + 1] - offsets[i]),
             part);
     });
+  }
+
+  // Adds the encoder's gradient, of all processes, to that of what is behind it.
+  void AddPartsOfAll(Network& network) {
+    std::vector<std::span<float>> own(
+        network.parts.begin() + static_cast<std::ptrdiff_t>(FirstOwnPart()),
+        network.parts.begin() + static_cast<std::ptrdiff_t>(FirstOwnPart() + OwnParts()));
+    SumAsTree(own);
+    std::vector<float> gathered = group_.Gather(own.front());
+    std::vector<std::span<float>> subtrees;
+    for (std::size_t begin = 0; begin < gathered.size(); begin += network.gradient.size())
+      subtrees.push_back(std::span(gathered).subspan(begin, network.gradient.size()));
+    SumAsTree(subtrees);
+    for (std::size_t i = 0; i < network.gradient.size(); ++i)
+      network.gradient[i] += subtrees.front()[i];
   }
 
   // Where each cloud's features begin among those of the batch.
@@ -267,14 +349,15 @@ class Trainer {
       batch.indices.resize(std::min(kChunk, validation_.size() - begin));
       std::iota(batch.indices.begin(), batch.indices.end(), begin);
       const std::vector<Network*> taught = Taught(lesson);
-      Encode(taught, task_->GeometriesOf(lesson, batch));
+      const Geometries geometries = task_->GeometriesOf(lesson, OwnShare(batch));
+      Encode(taught, geometries);
       StageLosses losses = UnknownLosses();
-      for (Network* network : taught)
+      for (Network* network : taught) {
+        std::vector<float> features =
+            GatherFeatures(network->encoded.Features(geometries.size())).all;
         losses =
-            Updated(losses, task_
-                                ->Objective(network->role, batch,
-                                            network->encoded.Features(batch.indices.size()), {})
-                                .losses);
+            Updated(losses, task_->Objective(network->role, batch, std::move(features), {}).losses);
+      }
       AddScaled(losses, static_cast<double>(batch.indices.size()), sum);
     }
     StageLosses mean;
@@ -286,6 +369,8 @@ class Trainer {
   std::span<const TrainingSample> validation_;
   const TrainConfig& config_;
   const TrainHooks& hooks_;
+  std::unique_ptr<ProcessGroup> alone_;  // without a group
+  ProcessGroup& group_;
   int threads_;
   InstructionSet instruction_set_;
   TrainerState state_;

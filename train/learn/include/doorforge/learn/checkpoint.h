@@ -64,7 +64,8 @@ struct TrainingCurve {
   std::vector<double> validation;
 };
 
-/// Writes `losses.csv` (a row a step) and `losses.json` (schema doorforge.losses: the curves).
+/// Writes `losses.jsonl` (a line a step), `losses.json` (schema doorforge.losses: the curves) and
+/// `events.out.tfevents.doorforge` (both, for TensorBoard).
 void WriteLosses(const std::filesystem::path& folder, const TrainerState& state);
 
 /// Reads `losses.json`. Throws Error(kMissing or kFormat).

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "doorforge/learn/process_group.h"
 #include "doorforge/learn/stage_networks.h"
 #include "doorforge/learn/training_sample.h"
 
@@ -116,13 +117,15 @@ struct TrainerState {
 /// How a run is carried out; none of it changes the result.
 struct TrainHooks {
   int threads = 0;  ///< 0: all processors.
+  /// Those who share the batches, each with the same arguments; null: this process alone.
+  ProcessGroup* group = nullptr;
   /// Goes on from here. Must come from a run of the same config and samples.
   std::optional<TrainerState> resume;
   /// Called after every step.
   std::function<void(const TrainerState&)> on_step;
   /// Called after every epoch, with its losses measured.
   std::function<void(const TrainerState&)> on_epoch;
-  /// Asked after every step; true ends the run there.
+  /// Asked after every step; true ends the run there, in all processes of a group.
   std::function<bool()> stop;
   /// Point geometry of the samples is kept up to this size instead of being found again each epoch.
   std::size_t geometry_cache_bytes = std::size_t{2} << 30U;

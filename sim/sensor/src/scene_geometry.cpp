@@ -94,12 +94,7 @@ bool IsSupported(RayIsa isa) {
   return false;
 }
 
-RayIsa DefaultRayIsa() {
-  for (const RayIsa isa : {RayIsa::kAvx512, RayIsa::kAvx2}) {
-    if (IsSupported(isa)) return isa;
-  }
-  return RayIsa::kSse42;
-}
+RayIsa DefaultRayIsa() { return IsSupported(RayIsa::kAvx2) ? RayIsa::kAvx2 : RayIsa::kSse42; }
 
 std::string_view NameOf(RayIsa isa) {
   constexpr std::array<std::string_view, 3> kNames = {"sse4.2", "avx2", "avx512"};
@@ -107,8 +102,7 @@ std::string_view NameOf(RayIsa isa) {
 }
 
 std::string RayCasterVersion() {
-  const bool narrow = DefaultRayIsa() == RayIsa::kSse42;
-  return std::string("Embree " RTC_VERSION_STRING ", ") + (narrow ? "sse4.2" : "avx2 or wider");
+  return "Embree " RTC_VERSION_STRING ", " + std::string(NameOf(DefaultRayIsa()));
 }
 
 DenormalsAreZero::DenormalsAreZero() : saved_(_mm_getcsr()) {

@@ -27,14 +27,14 @@ struct VisibleMesh {
 /// Vector instructions with which rays are traced.
 enum class RayIsa { kSse42, kAvx2, kAvx512 };
 
-/// The widest that the processor has. AVX2 and AVX-512 give the same images (docs/design/sensor.md
-/// has the count of rays); with SSE 4.2 a ray that grazes an edge may hit the other triangle.
+/// AVX2 where the processor has it, otherwise SSE 4.2. Not the widest: of two triangles that meet
+/// in the edge that a ray passes through, another one may win at another width, and data sets
+/// should not depend on the machine. Record it (NameOf) beside what was rendered.
 RayIsa DefaultRayIsa();
 bool IsSupported(RayIsa isa);
 std::string_view NameOf(RayIsa isa);  ///< "sse4.2", "avx2", "avx512".
 
-/// Library, version and class of instruction sets that give the same images, such as
-/// "Embree 3.13.5, avx2 or wider". For provenance.
+/// Library, version and default instruction set, such as "Embree 3.13.5, avx2". For provenance.
 std::string RayCasterVersion();
 
 /// Meshes prepared for ray casting: one search tree a mesh, built once; one instance a mesh, moved

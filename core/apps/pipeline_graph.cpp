@@ -105,12 +105,14 @@ PipelineStep StepOf(const Json& json, const Json& settings, const std::string& w
   step.name = Text(json, "name", where);
   step.does = Text(json, "does", where);
   step.command = Texts(json, "command", where);
-  step.output = Text(json, "output", where);
+  if (json.contains("output")) step.output = Text(json, "output", where);
   step.records = Texts(json, "records", where);
   step.needs = Texts(json, "needs", where);
   if (step.command.empty()) Fail(where, "command: is empty");
-  if (step.records.empty()) Fail(where, "records: is empty, so changes could not be seen");
-  if (!IsOwnFolder(step.output)) Fail(where, "output: expected a folder below the pipeline's");
+  if (step.records.empty() != step.output.empty())
+    Fail(where, "output and records belong together: changes could not be seen");
+  if (!step.output.empty() && !IsOwnFolder(step.output))
+    Fail(where, "output: expected a folder below the pipeline's");
   if (json.contains("resume")) step.resume = TextOf(json["resume"]);
   if (json.contains("fine_codes")) {
     step.fine_codes.clear();
@@ -199,14 +201,15 @@ void CheckPlaceholders(const PipelineStep& step, const Json& settings, const std
 
 void CheckStep(const PipelineStep& step, const Pipeline& pipeline, const std::string& where) {
   for (const PipelineStep& earlier : pipeline.steps) {
-    if (earlier.name == step.name || earlier.output == step.output)
+    if (earlier.name == step.name || (!step.output.empty() && earlier.output == step.output))
       Fail(where, "has the name or the output of an earlier step");
   }
   if (pipeline.settings.contains(step.name) || step.name == kOut || step.name == kThreads)
     Fail(where, "name: is that of a setting");
   for (const std::string& need : step.needs) {
-    if (std::ranges::find(pipeline.steps, need, &PipelineStep::name) == pipeline.steps.end())
-      Fail(where, "needs: no step before it is called \"" + need + "\"");
+    const auto found = std::ranges::find(pipeline.steps, need, &PipelineStep::name);
+    if (found == pipeline.steps.end() || found->output.empty())
+      Fail(where, "needs: no step before it is called \"" + need + "\" and makes something");
   }
   CheckPlaceholders(step, pipeline.settings, where);
 }

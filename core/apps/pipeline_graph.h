@@ -20,7 +20,8 @@ struct PipelineStep {
   std::string name;
   std::string does;                  ///< For people.
   std::vector<std::string> command;  ///< Verb and arguments, with {placeholders}.
-  std::string output;                ///< Folder that the command makes, below the pipeline's.
+  /// Folder that the command makes, below the pipeline's; empty for a check, which makes nothing.
+  std::string output;
   std::vector<std::string> records;  ///< Endings of the files below `output` that describe it.
   std::vector<std::string> needs;    ///< Steps whose outputs the command reads.
   /// What is added to the command to go on after an interruption, maybe nothing; without it a

@@ -41,7 +41,9 @@ class Workshop {
     return ExpandCommand(step, pipeline_.settings, values_);
   }
 
+  /// A check that has been made leaves nothing that could change.
   std::string OutputHash(const PipelineStep& step) const {
+    if (step.output.empty()) return "checked";
     return HashOfRecords(Folders(step), step.records);
   }
 
@@ -114,6 +116,7 @@ void PrepareFolder(const fs::path& out) {
 // What a step made with other inputs is removed before the step begins, so that an interruption
 // never leaves the old behind a record that speaks of the new.
 void ClearOutput(const PipelineStep& step, const PipelineRun& run, const StepDecision& decision) {
+  if (step.output.empty()) return;
   const fs::path output = run.out / step.output;
   if (decision.action == StepAction::kStart) {
     if (fs::exists(output))
@@ -164,9 +167,9 @@ int Finish(const PipelineStep& step, Workshop& workshop, const PipelineRun& run,
                                               "; repair its cause and give the same command again");
   }
   hashes[step.name] = workshop.OutputHash(step);
-  Require(!hashes[step.name].empty(), ErrorCode::kIncomplete,
-          "step " + step.name + " left no " + step.records[0] + " in " +
-              (run.out / step.output).string());
+  if (hashes[step.name].empty())
+    throw Error(ErrorCode::kIncomplete, "step " + step.name + " left no " + step.records[0] +
+                                            " in " + (run.out / step.output).string());
   if (decision.action != StepAction::kSkip)
     WriteStepRecord(run.out, step.name, {inputs, hashes[step.name]});
   return 0;
@@ -266,7 +269,8 @@ int RunPipeline(const Pipeline& pipeline, const PipelineRun& run) {
     return code;
   }
   for (const PipelineStep& step : pipeline.steps) {
-    if (fs::exists(run.out / step.output / "report.json")) PrintSuccess(run.out / step.output);
+    if (!step.output.empty() && fs::exists(run.out / step.output / "report.json"))
+      PrintSuccess(run.out / step.output);
   }
   return 0;
 }

@@ -2,28 +2,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "quickstart_verb.h"
 
-#include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
-#include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
-#include "doorforge/core/json_file.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
 
+#include "pipeline_graph.h"
+#include "pipeline_run.h"
 #include "quickstart_split.h"
 
 namespace doorforge {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
 struct Options {
   std::string assets;
@@ -35,6 +33,17 @@ struct Options {
   bool overwrite = false;
   bool resume = false;
 };
+
+void Parse(CLI::App& app, int argc, char** argv) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& help) {
+    std::exit(app.exit(help));
+  } catch (const CLI::ParseError& error) {
+    throw Error(ErrorCode::kInvalidArgument,
+                std::string(error.what()) + "; see `doorforge quickstart --help`");
+  }
+}
 
 void ParseOptions(int argc, char** argv, Options& options) {
   CLI::App app(
@@ -57,93 +66,25 @@ void ParseOptions(int argc, char** argv, Options& options) {
   app.add_flag("--overwrite", options.overwrite, "replace the folder --out");
   app.add_flag("--resume", options.resume, "keep the steps that are done in --out");
   app.footer("example:\n  doorforge quickstart --out run/quickstart");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& help) {
-    std::exit(app.exit(help));
-  } catch (const CLI::ParseError& error) {
-    throw Error(ErrorCode::kInvalidArgument,
-                std::string(error.what()) + "; see `doorforge quickstart --help`");
-  }
+  Parse(app, argc, argv);
 }
 
-std::string Program(const char* name) { return (ProgramFolder() / name).string(); }
-
-struct Step {
-  std::string title;
-  std::vector<std::string> argv;
-  std::string when_resumed = {};   // flag that lets the verb go on with what an earlier try left
-  bool findings_are_fine = false;  // exit code 1 means faulty items; the others are done
-};
-
-// Runs each step as its own program and leaves a marker once it is done.
-class Steps {
- public:
-  explicit Steps(const Options& options) : options_(options), start_(Clock::now()) {}
-
-  void Run(const Step& step) {
-    Announce(step.title);
-    const fs::path marker =
-        fs::path(options_.out) / "steps" / (std::to_string(count_) + "-" + step.argv[1] + ".done");
-    if (options_.resume && fs::exists(marker)) {
-      std::fprintf(stderr, "   done before\n");
-      return;
-    }
-    std::vector<std::string> argv = step.argv;
-    if (options_.resume && !step.when_resumed.empty()) argv.push_back(step.when_resumed);
-    std::string line = "doorforge";
-    for (std::size_t i = 1; i < argv.size(); ++i) line += " " + argv[i];
-    std::fprintf(stderr, "   $ %s\n", line.c_str());
-    const int code = RunChild(argv);
-    if (code == 130 || code == 143) throw Stopped{code};
-    if (code != 0 && !(code == 1 && step.findings_are_fine))
-      throw Error(ErrorCode::kIncomplete, "step \"" + step.title + "\" ended with exit code " +
-                                              std::to_string(code) +
-                                              "; repair its cause and run again with --resume");
-    CommitFile(marker, line + "\n");
-  }
-
-  void Announce(const std::string& title) {
-    const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
-    std::fprintf(stderr, "\n== %d. %s   (at %.0f s)\n", ++count_, title.c_str(), seconds);
-  }
-
-  struct Stopped {
-    int code;
-  };
-
- private:
-  const Options& options_;
-  Clock::time_point start_;
-  int count_ = 0;
-};
-
-void ComposeDoors(const std::vector<DoorPair>& pairs, const fs::path& out, const Options& options) {
+void ComposeDoors(const std::vector<DoorPair>& pairs, const fs::path& out, int threads) {
+  const std::string program = (ProgramFolder() / "doorforge-assets").string();
   Progress progress("compose", pairs.size());
-  ParallelFor(pairs.size(), options.threads, [&](std::size_t i) {
+  ParallelFor(pairs.size(), threads, [&](std::size_t i) {
     const DoorPair& pair = pairs[i];
     const fs::path door = out / pair.subset / (pair.body_id + "__" + pair.handle_id);
     if (!fs::exists(door / "door.json")) {
       const int code =
-          RunChild({Program("doorforge-assets"), "compose", "--body", pair.body_folder.string(),
-                    "--handle", pair.handle_folder.string(), "--out", door.string(), "--quiet"});
+          RunChild({program, "compose", "--body", pair.body_folder.string(), "--handle",
+                    pair.handle_folder.string(), "--out", door.string(), "--quiet"});
       if (code != 0)
         throw Error(ErrorCode::kIncomplete,
                     door.string() + ": compose ended with exit code " + std::to_string(code));
     }
     progress.Advance();
   });
-}
-
-void PrintSuccess(const fs::path& report) {
-  const auto json = ReadJsonFile(report / "report.json");
-  std::printf("\n%-18s %8s   %s\n", "success > 45 deg", "rate", "95 % interval   episodes");
-  for (const auto& [name, row] : MemberOf(json, "success", "report.json").items()) {
-    std::printf("%-18s %6.1f %%   %.1f - %.1f %%   %d\n", name.c_str(),
-                100 * ValueOf<double>(row, "rate", name), 100 * ValueOf<double>(row, "low", name),
-                100 * ValueOf<double>(row, "high", name), ValueOf<int>(row, "episodes", name));
-  }
-  std::printf("\nreport: %s\n", fs::absolute(report / "report.html").lexically_normal().c_str());
 }
 
 void PrepareFolder(const Options& options) {
@@ -155,63 +96,44 @@ void PrepareFolder(const Options& options) {
   fs::create_directories(out);
 }
 
-void RunChain(const Options& options) {
-  const fs::path out = options.out;
-  const std::string threads = std::to_string(options.threads);
-  const std::string seed = std::to_string(options.seed);
-  const std::string parts = out / "parts";
-  const std::string train_doors = out / "doors/train";
-  const std::string test_doors = out / "doors/test";
-  const std::string shards = out / "data";
-  const std::string policy = out / "policy";
-  Steps steps(options);
-  if (options.assets.empty()) {
-    steps.Run(
-        {"Parts of the embedded catalogue",
-         {Program("doorforge-assets"), "catalog", "build", "--split", "quickstart", "--out", parts},
-         "--overwrite"});
-  } else {
-    steps.Run({"Parts from real objects",
-               {Program("doorforge-assets"), "import", options.assets, "--only",
-                "interior,storagefurniture", "--out", parts, "--threads", threads},
-               "--overwrite",
-               true});
-  }
-  steps.Announce("Doors: training and held-out parts never meet");
-  ComposeDoors(SplitIntoDoors(parts, options.seed), out / "doors", options);
-  steps.Run(
-      {"Validation", {Program("doorforge-assets"), "validate", train_doors, test_doors}, {}, true});
-  steps.Run(
-      {"Shards: the expert opens the training doors",
-       {Program("doorforge-datagen"), "datagen", "open", "--doors", train_doors, "--out", shards,
-        "--episodes", std::to_string(options.episodes), "--seed", seed, "--threads", threads},
-       "--resume"});
-  steps.Run({"Checksums", {Program("doorforge-datagen"), "dataset", "verify", shards}});
-  steps.Run({"Training",
-             {Program("doorforge-train"), "train", "open", "--data", shards, "--out", policy,
-              "--epochs", std::to_string(options.epochs), "--seed", seed, "--threads", threads},
-             "--resume"});
-  steps.Run({"Evaluation on doors whose parts were never seen",
-             {Program("doorforge-eval"), "eval", "--policy", policy, "--doors", test_doors,
-              "--data", shards, "--out", out / "report", "--seeds", "3", "--episodes-per-door", "2",
-              "--threads", threads},
-             "--overwrite"});
+// real objects in place of the catalogue
+void ImportParts(Pipeline& pipeline, const std::string& assets) {
+  PipelineStep& parts = pipeline.steps.at(0);
+  parts.does = "Parts from real objects";
+  parts.command = {"import", assets,    "--only",    "interior,storagefurniture",
+                   "--out",  "{parts}", "--threads", "{threads}"};
+  parts.fine_codes = {0, 1};  // some objects were refused, the others are done
+}
+
+// `doorforge quickstart doors`: the step that draws and composes the pairs
+int RunDoors(int argc, char** argv) {
+  std::string parts;
+  std::string out;
+  int threads = 0;
+  std::uint64_t seed = 7;
+  CLI::App app("Draws training and held-out pairs of parts, and composes them.",
+               "doorforge quickstart doors");
+  app.add_option("--parts", parts, "folder of parts")->required()->check(CLI::ExistingDirectory);
+  app.add_option("--out", out, "folder of the doors")->required();
+  app.add_option("--seed", seed, "decides which pairs")->capture_default_str();
+  app.add_option("--threads", threads, "threads, 0: all")->check(CLI::Range(0, 1024));
+  Parse(app, argc, argv);
+  ComposeDoors(SplitIntoDoors(parts, seed), out, threads);
+  return 0;
 }
 
 }  // namespace
 
 int RunQuickstartVerb(int argc, char** argv) {
+  if (argc > 1 && std::string_view(argv[1]) == "doors") return RunDoors(argc - 1, argv + 1);
   Options options;
   ParseOptions(argc, argv, options);
   PrepareFolder(options);
-  try {
-    RunChain(options);
-  } catch (const Steps::Stopped& stopped) {
-    std::fprintf(stderr, "doorforge: stopped; run again with --resume\n");
-    return stopped.code;
-  }
-  PrintSuccess(fs::path(options.out) / "report");
-  return 0;
+  Pipeline pipeline = ReadPipeline("quickstart", {"seed=" + std::to_string(options.seed),
+                                                  "episodes=" + std::to_string(options.episodes),
+                                                  "epochs=" + std::to_string(options.epochs)});
+  if (!options.assets.empty()) ImportParts(pipeline, options.assets);
+  return RunPipeline(pipeline, {.out = options.out, .threads = options.threads});
 }
 
 }  // namespace doorforge

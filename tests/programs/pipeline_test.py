@@ -26,6 +26,9 @@ arguments = [a for a in arguments if a != "--resume"]
 name, value, out, sleep, *needs = arguments
 out = pathlib.Path(out)
 log = open({log!r}, "a")
+if name == "check":
+    print(name, file=log)
+    sys.exit(1)
 if out.exists() and not go_on:
     sys.exit("there is something already")
 out.mkdir(parents=True, exist_ok=True)
@@ -44,17 +47,22 @@ for piece in range(8):
 (out / "record.json").write_text(hashlib.sha256(text.encode()).hexdigest())
 """
 
-# b and c need a, d needs both
-NEEDS = {"a": [], "b": ["a"], "c": ["a"], "d": ["b", "c"]}
+# b and c need a, d needs both; b's output is checked, which makes nothing
+NEEDS = {"a": [], "b": ["a"], "check": ["b"], "c": ["a"], "d": ["b", "c"]}
+MAKERS = ("a", "b", "c", "d")
 
 
 def declaration(sleep: float) -> str:
     steps = []
     for name, needs in NEEDS.items():
         command = ["datagen", name, f"{{value_{name}}}", f"{{{name}}}", str(sleep), *(f"{{{need}}}" for need in needs)]
-        steps.append({"name": name, "does": f"makes {name}", "command": command, "output": f"made/{name}",
-                      "needs": needs, "records": ["record.json"], "resume": "--resume",
-                      "core_seconds": {"fixed": 2, "value_a": 3}})
+        step = {"name": name, "does": f"makes {name}", "command": command, "needs": needs,
+                "core_seconds": {"fixed": 2, "value_a": 3}}
+        if name in MAKERS:
+            step.update(output=f"made/{name}", records=["record.json"], resume="--resume")
+        else:
+            step.update(command=["datagen", name, "{value_check}", "none", "0"], fine_codes=[0, 1])
+        steps.append(step)
     return json.dumps({"schema": "doorforge.pipeline", "schema_version": 1, "about": "a diamond",
                        "settings": {f"value_{name}": 100 for name in NEEDS}, "steps": steps})
 
@@ -124,7 +132,7 @@ class Graph(PipelineTest):
             self.assertEqual(self.ran(), expected, result.stderr)
 
             spoilt = set()
-            victim = draw.choice(list(NEEDS))
+            victim = draw.choice(MAKERS)
             change = draw.choice(["nothing", "small", "large", "large", "tamper", "remove"])
             values[victim] += {"small": 1, "large": 10}.get(change, 0)
             record = self.folder / "out/made" / victim / "record.json"
@@ -137,7 +145,7 @@ class Graph(PipelineTest):
 
     def test_the_reason_names_what_changed_and_nothing_is_replaced_unasked(self):
         self.pipeline("diamond.yaml", "--out", "out")
-        self.assertEqual(self.ran(), ["a", "b", "c", "d"])
+        self.assertEqual(self.ran(), ["a", "b", "check", "c", "d"])
         before = digests(self.folder / "out")
         refused = self.pipeline("diamond.yaml", "--out", "out", "--set", "value_b=200", code=2)
         self.assertIn("--overwrite", refused.stderr)
@@ -153,17 +161,18 @@ class Graph(PipelineTest):
         self.assertEqual(self.ran(), [])
 
     def test_a_folder_of_the_users_stands_for_a_step_and_those_before_it_are_left_out(self):
-        text = declaration(0).replace('"name": "b"', '"name": "doors"').replace('{b}', '{doors}')
-        text = text.replace('"b", "c"', '"doors", "c"').replace("value_b", "value_doors")
+        text = declaration(0).replace('"name": "b"', '"name": "doors"').replace("{b}", "{doors}")
+        text = text.replace('"b", "c"', '"doors", "c"').replace('["b"]', '["doors"]')
+        text = text.replace("value_b", "value_doors")
         (self.folder / "diamond.yaml").write_text(text.replace('"datagen", "b"', '"datagen", "doors"'))
         (self.folder / "mine").mkdir()
         self.assertIn("record.json", self.pipeline("diamond.yaml", "--out", "out", "--doors", "mine", code=3).stderr)
         (self.folder / "mine/record.json").write_text("mine")
         self.pipeline("diamond.yaml", "--out", "out", "--doors", "mine")
-        self.assertEqual(self.ran(), ["a", "c", "d"], "a is needed by c as well")
+        self.assertEqual(self.ran(), ["a", "check", "c", "d"], "a is needed by c as well")
         (self.folder / "mine/record.json").write_text("changed")
         self.pipeline("diamond.yaml", "--out", "out", "--doors", "mine", "--overwrite")
-        self.assertEqual(self.ran(), ["d"])
+        self.assertEqual(self.ran(), ["check", "d"])
 
     def test_wrong_declarations_and_folders_are_refused(self):
         good = json.loads(declaration(0))
@@ -203,12 +212,12 @@ class Interruption(PipelineTest):
         self.pipeline("diamond.yaml", "--out", "whole")
         self.ran()
         self.declare(0.05)  # a declaration of its own: the command has changed
-        for name in NEEDS:
+        for name in MAKERS:
             self.stop(["diamond.yaml", "--out", "out"],
                       lambda: self.log.exists() and f"{name} piece 1" in self.log.read_text())
         self.pipeline("diamond.yaml", "--out", "out")
         lines = self.log.read_text().splitlines()
-        for name in NEEDS:
+        for name in MAKERS:
             self.assertEqual(lines.count(name), 1, "begun once")
             self.assertEqual(lines.count(name + " resumed"), 1)
             for piece in range(8):

@@ -4,12 +4,13 @@
 """A collection through a real Slurm on this machine: a four-task array, one task killed and requeued, the
 merge and the verification after them, and the bytes of a run by one process.
 
-    python3 tests/cluster/slurm_test.py BUILD_FOLDER [--install]
+    python3 tests/cluster/slurm_test.py BUILD_FOLDER [--install] [--episodes N] [--doors DOORS ...]
 
 Starts munged, slurmctld and slurmd of its own, with a key, ports and folders of their own, and ends them.
 Skipped, with the reason, where this user is not root or Debian's slurm-wlm and munge are not installed;
---install, or DOORFORGE_INSTALL_SLURM=1, installs them.
+--install, or DOORFORGE_INSTALL_SLURM=1, installs them. Without --doors three are composed.
 """
+import argparse
 import filecmp
 import os
 import pathlib
@@ -23,12 +24,19 @@ import tempfile
 import time
 import unittest
 
-INSTALL = "--install" in sys.argv or os.environ.get("DOORFORGE_INSTALL_SLURM") == "1"
-sys.argv = [argument for argument in sys.argv if argument != "--install"]
-BINARY_DIR = pathlib.Path(sys.argv.pop(1)).resolve()
+parser = argparse.ArgumentParser()
+parser.add_argument("build_folder", type=pathlib.Path)
+parser.add_argument("--install", action="store_true")
+parser.add_argument("--episodes", type=int, default=64)
+parser.add_argument("--doors", nargs="+", default=os.environ.get("DOORFORGE_TEST_DOORS", "").split())
+options, sys.argv[1:] = parser.parse_known_args()
+INSTALL = options.install or os.environ.get("DOORFORGE_INSTALL_SLURM") == "1"
+BINARY_DIR = options.build_folder.resolve()
 DOORFORGE = BINARY_DIR / "bin/doorforge"
 PROGRAMS = ["slurmctld", "slurmd", "munged", "sbatch", "scontrol", "squeue"]
-EPISODES, PER_SHARD, TASKS = 64, 8, 4
+EPISODES, TASKS = options.episodes, 4
+PER_SHARD = 8 if EPISODES < 1000 else 128
+PATIENCE = 400 + 2 * EPISODES  # [s]
 BODIES = ["interior_flush_01", "interior_four_panel_02", "interior_framed_02"]
 HANDLE = "interior_lever_tube_02"
 
@@ -170,7 +178,8 @@ class SlurmTest(unittest.TestCase):
                           "or DOORFORGE_INSTALL_SLURM=1")
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="doorforge_slurm_"))
         self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
-        self.doors = os.environ.get("DOORFORGE_TEST_DOORS") or self.compose_doors()
+        self.doors = [str(pathlib.Path(name).resolve()) if os.path.exists(name) else name
+                      for name in options.doors] or [self.compose_doors()]
         slurm_folder = self.folder / "slurm"
         slurm_folder.mkdir()
         self.slurm = Slurm(slurm_folder)
@@ -194,7 +203,7 @@ class SlurmTest(unittest.TestCase):
         return str(self.folder / "doors")
 
     def collection(self, name: str) -> list[object]:
-        return ["datagen", "open", "--doors", self.doors, "--out", self.folder / name, "--episodes", EPISODES,
+        return ["datagen", "open", "--doors", *self.doors, "--out", self.folder / name, "--episodes", EPISODES,
                 "--seed", 7, "--set", f"collection.episodes_per_shard={PER_SHARD}", "-j", 1]
 
     def test_an_array_with_a_requeued_task_gives_the_bytes_of_one_process(self) -> None:
@@ -212,7 +221,7 @@ class SlurmTest(unittest.TestCase):
                     return name
             return ""
 
-        victim = wait_for(writing_task, 120, "a task that writes")
+        victim = wait_for(writing_task, PATIENCE, "a task that writes")
         time.sleep(1)
         victims = self.slurm.processes_of(victim)
         for process in victims:
@@ -226,7 +235,7 @@ class SlurmTest(unittest.TestCase):
         print(f"killed and requeued task {victim}", file=sys.stderr)
 
         wait_for(lambda: self.slurm.state(verify) in ("COMPLETED", "FAILED", "CANCELLED") or
-                 self.slurm.state(merge) in ("FAILED", "CANCELLED"), 400, "the verification")
+                 self.slurm.state(merge) in ("FAILED", "CANCELLED"), PATIENCE, "the verification")
         logs = "\n".join(f"{log.name}: {log.read_text(errors='replace')[-600:]}"
                          for log in sorted((self.folder / "array.slurm").iterdir()))
         self.assertEqual(self.slurm.state(merge), "COMPLETED", logs)

@@ -54,6 +54,11 @@ std::vector<Mutation> AllMutations() {
          AddFrame("rebate", BoxOf({-0.08, 0.7, 0.2}, {-0.02, 0.9, 1.6}), d);
        },
        "0.02 m at hinge 0 rad"},
+      {"SWP003",
+       [](DoorAsset& d) {  // the open leaf's back comes to y = 0.0075
+         AddFrame("jamb", BoxOf({0.02, -0.05, 0.2}, {0.08, 0.02, 1.6}), d);
+       },
+       "handle 0 rad"},
       {"OPN001", [](DoorAsset& d) { d.latch.lock_effort_nm = 40; }, " rad"},
       {"OPN002", [](DoorAsset& d) { d.latch.handle_spring_nm_per_rad = 20; }, "handle at 0.3"},
       {"OPN003", [](DoorAsset& d) { d.latch.handle_spring_nm_per_rad = 0; }, " rad"},
@@ -96,6 +101,14 @@ TEST(OpenableCheck, RaisesExactlyTheRuleThatAFaultBreaks) {
       rules.insert(std::string(rule.code));
   }
   EXPECT_EQ(mutated, rules);
+}
+
+TEST(OpenableCheck, TellsCollisionShapesThatStandInTheWayFromMeshesThatDo) {
+  DoorAsset door = BoxDoor();
+  AddFrame("jamb", BoxOf({0.02, -0.05, 0.2}, {0.08, 0.005, 1.6}), door);
+  EXPECT_TRUE(OpenableCheck()(door).empty());
+  door.links[kBaseLink].geometry.back().hulls = {BoxOf({0.02, -0.05, 0.2}, {0.08, 0.02, 1.6})};
+  EXPECT_EQ(CodesOf(OpenableCheck()(door)), std::set<std::string>{"SWP001"});
 }
 
 TEST(OpenableCheck, TriesABoltAsItDoesAnEffort) {

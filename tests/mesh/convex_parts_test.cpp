@@ -8,6 +8,7 @@
 
 #include "doorforge/core/error.h"
 
+#include "cover_parts.h"
 #include "shapes.h"
 
 namespace doorforge {
@@ -197,6 +198,24 @@ TEST(ConvexHull, OfPointsInAPlaneIsRefused) {
   const std::vector<Eigen::Vector3d> flat{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 2, 0}};
   EXPECT_THROW(ConvexHull(flat), Error);
   EXPECT_THROW(ConvexHull({}), Error);
+}
+
+// A bar of 1 m x 1 mm whose ends alone are covered, beside a plate that takes all samples by area.
+TEST(Covering, MissesNoStripBetweenCoveredCorners) {
+  const TriangleMesh plate = Box({0, 0, 0}, {100, 100, 0.1});
+  const TriangleMesh bar = Box({0, 0, 1}, {1, 0.001, 1.001});
+  const ClosedMesh mesh = Closed(Together(plate, bar));
+  const std::vector<TriangleMesh> parts = {plate, Box({0, 0, 1}, {0.01, 0.001, 1.001}),
+                                           Box({0.99, 0, 1}, {1, 0.001, 1.001})};
+  const CoverLimits limits{
+      .tolerance_m = 0.005, .allowed_m = 0.01, .max_parts = 32, .max_vertices = 64};
+  const std::vector<TriangleMesh> covering = Covering(parts, mesh, DistanceGrid(mesh, 0.5), limits);
+  const Eigen::Vector3d middle(0.5, 0.0005, 1.0005);
+  EXPECT_TRUE(std::any_of(covering.begin(), covering.end(), [&](const TriangleMesh& part) {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& vertex : part.vertices) box.extend(vertex);
+    return box.exteriorDistance(middle) < 0.005 && box.sizes().y() < 1;
+  }));
 }
 
 }  // namespace

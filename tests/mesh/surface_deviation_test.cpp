@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "doorforge/core/error.h"
+#include "doorforge/mesh/solid_overlap.h"
 
 #include "shapes.h"
 
@@ -51,6 +52,36 @@ TEST(SurfaceDeviation, NeedsASurfaceToMeasureTo) {
 }
 
 TEST(SurfaceDeviation, OfNothingHasNoSamples) { EXPECT_EQ(DeviationOf({}, UnitBox()).samples, 0); }
+
+double OverlapOf(const RigidTransform& pose, const TriangleMesh& region) {
+  const SolidOverlap solids(UnitBox(), UnitBox());
+  const std::vector<Eigen::Vector3d> surface = solids.CommonSurface(pose, {&region, 1}, 0.02);
+  for (const Eigen::Vector3d& point : surface)
+    EXPECT_TRUE((point.array() > -1e-9).all() && (point.array() < 1 + 1e-9).all());
+  return LeastExtent(surface, {});
+}
+
+// what two boxes have in common is a box
+TEST(SolidOverlap, IsAsWideAsTheCommonVolume) {
+  const TriangleMesh everywhere = Box({-2, -2, -2}, {3, 3, 3});
+  EXPECT_NEAR(OverlapOf(Translation({0.9, 0.301, 0.202}), everywhere), 0.1, 1e-9);
+  EXPECT_NEAR(OverlapOf(Translation({0.5, -0.301, 0.8}), everywhere), 0.2, 1e-9);
+  EXPECT_EQ(OverlapOf(Translation({1.01, 0, 0}), everywhere), 0);
+}
+
+TEST(SolidOverlap, CountsWithinTheRegionAlone) {
+  const RigidTransform pose = Translation({0.9, 0.301, 0.202});
+  EXPECT_EQ(OverlapOf(pose, Box({-1, -1, -1}, {0.89, 2, 2})), 0);
+  EXPECT_NEAR(OverlapOf(pose, Box({0, 0, 0.51}, {2, 2, 0.55})), 0.04, 0.021);
+}
+
+// turned by an eighth, a box comes into the other with an edge of (sqrt 2 - 1) / 2 beyond its face
+TEST(SolidOverlap, FollowsTheMovingSolid) {
+  RigidTransform pose = Translation({1.5 + 0.1, 0.5, 0.1});
+  pose.linear() = Eigen::AngleAxisd(std::numbers::pi / 4, Eigen::Vector3d::UnitZ()).matrix();
+  pose.translation() -= pose.linear() * Eigen::Vector3d(0.5, 0.5, 0);
+  EXPECT_NEAR(OverlapOf(pose, Box({-2, -2, -2}, {3, 3, 3})), (std::sqrt(2.0) - 1) / 2 - 0.1, 2e-3);
+}
 
 }  // namespace
 }  // namespace doorforge

@@ -121,6 +121,9 @@ constexpr ValidationRule kRules[] = {
      "set the hinge's origin and upper limit, or cut the frame back"},
     {"SWP002", kWarning, "The closed leaf does not overlap its frame", 0.01,
      "collision shapes at most {} m in each other", "leave a gap between leaf and frame"},
+    {"SWP003", kWarning, "The leaf as drawn turns clear of its frame at the hinge", 0.003,
+     "meshes at most {} m in each other within 0.1 m of the hinge",
+     "move the hinge's axis to the leaf's front edge, or cut leaf or frame back"},
 
     {"OPN001", kError, "The locked door holds", 0.01,
      "below {} rad under 1.5 times the nominal pull of 50 N at the grasp",

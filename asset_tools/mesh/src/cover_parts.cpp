@@ -131,6 +131,26 @@ std::pair<Points, Points> Halves(const Points& points) {
   return halves;
 }
 
+// Samples by area pass over strips, whose corners may be covered while their middle is not: so the
+// edges and the centres of all triangles are looked at as well.
+Points ProbesOf(const TriangleMesh& mesh, double spacing_m) {
+  Points probes = SurfaceSamples(mesh, kSamples);
+  probes.insert(probes.end(), mesh.vertices.begin(), mesh.vertices.end());
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    Eigen::Vector3d center = Eigen::Vector3d::Zero();
+    for (int corner = 0; corner < 3; ++corner) {
+      const Eigen::Vector3d& a = mesh.vertices[static_cast<std::size_t>(t[corner])];
+      center += a / 3;
+      if (t[corner] > t[(corner + 1) % 3]) continue;  // the other triangle's turn
+      const Eigen::Vector3d way = mesh.vertices[static_cast<std::size_t>(t[(corner + 1) % 3])] - a;
+      const int steps = 1 + static_cast<int>(way.norm() / spacing_m);
+      for (int i = 1; i < steps; ++i) probes.emplace_back(a + way * i / steps);
+    }
+    probes.push_back(center);
+  }
+  return probes;
+}
+
 class Cover {
  public:
   Cover(std::vector<TriangleMesh> parts, const DistanceGrid& solid, const CoverLimits& limits)
@@ -142,9 +162,8 @@ class Cover {
   }
 
   std::vector<TriangleMesh> Over(const ClosedMesh& mesh) {
-    Points probes = SurfaceSamples(mesh.mesh(), kSamples);
-    probes.insert(probes.end(), mesh.mesh().vertices.begin(), mesh.mesh().vertices.end());
     const double spacing_m = std::sqrt(MeasureTopology(mesh.mesh()).area_m2 / kSamples);
+    const Points probes = ProbesOf(mesh.mesh(), spacing_m);
     constexpr int kRounds = 3;  // reduced to few vertices, a part may not cover all that it was for
     for (int round = 0; round < kRounds; ++round) {
       const Points left = LeftOut(probes, shapes_, limits_.tolerance_m);

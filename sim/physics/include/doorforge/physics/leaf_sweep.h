@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "doorforge/schemas/door_asset.h"
 
@@ -15,6 +16,10 @@ struct SweepOverlap {
   double handle_rad = 0;
   std::string moving;  ///< Name of the geometry on leaf or handle; empty where nothing overlaps.
   std::string fixed;   ///< Name of the frame's geometry.
+  double total_m = 0;  ///< The overlap itself, with nothing taken off.
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< Unit: along which it is that deep.
+  const TriangleMesh* moving_hull = nullptr;            ///< The pieces, in the door.
+  const TriangleMesh* fixed_hull = nullptr;
 };
 
 struct LeafSweep {
@@ -22,6 +27,8 @@ struct LeafSweep {
   /// While the door opens: depth_m is by how much the overlap of a pair of pieces exceeds that of
   /// the same pair on the closed door.
   SweepOverlap opening;
+  /// The same for each pair of pieces that overlaps more than on the closed door, deepest first.
+  std::vector<SweepOverlap> opening_pairs;
 };
 
 /// Moves leaf and handle past the convex pieces of their own frame: the handle from zero to its

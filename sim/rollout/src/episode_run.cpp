@@ -115,6 +115,7 @@ EpisodeRun::Failure EpisodeRun::TakeHold() {
 
 EpisodeRun::Failure EpisodeRun::TakeHold(GraspChooser& chooser) {
   Watch("start");
+  chosen_ = true;
   std::optional<ChosenGrasp> chosen = chooser.Choose(Snapshot("start"));
   if (!chosen) {
     problem_ = "no point to take hold of is in view";
@@ -216,8 +217,8 @@ EpisodeRun::Failure EpisodeRun::Grasp() {
   Watch("grasp");
   handle_from_hand_at_grasp_ =
       WorldFromHandle(world_.state().handle_rad).inverse() * world_.PoseOfRobot().world_from_hand;
-  // whoever chose a grasp is to learn what comes of it, also of one that a single finger holds
-  const bool on_trial = recorded_ == Stage::kGrasp && contacts.AnyPad();
+  // a chosen grasp is to show what comes of it, also where a single finger holds
+  const bool on_trial = chosen_ && contacts.AnyPad();
   if (both >= enough || on_trial) {
     last_pad_step_ = step_;
     return std::nullopt;

@@ -63,6 +63,7 @@ class EpisodeRun {
   const DoorAsset& door_;
   const RobotModel& robot_;
   Stage recorded_;
+  bool chosen_ = false;  // whether somebody chose the grasp
   Observer* observer_;
   GraspPlan plan_;
   DoorWorld world_;

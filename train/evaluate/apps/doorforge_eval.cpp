@@ -58,6 +58,11 @@ void AddOptions(CLI::App& app, Options& options) {
       ->check(CLI::ExistingDirectory);
   app.add_option("--handler-data", options.request.handler_data,
                  "data set that --handler was trained from");
+  app.add_option("--grasper", options.request.grasper,
+                 "folder of a policy of `doorforge train grasp`, or `random` for sampled grasps; "
+                 "without it the expert takes hold");
+  app.add_option("--grasper-data", options.request.grasper_data,
+                 "data set that --grasper was trained from");
   app.add_option("--seeds", options.seeds, "repetitions with other scenes (config: seeds, 3)");
   app.add_option("--seed", options.first_seed, "the first of them (config: first_seed, 1)");
   app.add_option("--episodes-per-door", options.episodes_per_door,
@@ -76,8 +81,9 @@ void AddOptions(CLI::App& app, Options& options) {
 Options Parse(int argc, char** argv) {
   Options options;
   CLI::App app(
-      "Success of a policy in closed loop: the expert grasps, the rule or a trained policy turns\n"
-      "the handle, then the policy opens.\n"
+      "Success of a policy in closed loop: the expert or a trained grasper takes hold, the rule "
+      "or\n"
+      "a trained policy turns the handle, then the policy opens.\n"
       "Prints success with 95 % intervals per category and the causes of failure, and writes\n"
       "report.json and report.html.",
       "doorforge eval");

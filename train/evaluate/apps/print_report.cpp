@@ -64,6 +64,17 @@ std::string Causes(const EvaluationReport& report) {
   return text.empty() ? "no failures\n" : "causes of failure\n" + text;
 }
 
+// Who acted at each stage.
+std::string StagesLine(const ReportProvenance& provenance) {
+  const auto actor = [](const std::string& sha256, const char* otherwise) {
+    if (sha256.empty()) return std::string(otherwise);
+    return sha256 == "random" ? sha256 : "trained " + sha256.substr(0, 12);
+  };
+  return "grasp: " + actor(provenance.grasper_sha256, "expert") +
+         "; handle: " + actor(provenance.handler_sha256, "rule") +
+         "; opening: " + actor(provenance.policy_sha256, "expert") + "\n";
+}
+
 }  // namespace
 
 std::string ReportTable(const EvaluationReport& report) {
@@ -76,7 +87,7 @@ std::string ReportTable(const EvaluationReport& report) {
                 OfCategory(report.reference, category));
   }
   const SuccessSummary all = Summarise(report.episodes);
-  return text + EffortLine(all) + AngleLine(all) + Causes(report);
+  return text + StagesLine(report.provenance) + EffortLine(all) + AngleLine(all) + Causes(report);
 }
 
 }  // namespace doorforge

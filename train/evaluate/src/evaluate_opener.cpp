@@ -13,11 +13,13 @@
 #include "doorforge/evaluate/door_folders.h"
 #include "doorforge/evaluate/run_trials.h"
 #include "doorforge/evaluate/take_pictures.h"
+#include "doorforge/evaluate/trained_grasp.h"
 #include "doorforge/learn/checkpoint.h"
 #include "doorforge/learn/stage_dataset.h"
 #include "doorforge/physics/load_robot.h"
 #include "doorforge/rollout/camera_observer.h"
 #include "doorforge/rollout/opening_expert.h"
+#include "doorforge/rollout/random_grasp.h"
 #include "doorforge/rollout/run_episode.h"
 
 #include "training_record.h"
@@ -36,8 +38,40 @@ Contender Expert() {
   return {[] { return Players{std::make_unique<OpeningExpert>()}; }, nullptr};
 }
 
+// Whether nothing that is to be evaluated is trained or sampled.
+bool IsExpertAlone(const EvaluationRequest& request) {
+  return IsExpert(request) && request.handler.empty() && request.grasper.empty();
+}
+
+bool IsRandomGrasper(const EvaluationRequest& request) { return request.grasper == "random"; }
+
+std::unique_ptr<GraspChooser> MakeRandomGrasp(const EvaluationConfig& config, const Scene& scene,
+                                              const DoorAsset& door, const RobotModel& robot) {
+  const auto camera = std::make_shared<CameraObserver>(scene, door, robot, config.cloud,
+                                                       /*sees_robot=*/false);
+  return std::make_unique<RandomGrasp>(
+      scene, door, robot, config.random_grasp, config.cloud.point_count,
+      [camera](const SceneSnapshot& snapshot) { return camera->Look(snapshot).visible; });
+}
+
+void AddGrasper(const EvaluationRequest& request, Players& players) {
+  const EvaluationConfig& config = request.config;
+  if (IsRandomGrasper(request)) {
+    players.make_grasp = [&config](const Scene& scene, const DoorAsset& door,
+                                   const RobotModel& robot) {
+      return MakeRandomGrasp(config, scene, door, robot);
+    };
+  } else if (!request.grasper.empty()) {
+    players.make_grasp = [&config, policy = std::shared_ptr<GraspPolicy>(
+                                       LoadGraspPolicy(request.grasper, config.grasp))](
+                             const Scene& scene, const DoorAsset& door, const RobotModel& robot) {
+      return std::make_unique<TrainedGrasp>(scene, door, robot, config.cloud, policy);
+    };
+  }
+}
+
 Contender ContenderOf(const EvaluationRequest& request) {
-  if (IsExpert(request) && request.handler.empty()) return Expert();
+  if (IsExpertAlone(request)) return Expert();
   const std::string& base = request.config.scene.physics.base;
   const auto robot = std::make_shared<const RobotModel>(LoadRobot({}, RobotBaseNamed(base)));
   Require(HasProprioception(*robot), ErrorCode::kInvalidConfig,
@@ -50,6 +84,7 @@ Contender ContenderOf(const EvaluationRequest& request) {
               players.open = LoadPolicy(request.policy, request.config.policy);
             if (!request.handler.empty())
               players.handle = LoadPolicy(request.handler, request.config.policy, "handle");
+            AddGrasper(request, players);
             return players;
           },
           [&request, robot](const Scene& scene, const DoorAsset& door) {
@@ -126,6 +161,12 @@ void AddTraining(const EvaluationRequest& request, EvaluationReport& report) {
     report.provenance.handler_sha256 = handler.weights_sha256;
     AddTrainingDoors(handler, {request.handler_data, "--handler-data"}, request.allow_seen, report);
   }
+  if (IsRandomGrasper(request)) report.provenance.grasper_sha256 = "random";
+  if (!request.grasper.empty() && !IsRandomGrasper(request)) {
+    const PolicyRecord grasper = ReadPolicy(request.grasper, "grasp");
+    report.provenance.grasper_sha256 = grasper.weights_sha256;
+    AddTrainingDoors(grasper, {request.grasper_data, "--grasper-data"}, request.allow_seen, report);
+  }
   if (!request.allow_seen) RequireHeldOut(report);
 }
 
@@ -166,7 +207,7 @@ Evaluation EvaluateOpener(const EvaluationRequest& request) {
 
   const Contender contender = ContenderOf(request);
   report.episodes = RunWithProgress("evaluate", doors, trials, contender, request.threads);
-  if (!(IsExpert(request) && request.handler.empty()) && request.config.expert_reference)
+  if (!IsExpertAlone(request) && request.config.expert_reference)
     report.reference = RunWithProgress("expert", doors, trials, Expert(), request.threads);
 
   evaluation.pictures = TakePictures({doors, trials, report.episodes}, contender, request.threads);

@@ -153,6 +153,7 @@ Json ProvenanceToJson(const ReportProvenance& provenance) {
                {"config_sha256", Sha256Hex(provenance.config.dump())},
                {"config", provenance.config}};
   if (!provenance.handler_sha256.empty()) json["handler_sha256"] = provenance.handler_sha256;
+  if (!provenance.grasper_sha256.empty()) json["grasper_sha256"] = provenance.grasper_sha256;
   return json;
 }
 
@@ -163,6 +164,8 @@ ReportProvenance ProvenanceFromJson(const Json& json, const std::string& path) {
   provenance.dataset_sha256 = ValueOf<std::string>(json, "dataset_sha256", path);
   if (json.contains("handler_sha256"))
     provenance.handler_sha256 = ValueOf<std::string>(json, "handler_sha256", path);
+  if (json.contains("grasper_sha256"))
+    provenance.grasper_sha256 = ValueOf<std::string>(json, "grasper_sha256", path);
   provenance.code_version = ValueOf<std::string>(json, "code_version", path);
   provenance.command = ValueOf<std::string>(json, "command", path);
   provenance.config = MemberOf(json, "config", path);

@@ -409,6 +409,9 @@ std::string ProvenanceSection(const EvaluationReport& report) {
                      Term("handle policy SHA-256", provenance.handler_sha256.empty()
                                                        ? std::string("none: the rule turns it")
                                                        : Code(provenance.handler_sha256)) +
+                     Term("grasp policy SHA-256", provenance.grasper_sha256.empty()
+                                                      ? std::string("none: the expert takes hold")
+                                                      : Code(provenance.grasper_sha256)) +
                      Term("configuration SHA-256", Code(Sha256Hex(provenance.config.dump()))) +
                      Term("seeds", SeedList(report.episodes))},
        {"config", Escape(provenance.config.dump(2))}});

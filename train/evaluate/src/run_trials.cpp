@@ -71,8 +71,11 @@ std::vector<Trial> PlanTrials(std::span<const DoorAsset> doors, const Evaluation
 
 Episode PlayTrial(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
                   const Players& players, Observer* observer) {
-  return RunStages(scene, door, robot, {.handle = players.handle.get(), .open = players.open.get()},
-                   observer);
+  std::unique_ptr<GraspChooser> grasp;
+  if (players.make_grasp) grasp = players.make_grasp(scene, door, robot);
+  return RunStages(
+      scene, door, robot,
+      {.grasp = grasp.get(), .handle = players.handle.get(), .open = players.open.get()}, observer);
 }
 
 std::vector<EvaluatedEpisode> RunTrials(std::span<const DoorAsset> doors,

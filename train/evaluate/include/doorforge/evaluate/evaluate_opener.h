@@ -19,6 +19,10 @@ struct EvaluationRequest {
   /// Folder that `doorforge train handle` wrote; empty: the rule turns the handle.
   std::filesystem::path handler;
   std::filesystem::path handler_data;  ///< As `data`, of the handler.
+  /// Folder that `doorforge train grasp` wrote, or "random": sampled grasps as in `datagen grasp`.
+  /// Empty: the expert's grasp.
+  std::filesystem::path grasper;
+  std::filesystem::path grasper_data;  ///< As `data`, of the grasper.
   std::vector<std::string> doors;      ///< Folders of composed doors, see ReadDoors().
   DoorSelection selection;             ///< Which of them.
   /// Data set that the policy was trained from; it says which bodies and handles were seen. Empty
@@ -36,8 +40,9 @@ struct Evaluation {
 };
 
 /// Closed-loop evaluation of the opening stage (UniDoorManip, Section 6): in every scene the expert
-/// grasps, the rule or a trained policy turns the handle, then the policy opens. The rule-based
-/// expert by itself with policy "expert". Progress is shown on standard error.
+/// or a trained grasper takes hold, the rule or a trained policy turns the handle, then the policy
+/// opens. The rule-based expert by itself with policy "expert". Progress is shown on standard
+/// error.
 ///
 /// Same request, same report and pictures, for any number of threads.
 ///

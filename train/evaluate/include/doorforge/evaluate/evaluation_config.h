@@ -4,8 +4,10 @@
 
 #include <cstdint>
 
+#include "doorforge/learn/grasp_policy.h"
 #include "doorforge/learn/stage_policy.h"
 #include "doorforge/physics/scene_sampling.h"
+#include "doorforge/rollout/random_grasp.h"
 #include "doorforge/sensor/point_cloud.h"
 
 namespace doorforge {
@@ -17,6 +19,8 @@ struct EvaluationConfig {
   int episodes_per_door = 1;     ///< In each seed, >= 1.
   bool expert_reference = true;  ///< The expert opens the same scenes, too.
   PolicyOptions policy;
+  GraspOptions grasp;              ///< Of a trained grasper.
+  RandomGraspConfig random_grasp;  ///< Of the grasper "random".
   SceneConfig scene;
   CloudConfig cloud;  ///< As in the data set that the policy was trained from.
 
@@ -27,6 +31,8 @@ struct EvaluationConfig {
     visit("episodes_per_door", self.episodes_per_door);
     visit("expert_reference", self.expert_reference);
     visit("policy", self.policy);
+    visit("grasp", self.grasp);
+    visit("random_grasp", self.random_grasp);
     visit("scene", self.scene);
     visit("cloud", self.cloud);
   }

@@ -45,8 +45,10 @@ struct ReportProvenance {
   std::string policy_sha256;        ///< Of its weights; empty for the expert.
   std::string dataset_sha256;       ///< Of the data set it was trained from; empty if unknown.
   std::string handler_sha256 = {};  ///< Weights of who turned the handle; empty: the rule.
-  std::string code_version;         ///< CodeVersion() of the evaluating program.
-  std::string command;              ///< The command line.
+  /// Weights of who chose the grasp, or "random"; empty: the expert.
+  std::string grasper_sha256 = {};
+  std::string code_version;  ///< CodeVersion() of the evaluating program.
+  std::string command;       ///< The command line.
   nlohmann::ordered_json config = nlohmann::ordered_json::object();  ///< The effective config.
 };
 

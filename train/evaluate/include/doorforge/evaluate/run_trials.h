@@ -12,6 +12,7 @@
 #include "doorforge/evaluate/evaluation_config.h"
 #include "doorforge/physics/robot_model.h"
 #include "doorforge/rollout/observer.h"
+#include "doorforge/rollout/run_episode.h"
 #include "doorforge/schemas/door_asset.h"
 #include "doorforge/schemas/episode.h"
 #include "doorforge/schemas/policy.h"
@@ -33,6 +34,9 @@ std::vector<Trial> PlanTrials(std::span<const DoorAsset> doors, const Evaluation
 struct Players {
   std::unique_ptr<Policy> open;
   std::unique_ptr<Policy> handle = nullptr;  ///< Null: the rule turns the handle.
+  /// Makes an episode's chooser of the grasp; null: PlanGrasp()'s grasp.
+  std::function<std::unique_ptr<GraspChooser>(const Scene&, const DoorAsset&, const RobotModel&)>
+      make_grasp = nullptr;
 };
 
 /// Who opens the doors after the expert's grasp.

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "doorforge/learn/grasp_policy.h"
+#include "doorforge/rollout/camera_observer.h"
+#include "doorforge/rollout/run_episode.h"
+
+namespace doorforge {
+
+/// A trained grasp in an episode. It looks once, through the scene's camera, before the robot comes
+/// into view, as the data sets of the stage are recorded. Privileged are the handle's mask in the
+/// picture and the direction into the leaf (the x of the handle's frame).
+class TrainedGrasp : public GraspChooser {
+ public:
+  /// @throws as CameraObserver.
+  TrainedGrasp(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
+               const CloudConfig& config, std::shared_ptr<GraspPolicy> policy);
+
+  std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override;
+
+ private:
+  int point_count_;
+  CameraObserver camera_;
+  std::shared_ptr<GraspPolicy> policy_;
+};
+
+}  // namespace doorforge

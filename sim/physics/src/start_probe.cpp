@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/physics/start_probe.h"
 
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>

@@ -163,8 +163,8 @@ int Finish(const PipelineStep& step, Workshop& workshop, const PipelineRun& run,
     if (code == 130 || code == 143) return code;
     if (std::ranges::find(step.fine_codes, code) == step.fine_codes.end())
       throw Error(ErrorCode::kIncomplete, "step " + step.name + " ended with exit code " +
-                                              std::to_string(code) +
-                                              "; repair its cause and give the same command again");
+                                              std::to_string(code) + "; repair its cause and " +
+                                              run.again);
   }
   hashes[step.name] = workshop.OutputHash(step);
   if (hashes[step.name].empty())
@@ -265,7 +265,7 @@ int RunPipeline(const Pipeline& pipeline, const PipelineRun& run) {
     int code = StopRequested() == 0 ? 0 : 128 + StopRequested();
     if (code == 0) code = Finish(step, workshop, run, hashes);
     if (code == 0) continue;
-    std::fprintf(stderr, "doorforge: stopped; the same command goes on\n");
+    std::fprintf(stderr, "doorforge: stopped; to go on, %s\n", run.again.c_str());
     return code;
   }
   for (const PipelineStep& step : pipeline.steps) {
@@ -291,7 +291,7 @@ int PlanPipeline(const Pipeline& pipeline, const PipelineRun& run) {
                 row.seconds / 60, row.mebibytes, row.why.c_str());
   }
   std::printf(
-      "%-14s %-10s %9.1f %10.0f   on %d threads, as measured on the machine of "
+      "%-14s %-10s %9.1f %10.0f   on %d threads, by the arithmetic of "
       "docs/pipeline.md\n",
       "together", "", minutes, mebibytes, ThreadCount(run.threads));
   return 0;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "pipeline_graph.h"
 
@@ -14,6 +15,8 @@ struct PipelineRun {
   int threads = 0;            ///< 0: all processors.
   bool overwrite = false;     ///< Outputs of steps whose inputs changed may be replaced.
   bool json = false;          ///< The plan as one JSON document.
+  /// For messages: how the user goes on after an interruption.
+  std::string again = "give the same command again";
 };
 
 /// Runs the steps that are not done, each as its own program, and prints the success table. Returns

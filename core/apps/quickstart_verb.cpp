@@ -133,7 +133,9 @@ int RunQuickstartVerb(int argc, char** argv) {
                                                   "episodes=" + std::to_string(options.episodes),
                                                   "epochs=" + std::to_string(options.epochs)});
   if (!options.assets.empty()) ImportParts(pipeline, options.assets);
-  return RunPipeline(pipeline, {.out = options.out, .threads = options.threads});
+  return RunPipeline(
+      pipeline,
+      {.out = options.out, .threads = options.threads, .again = "run again with --resume"});
 }
 
 }  // namespace doorforge

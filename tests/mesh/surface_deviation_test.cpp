@@ -75,6 +75,14 @@ TEST(SolidOverlap, CountsWithinTheRegionAlone) {
   EXPECT_NEAR(OverlapOf(pose, Box({0, 0, 0.51}, {2, 2, 0.55})), 0.04, 0.021);
 }
 
+// the regions' faces are the surfaces themselves, moved by a rounding error
+TEST(SolidOverlap, CountsSurfacesThatLieOnTheRegionsFaces) {
+  const double rounding_m = 1e-7;
+  const TriangleMesh region =
+      Box({0.9, 0.301, 0.202}, {1 - rounding_m, 1 - rounding_m, 1 - rounding_m});
+  EXPECT_NEAR(OverlapOf(Translation({0.9 - rounding_m, 0.301, 0.202}), region), 0.1, 1e-3);
+}
+
 // turned by an eighth, a box comes into the other with an edge of (sqrt 2 - 1) / 2 beyond its face
 TEST(SolidOverlap, FollowsTheMovingSolid) {
   RigidTransform pose = Translation({1.5 + 0.1, 0.5, 0.1});

@@ -13,6 +13,8 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
+constexpr double kOnFace = 1e-4;  // [m] a solid's own surface lies on the faces of its convex parts
+
 // The common part of convex regions.
 class Common {
  public:
@@ -21,6 +23,8 @@ class Common {
       for (const HalfSpace& face : HalfSpacesOf(region)) faces_.push_back(face);
       Eigen::AlignedBox3d box;
       for (const Eigen::Vector3d& vertex : region.vertices) box.extend(vertex);
+      box.min().array() -= kOnFace;
+      box.max().array() += kOnFace;
       box_ = boxed_ ? box_.intersection(box) : box;
       boxed_ = true;
     }
@@ -29,7 +33,7 @@ class Common {
   bool Contains(const Eigen::Vector3d& point) const {
     return box_.contains(point) &&
            std::all_of(faces_.begin(), faces_.end(), [&](const HalfSpace& face) {
-             return face.normal.dot(point) <= face.offset;
+             return face.normal.dot(point) <= face.offset + kOnFace;
            });
   }
 

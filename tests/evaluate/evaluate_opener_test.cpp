@@ -47,7 +47,7 @@ void WriteDataset(const DoorAsset& door, const fs::path& folder) {
   CameraObserver camera(scene, door, robot);
   OpeningExpert expert;
   const Episode episode = RunEpisode(scene, door, robot, expert, &camera);
-  for (const std::string stage : {"open", "handle"}) {
+  for (const std::string stage : {"open", "handle", "grasp"}) {
     ShardWriter shard(folder / stage / "train", {0, stage, "train", "config"});
     shard.Add("ep000000", episode.decisions.size(),
               EncodeEpisode(episode, EpisodeMetaToJson(episode), "a preview's bytes"));
@@ -65,7 +65,11 @@ void WriteUntrainedPolicy(const fs::path& data, const std::string& stage, const 
   PolicyProvenance provenance;
   provenance.stage = stage;
   provenance.dataset_sha256 = dataset.content_sha256;
-  WritePolicy(folder, InitialNetworks(MeasureNormalisation(dataset.train), false, 3), provenance);
+  provenance.config.family = FamilyOf(stage);
+  WritePolicy(
+      folder,
+      InitialNetworks(MeasureNormalisation(dataset.train), false, 3, provenance.config.family),
+      provenance);
 }
 
 class EvaluateOpenerTest : public testing::Test {
@@ -79,6 +83,7 @@ class EvaluateOpenerTest : public testing::Test {
     WriteDataset(trained_on, folder_ / "data");
     WriteUntrainedPolicy(folder_ / "data", "open", folder_ / "policy");
     WriteUntrainedPolicy(folder_ / "data", "handle", folder_ / "handler");
+    WriteUntrainedPolicy(folder_ / "data", "grasp", folder_ / "grasper");
   }
   static void TearDownTestSuite() { fs::remove_all(folder_); }
 
@@ -165,6 +170,34 @@ TEST_F(EvaluateOpenerTest, ATrainedHandlePolicyTurnsTheHandleAndItsDoorsAreSeenT
   EXPECT_NE(RefusalOf(request).find("--handler-data"), std::string::npos);
   request.handler = folder_ / "policy";
   EXPECT_THROW(EvaluateOpener(request), Error) << "an opener does not turn handles";
+}
+
+TEST_F(EvaluateOpenerTest, ATrainedGrasperTakesHoldAndItsDoorsAreSeenToo) {
+  EvaluationRequest request = RequestFor("held_out");
+  request.policy = "expert";
+  request.data.clear();
+  request.config.expert_reference = false;
+  request.config.grasp.orientations = 4;
+  const std::string by_rule = EvaluateOpener(request).report.episodes.at(0).state_sha256;
+  request.grasper = folder_ / "grasper";
+  request.grasper_data = folder_ / "data";
+  const EvaluationReport report = EvaluateOpener(request).report;
+  EXPECT_NE(report.episodes.at(0).state_sha256, by_rule);
+  EXPECT_EQ(report.provenance.grasper_sha256, ReadPolicy(request.grasper, "grasp").weights_sha256);
+  const EvaluationReport back = ReportFromJson(ReportToJson(report), "report");
+  EXPECT_EQ(back.provenance.grasper_sha256, report.provenance.grasper_sha256);
+
+  request.grasper_data.clear();
+  EXPECT_NE(RefusalOf(request).find("--grasper-data"), std::string::npos);
+  request.doors = {(folder_ / "half_seen").string()};
+  request.grasper_data = folder_ / "data";
+  EXPECT_NE(RefusalOf(request).find("body_b__handle_a"), std::string::npos);
+  request.grasper = folder_ / "policy";
+  EXPECT_THROW(EvaluateOpener(request), Error) << "an opener does not choose grasps";
+
+  request.grasper = "random";
+  request.grasper_data.clear();
+  EXPECT_EQ(EvaluateOpener(request).report.provenance.grasper_sha256, "random");
 }
 
 TEST_F(EvaluateOpenerTest, TheExpertNeedsNeitherPolicyNorData) {

@@ -248,9 +248,50 @@ std::string SeedList(Episodes episodes) {
 
 bool IsExpert(const EvaluationReport& report) { return report.provenance.policy == "expert"; }
 
+namespace {
+
+// Names of the stages that a trained policy plays.
+std::vector<std::string> TrainedStages(const EvaluationReport& report) {
+  const ReportProvenance& provenance = report.provenance;
+  std::vector<std::string> stages;
+  if (!provenance.grasper_sha256.empty() && provenance.grasper_sha256 != "random")
+    stages.emplace_back("grasp");
+  if (!provenance.handler_sha256.empty()) stages.emplace_back("handle");
+  if (!IsExpert(report)) stages.emplace_back("opening");
+  return stages;
+}
+
+std::string Title(const EvaluationReport& report, bool held_out) {
+  const std::vector<std::string> stages = TrainedStages(report);
+  std::string who = stages.empty() ? "The rule-based expert" : "A trained policy for ";
+  for (std::size_t i = 0; i < stages.size(); ++i)
+    who += (i == 0 ? "" : i + 1 < stages.size() ? ", " : " and ") + stages[i];
+  return who + " on " + Plural(report.doors.size(), "door") +
+         (held_out ? " never seen in training" : "");
+}
+
+std::string Lead(const EvaluationReport& report, bool held_out) {
+  const ReportProvenance& provenance = report.provenance;
+  const std::string grasp = provenance.grasper_sha256.empty()
+                                ? "By rules that read the joints from the simulator, a mobile "
+                                  "Franka grasps the handle"
+                            : provenance.grasper_sha256 == "random"
+                                ? "A mobile Franka tries a sampled grasp"
+                                : "A trained policy chooses the grasp from a point cloud";
+  const std::string handle =
+      provenance.handler_sha256.empty() ? "; a rule turns it" : "; a trained policy turns it";
+  const std::string opening =
+      IsExpert(report) ? "; a rule opens the door."
+                       : "; a trained policy opens the door from an occluded point cloud and the "
+                         "robot's own joints.";
+  return grasp + handle + opening +
+         (held_out ? " No body and no handle of these doors was in a training episode." : "");
+}
+
+}  // namespace
+
 std::string HeadlineSection(const EvaluationReport& report, const ReportPictures& pictures) {
   const SuccessSummary summary = Summarise(report.episodes);
-  const std::string doors = Plural(report.doors.size(), "door");
   const bool held_out =
       !report.training_doors.empty() && SeenDoors(report.doors, report.training_doors).empty();
   std::string figures =
@@ -274,19 +315,8 @@ std::string HeadlineSection(const EvaluationReport& report, const ReportPictures
       R"(<nav><a href="#success">Success</a><a href="#angle">Door angle</a><a href="#causes">Causes of failure</a><a href="#doors">Doors</a>)"
       R"(<a href="#episodes">Episodes</a><a href="#provenance">How it was made</a></nav>)"
       R"(<div class="figures">{figures}</div>{film}</header>)",
-      {{"title", IsExpert(report)
-                     ? "The rule-based expert on " + doors
-                     : "A trained opener on " + doors + (held_out ? " it has never seen" : "")},
-       {"lead",
-        IsExpert(report)
-            ? "A mobile Franka grasps the handle, unlocks it and pulls the door open, by "
-              "rules that read the joints from the simulator."
-            : "The rule-based expert grasps and unlocks the handle; then the trained policy "
-              "takes over and opens the door from an occluded point cloud and the robot's "
-              "own joints." +
-                  std::string(held_out ? " No body and no handle of these doors was in a "
-                                         "training episode."
-                                       : "")},
+      {{"title", Title(report, held_out)},
+       {"lead", Lead(report, held_out)},
        {"figures", figures},
        {"film", FilmFigure(pictures, EpisodeOutcome::kOpened)}});
 }

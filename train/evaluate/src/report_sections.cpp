@@ -49,13 +49,19 @@ std::string SpreadText(const SeedSpread& spread) {
          "\u00a0%";
 }
 
-std::string EffortText(const SuccessSummary& summary) {
+// one row of the table of what it took
+std::string EffortRow(const std::string& name, Episodes episodes) {
+  const SuccessSummary summary = Summarise(episodes);
+  const std::string time =
+      summary.opened.successes > 0 ? Fixed(summary.median_opening_s, 1) + "\u00a0s" : "–";
   return Fill(
-      R"(<td class="number">{handle}</td><td class="number">{time}</td><td class="number">{force} <span class="soft">/ {peak}</span></td>)",
-      {{"handle", Percent(summary.handle_done.rate)},
-       {"time",
-        summary.opened.successes > 0 ? Fixed(summary.median_opening_s, 1) + "\u00a0s" : "–"},
-       {"force", Fixed(summary.median_force_n, 0)},
+      R"(<tr><td>{name}</td><td class="number">{handle} <span class="soft">[{interval}]</span></td>)"
+      R"(<td class="number">{time}</td><td class="number">{force}</td><td class="number">{peak}</td></tr>)",
+      {{"name", name},
+       {"handle", Percent(summary.handle_done.rate)},
+       {"interval", IntervalText(summary.handle_done)},
+       {"time", time},
+       {"force", Fixed(summary.median_force_n, 0) + "\u00a0N"},
        {"peak", Fixed(summary.peak_force_n, 0) + "\u00a0N"}});
 }
 
@@ -67,7 +73,7 @@ std::string SuccessRow(const std::string& name, Episodes episodes, Episodes refe
   return Fill(
       R"(<tr{class}><td>{name}</td><td>{bar}</td><td class="number">{rate}</td>)"
       R"(<td class="number soft">{interval}</td><td class="number">{opened} / {episodes}</td>)"
-      R"(<td class="number">{spread}</td>{expert}{effort}</tr>)",
+      R"(<td class="number">{spread}</td>{expert}</tr>)",
       {{"class", overall ? R"( class="overall")" : ""},
        {"name", name},
        {"bar", RateBar(summary.opened, expert.opened)},
@@ -76,7 +82,6 @@ std::string SuccessRow(const std::string& name, Episodes episodes, Episodes refe
        {"opened", std::to_string(summary.opened.successes)},
        {"episodes", std::to_string(summary.opened.episodes)},
        {"spread", SpreadText(summary.over_seeds)},
-       {"effort", EffortText(summary)},
        {"expert", reference.empty()
                       ? ""
                       : R"(<td class="number">)" + Percent(expert.opened.rate) + "</td>"}});
@@ -323,9 +328,11 @@ std::string HeadlineSection(const EvaluationReport& report, const ReportPictures
 
 std::string SuccessSection(const EvaluationReport& report) {
   std::string rows = SuccessRow("All", report.episodes, report.reference, true);
+  std::string efforts = EffortRow("All", report.episodes);
   for (const Category category : CategoriesOf(report.episodes)) {
     rows += SuccessRow(TitleOf(category), OfCategory(report.episodes, category),
                        OfCategory(report.reference, category), false);
+    efforts += EffortRow(TitleOf(category), OfCategory(report.episodes, category));
   }
   const std::string expert_legend =
       report.reference.empty()
@@ -336,11 +343,15 @@ std::string SuccessSection(const EvaluationReport& report) {
       R"(<div class="legend"><span><svg viewBox="0 0 34 12"><rect class="fill" y="1" width="34" height="10" rx="2"/></svg>{policy}</span>)"
       R"(<span><svg viewBox="0 0 34 12"><path class="whisker" d="M1 6H33M1 2v8M33 2v8"/></svg>95&#160;% interval</span>{expert_legend}</div>)"
       R"(<div class="scroll"><table><thead><tr><th>category</th><th></th><th class="number">success</th><th class="number">95&#160;% interval</th>)"
-      R"(<th class="number">opened</th><th class="number">over seeds</th>{expert_head}<th class="number">handle turned</th><th class="number">time to open</th><th class="number">peak force, median / most</th></tr></thead><tbody>{rows}</tbody></table></div></section>)",
+      R"(<th class="number">opened</th><th class="number">over seeds</th>{expert_head}</tr></thead><tbody>{rows}</tbody></table></div>)"
+      R"(<h3>Handle, time and force</h3><p class="soft">Handle turned: held, turned and unlocked. Time: simulated, median of the episodes that opened. Force: the greatest sum of normal forces between robot and door in one step of an episode.</p>)"
+      R"(<div class="scroll"><table><thead><tr><th>category</th><th class="number">handle turned</th><th class="number">time to open</th>)"
+      R"(<th class="number">force, median</th><th class="number">most</th></tr></thead><tbody>{efforts}</tbody></table></div></section>)",
       {{"policy", PolicyName(report)},
        {"expert_legend", expert_legend},
        {"expert_head", report.reference.empty() ? "" : R"(<th class="number">expert</th>)"},
-       {"rows", rows}});
+       {"rows", rows},
+       {"efforts", efforts}});
 }
 
 std::string AngleSection(const EvaluationReport& report) {

@@ -8,6 +8,7 @@
 #include "doorforge/mesh/solid_overlap.h"
 
 #include "shapes.h"
+#include "triangle_tree.h"
 
 namespace doorforge {
 namespace {
@@ -89,6 +90,52 @@ TEST(SolidOverlap, FollowsTheMovingSolid) {
   pose.linear() = Eigen::AngleAxisd(std::numbers::pi / 4, Eigen::Vector3d::UnitZ()).matrix();
   pose.translation() -= pose.linear() * Eigen::Vector3d(0.5, 0.5, 0);
   EXPECT_NEAR(OverlapOf(pose, Box({-2, -2, -2}, {3, 3, 3})), (std::sqrt(2.0) - 1) / 2 - 0.1, 2e-3);
+}
+
+// Points of a lattice that holds corners, edges and faces of the unit box, beside others.
+std::vector<Eigen::Vector3d> Lattice() {
+  std::vector<Eigen::Vector3d> points;
+  for (int x = -2; x <= 10; ++x) {
+    for (int y = -2; y <= 10; ++y) {
+      for (int z = -2; z <= 10; ++z) points.push_back(Eigen::Vector3d(x, y, z) / 8);
+    }
+  }
+  return points;
+}
+
+// The answer of rays against the sum over all triangles.
+TEST(TriangleTree, TellsInsideAsTheWindingNumberDoes) {
+  const TriangleMesh cavity = InsideOut(Box({0.25, 0.25, 0.25}, {0.75, 0.75, 0.75}));
+  TriangleMesh sliver = UnitBox();  // a triangle without area on an edge
+  sliver.triangles.emplace_back(0, 1, 1);
+  for (const TriangleMesh& mesh : {UnitBox(), Together(UnitBox(), cavity),
+                                   Together(UnitBox(), Box({0.5, 0.4, 0.3}, {2, 1, 1})),
+                                   Torus(0.7, 0.3, 48, 24), sliver, TriangleMesh{}}) {
+    SCOPED_TRACE(mesh.triangles.size());
+    const TriangleTree tree(mesh);
+    int inside = 0;
+    for (const Eigen::Vector3d& point : Lattice()) {
+      EXPECT_EQ(tree.IsInside(point), tree.WindingNumber(point) > 0.5) << point.transpose();
+      inside += tree.IsInside(point) ? 1 : 0;
+    }
+    EXPECT_EQ(inside > 0, !mesh.triangles.empty());
+  }
+}
+
+// Rays that meet edges and corners head on.
+TEST(TriangleTree, TellsInsideWhereTheRayMeetsACorner) {
+  const TriangleTree tree(Torus(0.7, 0.3, 48, 24));
+  const TriangleMesh torus = Torus(0.7, 0.3, 48, 24);
+  const Eigen::Vector3d ray = Eigen::Vector3d(0.8377, 0.4211, 0.3479).normalized();
+  for (std::size_t i = 0; i < torus.vertices.size(); i += 7) {
+    const Eigen::Vector3d middle = (torus.vertices[i] + torus.vertices[i + 1]) / 2;
+    for (const double back_m : {0.0, 0.05, 0.4, 1.1}) {
+      for (const Eigen::Vector3d& target : {torus.vertices[i], middle}) {
+        const Eigen::Vector3d point = target - back_m * ray;
+        EXPECT_EQ(tree.IsInside(point), tree.WindingNumber(point) > 0.5);
+      }
+    }
+  }
 }
 
 }  // namespace

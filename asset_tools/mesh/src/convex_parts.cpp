@@ -391,7 +391,7 @@ class Decomposition {
       const double way = box.center()[axis] - point[axis];
       inside[axis] += std::clamp(way, -2 * SkinM(), 2 * SkinM());
     }
-    return tree_.WindingNumber(inside) > 0.5;
+    return tree_.IsInside(inside);
   }
 
   // A noted point on the cut belongs to each side on which the solid goes on behind it.

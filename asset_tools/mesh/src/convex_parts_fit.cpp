@@ -72,7 +72,7 @@ ConvexPartsFit MeasureConvexParts(const ClosedMesh& mesh, std::span<const Triang
   };
   ConvexPartsFit fit;
   fit.protrusion_m = FarthestOutside(part_probes, mesh_tree, [&](const Eigen::Vector3d& point) {
-    return mesh_tree.WindingNumber(point) < 0.5;
+    return !mesh_tree.IsInside(point);
   });
   fit.uncovered_m = FarthestOutside(Probes(mesh.mesh(), kSamples),
                                     TriangleTree(Joined({parts.begin(), parts.end()})), in_no_part);

@@ -96,12 +96,11 @@ std::vector<Eigen::Vector3d> SolidOverlap::CommonSurface(const RigidTransform& f
   Points points;
   AddPoints(
       surfaces_->moving, fixed_from_moving, common, step_m,
-      [&](const Eigen::Vector3d& p) { return surfaces_->fixed_tree.WindingNumber(p) > 0.5; },
-      points);
+      [&](const Eigen::Vector3d& p) { return surfaces_->fixed_tree.IsInside(p); }, points);
   AddPoints(
       surfaces_->fixed, RigidTransform::Identity(), common, step_m,
       [&](const Eigen::Vector3d& p) {
-        return surfaces_->moving_tree.WindingNumber(moving_from_fixed * p) > 0.5;
+        return surfaces_->moving_tree.IsInside(moving_from_fixed * p);
       },
       points);
   return points;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -32,6 +33,11 @@ class TriangleTree {
   /// triangles: about 1 inside a closed mesh, 0 outside.
   double WindingNumber(const Eigen::Vector3d& point) const;
 
+  /// Whether the winding number is above one half. The mesh must be closed. A ray counts sheets;
+  /// where it passes an edge within rounding, or the point lies on the surface, the exact sum
+  /// decides: so the answer is always that of WindingNumber().
+  bool IsInside(const Eigen::Vector3d& point) const;
+
   bool empty() const { return triangles_.empty(); }
 
  private:
@@ -45,12 +51,16 @@ class TriangleTree {
   };
 
   void Build(int node, int first, int count);
+  /// The sheets that a ray leaves through, less those that it comes in through; nothing where a
+  /// rounding error could change that.
+  std::optional<int> SheetsBeyond(const Eigen::Vector3d& point) const;
   /// FirstHit(), or any hit where that is enough.
   double Nearest(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double from_m,
                  bool any) const;
 
   std::vector<Triangle> triangles_;
   std::vector<Node> nodes_;
+  double touch_m_ = 0;  // what counts as on the surface
 };
 
 }  // namespace doorforge

@@ -181,8 +181,11 @@ TEST_F(EvaluateOpenerTest, ATrainedGrasperTakesHoldAndItsDoorsAreSeenToo) {
   const std::string by_rule = EvaluateOpener(request).report.episodes.at(0).state_sha256;
   request.grasper = folder_ / "grasper";
   request.grasper_data = folder_ / "data";
-  const EvaluationReport report = EvaluateOpener(request).report;
+  const Evaluation evaluation = EvaluateOpener(request);
+  const EvaluationReport& report = evaluation.report;
   EXPECT_NE(report.episodes.at(0).state_sha256, by_rule);
+  ASSERT_EQ(evaluation.pictures.grasps.size(), 1U) << "a heat map";
+  EXPECT_NE(evaluation.pictures.grasps[0].picture.caption.find("affordance"), std::string::npos);
   EXPECT_EQ(report.provenance.grasper_sha256, ReadPolicy(request.grasper, "grasp").weights_sha256);
   const EvaluationReport back = ReportFromJson(ReportToJson(report), "report");
   EXPECT_EQ(back.provenance.grasper_sha256, report.provenance.grasper_sha256);
@@ -197,7 +200,9 @@ TEST_F(EvaluateOpenerTest, ATrainedGrasperTakesHoldAndItsDoorsAreSeenToo) {
 
   request.grasper = "random";
   request.grasper_data.clear();
-  EXPECT_EQ(EvaluateOpener(request).report.provenance.grasper_sha256, "random");
+  const Evaluation sampled = EvaluateOpener(request);
+  EXPECT_EQ(sampled.report.provenance.grasper_sha256, "random");
+  EXPECT_TRUE(sampled.pictures.grasps.empty());
 }
 
 TEST_F(EvaluateOpenerTest, TheExpertNeedsNeitherPolicyNorData) {

@@ -26,12 +26,14 @@ ReportPictures ExamplePictures(const EvaluationReport& report) {
   for (int i = 0; i < kEpisodeOutcomeCount; ++i)
     pictures.episodes[static_cast<EpisodeOutcome>(i)] = {
         {{png, "start <0 s> & \"more\""}, {png, "end"}}, "the 'first' one"};
+  pictures.grasps = {{Category::kInterior, true, {png, "on <the> handle"}},
+                     {Category::kInterior, false, {png, "beside it"}}};
   pictures.scene = pictures.depth = pictures.cloud = {png, "what the camera sees"};
   return pictures;
 }
 
 int PictureCount(const EvaluationReport& report) {
-  int count = static_cast<int>(report.doors.size() + report.training_doors.size()) + 3;
+  int count = static_cast<int>(report.doors.size() + report.training_doors.size()) + 3 + 2;
   for (const int outcomes : Summarise(report.episodes).outcomes) count += outcomes > 0 ? 2 : 0;
   return count;
 }

@@ -136,6 +136,52 @@ TEST(TakePictures, GivesEveryDoorAFilmOfEachOutcomeAndTheCamerasView) {
     EXPECT_EQ(picture->png.substr(1, 3), "PNG");
 }
 
+TEST(TakePictures, ShowsTheGraspOfADoorThatOpenedAndOfOneThatDidNotInEachCategory) {
+  EvaluationConfig config;
+  config.seeds = 1;
+  std::vector<DoorAsset> doors = Doors();
+  doors.back().category = Category::kSafe;
+  const auto trials = PlanTrials(doors, config);
+  std::vector<EvaluatedEpisode> rows;
+  for (const Trial& trial : trials) {
+    EvaluatedEpisode& row = rows.emplace_back();
+    row.door_id = doors[trial.door].id;
+    row.category = doors[trial.door].category;
+    row.outcome = EpisodeOutcome::kHandleSlipped;
+  }
+  rows.front().outcome = EpisodeOutcome::kOpened;
+  // a grasper that takes hold where the handle is, and sees none on the safe
+  const auto explain = [](const Scene& scene, const DoorAsset& door, const RobotModel&,
+                          const SceneSnapshot& snapshot) -> std::optional<GraspChoice> {
+    EXPECT_EQ(snapshot.stage, "start");
+    if (door.category == Category::kSafe) return std::nullopt;
+    GraspChoice choice;
+    choice.contact_m = (snapshot.door[kHandleLink] * door.handle_from_grasp).translation();
+    for (const double coordinate : choice.contact_m)
+      choice.point_xyz.push_back(static_cast<float>(coordinate));
+    choice.affordance_rad = {0.5F};
+    choice.world_from_hand_rotation = (scene.world_from_door.linear());
+    return choice;
+  };
+  const Contender contender{[&] {
+                              Players players{std::make_unique<TiringPolicy>()};
+                              players.explain_grasp = explain;
+                              return players;
+                            },
+                            nullptr};
+  const auto grasps = TakeGraspPictures({doors, trials, rows}, contender, 2);
+  ASSERT_EQ(grasps.size(), 2U);
+  EXPECT_TRUE(grasps[0].opened);
+  EXPECT_FALSE(grasps[1].opened);
+  EXPECT_NE(grasps[0].picture.caption.find(doors[0].id), std::string::npos);
+  EXPECT_NE(grasps[1].picture.caption.find(doors[1].id), std::string::npos);
+  for (const ReportGrasp& grasp : grasps) {
+    EXPECT_EQ(grasp.category, Category::kInterior);
+    EXPECT_EQ(grasp.picture.png.substr(1, 3), "PNG");
+  }
+  EXPECT_TRUE(TakeGraspPictures({doors, trials, rows}, Tiring()).empty());
+}
+
 TEST(TakePictures, RefusesRowsOfAnotherPolicy) {
   EvaluationConfig config;
   config.seeds = 1;

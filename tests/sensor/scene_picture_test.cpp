@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "doorforge/core/error.h"
+#include "doorforge/sensor/affordance_picture.h"
 
 #include "shapes.h"
 
@@ -118,6 +119,78 @@ TEST(CloudPicture, AcceptsAnEmptyCloudAndRefusesAMissingLabel) {
   LabelledCloud broken;
   broken.xyz = {0, 0, 0};
   EXPECT_THROW(CloudPicture(broken, camera), Error);
+}
+
+/// A wall across x with a bar before it, held in the bar's middle; the map grows along the bar.
+class AffordancePictureTest : public testing::Test {
+ protected:
+  AffordancePictureTest()
+      : camera_({{shapes::Box({-0.1, -1, 0}, {0, 1, 2}), 0, PointLabel::kBody, {0.8, 0.2, 0.1}},
+                 {shapes::Box({0, -0.1, 0.99}, {0.02, 0.1, 1.01}), 0, PointLabel::kHandle}}) {
+    for (int i = 0; i <= 20; ++i) {
+      const float y = -0.1F + 0.01F * static_cast<float>(i);
+      map_.point_xyz.insert(map_.point_xyz.end(), {0.02F, y, 1.0F});
+      map_.affordance_rad.push_back(0.1F + y);
+    }
+    map_.contact_m = {0.02, 0, 1};
+    // looks into the wall, closes up and down
+    map_.world_from_tcp.linear() << 0, 0, -1, 1, 0, 0, 0, -1, 0;
+    map_.world_from_tcp.translation() = Eigen::Vector3d(0.008, 0, 1);
+    CameraModel place;
+    place.position_m = {1.5, 0, 1.2};
+    place.width = 300;
+    place.height = 240;
+    view_ = CameraOn(map_, place);
+  }
+
+  std::array<int, 2> PixelOf(const Eigen::Vector3d& point) const {
+    const Eigen::Vector3d pixel =
+        IntrinsicMatrix(view_) * (WorldFromCamera(view_).inverse() * point);
+    return {static_cast<int>(pixel.y() / pixel.z()), static_cast<int>(pixel.x() / pixel.z())};
+  }
+
+  std::array<int, 3> ColorAt(const Picture& picture, const Eigen::Vector3d& point) const {
+    const auto [row, column] = PixelOf(point);
+    return PixelAt(picture, row, column);
+  }
+
+  DepthCamera camera_;
+  AffordanceMap map_;
+  CameraModel view_;
+  std::vector<RigidTransform> poses_ = {RigidTransform::Identity()};
+};
+
+TEST_F(AffordancePictureTest, TheViewHoldsTheMapAndTheHand) {
+  for (const double y : {-0.1, 0.1}) {
+    for (const double x : {0.02, 0.1}) {
+      const auto [row, column] = PixelOf({x, y, 1});
+      EXPECT_GT(std::min({row, column, 240 - row, 300 - column}), 10);
+    }
+  }
+}
+
+TEST_F(AffordancePictureTest, TheHandleHasTheMapsColoursAndTheRestNone) {
+  const Picture picture = AffordancePicture(camera_, poses_, view_, map_);
+  EXPECT_EQ(picture.width, 300);
+  EXPECT_GT(picture.height, 240) << "the colour scale";
+  const auto least = ColorAt(picture, {0.02, -0.097, 1});  // viridis: dark violet to yellow
+  EXPECT_GT(least[2], least[1] + 30);
+  EXPECT_LT(least[0] + least[1], 110);
+  const auto most = ColorAt(picture, {0.02, 0.097, 1});
+  EXPECT_GT(std::min(most[0], most[1]), most[2] + 80);
+  const auto wall = ColorAt(picture, {0, 0.05, 1.08});
+  EXPECT_EQ(wall[0], wall[2]) << "a red wall is grey here";
+  const auto finger = ColorAt(picture, {0.008 + 0.02, 0, 1.04});
+  EXPECT_GT(finger[0], finger[2] + 100) << "the hand is red";
+  EXPECT_EQ(AffordancePicture(camera_, poses_, view_, map_).rgb, picture.rgb);
+}
+
+TEST_F(AffordancePictureTest, MapsThatCannotBeDrawnAreRefused) {
+  map_.affordance_rad.pop_back();
+  EXPECT_THROW(AffordancePicture(camera_, poses_, view_, map_), Error);
+  map_.affordance_rad.push_back(std::nanf(""));
+  EXPECT_THROW(CameraOn(map_, view_), Error);
+  EXPECT_THROW(CameraOn(AffordanceMap{}, view_), Error);
 }
 
 }  // namespace

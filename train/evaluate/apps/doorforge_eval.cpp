@@ -131,6 +131,11 @@ void WriteReport(const Evaluation& evaluation, const fs::path& out, StagedFolder
   WriteJsonFile(staged.path() / "report.json", ReportToJson(evaluation.report));
   CommitFile(staged.path() / "report.html", ReportPage(evaluation.report, evaluation.pictures));
   CommitFile(staged.path() / "config.yaml", evaluation.report.provenance.config.dump(2) + "\n");
+  for (const ReportGrasp& grasp : evaluation.pictures.grasps)
+    CommitFile(
+        staged.path() / "heat_maps" /
+            (std::string(NameOf(grasp.category)) + (grasp.opened ? "_opened.png" : "_failed.png")),
+        grasp.picture.png);
   staged.Commit();
   std::fprintf(stderr, "report: %s\n",
                fs::absolute(out / "report.html").lexically_normal().c_str());

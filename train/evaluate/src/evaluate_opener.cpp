@@ -62,10 +62,15 @@ void AddGrasper(const EvaluationRequest& request, Players& players) {
       return MakeRandomGrasp(config, scene, door, robot);
     };
   } else if (!request.grasper.empty()) {
-    players.make_grasp = [&config, policy = std::shared_ptr<GraspPolicy>(
-                                       LoadGraspPolicy(request.grasper, config.grasp))](
-                             const Scene& scene, const DoorAsset& door, const RobotModel& robot) {
+    const auto make = [&config, policy = std::shared_ptr<GraspPolicy>(
+                                    LoadGraspPolicy(request.grasper, config.grasp))](
+                          const Scene& scene, const DoorAsset& door, const RobotModel& robot) {
       return std::make_unique<TrainedGrasp>(scene, door, robot, config.cloud, policy);
+    };
+    players.make_grasp = make;
+    players.explain_grasp = [make](const Scene& scene, const DoorAsset& door,
+                                   const RobotModel& robot, const SceneSnapshot& snapshot) {
+      return make(scene, door, robot)->Consider(snapshot);
     };
   }
 }

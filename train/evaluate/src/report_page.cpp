@@ -10,10 +10,10 @@ namespace doorforge {
 
 std::string ReportPage(const EvaluationReport& report, const ReportPictures& pictures) {
   using namespace internal;  // NOLINT(google-build-using-namespace): private pieces of this page
-  const std::string sections = SuccessSection(report) + AngleSection(report) +
-                               CauseSection(report, pictures) + DoorSection(report, pictures) +
-                               SightSection(pictures) + LossSection(report) +
-                               EpisodeSection(report) + ProvenanceSection(report);
+  const std::string sections =
+      SuccessSection(report) + AngleSection(report) + CauseSection(report, pictures) +
+      GraspSection(pictures) + DoorSection(report, pictures) + SightSection(pictures) +
+      LossSection(report) + EpisodeSection(report) + ProvenanceSection(report);
   // the policy keeps even a faulty page from asking the network for anything
   return Fill(
       R"(<!DOCTYPE html>

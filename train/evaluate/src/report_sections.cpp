@@ -317,11 +317,12 @@ std::string HeadlineSection(const EvaluationReport& report, const ReportPictures
                         Plural(report.episodes.size(), "episode"));
   return Fill(
       R"(<header><div class="over">doorforge evaluation</div><h1>{title}</h1><p class="lead">{lead}</p>)"
-      R"(<nav><a href="#success">Success</a><a href="#angle">Door angle</a><a href="#causes">Causes of failure</a><a href="#doors">Doors</a>)"
+      R"(<nav><a href="#success">Success</a><a href="#angle">Door angle</a><a href="#causes">Causes of failure</a>{grasps}<a href="#doors">Doors</a>)"
       R"(<a href="#episodes">Episodes</a><a href="#provenance">How it was made</a></nav>)"
       R"(<div class="figures">{figures}</div>{film}</header>)",
       {{"title", Title(report, held_out)},
        {"lead", Lead(report, held_out)},
+       {"grasps", pictures.grasps.empty() ? "" : R"(<a href="#grasps">Grasps</a>)"},
        {"figures", figures},
        {"film", FilmFigure(pictures, EpisodeOutcome::kOpened)}});
 }
@@ -386,6 +387,24 @@ std::string CauseSection(const EvaluationReport& report, const ReportPictures& p
   std::string content = causes.empty() ? "<p>No episode failed.</p>" : "";
   for (const EpisodeOutcome cause : causes) content += Cause(report, pictures, cause);
   return R"(<section id="causes"><h2>Causes of failure</h2>)" + content + "</section>";
+}
+
+std::string GraspSection(const ReportPictures& pictures) {
+  if (pictures.grasps.empty()) return {};
+  std::string figures;
+  for (const ReportGrasp& grasp : pictures.grasps) {
+    figures += Fill(
+        R"(<figure><h3>{category}: {ending}</h3><img src="{uri}" alt="{caption}"/><figcaption>{caption}</figcaption></figure>)",
+        {{"category", TitleOf(grasp.category)},
+         {"ending", grasp.opened ? "opened" : "failed"},
+         {"uri", PngUri(grasp.picture.png)},
+         {"caption", Escape(grasp.picture.caption)}});
+  }
+  return Fill(
+      R"(<section id="grasps"><h2>Where it takes hold</h2><p class="soft">Handles coloured by affordance: the angle to which the trained grasper expects a door to open if it is held there, from dark violet (least) to yellow (most), )"
+      R"(with a scale below each picture. White ring: the chosen contact. Red: the hand; its arrows say how the fingers close. Of each category the first door that opened and the first that did not.</p>)"
+      R"(<div class="two">{figures}</div></section>)",
+      {{"figures", figures}});
 }
 
 std::string DoorSection(const EvaluationReport& report, const ReportPictures& pictures) {

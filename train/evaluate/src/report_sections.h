@@ -16,6 +16,7 @@ std::string HeadlineSection(const EvaluationReport& report, const ReportPictures
 std::string SuccessSection(const EvaluationReport& report);
 std::string AngleSection(const EvaluationReport& report);
 std::string CauseSection(const EvaluationReport& report, const ReportPictures& pictures);
+std::string GraspSection(const ReportPictures& pictures);
 std::string DoorSection(const EvaluationReport& report, const ReportPictures& pictures);
 std::string SightSection(const ReportPictures& pictures);
 std::string LossSection(const EvaluationReport& report);

@@ -8,14 +8,18 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/parallel_for.h"
+#include "doorforge/evaluate/success_statistics.h"
 #include "doorforge/physics/load_robot.h"
 #include "doorforge/rollout/camera_observer.h"
 #include "doorforge/rollout/run_episode.h"
+#include "doorforge/sensor/affordance_picture.h"
 #include "doorforge/sensor/depth_camera.h"
 #include "doorforge/sensor/picture.h"
 #include "doorforge/sensor/scene_picture.h"
 
 #include "episode_film.h"
+#include "html_text.h"
+#include "outcome_text.h"
 
 namespace doorforge {
 namespace {
@@ -114,6 +118,74 @@ void AddSight(const FinishedTrials& finished, std::size_t index, const SceneSnap
                         "policy is not given: leaf blue, handle orange, frame grey, robot green."};
 }
 
+// Remembers the beginning of an episode, which ends for want of a grasp.
+class Onlooker : public GraspChooser {
+ public:
+  std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override {
+    start = snapshot;
+    return std::nullopt;
+  }
+
+  SceneSnapshot start;
+};
+
+// For each category the first trial that opened and those that did not, until one is pictured.
+struct GraspToShow {
+  Category category;
+  bool opened;
+  std::vector<std::size_t> trials;
+};
+
+std::vector<GraspToShow> GraspsToShow(std::span<const EvaluatedEpisode> rows) {
+  std::vector<GraspToShow> shown;
+  for (const Category category : CategoriesOf(rows)) {
+    for (const bool opened : {true, false}) {
+      GraspToShow& show = shown.emplace_back(GraspToShow{category, opened, {}});
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        const bool fits = (rows[i].outcome == EpisodeOutcome::kOpened) == opened;
+        if (rows[i].category == category && fits) show.trials.push_back(i);
+      }
+    }
+  }
+  return shown;
+}
+
+std::string GraspCaption(const EvaluatedEpisode& row, const GraspChoice& choice) {
+  const auto [low, high] =
+      std::minmax_element(choice.affordance_rad.begin(), choice.affordance_rad.end());
+  return row.door_id + ", seed " + std::to_string(row.seed) + ": affordance " +
+         internal::Degrees(static_cast<double>(*low)) + " to " +
+         internal::Degrees(static_cast<double>(*high)) + " over " +
+         std::to_string(choice.affordance_rad.size()) +
+         " points of the handle; the chosen grasp is expected to open the door by " +
+         internal::Degrees(choice.score_rad) + ", it reached " +
+         internal::Degrees(row.peak_hinge_rad) + ". " + internal::TextOf(row.outcome).title + ": " +
+         row.detail;
+}
+
+// The heat map of a trial's grasp; nothing where none was in view.
+std::optional<ReportPicture> GraspPicture(const FinishedTrials& finished, std::size_t index,
+                                          const Players& players) {
+  const Scene& scene = finished.trials[index].scene;
+  const DoorAsset& door = finished.doors[finished.trials[index].door];
+  const RobotModel robot = LoadRobot({}, RobotBaseNamed(scene.physics.base));
+  Onlooker onlooker;
+  RunStages(scene, door, robot, {.grasp = &onlooker, .open = players.open.get()}, nullptr);
+  const auto choice = players.explain_grasp(scene, door, robot, onlooker.start);
+  if (!choice) return std::nullopt;
+  AffordanceMap map{choice->point_xyz, choice->affordance_rad, choice->contact_m};
+  map.world_from_tcp.linear() = choice->world_from_hand_rotation * robot.hand_from_tcp().linear();
+  map.world_from_tcp.translation() =
+      choice->contact_m + kGraspInsertion * choice->world_from_hand_rotation.col(2);
+  CameraModel view = scene.camera;
+  view.width = 480;
+  view.height = 400;
+  view = CameraOn(map, view);
+  DepthCamera camera(MeshesOf(door));
+  return ReportPicture{EncodePng(AffordancePicture(camera, onlooker.start.door, view, map)),
+                       GraspCaption(finished.rows[index], *choice)};
+}
+
 void TakeDoorPictures(const FinishedTrials& finished, int threads, ReportPictures& pictures) {
   const auto shown = DoorsToShow(finished.doors);
   std::vector<std::string> pngs(shown.size());
@@ -122,6 +194,29 @@ void TakeDoorPictures(const FinishedTrials& finished, int threads, ReportPicture
 }
 
 }  // namespace
+
+std::vector<ReportGrasp> TakeGraspPictures(const FinishedTrials& finished,
+                                           const Contender& contender, int threads) {
+  const std::vector<GraspToShow> shown = GraspsToShow(finished.rows);
+  std::vector<Players> players;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    players.push_back(contender.make_players());
+    if (!players.back().explain_grasp) return {};
+  }
+  std::vector<std::optional<ReportPicture>> pictures(shown.size());
+  ParallelFor(shown.size(), threads, [&](std::size_t i) {
+    for (const std::size_t trial : shown[i].trials) {
+      pictures[i] = GraspPicture(finished, trial, players[i]);
+      if (pictures[i]) break;
+    }
+  });
+  std::vector<ReportGrasp> grasps;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    if (pictures[i])
+      grasps.push_back({shown[i].category, shown[i].opened, std::move(*pictures[i])});
+  }
+  return grasps;
+}
 
 ReportPictures TakePictures(const FinishedTrials& finished, const Contender& contender,
                             int threads) {
@@ -139,6 +234,7 @@ ReportPictures TakePictures(const FinishedTrials& finished, const Contender& con
     if (films[i].first_decision && pictures.cloud.png.empty())
       AddSight(finished, trials[i], *films[i].first_decision, pictures);
   }
+  pictures.grasps = TakeGraspPictures(finished, contender, threads);
   return pictures;
 }
 

@@ -13,15 +13,19 @@ TrainedGrasp::TrainedGrasp(const Scene& scene, const DoorAsset& door, const Robo
       policy_(std::move(policy)) {}
 
 std::optional<ChosenGrasp> TrainedGrasp::Choose(const SceneSnapshot& snapshot) {
+  std::optional<GraspChoice> choice = Consider(snapshot);
+  if (!choice) return std::nullopt;
+  return ChosenGrasp{std::move(choice->cloud), choice->contact_m, choice->world_from_hand_rotation};
+}
+
+std::optional<GraspChoice> TrainedGrasp::Consider(const SceneSnapshot& snapshot) {
   GraspView view;
   view.visible = camera_.Look(snapshot).visible;
   view.approach = -snapshot.door[kHandleLink].linear().col(0);
   view.sample = [&](const Eigen::Vector3d& start) {
     return SampleCloud(view.visible, start, point_count_).cloud;
   };
-  std::optional<GraspChoice> choice = policy_->Choose(view);
-  if (!choice) return std::nullopt;
-  return ChosenGrasp{std::move(choice->cloud), choice->contact_m, choice->world_from_hand_rotation};
+  return policy_->Choose(view);
 }
 
 }  // namespace doorforge

@@ -5,11 +5,13 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "doorforge/evaluate/evaluated_episode.h"
 #include "doorforge/evaluate/evaluation_config.h"
+#include "doorforge/learn/grasp_policy.h"
 #include "doorforge/physics/robot_model.h"
 #include "doorforge/rollout/observer.h"
 #include "doorforge/rollout/run_episode.h"
@@ -37,6 +39,10 @@ struct Players {
   /// Makes an episode's chooser of the grasp; null: PlanGrasp()'s grasp.
   std::function<std::unique_ptr<GraspChooser>(const Scene&, const DoorAsset&, const RobotModel&)>
       make_grasp = nullptr;
+  /// What a trained grasper makes of an instant, for pictures; null: nobody trained takes hold.
+  std::function<std::optional<GraspChoice>(const Scene&, const DoorAsset&, const RobotModel&,
+                                           const SceneSnapshot&)>
+      explain_grasp = nullptr;
 };
 
 /// Who opens the doors after the expert's grasp.

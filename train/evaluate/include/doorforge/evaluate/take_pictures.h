@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "doorforge/evaluate/report_page.h"
 #include "doorforge/evaluate/run_trials.h"
@@ -21,12 +22,17 @@ inline constexpr std::size_t kMostDoorPictures = 30;
 
 /// Pictures for a report's page: every door closed, a film strip of the first episode of each
 /// outcome, and what the camera saw when the policy first decided in an episode that opened the
-/// door (else in the first that came so far).
+/// door (else in the first that came so far); and TakeGraspPictures().
 ///
 /// The episodes for film strips are run again with an observer; being deterministic they end in the
 /// same state, and one that does not throws Error(kInvalidArgument), because then `contender` is
 /// not the one that made the rows. Same arguments, same pictures, for any number of threads.
 ReportPictures TakePictures(const FinishedTrials& finished, const Contender& contender,
                             int threads = 0);
+
+/// Heat maps of a trained grasper (Players::explain_grasp; none without), by category: on the first
+/// door that was opened, then on the first that was not, of those with a handle in view.
+std::vector<ReportGrasp> TakeGraspPictures(const FinishedTrials& finished,
+                                           const Contender& contender, int threads = 0);
 
 }  // namespace doorforge

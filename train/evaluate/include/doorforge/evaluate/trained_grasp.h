@@ -21,6 +21,8 @@ class TrainedGrasp : public GraspChooser {
                const CloudConfig& config, std::shared_ptr<GraspPolicy> policy);
 
   std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override;
+  /// The same choice with all that it was made from.
+  std::optional<GraspChoice> Consider(const SceneSnapshot& snapshot);
 
  private:
   int point_count_;

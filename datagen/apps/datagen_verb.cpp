@@ -33,8 +33,7 @@ namespace fs = std::filesystem;
 struct Options {
   Stage stage = Stage::kOpen;
   std::vector<std::string> doors;
-  std::string handler;
-  std::string opener;
+  PolicyFolders policies;
   std::string robot;
   std::string out;
   std::string config;
@@ -59,10 +58,13 @@ void AddOptions(CLI::App& app, Options& options) {
   app.add_option("--episodes", options.episodes, "episodes to run, failed ones included")
       ->check(CLI::Range(1, 100000000));
   app.add_option("--seed", options.seed, "decides every random choice");
-  app.add_option("--opener", options.opener,
+  app.add_option("--opener", options.policies.opener,
                  "trained policy that opens, instead of the rule (handle, grasp)");
-  app.add_option("--handler", options.handler,
+  app.add_option("--handler", options.policies.handler,
                  "trained policy that turns the handle, instead of the rule (grasp)");
+  app.add_option("--learner", options.policies.learner,
+                 "trained policy of this stage that drives and is corrected by the rule (open, "
+                 "handle); config: learner_decisions");
   app.add_option("--robot", options.robot, "URDF of the robot; the embedded one if left out");
   app.add_option("--config", options.config, "YAML file with settings");
   app.add_option("--set", options.settings, "a.b=c overrides one setting, e.g. cloud.point_count");
@@ -95,7 +97,7 @@ StageRequest RequestOf(const Options& options) {
   if (options.episodes) config.episodes = *options.episodes;
   if (options.seed) config.seed = *options.seed;
   if (!options.robot.empty()) config.scene.robot = options.robot;
-  return {config, options.doors, options.handler, options.opener, options.threads};
+  return {config, options.doors, options.policies, options.threads};
 }
 
 // Whether there is nothing but what a writer leaves that was killed at its first file.
@@ -276,10 +278,9 @@ void BecomeTrainedProgram(int argc, char** argv) {
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   ::execv(program.c_str(), pointers.data());
-  throw Error(
-      ErrorCode::kMissing,
-      program.string() +
-          ": cannot be started; --opener and --handler need a build with the room train/learn");
+  throw Error(ErrorCode::kMissing, program.string() +
+                                       ": cannot be started; --opener, --handler and --learner "
+                                       "need a build with the room train/learn");
 }
 
 int RunDatagenVerb(int argc, char** argv) {
@@ -298,8 +299,7 @@ int RunDatagenVerb(int argc, char** argv) {
   const CLI::App* plan = AddPlan(app, options);
   app.footer("example:\n  doorforge datagen open --doors doors/train --out data --episodes 200");
   ParseVerb(app, argc, argv);
-  const bool needs_networks = !options.handler.empty() || !options.opener.empty();
-  if (needs_networks && !RunsTrainedPolicies()) BecomeTrainedProgram(argc, argv);
+  if (options.policies.Any() && !RunsTrainedPolicies()) BecomeTrainedProgram(argc, argv);
   if (!options.slurm.file.empty()) return GiveToSlurm(options, {argv, argv + argc});
   return plan->parsed() ? PrintPlan(options) : CollectStage(options);
 }

@@ -56,23 +56,24 @@ void AddRegenerateOptions(CLI::App& app, RegenerateOptions& options) {
                                "and compare every byte");
   app.add_option("--doors", options.doors, "the doors that the dataset was made with")
       ->needs(share);
-  app.add_option("--handler", options.handler, "the policy that turned the handle")->needs(share);
-  app.add_option("--opener", options.opener, "the policy that opened")->needs(share);
+  PolicyFolders& policies = options.policies;
+  app.add_option("--handler", policies.handler, "the policy that turned the handle")->needs(share);
+  app.add_option("--opener", policies.opener, "the policy that opened")->needs(share);
+  app.add_option("--learner", policies.learner, "the policy that was corrected")->needs(share);
 }
 
 void PrepareRegenerate(const RegenerateOptions& options, int argc, char** argv) {
   ParseFraction(options.share);
   Require(!options.doors.empty(), ErrorCode::kInvalidArgument,
           "--regenerate: needs --doors, with what the dataset was made with");
-  const bool needs_networks = !options.handler.empty() || !options.opener.empty();
-  if (needs_networks && !RunsTrainedPolicies()) BecomeTrainedProgram(argc, argv);
+  if (options.policies.Any() && !RunsTrainedPolicies()) BecomeTrainedProgram(argc, argv);
 }
 
 std::vector<DatasetFinding> Regenerate(const fs::path& folder, int threads,
                                        const RegenerateOptions& options) {
   const Stage stage = StageOf(folder);
   StageRun run({LoadConfig<StageConfig>((folder / "config.yaml").string(), {}, DefaultsOf(stage)),
-                options.doors, options.handler, options.opener, threads});
+                options.doors, options.policies, threads});
   RequireSameConfig(folder / "config.yaml", run.Request().config_text);
   const RegenerateResult result = RegenerateEpisodes(
       run.plan(), [&](const PlannedEpisode& planned) { return run.Run(planned); },

@@ -10,14 +10,15 @@
 
 #include "doorforge/datagen/verify_dataset.h"
 
+#include "trained_policy.h"
+
 namespace doorforge {
 
 /// Of `dataset verify --regenerate`.
 struct RegenerateOptions {
   std::string share;  ///< "1%"; empty: nothing is made again.
   std::vector<std::string> doors;
-  std::string handler;
-  std::string opener;
+  PolicyFolders policies;
 };
 
 void AddRegenerateOptions(CLI::App& app, RegenerateOptions& options);

@@ -48,6 +48,9 @@ Decision DecisionOf(const EpisodeArrays& arrays, std::size_t t, double time_s) {
   Decision decision;
   decision.proprioception = RowOf<float, std::tuple_size_v<Proprioception>>(arrays.proprio, t);
   decision.action = RowOf<float, std::tuple_size_v<ActionVector>>(arrays.action, t);
+  decision.executed = arrays.executed.empty()
+                          ? decision.action
+                          : RowOf<float, std::tuple_size_v<ActionVector>>(arrays.executed, t);
   decision.state = RowOf<double, std::tuple_size_v<JointState>>(arrays.state, t);
   decision.time_s = time_s;
   decision.hinge_rad = static_cast<double>(arrays.joints[2 * t]);

@@ -15,15 +15,31 @@
 namespace doorforge {
 namespace {
 
-// Who acted: "expert", "sampled", or the trained policy's hashes.
-nlohmann::ordered_json PoliciesRecord(Stage stage, const TrainedPolicies& trained) {
+// Who acted: "expert", "sampled", or the trained policy's hashes; who learned, where somebody did.
+nlohmann::ordered_json PoliciesRecord(bool sampled, const TrainedPolicies& trained) {
   const auto actor = [](const PolicyPool* pool) {
     return pool == nullptr ? nlohmann::ordered_json("expert")
                            : DatasetPolicyToJson(pool->policy().identity);
   };
-  return {{"grasp", stage == Stage::kGrasp ? "sampled" : "expert"},
-          {"unlock", actor(trained.handler)},
-          {"open", actor(trained.opener)}};
+  nlohmann::ordered_json record = {{"grasp", sampled ? "sampled" : "expert"},
+                                   {"unlock", actor(trained.handler)},
+                                   {"open", actor(trained.opener)}};
+  if (trained.learner != nullptr) record["learner"] = actor(trained.learner);
+  return record;
+}
+
+Rng StreamOf(const StageConfig& config, const PlannedEpisode& planned, const std::string& name) {
+  return {config.seed, "datagen/" + name + "/" + std::to_string(planned.number)};
+}
+
+bool SamplesGrasp(const StageConfig& config, const PlannedEpisode& planned) {
+  return config.stage == Stage::kGrasp ||
+         StreamOf(config, planned, "sampled_grasps").Uniform() < config.sampled_grasps;
+}
+
+int LearnerDecisions(const StageConfig& config, const PlannedEpisode& planned) {
+  return 1 + static_cast<int>(StreamOf(config, planned, "learner_decisions")
+                                  .Index(static_cast<std::uint32_t>(config.learner_decisions)));
 }
 
 // The policies of one episode: lent ones where there are trained ones, rules elsewhere.
@@ -33,16 +49,19 @@ class Actors {
       : handle_rule_(config.handle), open_rule_(config.expert) {
     if (trained.handler != nullptr) handler_ = trained.handler->Take();
     if (trained.opener != nullptr) opener_ = trained.opener->Take();
+    if (trained.learner != nullptr) learner_ = trained.learner->Take();
   }
 
   Policy* handle() { return handler_ ? handler_.get() : &handle_rule_; }
   Policy* open() { return opener_ ? opener_.get() : &open_rule_; }
+  Policy* learner() { return learner_.get(); }
 
  private:
   HandleExpert handle_rule_;
   OpeningExpert open_rule_;
   PolicyPool::Loan handler_;
   PolicyPool::Loan opener_;
+  PolicyPool::Loan learner_;
 };
 
 }  // namespace
@@ -63,6 +82,7 @@ StageConfig DefaultsOf(Stage stage) {
       physics.action_noise_m = 0.004;
       physics.action_noise_rad = 0.03;
       config.collection.episodes_per_shard = 512;
+      config.learner_decisions = 6;
       break;
     case Stage::kGrasp:
       config.collection.episodes_per_shard = 1024;
@@ -76,6 +96,10 @@ void CheckStageConfig(const StageConfig& config) {
           ErrorCode::kInvalidConfig, "config.cloud.point_count: out of 1..1000000");
   CheckDepthNoise(config.cloud.noise);
   CheckRandomGrasp(config.grasp);
+  Require(config.sampled_grasps >= 0 && config.sampled_grasps <= 1, ErrorCode::kInvalidConfig,
+          "config.sampled_grasps: out of 0..1");
+  Require(config.learner_decisions >= 1 && config.learner_decisions <= 1000,
+          ErrorCode::kInvalidConfig, "config.learner_decisions: out of 1..1000");
   Require(config.scene.physics.max_handle_actions >= 1 &&
               config.scene.physics.max_handle_actions <= 1000,
           ErrorCode::kInvalidConfig, "config.scene.physics.max_handle_actions: out of 1..1000");
@@ -88,19 +112,28 @@ CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const DoorAsset&
       SceneFor(robot, SampleScene(door, config.seed, planned.number, config.scene), door);
   Actors actors(config, trained);
   const bool at_grasp = config.stage == Stage::kGrasp;
+  const bool samples_grasp = SamplesGrasp(config, planned);
   // the grasp is chosen before the robot stands between camera and handle
-  RecordingCamera camera(scene, door, robot, config.cloud, /*sees_robot=*/!at_grasp);
-  std::optional<CameraObserver> later;
-  if (at_grasp) later.emplace(scene, door, robot, config.cloud);
+  std::optional<RecordingCamera> before;
+  if (samples_grasp) before.emplace(scene, door, robot, config.cloud, /*sees_robot=*/false);
+  std::optional<RecordingCamera> later;
+  if (!at_grasp) later.emplace(scene, door, robot, config.cloud, /*sees_robot=*/true);
+  RecordingCamera& camera = at_grasp ? *before : *later;
+  std::optional<CameraObserver> policies_camera;
+  if (at_grasp) policies_camera.emplace(scene, door, robot, config.cloud);
   RandomGrasp grasp(scene, door, robot, config.grasp, config.cloud.point_count,
-                    [&](const SceneSnapshot& snapshot) { return camera.LookAtAll(snapshot); });
+                    [&](const SceneSnapshot& snapshot) { return before->LookAtAll(snapshot); });
   EpisodeRoles roles{.recorded = config.stage, .open = actors.open()};
   if (config.stage != Stage::kOpen) roles.handle = actors.handle();
-  if (at_grasp) roles.grasp = &grasp;
+  if (samples_grasp) roles.grasp = &grasp;
+  if (trained.learner != nullptr) {
+    roles.learner = actors.learner();
+    roles.learner_decisions = LearnerDecisions(config, planned);
+  }
 
   CollectedEpisode collected;
   Observer* observer = &camera;
-  if (later) observer = &*later;
+  if (policies_camera) observer = &*policies_camera;
   collected.episode = RunStages(scene, door, robot, roles, observer);
   const Episode& episode = collected.episode;
   const std::size_t decisions = episode.decisions.size();
@@ -111,7 +144,7 @@ CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const DoorAsset&
   collected.meta["camera"] = CameraRecord(scene.camera);
   collected.meta["visible_points"] = camera.Visible(decisions);
   collected.meta["hidden"] = camera.OcclusionRecord(decisions);
-  collected.meta["policies"] = PoliciesRecord(config.stage, trained);
+  collected.meta["policies"] = PoliciesRecord(samples_grasp, trained);
   if (at_grasp) collected.meta["robot_seen"] = false;
   collected.keep_failed = at_grasp;
   const bool is_kept = episode.outcome == EpisodeOutcome::kOpened || collected.keep_failed;

@@ -28,7 +28,12 @@ struct StageConfig {
   SceneConfig scene;
   OpeningExpertConfig expert;  ///< Opens, where no trained policy does.
   HandleExpertConfig handle;   ///< Turns the handle, where no trained policy does. Not of "open".
-  RandomGraspConfig grasp;     ///< Of "grasp" alone.
+  /// Share of the episodes of "open" and "handle" in which the hand takes hold at a sampled grasp
+  /// instead of the expert's: only a policy that has seen them can go on from a learned grasp.
+  double sampled_grasps = 0;
+  RandomGraspConfig grasp;  ///< How grasps are sampled.
+  /// With a learner: it drives 1 to this many decisions, drawn for each episode, then the expert.
+  int learner_decisions = 16;
   CloudConfig cloud;
   /// Adds preview.png to each episode: depth at the first and at the last look.
   bool preview = true;
@@ -41,7 +46,11 @@ struct StageConfig {
     visit("scene", self.scene);
     visit("expert", self.expert);
     if (self.stage != Stage::kOpen) visit("handle", self.handle);
-    if (self.stage == Stage::kGrasp) visit("grasp", self.grasp);
+    if (self.stage != Stage::kGrasp) {
+      visit("sampled_grasps", self.sampled_grasps);
+      visit("learner_decisions", self.learner_decisions);
+    }
+    visit("grasp", self.grasp);
     visit("cloud", self.cloud);
     visit("preview", self.preview);
   }
@@ -59,6 +68,8 @@ void CheckStageConfig(const StageConfig& config);
 struct TrainedPolicies {
   PolicyPool* handler = nullptr;
   PolicyPool* opener = nullptr;
+  /// Of the stage that is recorded: drives, and is corrected by the rule. Null: the rule drives.
+  PolicyPool* learner = nullptr;
 };
 
 /// Samples the scene of a planned episode, runs its three stages, records one of them, and

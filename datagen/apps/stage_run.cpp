@@ -33,13 +33,18 @@ std::unique_ptr<PolicyPool> PoolOf(const std::string& folder, Stage stage) {
 StageConfig Checked(const StageRequest& request) {
   CheckStageConfig(request.config);
   Require(
-      request.handler.empty() || request.config.stage == Stage::kGrasp, ErrorCode::kInvalidArgument,
+      request.policies.handler.empty() || request.config.stage == Stage::kGrasp,
+      ErrorCode::kInvalidArgument,
       "--handler: belongs to `datagen grasp`, where the handle is turned after the stage that is "
       "recorded");
   Require(
-      request.opener.empty() || request.config.stage != Stage::kOpen, ErrorCode::kInvalidArgument,
+      request.policies.opener.empty() || request.config.stage != Stage::kOpen,
+      ErrorCode::kInvalidArgument,
       "--opener: belongs to `datagen handle` and `datagen grasp`, where the door is opened after "
       "the stage that is recorded");
+  Require(request.policies.learner.empty() || request.config.stage != Stage::kGrasp,
+          ErrorCode::kInvalidArgument,
+          "--learner: belongs to `datagen open` and `datagen handle`, where the rule corrects it");
   return request.config;
 }
 
@@ -67,8 +72,9 @@ DoorFolder DoorsFor(const StageRequest& request) {
 StageRun::StageRun(const StageRequest& request)
     : config_(Checked(request)),
       robot_(RobotFor(config_)),
-      handler_(PoolOf(request.handler, Stage::kHandle)),
-      opener_(PoolOf(request.opener, Stage::kOpen)),
+      handler_(PoolOf(request.policies.handler, Stage::kHandle)),
+      opener_(PoolOf(request.policies.opener, Stage::kOpen)),
+      learner_(PoolOf(request.policies.learner, config_.stage)),
       doors_(DoorsFor(request)),
       shelf_(doors_),
       plan_(MakePlan(PartsOf(doors_), config_.episodes, config_.seed, config_.collection)) {}
@@ -81,7 +87,7 @@ std::string StageRun::ConfigText() const {
       std::to_string(doors_.doors.size()) + " doors, sha256 " + ContentHash(doors_) + "\n# robot " +
       (robot_.name().empty() ? "embedded" : robot_.name() + ", sha256 " + robot_.sha256()) +
       ", rays by " + RayCasterVersion() + "\n";
-  for (const PolicyPool* pool : {handler_.get(), opener_.get()}) {
+  for (const PolicyPool* pool : {handler_.get(), opener_.get(), learner_.get()}) {
     if (pool != nullptr)
       text += "# " + TrainedPolicyText(pool->policy()) + ", loops for " + PolicyArithmetic() + "\n";
   }
@@ -95,7 +101,7 @@ CollectRequest StageRun::Request() const {
   request.provenance.code_version = CodeVersion();
   request.provenance.compiler = __VERSION__;
   request.provenance.libraries = {{"ray_caster", RayCasterVersion()}};
-  for (const PolicyPool* pool : {handler_.get(), opener_.get()}) {
+  for (const PolicyPool* pool : {handler_.get(), opener_.get(), learner_.get()}) {
     if (pool != nullptr) request.provenance.policies.push_back(pool->policy().identity);
   }
   request.provenance.seed = config_.seed;
@@ -105,7 +111,7 @@ CollectRequest StageRun::Request() const {
 
 CollectedEpisode StageRun::Run(const PlannedEpisode& planned) {
   return RunStageEpisode(planned, *shelf_.Take(planned.door), robot_, config_,
-                         {handler_.get(), opener_.get()});
+                         {handler_.get(), opener_.get(), learner_.get()});
 }
 
 }  // namespace doorforge

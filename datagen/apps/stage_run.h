@@ -18,8 +18,7 @@ namespace doorforge {
 struct StageRequest {
   StageConfig config;
   std::vector<std::string> doors;  ///< As ReadDoors().
-  std::string handler;             ///< Folder of a trained policy; empty: the rule.
-  std::string opener;
+  PolicyFolders policies;
   int threads = 0;
 };
 
@@ -50,6 +49,7 @@ class StageRun {
   RobotModel robot_;
   std::unique_ptr<PolicyPool> handler_;
   std::unique_ptr<PolicyPool> opener_;
+  std::unique_ptr<PolicyPool> learner_;
   DoorFolder doors_;
   DoorShelf shelf_;
   CollectionPlan plan_;

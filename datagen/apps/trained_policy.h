@@ -22,6 +22,15 @@ struct TrainedPolicy {
   DatasetPolicy identity;
 };
 
+/// Folders of trained policies that act in the rules' place; empty: the rule.
+struct PolicyFolders {
+  std::string handler;
+  std::string opener;
+  std::string learner;  ///< Of the stage that is recorded: drives, and is corrected by the rule.
+
+  bool Any() const { return !handler.empty() || !opener.empty() || !learner.empty(); }
+};
+
 /// Reads the record and checks the weights against it, so that a policy that does not fit is
 /// refused before any work. Needs no network library.
 ///

@@ -89,11 +89,9 @@ class EpisodeCheck {
       Add("DST005", "label.npy", std::to_string(arrays.decisions) + " decisions",
           std::to_string(indexed) + ", as in the index", kCollectAgain);
     const std::pair<const char*, std::span<const float>> columns[] = {
-        {"action.npy", arrays.action},
-        {"cloud.npy", arrays.cloud},
-        {"joints.npy", arrays.joints},
-        {"proprio.npy", arrays.proprio},
-        {"score.npy", arrays.score}};
+        {"action.npy", arrays.action},     {"cloud.npy", arrays.cloud},
+        {"executed.npy", arrays.executed}, {"joints.npy", arrays.joints},
+        {"proprio.npy", arrays.proprio},   {"score.npy", arrays.score}};
     for (const auto& [member, values] : columns) {
       if (!AllFinite(values))
         Add("DST006", member, "a number that is not finite", "finite numbers", kCollectAgain);

@@ -19,6 +19,7 @@ struct Columns {
   std::vector<std::uint8_t> label;
   std::vector<float> proprio;
   std::vector<float> action;
+  std::vector<float> executed;
   std::vector<float> joints;
   std::vector<float> score;
   std::vector<double> state;
@@ -35,6 +36,7 @@ Columns ColumnsOf(const Episode& episode) {
                          decision.cloud.label.end());
     append(columns.proprio, decision.proprioception);
     append(columns.action, decision.action);
+    append(columns.executed, decision.executed);
     columns.joints.push_back(static_cast<float>(decision.hinge_rad));
     columns.joints.push_back(static_cast<float>(decision.handle_rad));
     columns.score.push_back(static_cast<float>(decision.score_rad));
@@ -96,6 +98,13 @@ const std::vector<EpisodeFeature>& EpisodeFeatures() {
        "m",
        "world",
        "visible points by farthest point sampling; point 0 is the nearest to the hand"},
+      {"executed",
+       "<f4",
+       {9},
+       "m, 1",
+       "world",
+       "what the robot was told to do, like action: with noise, or by a learner that action "
+       "corrects"},
       {"joints", "<f4", {2}, "rad", "", "hinge and handle angle before the action"},
       {"label", "|u1", {0}, "", "", "0 body, 1 handle, 2 frame, 3 robot, 4 other"},
       {"proprio",
@@ -109,7 +118,8 @@ const std::vector<EpisodeFeature>& EpisodeFeatures() {
        {1},
        "rad",
        "",
-       "angle gained by the action, of the hinge (stage open) or the handle (stage handle); stage "
+       "angle gained by what was executed, of the hinge (stage open) or the handle (stage handle); "
+       "stage "
        "grasp: the door's final angle"},
       {"state",
        "<f8",
@@ -127,6 +137,7 @@ std::vector<MemberBytes> EncodeEpisode(const Episode& episode, const nlohmann::o
   CheckFinite(columns.cloud, "cloud");
   CheckFinite(columns.proprio, "proprio");
   CheckFinite(columns.action, "action");
+  CheckFinite(columns.executed, "executed");
   CheckFinite(columns.joints, "joints");
   CheckFinite(columns.score, "score");
   CheckFinite(columns.state, "state");
@@ -138,6 +149,7 @@ std::vector<MemberBytes> EncodeEpisode(const Episode& episode, const nlohmann::o
   std::vector<MemberBytes> members = {
       {"action.npy", npy(columns.action, {count, 9})},
       {"cloud.npy", npy(columns.cloud, {count, points, 3})},
+      {"executed.npy", npy(columns.executed, {count, 9})},
       {"joints.npy", npy(columns.joints, {count, 2})},
       {"label.npy", MakeNpy<std::uint8_t>(columns.label, {count, points})},
       {"meta.json", meta.dump(1) + "\n"},
@@ -163,6 +175,8 @@ EpisodeArrays ViewEpisode(const ShardReader& reader, std::size_t episode) {
   arrays.action = ViewArray<float>(reader, episode, "action", {count, 9});
   arrays.joints = ViewArray<float>(reader, episode, "joints", {count, 2});
   arrays.score = ViewArray<float>(reader, episode, "score", {count, 1});
+  if (Has(reader, episode, "executed.npy"))
+    arrays.executed = ViewArray<float>(reader, episode, "executed", {count, 9});
   if (Has(reader, episode, "state.npy"))
     arrays.state =
         ViewArray<double>(reader, episode, "state", {count, std::tuple_size_v<JointState>});

@@ -118,6 +118,27 @@ TEST_F(StagesTest, HandleRecordsTurnsAndLeavesDoorsWithoutALatchOut) {
   }
 }
 
+TEST_F(StagesTest, AShareOfTheHandsTakesHoldAtASampledGrasp) {
+  StageRequest request = RequestFor(Stage::kOpen, 40);
+  request.config.sampled_grasps = 0.5;
+  StageRun run(request);
+  int sampled = 0;
+  for (std::uint64_t number = 0; number < 40; ++number) {
+    PlannedEpisode planned = run.plan().shards.at(0).episodes.at(number);
+    const auto policies = run.Run(planned).meta.at("policies");
+    EXPECT_FALSE(policies.contains("learner"));
+    sampled += policies.at("grasp") == "sampled" ? 1 : 0;
+  }
+  EXPECT_GE(sampled, 11);  // 20 +- 3.2
+  EXPECT_LE(sampled, 29);
+
+  request.config.sampled_grasps = 1.5;
+  EXPECT_NE(Refusal(request).find("sampled_grasps"), std::string::npos);
+  request = RequestFor(Stage::kGrasp, 2);
+  request.policies.learner = "somewhere";
+  EXPECT_NE(Refusal(request).find("--learner: belongs to"), std::string::npos);
+}
+
 TEST_F(StagesTest, GraspsGoodAndBadAreWrittenWithTheFinalAngle) {
   const fs::path data = Collected(Stage::kGrasp, 16);
   ExpectSound(data);
@@ -186,12 +207,12 @@ TEST_F(StagesTest, AnotherCameraIsInTheRecord) {
 
 TEST_F(StagesTest, RefusesAPolicyBeforeAnyWork) {
   StageRequest request = RequestFor(Stage::kGrasp, 2);
-  request.opener = (folder_ / "policy").string();
+  request.policies.opener = (folder_ / "policy").string();
   EXPECT_NE(Refusal(request).find("no policy here"), std::string::npos);
 
-  fs::create_directories(request.opener);
+  fs::create_directories(request.policies.opener);
   const auto write = [&](const std::string& name, const std::string& text) {
-    std::ofstream(fs::path(request.opener) / name) << text;
+    std::ofstream(fs::path(request.policies.opener) / name) << text;
   };
   const std::string tail = R"("weights": "w", "weights_sha256": ")" + Sha256Hex("numbers") +
                            R"(", "provenance": {"dataset_sha256": "d", "code_version": "v"}})";
@@ -209,7 +230,7 @@ TEST_F(StagesTest, RefusesAPolicyBeforeAnyWork) {
   EXPECT_NE(Refusal(request).find("SHA-256 is not the one"), std::string::npos);
 
   StageRequest open = RequestFor(Stage::kOpen, 2);
-  open.opener = request.opener;
+  open.policies.opener = request.policies.opener;
   EXPECT_NE(Refusal(open).find("--opener: belongs to"), std::string::npos);
 }
 

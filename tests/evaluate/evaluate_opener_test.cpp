@@ -61,7 +61,7 @@ void WriteDataset(const DoorAsset& door, const fs::path& folder) {
 
 // networks as they are before training: whatever they do, they do it reproducibly
 void WriteUntrainedPolicy(const fs::path& data, const std::string& stage, const fs::path& folder) {
-  const StageDataset dataset = ReadStageDataset(data, stage, 0);
+  const StageDataset dataset = ReadStageDataset({{data}}, stage, 0);
   PolicyProvenance provenance;
   provenance.stage = stage;
   provenance.dataset_sha256 = dataset.content_sha256;

@@ -40,6 +40,7 @@ testing::SyntheticSamples WriteDataset(const fs::path& folder, const std::string
       for (std::size_t i = 0; i < decision.proprioception.size(); ++i)
         decision.proprioception[i] = static_cast<float>(100 * e + 40 * t + i);
       decision.action = sample.action;
+      decision.executed = sample.executed;
       decision.score_rad = sample.score_rad;
       episode.decisions.push_back(decision);
     }
@@ -59,7 +60,7 @@ fs::path EmptyFolder(const std::string& name) {
 TEST(StageDataset, HoldsTheDecisionsOfTheShards) {
   const fs::path folder = EmptyFolder("read");
   const auto made = WriteDataset(folder, "train", 4);
-  const StageDataset dataset = ReadStageDataset(folder, "open", 0.25);
+  const StageDataset dataset = ReadStageDataset({{folder}}, "open", 0.25);
   ASSERT_EQ(dataset.train.size(), 9U);
   ASSERT_EQ(dataset.validation.size(), 3U);
   EXPECT_EQ(dataset.content_sha256.size(), 64U);
@@ -67,6 +68,8 @@ TEST(StageDataset, HoldsTheDecisionsOfTheShards) {
   EXPECT_TRUE(std::equal(sample.cloud.begin(), sample.cloud.end(), made.samples[5].cloud.begin(),
                          made.samples[5].cloud.end()));
   EXPECT_EQ(sample.action, made.samples[5].action);
+  EXPECT_EQ(sample.executed, made.samples[5].executed);
+  EXPECT_NE(sample.executed, sample.action);
   EXPECT_EQ(sample.score_rad, made.samples[5].score_rad);
   EXPECT_EQ(sample.state[0], 180);  // first joint position
   EXPECT_EQ(sample.state[9], 191);  // first joint velocity
@@ -77,13 +80,27 @@ TEST(StageDataset, HoldsTheDecisionsOfTheShards) {
 TEST(StageDataset, UsesTheSplitForValidationWhereThereIsOne) {
   const fs::path folder = EmptyFolder("val");
   WriteDataset(folder, "train", 2);
-  const std::string alone = ReadStageDataset(folder, "open", 0).content_sha256;
+  const std::string alone = ReadStageDataset({{folder}}, "open", 0).content_sha256;
   WriteDataset(folder, "val", 3);
-  const StageDataset dataset = ReadStageDataset(folder, "open", 0.5);
+  const StageDataset dataset = ReadStageDataset({{folder}}, "open", 0.5);
   EXPECT_EQ(dataset.train.size(), 6U);
   EXPECT_EQ(dataset.validation.size(), 9U);
   EXPECT_NE(dataset.content_sha256, alone);
-  EXPECT_THROW(ReadStageDataset(folder / "none", "open", 0), Error);
+  EXPECT_THROW(ReadStageDataset({{folder / "none"}}, "open", 0), Error);
+}
+
+TEST(StageDataset, HoldsSeveralDataSetsInTheirOrder) {
+  const fs::path first = EmptyFolder("first");
+  const fs::path second = EmptyFolder("second");
+  const auto made = WriteDataset(first, "train", 4);
+  WriteDataset(second, "train", 2);
+  const StageDataset dataset = ReadStageDataset({{second, first}}, "open", 0.5);
+  ASSERT_EQ(dataset.train.size(), 9U);  // halves of 2 and 4 episodes of 3 decisions
+  EXPECT_EQ(dataset.validation.size(), 9U);
+  EXPECT_EQ(dataset.train[5].action, made.samples[2].action);
+  EXPECT_NE(dataset.content_sha256,
+            ReadStageDataset({{first, second}}, "open", 0.5).content_sha256);
+  EXPECT_THROW(ReadStageDataset({}, "open", 0), Error);
 }
 
 int RunTrain(const std::string& arguments, const std::string& variables = {}) {

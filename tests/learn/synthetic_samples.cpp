@@ -25,6 +25,8 @@ TrainingSample MakeSample(double hinge_rad, Rng& rng) {
   action.world_from_hand_rotation = RotationAbout(Eigen::Vector3d::UnitZ(), -hinge_rad).linear() *
                                     RotationAbout(Eigen::Vector3d::UnitY(), 3.14159).linear();
   sample.action = ToVector(action);
+  sample.executed = sample.action;
+  sample.executed[1] += 0.004F;
   sample.score_rad = static_cast<float>(0.05 + 0.02 * s);
   return sample;
 }

@@ -142,6 +142,32 @@ TEST(TrainStage, LearnsToReadTheHingeFromTheCloud) {
   EXPECT_LT(state.epochs.back().validation.score_rad, 0.005);
 }
 
+TEST(TrainStage, TheCriticLearnsFromWhatWasExecutedAndTheActorFromWhatWasRight) {
+  const auto train = testing::MakeSyntheticSamples(1, 8);
+  auto others = train.samples;
+  for (TrainingSample& sample : others) sample.executed[0] += 0.1F;
+  const TrainerState a = TrainStage(train.samples, {}, SmallConfig(), {.threads = 1});
+  const TrainerState b = TrainStage(others, {}, SmallConfig(), {.threads = 1});
+  EXPECT_EQ(a.networks.actor, b.networks.actor);
+  EXPECT_NE(a.networks.critic, b.networks.critic);
+}
+
+TEST(TrainStage, BeginsWithTheNetworksOfAnotherRun) {
+  const auto train = testing::MakeSyntheticSamples(1, 8);
+  const auto others = testing::MakeSyntheticSamples(2, 8);
+  TrainConfig config = SmallConfig();
+  const StageNetworks first = TrainStage(train.samples, {}, config, {.threads = 1}).networks;
+  config.seed = 9;
+  config.learning_rate = 1e-6;
+  const StageNetworks then =
+      TrainStage(others.samples, {}, config, {.threads = 1, .initial = first}).networks;
+  EXPECT_EQ(then.normalisation.state.mean, first.normalisation.state.mean);
+  ASSERT_EQ(then.actor.size(), first.actor.size());
+  for (std::size_t i = 0; i < first.actor.size(); ++i)
+    ASSERT_NEAR(then.actor[i], first.actor[i], 1e-5F);
+  EXPECT_NE(then.actor, first.actor);
+}
+
 TEST(TrainStage, RefusesBadConfigsAndEmptySets) {
   const auto train = testing::MakeSyntheticSamples(1, 1);
   TrainConfig config = SmallConfig();

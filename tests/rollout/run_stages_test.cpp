@@ -53,19 +53,47 @@ TEST_F(RunStagesTest, TurnsOfTheHandleAddUpToDoneAndTheDoorOpens) {
   }
 }
 
+class Staying : public Policy {
+ public:
+  Action Act(const Observation& observation) override {
+    return {Eigen::Vector3d::Zero(), observation.privileged.world_from_hand.linear()};
+  }
+};
+
 TEST_F(RunStagesTest, AHandThatDoesNotTurnLeavesTheHandleStuck) {
-  class Staying : public Policy {
-   public:
-    Action Act(const Observation& observation) override {
-      return {Eigen::Vector3d::Zero(), observation.privileged.world_from_hand.linear()};
-    }
-  } stays;
+  Staying stays;
   const DoorAsset door = MakePrimitiveDoor({});
   Scene scene = SampleScene(door, 1, 0);
   scene.physics.max_handle_actions = 3;
   const Episode episode = Run(door, scene, {.recorded = Stage::kHandle, .handle = &stays});
   EXPECT_EQ(episode.outcome, EpisodeOutcome::kHandleStuck) << episode.detail;
   EXPECT_EQ(episode.decisions.size(), 3U);
+}
+
+TEST_F(RunStagesTest, ALearnerDrivesFirstAndTheRuleSaysWhatItWouldHaveDone) {
+  const DoorAsset door = MakePrimitiveDoor({});
+  Scene scene = SampleScene(door, 1, 0);
+  scene.physics.action_noise_m = 0.002;
+  Staying stays;
+  const Episode episode =
+      Run(door, scene, {.recorded = Stage::kOpen, .learner = &stays, .learner_decisions = 3});
+  EXPECT_EQ(episode.outcome, EpisodeOutcome::kOpened) << episode.detail;
+  ASSERT_GT(episode.decisions.size(), 6U);
+  const auto way = [](const ActionVector& action) {
+    return Eigen::Vector3f(action[0], action[1], action[2]).norm();
+  };
+  for (std::size_t t = 0; t < 3; ++t) {
+    EXPECT_EQ(way(episode.decisions[t].executed), 0.0F);
+    EXPECT_GT(way(episode.decisions[t].action), 0.005F);
+    EXPECT_LT(episode.decisions[t].score_rad, 1 * kDegree);
+  }
+  for (std::size_t t = 3; t < episode.decisions.size(); ++t) {
+    const Decision& decision = episode.decisions[t];
+    EXPECT_GT(way(decision.executed), 0.01F);
+    EXPECT_NE(decision.executed, decision.action);  // the noise
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(decision.executed[k], decision.action[k], 6 * 0.002);
+  }
 }
 
 TEST_F(RunStagesTest, TheRecordedJointsSayWhereTheHandIs) {

@@ -46,10 +46,10 @@ Format(const char* format, ...) {
 }  // namespace
 
 EpisodeRun::EpisodeRun(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
-                       Stage recorded, Observer* observer)
+                       const EpisodeRoles& roles, Observer* observer)
     : door_(door),
       robot_(robot),
-      recorded_(recorded),
+      roles_(roles),
       observer_(observer),
       world_(scene, door, robot, StartPosition(scene, robot)),
       controller_(robot, scene.world_from_robot_base, StartPosition(scene, robot)),
@@ -137,7 +137,7 @@ EpisodeRun::Failure EpisodeRun::TakeHold(GraspChooser& chooser) {
 }
 
 void EpisodeRun::RecordChoice(ChosenGrasp chosen) {
-  if (recorded_ != Stage::kGrasp) return;
+  if (roles_.recorded != Stage::kGrasp) return;
   Observation observation;
   observation.cloud = std::move(chosen.cloud);
   if (HasProprioception(robot_))
@@ -267,8 +267,7 @@ bool EpisodeRun::IsTurned() const {
 EpisodeRun::Failure EpisodeRun::Turn(Policy& handle) {
   const PhysicsConfig& physics = episode_.scene.physics;
   if (episode_.scene.latch.type == LatchType::kNone) return std::nullopt;
-  handle.Reset();
-  actions_ = 0;
+  BeginStage(handle, Stage::kHandle);
   const auto off = [&] { return step_ - last_pad_step_; };
   while (actions_ < physics.max_handle_actions && !diverged_ && !IsTurned()) {
     Decide(handle, Stage::kHandle);
@@ -339,6 +338,7 @@ Decision EpisodeRun::DecisionAt(const Observation& observation, const Action& ac
   decision.cloud = observation.cloud;
   decision.proprioception = observation.proprioception;
   decision.action = ToVector(action);
+  decision.executed = decision.action;
   decision.time_s = state.time_s;
   decision.hinge_rad = state.hinge_rad;
   decision.handle_rad = state.handle_rad;
@@ -353,9 +353,20 @@ Decision EpisodeRun::DecisionAt(const Observation& observation, const Action& ac
   return decision;
 }
 
+void EpisodeRun::BeginStage(Policy& policy, Stage stage) {
+  policy.Reset();
+  if (stage == roles_.recorded && roles_.learner != nullptr) roles_.learner->Reset();
+  actions_ = 0;
+}
+
+bool EpisodeRun::LearnerDrives(Stage stage) const {
+  return stage == roles_.recorded && roles_.learner != nullptr &&
+         actions_ < roles_.learner_decisions;
+}
+
 void EpisodeRun::Decide(Policy& policy, Stage stage) {
   const std::string_view name = stage == Stage::kOpen ? "open" : "unlock";
-  const bool recorded = stage == recorded_;
+  const bool recorded = stage == roles_.recorded;
   Watch(name);
   const WorldState& state = world_.state();
   Observation observation;
@@ -366,14 +377,24 @@ void EpisodeRun::Decide(Policy& policy, Stage stage) {
         ProprioceptionOf(robot_, state, episode_.scene.world_from_robot_base);
   observation.privileged = Privileged();
   const Action action = policy.Act(observation);
+  Action executed = action;
+  if (LearnerDrives(stage)) {
+    executed = roles_.learner->Act(observation);
+  } else if (recorded) {
+    executed = WithNoise(action);
+  }
   std::optional<Decision> decision;
   if (recorded) decision = DecisionAt(observation, action);
+  if (recorded) decision->executed = ToVector(executed);
   const double hinge_rad = state.hinge_rad;
   const double handle_rad = state.handle_rad;
 
   const PhysicsConfig& physics = episode_.scene.physics;
-  controller_.MoveHandTo(ExecutedTarget(action, observation.privileged.world_from_hand, recorded),
-                         physics.steps_per_action * physics.time_step_s);
+  RigidTransform target = RigidTransform::Identity();
+  target.linear() = executed.world_from_hand_rotation;
+  target.translation() =
+      observation.privileged.world_from_hand.translation() + executed.position_delta_m;
+  controller_.MoveHandTo(target, physics.steps_per_action * physics.time_step_s);
   HoldAction();
   ++actions_;
   if (!decision) return;
@@ -383,13 +404,9 @@ void EpisodeRun::Decide(Policy& policy, Stage stage) {
 }
 
 // Half of the noise is a bias that stays for the episode: a trained policy errs that way.
-RigidTransform EpisodeRun::ExecutedTarget(const Action& action,
-                                          const RigidTransform& world_from_hand, bool noisy) {
-  RigidTransform target = RigidTransform::Identity();
-  target.linear() = action.world_from_hand_rotation;
-  target.translation() = world_from_hand.translation() + action.position_delta_m;
+Action EpisodeRun::WithNoise(const Action& action) {
   const PhysicsConfig& physics = episode_.scene.physics;
-  if (!noisy || (physics.action_noise_m == 0 && physics.action_noise_rad == 0)) return target;
+  if (physics.action_noise_m == 0 && physics.action_noise_rad == 0) return action;
   if (!action_bias_) {
     action_bias_.emplace();
     for (double& bias : *action_bias_) bias = action_noise_.Normal();
@@ -399,19 +416,20 @@ RigidTransform EpisodeRun::ExecutedTarget(const Action& action,
     noise[i] = std::sqrt(0.5) * ((*action_bias_)[i] + action_noise_.Normal());
   const Eigen::Vector3d turn =
       physics.action_noise_rad * Eigen::Vector3d(noise[3], noise[4], noise[5]);
-  target.translation() += physics.action_noise_m * Eigen::Vector3d(noise[0], noise[1], noise[2]);
+  Action noisy = action;
+  noisy.position_delta_m += physics.action_noise_m * Eigen::Vector3d(noise[0], noise[1], noise[2]);
   if (turn.norm() > 0)
-    target.linear() = RotationAbout(turn.normalized(), turn.norm()).linear() * target.linear();
-  return target;
+    noisy.world_from_hand_rotation =
+        RotationAbout(turn.normalized(), turn.norm()).linear() * action.world_from_hand_rotation;
+  return noisy;
 }
 
 EpisodeRun::Failure EpisodeRun::Open(Policy& opening) {
   const PhysicsConfig& physics = episode_.scene.physics;
   // a hand that has been off the door for a second does not come back by itself
   const int given_up = 6 * physics.steps_per_action;
-  opening.Reset();
+  BeginStage(opening, Stage::kOpen);
   episode_.handle_done = true;
-  actions_ = 0;
   last_touch_step_ = step_;
   for (int i = 0; i < physics.max_opening_actions && !coasted_ && !diverged_; ++i) {
     if (opened_ && world_.state().hinge_rad > physics.finish_hinge_rad) break;
@@ -496,7 +514,7 @@ Episode EpisodeRun::Finish(Failure failure) {
   episode_.outcome = failure.value_or(EpisodeOutcome::kOpened);
   episode_.detail = Detail(failure);
   episode_.simulated_s = world_.state().time_s;
-  if (recorded_ == Stage::kGrasp) {
+  if (roles_.recorded == Stage::kGrasp) {
     for (Decision& decision : episode_.decisions)
       decision.score_rad = std::max(0.0, world_.state().hinge_rad);
   }

@@ -17,8 +17,8 @@ namespace doorforge::internal {
 /// or nothing.
 class EpisodeRun {
  public:
-  EpisodeRun(const Scene& scene, const DoorAsset& door, const RobotModel& robot, Stage recorded,
-             Observer* observer);
+  EpisodeRun(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
+             const EpisodeRoles& roles, Observer* observer);
 
   using Failure = std::optional<EpisodeOutcome>;
   Failure TakeHold();                       ///< By the planned grasp.
@@ -50,9 +50,10 @@ class EpisodeRun {
   SceneSnapshot Snapshot(std::string_view stage) const;
   void Watch(std::string_view stage);
   void Decide(Policy& policy, Stage stage);
+  void BeginStage(Policy& policy, Stage stage);
+  bool LearnerDrives(Stage stage) const;
   Decision DecisionAt(const Observation& observation, const Action& action) const;
-  RigidTransform ExecutedTarget(const Action& action, const RigidTransform& world_from_hand,
-                                bool noisy);
+  Action WithNoise(const Action& action);
   void HoldAction();
   void NoteContacts();
   void NoteForce(const DoorContacts& contacts);
@@ -62,7 +63,7 @@ class EpisodeRun {
 
   const DoorAsset& door_;
   const RobotModel& robot_;
-  Stage recorded_;
+  EpisodeRoles roles_;
   bool chosen_ = false;  // whether somebody chose the grasp
   Observer* observer_;
   GraspPlan plan_;

@@ -23,7 +23,7 @@ Episode RunStages(const Scene& scene, const DoorAsset& door, const RobotModel& r
   Require(scene.door_id == door.id, ErrorCode::kInvalidArgument,
           "the scene is of door \"" + scene.door_id + "\", not of \"" + door.id + '"');
   const DoorAsset varied = Varied(door, scene.variation);
-  internal::EpisodeRun run(scene, varied, robot, roles.recorded, observer);
+  internal::EpisodeRun run(scene, varied, robot, roles, observer);
   auto failure = roles.grasp != nullptr ? run.TakeHold(*roles.grasp) : run.TakeHold();
   if (!failure) failure = roles.handle != nullptr ? run.Turn(*roles.handle) : run.Unlock();
   if (!failure) failure = run.Open(*roles.open);

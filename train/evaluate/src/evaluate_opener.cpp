@@ -105,7 +105,7 @@ std::string NameOfPolicy(const EvaluationRequest& request) {
 
 void RequireSameData(const PolicyRecord& policy, const fs::path& data, const char* option) {
   const std::string& stage = policy.provenance.stage;
-  const std::string found = ReadStageDataset(data, stage, 0).content_sha256;
+  const std::string found = ReadStageDataset({{data}}, stage, 0).content_sha256;
   if (found != policy.provenance.dataset_sha256)
     throw Error(ErrorCode::kInvalidArgument,
                 data.string() + ": has the hash " + found.substr(0, 12) +

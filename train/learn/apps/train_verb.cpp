@@ -33,7 +33,8 @@ using Clock = std::chrono::steady_clock;
 
 struct Options {
   std::string stage;
-  std::string data;
+  std::vector<std::string> data;
+  std::string from;
   std::string out;
   std::string config;
   std::vector<std::string> settings;
@@ -53,7 +54,12 @@ Options Parse(int argc, char** argv) {
   app.add_option("stage", options.stage, "open, handle or grasp")
       ->required()
       ->check(CLI::IsMember({"open", "handle", "grasp"}));
-  app.add_option("--data", options.data, "data set")->required()->check(CLI::ExistingDirectory);
+  app.add_option("--data", options.data, "data set, or several of the same stage")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  app.add_option("--from", options.from,
+                 "begin with the weights and the normalisation of this trained policy")
+      ->check(CLI::ExistingDirectory);
   app.add_option("--out", options.out, "folder of the policy")->required();
   app.add_option("--epochs", options.epochs,
                  "passes over the samples, for each of the two networks of grasp (config: epochs)");
@@ -164,6 +170,16 @@ void PrintSummary(const TrainerState& state, const StageDataset& dataset, const 
     std::printf("validation: %s\n", LossText(last.validation, family).c_str());
 }
 
+// The weights of another policy, which the record names.
+void BeginWith(const Options& options, PolicyProvenance& provenance, TrainHooks& hooks) {
+  PolicyRecord policy = ReadPolicy(options.from, options.stage);
+  Require(policy.networks.linear_branches == provenance.config.linear_branches,
+          ErrorCode::kInvalidArgument,
+          options.from + ": was trained with another setting of linear_branches");
+  provenance.from_weights_sha256 = policy.weights_sha256;
+  hooks.initial = std::move(policy.networks);
+}
+
 int Train(const Options& options) {
   const fs::path out = options.out;
   const TrainConfig config = ConfigOf(options);
@@ -171,13 +187,14 @@ int Train(const Options& options) {
   const bool first = group->rank() == 0;  // which alone writes
   if (first) CheckFolder(options);
   WarnOfSlowLinearAlgebra();
-  const StageDataset dataset =
-      ReadStageDataset(options.data, options.stage, config.validation_share);
-  PolicyProvenance provenance{options.stage, dataset.content_sha256, CodeVersion(), config, 0};
+  const std::vector<fs::path> folders(options.data.begin(), options.data.end());
+  const StageDataset dataset = ReadStageDataset(folders, options.stage, config.validation_share);
+  PolicyProvenance provenance{options.stage, dataset.content_sha256, CodeVersion(), config, 0, ""};
 
   TrainHooks hooks;
   hooks.threads = options.threads;
   hooks.group = group.get();
+  if (!options.from.empty()) BeginWith(options, provenance, hooks);
   if (options.resume && HasTrainerState(out)) hooks.resume = ReadTrainerState(out, provenance);
   if (first) CommitFile(out / "config.yaml", ToJson(config).dump(2) + "\n");
 

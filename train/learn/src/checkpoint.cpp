@@ -157,12 +157,15 @@ void RequireSame(const TensorFile& file, const std::string& key, const std::stri
 }
 
 Json ProvenanceToJson(const PolicyProvenance& provenance) {
-  return {{"config", ToJson(provenance.config)},
-          {"config_sha256", ConfigHash(provenance.config)},
-          {"dataset_sha256", provenance.dataset_sha256},
-          {"code_version", provenance.code_version},
-          {"seed", provenance.config.seed},
-          {"step", provenance.step}};
+  Json json = {{"config", ToJson(provenance.config)},
+               {"config_sha256", ConfigHash(provenance.config)},
+               {"dataset_sha256", provenance.dataset_sha256},
+               {"code_version", provenance.code_version},
+               {"seed", provenance.config.seed},
+               {"step", provenance.step}};
+  if (!provenance.from_weights_sha256.empty())
+    json["from_weights_sha256"] = provenance.from_weights_sha256;
+  return json;
 }
 
 PolicyProvenance ProvenanceFromJson(const Json& json, NetworkFamily family,
@@ -177,6 +180,8 @@ PolicyProvenance ProvenanceFromJson(const Json& json, NetworkFamily family,
   provenance.dataset_sha256 = ValueOf<std::string>(json, "dataset_sha256", path);
   provenance.code_version = ValueOf<std::string>(json, "code_version", path);
   provenance.step = ValueOf<std::uint64_t>(json, "step", path);
+  if (json.contains("from_weights_sha256"))
+    provenance.from_weights_sha256 = ValueOf<std::string>(json, "from_weights_sha256", path);
   return provenance;
 }
 
@@ -308,6 +313,7 @@ void WriteTrainerState(const fs::path& folder, const TrainerState& state,
   AddLosses(state, file);
   file.metadata = {{"config", ConfigText(provenance.config)},
                    {"dataset_sha256", provenance.dataset_sha256},
+                   {"from_weights_sha256", provenance.from_weights_sha256},
                    {"normalisation", NormalisationToJson(state.networks.normalisation).dump()},
                    {"step", std::to_string(state.step)}};
   CommitFile(folder / kStateFile, EncodeTensors(file));
@@ -320,6 +326,7 @@ TrainerState ReadTrainerState(const fs::path& folder, const PolicyProvenance& ex
   const TensorFile file = ReadTensors(path);
   RequireSame(file, "dataset_sha256", expected.dataset_sha256, path);
   RequireSame(file, "config", ConfigText(expected.config), path);
+  RequireSame(file, "from_weights_sha256", expected.from_weights_sha256, path);
   TrainerState state;
   state.networks.family = FamilyOf(expected.stage);
   state.networks.linear_branches = expected.config.linear_branches;

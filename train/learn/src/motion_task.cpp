@@ -37,7 +37,10 @@ class MotionTask : public StageTask {
     HeadBatch head = MakeHeadBatch(trains ? input_.train : input_.validation, batch.indices,
                                    networks.normalisation);
     head.features = std::move(features);
-    if (role == NetworkRole::kCritic) return CriticObjective(networks, head, gradient);
+    if (role == NetworkRole::kCritic) {
+      head.actions = Executed(batch);
+      return CriticObjective(networks, head, gradient);
+    }
     const std::size_t draws = batch.indices.size() * kLatentSize;
     head.noise = trains ? LatentNoise(input_.config->seed, batch.step, draws)
                         : std::vector<float>(draws, 0.0F);
@@ -45,6 +48,17 @@ class MotionTask : public StageTask {
   }
 
  private:
+  // What the critic rates is what was done.
+  std::vector<float> Executed(const Minibatch& batch) const {
+    const auto samples = batch.set == SampleSet::kTrain ? input_.train : input_.validation;
+    std::vector<float> actions;
+    for (const std::size_t index : batch.indices) {
+      const auto numbers = input_.networks->normalisation.action.Apply(samples[index].executed);
+      actions.insert(actions.end(), numbers.begin(), numbers.end());
+    }
+    return actions;
+  }
+
   GeometryCache CacheOf(std::span<const TrainingSample> samples, std::size_t bytes) const {
     const std::array<float, 3> centre = input_.networks->normalisation.cloud_centre_m;
     return {samples.size(), 1, bytes,

@@ -45,6 +45,9 @@ void AppendEpisode(const EpisodeArrays& arrays, std::vector<TrainingSample>& sam
     sample.hand_m = ToArray(HandPositionOf(proprioception));
     sample.base_m = ToArray(BasePositionOf(proprioception));
     sample.action = RowOf<std::tuple_size_v<ActionVector>>(arrays.action, t);
+    sample.executed = arrays.executed.empty()
+                          ? sample.action
+                          : RowOf<std::tuple_size_v<ActionVector>>(arrays.executed, t);
     sample.score_rad = arrays.score[t];
     samples.push_back(sample);
   }
@@ -67,6 +70,32 @@ std::vector<TrainingSample> SamplesOf(const DatasetReader& reader, const std::st
   return samples;
 }
 
+template <class T>
+void AppendAll(std::vector<T> from, std::vector<T>& to) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+// Appends a data set's samples; returns the hash of its content.
+std::string AppendDataset(const fs::path& folder, const std::string& stage, double validation_share,
+                          StageDataset& dataset) {
+  dataset.readers.push_back(std::make_unique<DatasetReader>(folder, stage, "train"));
+  const DatasetReader& train = *dataset.readers.back();
+  const std::size_t episodes = train.size();
+  if (fs::exists(folder / stage / "val")) {
+    dataset.readers.push_back(std::make_unique<DatasetReader>(folder, stage, "val"));
+    const DatasetReader& validation = *dataset.readers.back();
+    AppendAll(SamplesOf(train, stage, 0, episodes), dataset.train);
+    AppendAll(SamplesOf(validation, stage, 0, validation.size()), dataset.validation);
+    return train.ContentHash() + "\n" + validation.ContentHash();
+  }
+  const auto aside = std::min(
+      episodes > 0 ? episodes - 1 : 0,
+      static_cast<std::size_t>(std::ceil(validation_share * static_cast<double>(episodes))));
+  AppendAll(SamplesOf(train, stage, 0, episodes - aside), dataset.train);
+  AppendAll(SamplesOf(train, stage, episodes - aside, episodes), dataset.validation);
+  return train.ContentHash();
+}
+
 }  // namespace
 
 StageDataset::StageDataset() = default;
@@ -74,27 +103,14 @@ StageDataset::~StageDataset() = default;
 StageDataset::StageDataset(StageDataset&&) noexcept = default;
 StageDataset& StageDataset::operator=(StageDataset&&) noexcept = default;
 
-StageDataset ReadStageDataset(const fs::path& folder, std::string_view stage,
+StageDataset ReadStageDataset(std::span<const fs::path> folders, std::string_view stage,
                               double validation_share) {
-  const std::string name(stage);
+  Require(!folders.empty(), ErrorCode::kInvalidArgument, "no data set to read samples from");
   StageDataset dataset;
-  dataset.readers.push_back(std::make_unique<DatasetReader>(folder, name, "train"));
-  const DatasetReader& train = *dataset.readers.back();
-  std::string content = train.ContentHash();
-  const std::size_t episodes = train.size();
-  if (fs::exists(folder / name / "val")) {
-    dataset.readers.push_back(std::make_unique<DatasetReader>(folder, name, "val"));
-    const DatasetReader& validation = *dataset.readers.back();
-    content += "\n" + validation.ContentHash();
-    dataset.train = SamplesOf(train, name, 0, episodes);
-    dataset.validation = SamplesOf(validation, name, 0, validation.size());
-  } else {
-    const auto aside = std::min(
-        episodes > 0 ? episodes - 1 : 0,
-        static_cast<std::size_t>(std::ceil(validation_share * static_cast<double>(episodes))));
-    dataset.train = SamplesOf(train, name, 0, episodes - aside);
-    dataset.validation = SamplesOf(train, name, episodes - aside, episodes);
-  }
+  std::string content;
+  for (const fs::path& folder : folders)
+    content += (content.empty() ? "" : "\n") +
+               AppendDataset(folder, std::string(stage), validation_share, dataset);
   dataset.content_sha256 = Sha256Hex(content);
   return dataset;
 }

@@ -135,8 +135,10 @@ class Trainer {
  private:
   TrainerState InitialState() const {
     TrainerState state;
-    state.networks = InitialNetworks(MeasureNormalisation(train_), config_.linear_branches,
-                                     config_.seed, config_.family);
+    state.networks = hooks_.initial
+                         ? *hooks_.initial
+                         : InitialNetworks(MeasureNormalisation(train_), config_.linear_branches,
+                                           config_.seed, config_.family);
     state.actor_first.resize(state.networks.actor.size());
     state.actor_second.resize(state.networks.actor.size());
     state.critic_first.resize(state.networks.critic.size());

@@ -55,12 +55,16 @@ struct Decision {
   Proprioception proprioception{};
   /// As Action; at the stage "grasp" the first three numbers are the contact point in the world.
   ActionVector action{};
+  /// What the robot was told to do: the action with noise, or that of a learner who is corrected by
+  /// it. At the stage "grasp" the action itself.
+  ActionVector executed{};
   JointState state{};  ///< Before the action.
   double time_s = 0;
   double hinge_rad = 0;   ///< Before the action.
   double handle_rad = 0;  ///< Before the action.
-  /// The critic's target (UniDoorManip 4.2) [rad]: the angle that this action gained, of the hinge
-  /// at the stage "open", of the handle at "handle"; at "grasp" the door's final angle, at least 0.
+  /// The critic's target (UniDoorManip 4.2) [rad]: the angle that the executed action gained, of
+  /// the hinge at the stage "open", of the handle at "handle"; at "grasp" the door's final angle,
+  /// at least 0.
   double score_rad = 0;
 };
 

@@ -25,8 +25,8 @@ struct EpisodeFeature {
   std::string meaning;
 };
 
-/// The arrays of every episode, sorted by name: action, cloud, joints, label, proprio, score,
-/// state.
+/// The arrays of every episode, sorted by name: action, cloud, executed, joints, label, proprio,
+/// score, state.
 const std::vector<EpisodeFeature>& EpisodeFeatures();
 
 /// Members of an episode's key: the arrays, `meta.json`, and `preview.png` unless `preview_png` is
@@ -46,6 +46,7 @@ struct EpisodeArrays {
   std::span<const std::uint8_t> label;  ///< T x P, PointLabel values
   std::span<const float> proprio;       ///< T x 32, see Proprioception
   std::span<const float> action;        ///< T x 9, see ActionVector
+  std::span<const float> executed;      ///< T x 9, Decision::executed; empty in shards of before
   std::span<const float> joints;        ///< T x 2, hinge and handle angle before the action [rad]
   std::span<const float> score;         ///< T x 1, Decision::score_rad
   std::span<const double> state;        ///< T x 14, JointState; empty in shards of before

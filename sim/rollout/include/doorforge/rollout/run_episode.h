@@ -65,12 +65,18 @@ struct EpisodeRoles {
   GraspChooser* grasp = nullptr;  ///< Null: PlanGrasp()'s grasp.
   Policy* handle = nullptr;       ///< Null: the rule of RunEpisode(), which turns it in one go.
   Policy* open = nullptr;         ///< Never null.
+  /// Drives the first `learner_decisions` of the recorded stage in the place of that stage's
+  /// policy, which is asked at each of them what it would do: the record's action corrects the
+  /// learner on the states that it gets itself into (Ross et al. 2011). Null: nobody.
+  Policy* learner = nullptr;
+  int learner_decisions = 0;
 };
 
 /// Runs one episode of the three stages: grasp, turn of the handle until it is "handle done" and
 /// unlocked (at most max_handle_actions decisions), opening as in RunEpisode(). The physics' action
-/// noise is added to the actions of the recorded stage alone: those of later stages show what comes
-/// of it. `observer` is asked for clouds at recorded decisions and by policies that look.
+/// noise is added to the actions of the recorded stage alone, and not to a learner's: those of
+/// later stages show what comes of it. `observer` is asked for clouds at recorded decisions and by
+/// policies that look.
 ///
 /// Outcomes are RunEpisode()'s. A chosen grasp is tried as it is: the fingers close also where the
 /// hand did not quite arrive, and one pad on the handle is enough to go on. Without a grasp in view

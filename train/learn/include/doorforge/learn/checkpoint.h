@@ -17,10 +17,11 @@ inline constexpr int kPolicySchemaVersion = 1;
 /// What a policy was made from.
 struct PolicyProvenance {
   std::string stage;           ///< "open", "handle" or "grasp".
-  std::string dataset_sha256;  ///< DatasetReader::ContentHash() of what it was trained from.
+  std::string dataset_sha256;  ///< StageDataset::content_sha256 of what it was trained from.
   std::string code_version;
   TrainConfig config;
   std::uint64_t step = 0;
+  std::string from_weights_sha256;  ///< Of the policy that it began with; empty: of none.
 };
 
 /// The record of a policy's folder, docs/format-policy.md.

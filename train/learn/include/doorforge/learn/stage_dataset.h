@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,12 +15,12 @@ namespace doorforge {
 
 class DatasetReader;
 
-/// A stage's samples of a data set. Clouds stay in the shards' memory maps, so the
+/// A stage's samples of one or more data sets. Clouds stay in the shards' memory maps, so the
 /// samples are valid as long as this object.
 struct StageDataset {
   std::vector<TrainingSample> train;
   std::vector<TrainingSample> validation;
-  std::string content_sha256;  ///< Over both splits' shards.
+  std::string content_sha256;  ///< Over both splits' shards, of all data sets in their order.
   std::vector<std::unique_ptr<DatasetReader>> readers;
 
   StageDataset();
@@ -28,12 +29,13 @@ struct StageDataset {
   StageDataset& operator=(StageDataset&&) noexcept;
 };
 
-/// Reads `<folder>/<stage>/train`, and `<stage>/val` if there is one; otherwise the last
+/// Reads of every folder `<stage>/train`, and `<stage>/val` if there is one; otherwise the last
 /// `validation_share` of the episodes, rounded up, are set aside (whole episodes; none if the share
-/// is 0 or there is only one).
+/// is 0 or there is only one). Several data sets: the samples of the first, then the second's.
 ///
-/// @throws Error(kMissing or kFormat) as DatasetReader, or if clouds do not hold 4096 points.
-StageDataset ReadStageDataset(const std::filesystem::path& folder, std::string_view stage,
-                              double validation_share);
+/// @throws Error(kMissing or kFormat) as DatasetReader, or if clouds do not hold 4096 points;
+///     Error(kInvalidArgument) without a folder.
+StageDataset ReadStageDataset(std::span<const std::filesystem::path> folders,
+                              std::string_view stage, double validation_share);
 
 }  // namespace doorforge

@@ -114,11 +114,14 @@ struct TrainerState {
   std::vector<EpochLosses> epochs;  ///< One an epoch done.
 };
 
-/// How a run is carried out; none of it changes the result.
+/// How a run is carried out; none of it changes the result unless it says so.
 struct TrainHooks {
   int threads = 0;  ///< 0: all processors.
   /// Those who share the batches, each with the same arguments; null: this process alone.
   ProcessGroup* group = nullptr;
+  /// The networks to begin with, normalisation included; nothing: drawn from the seed. Decides the
+  /// result.
+  std::optional<StageNetworks> initial;
   /// Goes on from here. Must come from a run of the same config and samples.
   std::optional<TrainerState> resume;
   /// Called after every step.

@@ -23,7 +23,9 @@ struct TrainingSample {
   /// What the expert did; at the stage "grasp" the contact point in the world and the rotation that
   /// were tried.
   ActionVector action{};
-  float score_rad = 0;  ///< What the action gained: the critic's target.
+  /// What was executed: the expert's action with noise, or a learner's. The critic rates it.
+  ActionVector executed{};
+  float score_rad = 0;  ///< What was executed gained: the critic's target.
   /// Unit, world: straight into the closed leaf. Of the stage "grasp".
   std::array<float, 3> approach{};
 };

@@ -54,6 +54,20 @@ TEST(ReportPage, ShowsTheHeadlineAndEveryCause) {
   }
 }
 
+TEST(ReportPage, ADoorWhoseHandleWasNeverInViewHasACauseWithoutAFilm) {
+  EvaluationReport report = ExampleReport();
+  for (EvaluatedEpisode& episode : report.episodes) {
+    episode.outcome = EpisodeOutcome::kNotReached;
+    episode.detail = "grasp cost 0.00; no point to take hold of is in view";
+  }
+  const std::string page = ReportPage(report, ExamplePictures(report));
+  EXPECT_NE(page.find("<h3>No grasp in view</h3>"), std::string::npos);
+  EXPECT_NE(page.find("<option value=\"no_grasp_in_view\">"), std::string::npos);
+  EXPECT_EQ(page.find("<h3>Not reached</h3>"), std::string::npos);
+  EXPECT_EQ(ReportToJson(report)["causes"].dump(),
+            "{\"no_grasp_in_view\":" + std::to_string(report.episodes.size()) + "}");
+}
+
 TEST(ReportPage, TextFromOutsideIsEscaped) {
   EvaluationReport report = ExampleReport();
   report.doors[0].body.id = "<script>alert(1)</script>";

@@ -136,6 +136,30 @@ TEST(TakePictures, GivesEveryDoorAFilmOfEachOutcomeAndTheCamerasView) {
     EXPECT_EQ(picture->png.substr(1, 3), "PNG");
 }
 
+// the two rooms must agree on how a record says it
+TEST(RunTrials, AGrasperWithoutAHandleInViewIsACauseOfItsOwn) {
+  class Blind : public GraspChooser {
+   public:
+    std::optional<ChosenGrasp> Choose(const SceneSnapshot&) override { return std::nullopt; }
+  };
+  EvaluationConfig config;
+  config.seeds = 1;
+  const std::vector<DoorAsset> doors = {Doors().front()};
+  const Contender blind{[] {
+                          Players players{std::make_unique<TiringPolicy>()};
+                          players.make_grasp = [](const auto&...) {
+                            return std::make_unique<Blind>();
+                          };
+                          return players;
+                        },
+                        nullptr};
+  const auto trials = PlanTrials(doors, config);
+  const auto rows = RunTrials(doors, trials, blind);
+  EXPECT_EQ(rows.at(0).outcome, EpisodeOutcome::kNotReached);
+  EXPECT_EQ(CauseOf(rows.at(0)), kNoGraspInView);
+  EXPECT_TRUE(TakePictures({doors, trials, rows}, blind).episodes.empty()) << "nothing moves";
+}
+
 TEST(TakePictures, ShowsTheGraspOfADoorThatOpenedAndOfOneThatDidNotInEachCategory) {
   EvaluationConfig config;
   config.seeds = 1;

@@ -128,6 +128,21 @@ TEST(SuccessStatistics, SeedsGiveMeanAndUnbiasedVariance) {
   EXPECT_NEAR(spread.variance, 0.25, 1e-15);
 }
 
+TEST(SuccessStatistics, CausesAreCountedWithWhatWasNeverInViewByItself) {
+  std::vector<EvaluatedEpisode> rows = {
+      Row(EpisodeOutcome::kOpened, 50),     Row(EpisodeOutcome::kNotReached, 0),
+      Row(EpisodeOutcome::kGripLost, 20),   Row(EpisodeOutcome::kNotReached, 0),
+      Row(EpisodeOutcome::kHandleStuck, 0), Row(EpisodeOutcome::kGripLost, 10)};
+  rows[3].detail = "grasp cost 0.00; no point to take hold of is in view";
+  rows[4].detail = rows[3].detail;  // says so of another outcome
+  std::string found;
+  for (const FailureCause& cause : CausesOf(rows))
+    found += cause.name + " " + std::to_string(cause.episodes) + " " + std::to_string(cause.first) +
+             "; ";
+  EXPECT_EQ(found, "grip_lost 2 2; not_reached 1 1; no_grasp_in_view 1 3; handle_stuck 1 4; ");
+  EXPECT_TRUE(CausesOf(std::vector{rows[0]}).empty());
+}
+
 TEST(SuccessStatistics, CategoriesPartitionTheEpisodes) {
   const std::vector<EvaluatedEpisode> rows = {
       Row(EpisodeOutcome::kOpened, 50, 0, Category::kStorageFurniture),

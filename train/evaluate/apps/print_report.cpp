@@ -48,17 +48,11 @@ std::string AngleLine(const SuccessSummary& summary) {
 }
 
 std::string Causes(const EvaluationReport& report) {
-  const SuccessSummary summary = Summarise(report.episodes);
   std::string text;
-  for (int i = 1; i < kEpisodeOutcomeCount; ++i) {
-    const int count = summary.outcomes[static_cast<std::size_t>(i)];
-    const auto outcome = static_cast<EpisodeOutcome>(i);
-    if (count == 0) continue;
-    const auto example =
-        std::find_if(report.episodes.begin(), report.episodes.end(),
-                     [&](const auto& episode) { return episode.outcome == outcome; });
-    text += Format("  %-15s %4d   ", std::string(NameOf(outcome)).c_str(), count) + "such as " +
-            example->door_id + ", seed " + std::to_string(example->seed) + ": " + example->detail +
+  for (const FailureCause& cause : CausesOf(report.episodes)) {
+    const EvaluatedEpisode& example = report.episodes[cause.first];
+    text += Format("  %-16s %4d   ", cause.name.c_str(), cause.episodes) + "such as " +
+            example.door_id + ", seed " + std::to_string(example.seed) + ": " + example.detail +
             "\n";
   }
   return text.empty() ? "no failures\n" : "causes of failure\n" + text;

@@ -38,6 +38,13 @@ EvaluatedEpisode RowOf(const Episode& episode, Category category) {
           .state_sha256 = episode.state_sha256};
 }
 
+std::string_view CauseOf(const EvaluatedEpisode& episode) {
+  const bool unseen =
+      episode.outcome == EpisodeOutcome::kNotReached &&
+      episode.detail.find("no point to take hold of is in view") != std::string::npos;
+  return unseen ? kNoGraspInView : NameOf(episode.outcome);
+}
+
 nlohmann::ordered_json EvaluatedEpisodeToJson(const EvaluatedEpisode& episode) {
   return {{"door_id", episode.door_id},
           {"category", NameOf(episode.category)},

@@ -30,6 +30,13 @@ OutcomeText TextOf(EpisodeOutcome outcome) {
   return {"Unknown", ""};
 }
 
+OutcomeText TextOf(std::string_view cause) {
+  if (cause == kNoGraspInView)
+    return {"No grasp in view", "The camera showed the grasper no point of the handle."};
+  const auto outcome = EpisodeOutcomeNamed(cause);
+  return outcome ? TextOf(*outcome) : OutcomeText{"Unknown", ""};
+}
+
 std::string TitleOf(Category category) {
   switch (category) {
     case Category::kInterior:

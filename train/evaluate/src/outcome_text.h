@@ -3,7 +3,9 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
+#include "doorforge/evaluate/evaluated_episode.h"
 #include "doorforge/schemas/episode.h"
 #include "doorforge/schemas/names.h"
 
@@ -16,6 +18,8 @@ struct OutcomeText {
   std::string meaning;  ///< One sentence.
 };
 OutcomeText TextOf(EpisodeOutcome outcome);
+/// Of what CauseOf() gives.
+OutcomeText TextOf(std::string_view cause);
 
 std::string TitleOf(Category category);  ///< "Storage furniture"
 

@@ -52,13 +52,9 @@ Json ByCategory(Episodes episodes, const ValueOfSummary& value) {
   return json;
 }
 
-Json CausesToJson(const SuccessSummary& summary) {
+Json CausesToJson(Episodes episodes) {
   Json json = Json::object();
-  for (int i = 0; i < kEpisodeOutcomeCount; ++i) {
-    const auto outcome = static_cast<EpisodeOutcome>(i);
-    const int count = summary.outcomes[static_cast<std::size_t>(i)];
-    if (outcome != EpisodeOutcome::kOpened && count > 0) json[std::string(NameOf(outcome))] = count;
-  }
+  for (const FailureCause& cause : CausesOf(episodes)) json[cause.name] = cause.episodes;
   return json;
 }
 
@@ -75,7 +71,7 @@ void AddSuccess(Episodes episodes, Json& json) {
       ByCategory(episodes, [](const auto& s) { return SpreadToJson(s.over_seeds); });
   json["over_angle"] =
       ByCategory(episodes, [](const auto& s) { return AnglesToJson(s.over_angle); });
-  json["causes"] = CausesToJson(Summarise(episodes));
+  json["causes"] = CausesToJson(episodes);
 }
 
 Json DoorToJson(const ReportDoor& door) {

@@ -97,19 +97,15 @@ std::string AngleRow(const std::string& name, Episodes episodes) {
   return "<tr><td>" + name + "</td>" + cells + "</tr>";
 }
 
-const EvaluatedEpisode* FirstWith(Episodes episodes, EpisodeOutcome outcome) {
-  const auto found = std::find_if(episodes.begin(), episodes.end(),
-                                  [&](const auto& e) { return e.outcome == outcome; });
-  return found == episodes.end() ? nullptr : &*found;
-}
-
 // a way to fail, how often, where, and a film strip of one such episode
 std::string Cause(const EvaluationReport& report, const ReportPictures& pictures,
-                  EpisodeOutcome outcome) {
-  const int count = Summarise(report.episodes).outcomes[static_cast<std::size_t>(outcome)];
-  const EvaluatedEpisode& example = *FirstWith(report.episodes, outcome);
-  const double share = static_cast<double>(count) / static_cast<double>(report.episodes.size());
-  const std::string film = FilmFigure(pictures, outcome);
+                  const FailureCause& cause) {
+  const EvaluatedEpisode& example = report.episodes[cause.first];
+  const double share =
+      static_cast<double>(cause.episodes) / static_cast<double>(report.episodes.size());
+  // nothing moves in an episode without a grasp
+  const std::string film =
+      cause.name == kNoGraspInView ? "" : FilmFigure(pictures, example.outcome);
   const std::string text = Fill(R"(<p class="soft">{door}, seed {seed}: {detail}</p>)",
                                 {{"door", Escape(example.door_id)},
                                  {"seed", std::to_string(example.seed)},
@@ -117,11 +113,11 @@ std::string Cause(const EvaluationReport& report, const ReportPictures& pictures
   return Fill(
       R"(<div class="cause"><div class="head"><h3>{title}</h3><span>{count} of {all} episodes, {share}</span>)"
       R"(<span class="soft">{meaning}</span></div><div class="meter"><div style="width: {width}%"></div></div>{example}</div>)",
-      {{"title", TextOf(outcome).title},
-       {"count", std::to_string(count)},
+      {{"title", TextOf(cause.name).title},
+       {"count", std::to_string(cause.episodes)},
        {"all", std::to_string(report.episodes.size())},
        {"share", Percent(share)},
-       {"meaning", TextOf(outcome).meaning},
+       {"meaning", TextOf(cause.name).meaning},
        {"width", Fixed(100 * share, 1)},
        {"example", film.empty() ? text : film}});
 }
@@ -200,12 +196,12 @@ std::string EpisodeRow(const EvaluatedEpisode& episode) {
       R"(<td class="number">{seed}</td><td class="number">{episode}</td><td>{outcome_title}</td><td class="number">{hinge}</td>)"
       R"(<td class="number">{handle}</td><td class="number">{actions}</td><td class="soft">{detail}</td></tr>)",
       {{"category", std::string(NameOf(episode.category))},
-       {"outcome", std::string(NameOf(episode.outcome))},
+       {"outcome", std::string(CauseOf(episode))},
        {"door", Escape(episode.door_id)},
        {"category_title", TitleOf(episode.category)},
        {"seed", std::to_string(episode.seed)},
        {"episode", std::to_string(episode.episode)},
-       {"outcome_title", TextOf(episode.outcome).title},
+       {"outcome_title", TextOf(CauseOf(episode)).title},
        {"hinge", Degrees(episode.peak_hinge_rad)},
        {"handle", Degrees(episode.peak_handle_rad)},
        {"actions", std::to_string(episode.opening_actions)},
@@ -222,11 +218,10 @@ std::string Filters(Episodes episodes) {
   for (const Category category : CategoriesOf(episodes))
     categories += Option(NameOf(category), TitleOf(category));
   std::string outcomes = Option("", "all outcomes");
-  for (int i = 0; i < kEpisodeOutcomeCount; ++i) {
-    const auto outcome = static_cast<EpisodeOutcome>(i);
-    if (FirstWith(episodes, outcome) != nullptr)
-      outcomes += Option(NameOf(outcome), TextOf(outcome).title);
-  }
+  const auto opened = NameOf(EpisodeOutcome::kOpened);
+  if (Summarise(episodes).opened.successes > 0) outcomes += Option(opened, TextOf(opened).title);
+  for (const FailureCause& cause : CausesOf(episodes))
+    outcomes += Option(cause.name, TextOf(cause.name).title);
   return Fill(
       R"(<form class="filters" id="filters" hidden="hidden"><select name="category" aria-label="category">{categories}</select>)"
       R"(<select name="outcome" aria-label="outcome">{outcomes}</select>)"
@@ -376,16 +371,9 @@ std::string AngleSection(const EvaluationReport& report) {
 }
 
 std::string CauseSection(const EvaluationReport& report, const ReportPictures& pictures) {
-  const auto outcomes = Summarise(report.episodes).outcomes;
-  std::vector<EpisodeOutcome> causes;
-  for (int i = 1; i < kEpisodeOutcomeCount; ++i) {
-    if (outcomes[static_cast<std::size_t>(i)] > 0) causes.push_back(static_cast<EpisodeOutcome>(i));
-  }
-  std::stable_sort(causes.begin(), causes.end(), [&](EpisodeOutcome a, EpisodeOutcome b) {
-    return outcomes[static_cast<std::size_t>(a)] > outcomes[static_cast<std::size_t>(b)];
-  });
+  const std::vector<FailureCause> causes = CausesOf(report.episodes);
   std::string content = causes.empty() ? "<p>No episode failed.</p>" : "";
-  for (const EpisodeOutcome cause : causes) content += Cause(report, pictures, cause);
+  for (const FailureCause& cause : causes) content += Cause(report, pictures, cause);
   return R"(<section id="causes"><h2>Causes of failure</h2>)" + content + "</section>";
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -87,6 +88,19 @@ SuccessSummary Summarise(std::span<const EvaluatedEpisode> episodes) {
     summary.over_angle.push_back({angle, WilsonRate(static_cast<int>(beyond), all)});
   }
   return summary;
+}
+
+std::vector<FailureCause> CausesOf(std::span<const EvaluatedEpisode> episodes) {
+  std::vector<FailureCause> causes;
+  for (std::size_t i = 0; i < episodes.size(); ++i) {
+    if (episodes[i].outcome == EpisodeOutcome::kOpened) continue;
+    const std::string_view name = CauseOf(episodes[i]);
+    auto known = std::ranges::find(causes, name, &FailureCause::name);
+    if (known == causes.end()) known = causes.insert(known, {std::string(name), 0, i});
+    ++known->episodes;
+  }
+  std::ranges::stable_sort(causes, std::greater{}, &FailureCause::episodes);
+  return causes;
 }
 
 std::vector<EvaluatedEpisode> OfCategory(std::span<const EvaluatedEpisode> episodes,

@@ -57,6 +57,7 @@ std::vector<const DoorAsset*> DoorsToShow(std::span<const DoorAsset> doors) {
 std::vector<std::size_t> TrialsToFilm(std::span<const EvaluatedEpisode> rows) {
   std::array<std::optional<std::size_t>, kEpisodeOutcomeCount> first;
   for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (CauseOf(rows[i]) == kNoGraspInView) continue;  // nothing moves
     auto& place = first.at(static_cast<std::size_t>(rows[i].outcome));
     if (!place) place = i;
   }
@@ -159,8 +160,8 @@ std::string GraspCaption(const EvaluatedEpisode& row, const GraspChoice& choice)
          std::to_string(choice.affordance_rad.size()) +
          " points of the handle; the chosen grasp is expected to open the door by " +
          internal::Degrees(choice.score_rad) + ", it reached " +
-         internal::Degrees(row.peak_hinge_rad) + ". " + internal::TextOf(row.outcome).title + ": " +
-         row.detail;
+         internal::Degrees(row.peak_hinge_rad) + ". " + internal::TextOf(CauseOf(row)).title +
+         ": " + row.detail;
 }
 
 // The heat map of a trial's grasp; nothing where none was in view.

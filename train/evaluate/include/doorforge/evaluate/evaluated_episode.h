@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -31,6 +32,13 @@ struct EvaluatedEpisode {
 
 /// Drops clouds and actions, keeps what a report says about an episode.
 EvaluatedEpisode RowOf(const Episode& episode, Category category);
+
+/// The cause of an episode in which no point of the handle was in the grasper's view. Records know
+/// it as kNotReached, with the reason in the detail.
+inline constexpr std::string_view kNoGraspInView = "no_grasp_in_view";
+
+/// What became of an episode, for statistics: kNoGraspInView, else the name of its outcome.
+std::string_view CauseOf(const EvaluatedEpisode& episode);
 
 nlohmann::ordered_json EvaluatedEpisodeToJson(const EvaluatedEpisode& episode);
 /// Throws Error(kFormat); `path` names the record.

@@ -56,6 +56,17 @@ struct SuccessSummary {
   std::array<int, kEpisodeOutcomeCount> outcomes{};  ///< Episodes by EpisodeOutcome.
 };
 
+/// A way in which episodes failed.
+struct FailureCause {
+  std::string name;       ///< As CauseOf().
+  int episodes = 0;       ///< How many, at least 1.
+  std::size_t first = 0;  ///< Index of the first of them.
+};
+
+/// The causes that occur, the most frequent first; of equally frequent ones whose first episode is
+/// earlier.
+std::vector<FailureCause> CausesOf(std::span<const EvaluatedEpisode> episodes);
+
 /// The order of episodes does not matter; no episodes give a summary of zeros.
 SuccessSummary Summarise(std::span<const EvaluatedEpisode> episodes);
 

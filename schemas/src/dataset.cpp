@@ -387,11 +387,27 @@ std::string DatasetCard(const DatasetRecord& record, const DatasetProvenance& pr
          "WebDataset and Hugging Face `datasets` read them directly.\n";
 }
 
+namespace {
+
+// What a data set holds instead of what was looked for: "; it holds open/train, open/val".
+std::string PartsIn(const fs::path& folder) {
+  std::string parts;
+  for (const char* stage : {"grasp", "handle", "open"}) {
+    if (!fs::is_directory(folder / stage)) continue;
+    for (const std::string& split : FoldersIn(folder / stage))
+      parts += (parts.empty() ? "" : ", ") + std::string(stage) + "/" + split;
+  }
+  return parts.empty() ? "" : "; it holds " + parts;
+}
+
+}  // namespace
+
 std::vector<fs::path> ShardIndices(const fs::path& folder, std::string_view stage,
                                    std::string_view split) {
   const fs::path part = folder / stage / split;
   if (!fs::is_directory(part))
-    throw Error(ErrorCode::kMissing, part.string() + ": no such part of a dataset");
+    throw Error(ErrorCode::kMissing,
+                part.string() + ": no such part of a dataset" + PartsIn(folder));
   std::set<fs::path> indices;
   for (const auto& entry : fs::directory_iterator(part)) {
     const std::string name = entry.path().filename().string();
@@ -416,6 +432,11 @@ DatasetReader::DatasetReader(const fs::path& folder, std::string_view stage, std
                              CrcCheck check) {
   for (const fs::path& path : ShardIndices(folder, stage, split)) {
     shards_.emplace_back(path, check);
+    const std::string& found = shards_.back().index().header.stage;
+    if (found != stage)
+      throw Error(ErrorCode::kFormat, path.string() + ": a shard of the stage \"" + found +
+                                          "\" among those of \"" + std::string(stage) +
+                                          "\"; was it moved here by hand?");
     for (std::size_t i = 0; i < shards_.back().index().episodes.size(); ++i)
       places_.push_back({shards_.size() - 1, i});
   }

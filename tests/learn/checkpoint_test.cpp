@@ -95,6 +95,24 @@ TEST(Checkpoint, AGraspComesBackAsItWasWrittenAndIsNoOtherStagesPolicy) {
               [&] { ReadPolicy(folder); });
 }
 
+TEST(Checkpoint, WeightsOfAnotherNetworkAreRefusedAlsoWhereTheirHashIsTheRecords) {
+  const fs::path folder = EmptyFolder("network");
+  const auto made = testing::MakeSyntheticSamples(1, 3);
+  const StageNormalisation normalisation = MeasureNormalisation(made.samples);
+  TrainConfig config;
+  config.family = NetworkFamily::kGrasp;
+  WritePolicy(folder / "grasp", InitialNetworks(normalisation, false, 9, config.family),
+              {"grasp", "abc", "v", config, 1, ""});
+  WritePolicy(folder / "open", SomeState().networks, {"open", "abc", "v", {}, 1, ""});
+  const std::string own = Sha256OfFile(folder / "open/policy.safetensors");
+  CommitFile(folder / "open/policy.safetensors", ReadFile(folder / "grasp/policy.safetensors"));
+  std::string record = ReadFile(folder / "open/policy.json");
+  record.replace(record.find(own), own.size(), Sha256OfFile(folder / "open/policy.safetensors"));
+  CommitFile(folder / "open/policy.json", record);
+  ExpectError(ErrorCode::kFormat, "policy.safetensors: ", [&] { ReadPolicy(folder / "open"); });
+  ExpectError(ErrorCode::kFormat, "actor.", [&] { ReadPolicy(folder / "open"); });
+}
+
 TEST(Checkpoint, DamagedPoliciesAreRefused) {
   const fs::path folder = EmptyFolder("damaged");
   ExpectError(ErrorCode::kMissing, "policy.json", [&] { ReadPolicy(folder); });

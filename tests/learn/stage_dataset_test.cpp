@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/learn/stage_dataset.h"
 
+#include <array>
+#include <cmath>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <string>
 #include <thread>
@@ -12,6 +16,8 @@
 
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
+#include "doorforge/learn/checkpoint.h"
+#include "doorforge/learn/train_stage.h"
 #include "doorforge/schemas/dataset.h"
 #include "doorforge/schemas/episode_arrays.h"
 
@@ -26,9 +32,9 @@ constexpr std::size_t kDecisions = 3;
 
 // A data set of `episodes` episodes with three decisions each, in one shard.
 testing::SyntheticSamples WriteDataset(const fs::path& folder, const std::string& split,
-                                       std::size_t episodes) {
+                                       std::size_t episodes, int shard = 0) {
   auto made = testing::MakeSyntheticSamples(11, episodes * kDecisions);
-  ShardWriter writer(folder / "open" / split, {0, "open", split, "config"});
+  ShardWriter writer(folder / "open" / split, {shard, "open", split, "config"});
   for (std::size_t e = 0; e < episodes; ++e) {
     Episode episode;
     episode.outcome = EpisodeOutcome::kOpened;
@@ -154,6 +160,126 @@ TEST(TrainProgram, TwoProcessesEndInTheBytesOfOne) {
   EXPECT_EQ(second, 0);
   for (const char* file : {"policy.safetensors", "policy.json", "training.safetensors"})
     EXPECT_EQ(ReadFile(folder / "two" / file), ReadFile(folder / "one" / file)) << file;
+}
+
+struct Answer {
+  int code = 0;
+  std::string text;
+};
+
+// Of `doorforge-train train ARGUMENTS`.
+Answer AnswerOf(const std::string& arguments) {
+  const std::string command =
+      DOORFORGE_BINARY_DIR "/bin/doorforge-train train " + arguments + " 2>&1";
+  Answer answer;
+  FILE* pipe = ::popen(command.c_str(), "r");
+  std::array<char, 4096> buffer{};
+  while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), pipe))
+    answer.text.append(buffer.data(), count);
+  answer.code = WEXITSTATUS(::pclose(pipe));
+  return answer;
+}
+
+void ExpectRefusal(const std::string& arguments, const std::string& reason) {
+  const Answer answer = AnswerOf(arguments);
+  EXPECT_EQ(answer.code, 3) << answer.text;
+  EXPECT_NE(answer.text.find(reason), std::string::npos) << answer.text;
+}
+
+TEST(TrainProgram, RefusesShardsOfAnotherStageOrVersion) {
+  const fs::path folder = EmptyFolder("other");
+  const std::string data = (folder / "data").string();
+  const std::string common = " --data " + data + " --out " + (folder / "out").string();
+  WriteDataset(data, "train", 2);
+  ExpectRefusal("handle" + common, "handle/train: no such part of a dataset; it holds open/train");
+  fs::rename(folder / "data/open", folder / "data/handle");
+  ExpectRefusal("handle" + common, "a shard of the stage \"open\" among those of \"handle\"");
+  fs::rename(folder / "data/handle", folder / "data/open");
+  const fs::path index = folder / "data/open/train/shard-000000.index.json";
+  nlohmann::ordered_json record = nlohmann::ordered_json::parse(ReadFile(index));
+  record["schema_version"] = 99;
+  record.erase("index_crc32c");
+  CommitFile(index, record.dump());
+  ExpectRefusal("open" + common,
+                "version 99, this build reads doorforge.shard_index up to version 1");
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST(TrainProgram, NamesACorruptShardInTheMiddleAndKeepsTheCheckpoint) {
+  const fs::path folder = EmptyFolder("corrupt");
+  for (int shard = 0; shard < 3; ++shard) WriteDataset(folder / "data", "train", 1, shard);
+  const std::string out = (folder / "out").string();
+  const std::string arguments = "open --data " + (folder / "data").string() +
+                                " --epochs 1 --set batch_size=4 --threads 1 --out " + out;
+  ASSERT_EQ(AnswerOf(arguments).code, 0);
+  const std::string policy = ReadFile(out + "/policy.safetensors");
+  const std::string state = ReadFile(out + "/training.safetensors");
+
+  const fs::path tar = folder / "data/open/train/shard-000001.tar";
+  std::string bytes = ReadFile(tar);
+  bytes[bytes.size() / 2] ^= 4;  // one bit of a cloud
+  CommitFile(tar, bytes);
+  ExpectRefusal(arguments + " --resume", "shard-000001.tar: ep100000.cloud.npy");
+  ExpectRefusal(arguments + " --overwrite", "shard-000001.tar");
+  CommitFile(tar, bytes.substr(0, bytes.size() / 2));
+  ExpectRefusal(arguments + " --resume", "shard-000001.tar");
+  EXPECT_EQ(ReadFile(out + "/policy.safetensors"), policy);
+  EXPECT_EQ(ReadFile(out + "/training.safetensors"), state);
+}
+
+// Writers refuse such numbers; a foreign one might not.
+TEST(TrainProgram, NamesTheEpisodeWithANumberThatIsNone) {
+  const fs::path folder = EmptyFolder("nan");
+  const auto made = testing::MakeSyntheticSamples(11, 1);
+  Episode episode;
+  Decision& decision = episode.decisions.emplace_back();
+  decision.cloud.xyz.assign(made.samples[0].cloud.begin(), made.samples[0].cloud.end());
+  decision.cloud.label.assign(decision.cloud.xyz.size() / 3, 0);
+  std::vector<MemberBytes> members = EncodeEpisode(episode, EpisodeMetaToJson(episode), "");
+  for (MemberBytes& member : members) {
+    const float none = std::nanf("");
+    if (member.name == "score.npy")
+      std::memcpy(member.bytes.data() + member.bytes.size() - sizeof none, &none, sizeof none);
+  }
+  ShardWriter writer(folder / "open/train", {0, "open", "train", "config"});
+  writer.Add("ep000007", 1, std::move(members));
+  writer.Commit();
+  ExpectRefusal("open --data " + folder.string() + " --out " + (folder / "out").string(),
+                "episode ep000007: score holds a number that is not finite");
+}
+
+TEST(TrainProgram, ALossThatIsNoNumberEndsTheRunAndTheLastGoodPolicyIsKept) {
+  const fs::path folder = EmptyFolder("diverged");
+  WriteDataset(folder / "data", "train", 4);
+  const fs::path out = folder / "out";
+  TrainConfig config;
+  config.epochs = 2;
+  config.batch_size = 4;
+  config.warmup_steps = 1;
+  const StageDataset dataset =
+      ReadStageDataset({{folder / "data"}}, "open", config.validation_share);
+  TrainHooks hooks;
+  bool epoch_done = false;
+  hooks.on_epoch = [&](const TrainerState&) { epoch_done = true; };
+  hooks.stop = [&] { return epoch_done; };
+  const TrainerState good = TrainStage(dataset.train, dataset.validation, config, hooks);
+  config.learning_rate = 1e30;  // what a run that goes wrong in its second epoch has behind it
+  WriteTrainerState(out, good, {"open", dataset.content_sha256, "v", config, 0, ""});
+  const std::string state = ReadFile(out / "training.safetensors");
+
+  const Answer answer = AnswerOf("open --data " + (folder / "data").string() +
+                                 " --epochs 2 --set batch_size=4 --set warmup_steps=1 "
+                                 "--set learning_rate=1e30 --resume --threads 1 --out " +
+                                 out.string());
+  EXPECT_EQ(answer.code, 4) << answer.text;
+  EXPECT_NE(answer.text.find("is not finite; lower learning_rate"), std::string::npos)
+      << answer.text;
+  EXPECT_NE(answer.text.find("after step " + std::to_string(good.step)), std::string::npos)
+      << answer.text;
+  EXPECT_EQ(ReadFile(out / "training.safetensors"), state);
+  const PolicyRecord kept = ReadPolicy(out);
+  EXPECT_EQ(kept.networks.actor, good.networks.actor);
+  EXPECT_EQ(kept.provenance.step, good.step);
 }
 
 TEST(TrainProgram, RefusesAbsurdPlacesInAGroup) {

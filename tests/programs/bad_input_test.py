@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Whatever comes from outside ends in a clear message and an exit code, and leaves nothing behind."""
 import json
+import os
+import subprocess
 import unittest
 
-from programs import ProgramTest, real_assets, run
+from programs import BINARY_DIR, ProgramTest, real_assets, run
 
 DAE = """<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"/>"""
 
@@ -78,6 +80,34 @@ class BadInput(ProgramTest):
                           ["pipeline", "nothing", "--out", "x"], ["act", "--depth", "x.png"]):
             with self.subTest(arguments):
                 self.assert_refused(run(*arguments), 2)
+
+    def test_a_slow_blas_is_noticed_and_what_to_install_is_said(self):
+        # a matrix product as the reference BLAS has it: loops
+        source = self.folder / "slow.cpp"
+        source.write_text("""extern "C" void sgemm_(const char*, const char*, const int* m, const int* n, const int* k,
+            const float* alpha, const float* a, const int* lda, const float* b, const int* ldb,
+            const float* beta, float* c, const int* ldc) {
+          for (int j = 0; j < *n; ++j)
+            for (int i = 0; i < *m; ++i) {
+              volatile float sum = 0;
+              for (int l = 0; l < *k; ++l) sum = sum + a[i + l * *lda] * b[l + j * *ldb];
+              c[i + j * *ldc] = *alpha * sum + (*beta == 0 ? 0 : *beta * c[i + j * *ldc]);
+            }
+        }""")
+        library = self.folder / "libslow.so"
+        if subprocess.run(["c++", "-O1", "-shared", "-fPIC", "-o", library, source]).returncode != 0:
+            self.skipTest("no compiler")
+        (self.folder / "data").mkdir()
+        doorforge = [str(BINARY_DIR / "bin/doorforge")]
+        for arguments, code in ((["doctor"], 1), (["train", "open", "--data", self.folder / "data",
+                                                   "--out", self.folder / "out"], 3)):
+            with self.subTest(arguments[0]):
+                result = subprocess.run(doorforge + [str(argument) for argument in arguments], capture_output=True,
+                                        text=True, timeout=120, env={**os.environ, "LD_PRELOAD": str(library)})
+                self.assert_ends(result, code)
+                self.assertRegex(result.stdout + result.stderr, r"\d GFLOP/s")
+                self.assertIn("apt-get install libopenblas0-openmp", result.stdout + result.stderr)
+        self.assert_nothing_left()
 
     def test_every_verb_explains_itself_with_an_example(self):
         for verb in ("quickstart", "catalog", "import", "repair", "compose", "validate", "simulate",

@@ -113,7 +113,9 @@ void WarnOfSlowLinearAlgebra() {
   std::fprintf(stderr,
                "doorforge: warning: libtorch multiplies matrices at %.1f GFLOP/s (%s); with "
                "OpenBLAS training is faster:\n%s\n",
-               found.gflops, found.blas_library.c_str(), LinearAlgebraRemedy().c_str());
+               found.gflops,
+               found.blas_library.empty() ? "an unknown library" : found.blas_library.c_str(),
+               LinearAlgebraRemedy().c_str());
 }
 
 // The losses in units that people think in; what is not known yet is left out.
@@ -180,6 +182,21 @@ void BeginWith(const Options& options, PolicyProvenance& provenance, TrainHooks&
   hooks.initial = std::move(policy.networks);
 }
 
+// Writes the policy of the last epoch whose state is on disk, and says so; nothing without one.
+std::string KeepLastGood(const fs::path& out, PolicyProvenance provenance) {
+  if (!HasTrainerState(out)) return "";
+  TrainerState state;
+  try {
+    state = ReadTrainerState(out, provenance);
+  } catch (const Error&) {  // of an earlier run, which this one was to replace
+    return "";
+  }
+  provenance.step = state.step;
+  WritePolicy(out, state.networks, provenance);
+  return "\n" + out.string() + " holds the policy and the state as they were after step " +
+         std::to_string(state.step) + ", the last whose epoch ended well";
+}
+
 int Train(const Options& options) {
   const fs::path out = options.out;
   const TrainConfig config = ConfigOf(options);
@@ -223,7 +240,12 @@ int Train(const Options& options) {
       return StopRequested() != 0 ||
              (options.minutes > 0 && elapsed.count() > 60 * options.minutes);
     };
-    state = TrainStage(dataset.train, dataset.validation, config, hooks);
+    try {
+      state = TrainStage(dataset.train, dataset.validation, config, hooks);
+    } catch (const Error& error) {
+      if (!first || error.code() != ErrorCode::kIncomplete) throw;
+      throw Error(error.code(), error.what() + KeepLastGood(out, provenance));
+    }
   }
   if (!first) return state.step < total && StopRequested() != 0 ? 128 + StopRequested() : 0;
   WriteTrainerState(out, state, provenance);

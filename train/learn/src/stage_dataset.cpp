@@ -35,6 +35,21 @@ std::array<float, 3> ApproachOf(const DatasetReader& reader, std::size_t episode
   return ToArray(-scene.world_from_door.linear().col(0).cast<float>());
 }
 
+void RequireFinite(std::span<const float> values, const char* name, const std::string& key) {
+  if (!std::ranges::all_of(values, [](float value) { return std::isfinite(value); }))
+    throw Error(ErrorCode::kFormat, "episode " + key + ": " + name +
+                                        " holds a number that is not finite; collect this data "
+                                        "set again");
+}
+
+void RequireFinite(const EpisodeArrays& arrays, const std::string& key) {
+  RequireFinite(arrays.cloud, "cloud", key);
+  RequireFinite(arrays.proprio, "proprio", key);
+  RequireFinite(arrays.action, "action", key);
+  RequireFinite(arrays.executed, "executed", key);
+  RequireFinite(arrays.score, "score", key);
+}
+
 void AppendEpisode(const EpisodeArrays& arrays, std::vector<TrainingSample>& samples) {
   for (std::size_t t = 0; t < arrays.decisions; ++t) {
     const auto proprioception = RowOf<std::tuple_size_v<Proprioception>>(arrays.proprio, t);
@@ -64,6 +79,7 @@ std::vector<TrainingSample> SamplesOf(const DatasetReader& reader, const std::st
                                           std::to_string(arrays.points) +
                                           " points; the networks read " +
                                           std::to_string(kCloudPoints));
+    RequireFinite(arrays, reader.entry(i).key);
     AppendEpisode(arrays, samples);
     if (FamilyOf(stage) == NetworkFamily::kGrasp) samples.back().approach = ApproachOf(reader, i);
   }

@@ -272,6 +272,12 @@ class Trainer {
     return features;
   }
 
+  void RequireFinite(double value, const char* name) const {
+    Require(std::isfinite(value), ErrorCode::kIncomplete,
+            "training diverged at step " + std::to_string(state_.step + 1) + ": " + name +
+                " is not finite; lower learning_rate");
+  }
+
   // Fills the network's gradient behind the encoder, and that of its own share of the features.
   // The head is small: every process does the whole batch's.
   StageLosses Head(Network& network, const Minibatch& batch, std::size_t own_clouds) {
@@ -279,9 +285,7 @@ class Trainer {
     BatchFeatures features = GatherFeatures(network.encoded.Features(own_clouds));
     HeadResult result =
         task_->Objective(network.role, batch, std::move(features.all), network.gradient);
-    Require(std::isfinite(result.objective), ErrorCode::kIncomplete,
-            "training diverged at step " + std::to_string(state_.step + 1) +
-                ": a loss is not finite; lower learning_rate");
+    RequireFinite(result.objective, "a loss");
     const auto own =
         result.feature_gradient.begin() + static_cast<std::ptrdiff_t>(features.own_begin);
     network.feature_gradient.assign(own, own + static_cast<std::ptrdiff_t>(features.own_size));
@@ -318,8 +322,12 @@ class Trainer {
     for (std::size_t begin = 0; begin < gathered.size(); begin += network.gradient.size())
       subtrees.push_back(std::span(gathered).subspan(begin, network.gradient.size()));
     SumAsTree(subtrees);
-    for (std::size_t i = 0; i < network.gradient.size(); ++i)
+    double size = 0;
+    for (std::size_t i = 0; i < network.gradient.size(); ++i) {
       network.gradient[i] += subtrees.front()[i];
+      size += std::fabs(static_cast<double>(network.gradient[i]));
+    }
+    RequireFinite(size, "a gradient");
   }
 
   // Where each cloud's features begin among those of the batch.
@@ -357,8 +365,9 @@ class Trainer {
       for (Network* network : taught) {
         std::vector<float> features =
             GatherFeatures(network->encoded.Features(geometries.size())).all;
-        losses =
-            Updated(losses, task_->Objective(network->role, batch, std::move(features), {}).losses);
+        const HeadResult result = task_->Objective(network->role, batch, std::move(features), {});
+        RequireFinite(result.objective, "a validation loss");
+        losses = Updated(losses, result.losses);
       }
       AddScaled(losses, static_cast<double>(batch.indices.size()), sum);
     }

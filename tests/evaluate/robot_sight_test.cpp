@@ -20,6 +20,7 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/learn/checkpoint.h"
+#include "doorforge/learn/grasp_policy.h"
 #include "doorforge/learn/stage_policy.h"
 #include "doorforge/physics/scene_sampling.h"
 #include "doorforge/rollout/camera_observer.h"
@@ -38,7 +39,7 @@ constexpr int kActions = 5;
 constexpr int kCandidates = 4;
 
 // networks as they are before training, whose actions have the size of a trained policy's
-StageNetworks UntrainedNetworks() {
+StageNetworks UntrainedNetworks(NetworkFamily family = NetworkFamily::kMotion) {
   StageNormalisation normalisation;
   normalisation.cloud_centre_m = {0.16F, 0, 0.83F};
   normalisation.state.deviation.fill(0.3F);
@@ -48,14 +49,15 @@ StageNetworks UntrainedNetworks() {
   normalisation.hand_m.deviation.fill(0.2F);
   normalisation.base_m.deviation.fill(0.2F);
   normalisation.score_rad.deviation.fill(0.1F);
-  return InitialNetworks(normalisation, false, 3);
+  return InitialNetworks(normalisation, false, 3, family);
 }
 
 void WriteUntrained(const fs::path& folder, const std::string& stage) {
   PolicyProvenance provenance;
   provenance.stage = stage;
   provenance.dataset_sha256 = std::string(64, 'a');
-  WritePolicy(folder, UntrainedNetworks(), provenance);
+  provenance.config.family = FamilyOf(stage);
+  WritePolicy(folder, UntrainedNetworks(FamilyOf(stage)), provenance);
 }
 
 // The camera of an episode, which keeps every picture that it made.
@@ -123,6 +125,7 @@ class RobotSightTest : public testing::Test {
     folder_ = fs::temp_directory_path() / ("robot_sight_test_" + std::to_string(::getpid()));
     WriteUntrained(folder_ / "opener", "open");
     WriteUntrained(folder_ / "handler", "handle");
+    WriteUntrained(folder_ / "grasper", "grasp");
     const DoorAsset door = MakePrimitiveDoor({});
     SceneConfig config;
     config.physics.max_opening_actions = kActions;
@@ -259,6 +262,83 @@ TEST_F(RobotSightTest, TheProgramDecidesAsThePolicyDidInTheSimulator) {
         2 * 3.14159265 / 180)
         << i;
   }
+}
+
+// The closed door before the robot is in view, as a grasper sees it.
+class Onlooker : public GraspChooser {
+ public:
+  explicit Onlooker(CameraObserver& camera) : camera_(camera) {}
+  std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override {
+    depth = camera_.Look(snapshot).depth;
+    approach = -snapshot.door[kHandleLink].linear().col(0);
+    return std::nullopt;
+  }
+
+  DepthImage depth;
+  Eigen::Vector3d approach = Eigen::Vector3d::Zero();
+
+ private:
+  CameraObserver& camera_;
+};
+
+TEST_F(RobotSightTest, TheProgramTakesHoldAsTheGrasperDoesInTheSimulator) {
+  const DoorAsset door = MakePrimitiveDoor({});
+  CameraObserver camera(scene_, door, robot_, {}, /*sees_robot=*/false);
+  Onlooker onlooker(camera);
+  const auto opener = MakePolicy(UntrainedNetworks());
+  RunStages(scene_, door, robot_, {.grasp = &onlooker, .open = opener.get()}, nullptr);
+
+  DepthImage& depth = onlooker.depth;
+  PixelMask handle{depth.width, depth.height, {}};
+  for (const std::uint8_t label : depth.label)
+    handle.set.push_back(label == static_cast<std::uint8_t>(PointLabel::kHandle) ? 1 : 0);
+  WriteDepthPng(folder_ / "closed.png", depth);
+  CommitFile(folder_ / "mask.png", EncodeMaskPng(handle));
+  for (float& metres : depth.depth_m)
+    if (std::isfinite(metres)) metres = static_cast<float>(std::round(metres * 1000.0) * 0.001);
+
+  GraspOptions options;
+  options.orientations = 5;
+  const HandleSight sight =
+      ObserveHandle(depth, handle, {ViewOf(scene_.camera)}, onlooker.approach);
+  const auto expected =
+      MakeGraspPolicy(UntrainedNetworks(NetworkFamily::kGrasp), options)->Choose(sight.view);
+  ASSERT_TRUE(expected);
+  const double yaw = std::atan2(-onlooker.approach.y(), -onlooker.approach.x());
+  const std::string common =
+      "--camera " + (folder_ / "camera.yaml").string() +
+      " --set grasp.orientations=5 --set door_yaw_rad=" + std::to_string(yaw);
+  const std::string grasper = " --grasper " + (folder_ / "grasper").string();
+  const std::string look = " --depth " + (folder_ / "closed.png").string() + " --handle " +
+                           (folder_ / "mask.png").string();
+  const Answer answer = RunAct(common + grasper + look, "2>/dev/null");
+  ASSERT_EQ(answer.code, 0);
+  const Json decision = Json::parse(answer.text);
+  EXPECT_EQ(decision["stage"], "grasp");
+  EXPECT_EQ(decision["handle_points"], sight.handle_count);
+  EXPECT_LT((Vector3FromJson(decision["contact_m"], "contact") - expected->contact_m).norm(), 1e-5);
+  const RigidTransform hand = TransformFromJson(decision["world_from_hand"], "hand");
+  EXPECT_LT((hand.linear() - expected->world_from_hand_rotation).norm(), 1e-4);
+  const Eigen::Vector3d tcp = (hand * robot_.hand_from_tcp()).translation();
+  EXPECT_NEAR((tcp - expected->contact_m).dot(hand.linear().col(2)), kGraspInsertion, 1e-5);
+  EXPECT_NEAR(decision["expected_door_angle_rad"].get<double>(), expected->score_rad, 1e-4);
+
+  const auto refused = [&](const std::string& arguments, int code, const std::string& reason) {
+    const Answer refusal = RunAct(common + arguments);
+    EXPECT_EQ(refusal.code, code) << refusal.text;
+    EXPECT_NE(refusal.text.find(reason), std::string::npos) << refusal.text;
+  };
+  refused(" --policy " + (folder_ / "opener").string() + look, 2, "--grasper");
+  refused(" --grasper " + (folder_ / "opener").string() + look, 3, "stage \"open\"");
+  refused(grasper + look + " --state " + State(0).string(), 2, "either --state or --handle");
+  CommitFile(folder_ / "mask.png",
+             EncodeMaskPng(
+                 {handle.width, handle.height, std::vector<std::uint8_t>(handle.set.size(), 0)}));
+  refused(grasper + look, 2, "0 pixels of the mask are set");
+  CommitFile(folder_ / "mask.png", EncodeMaskPng({2, 1, {1, 0}}));
+  refused(grasper + look, 2, "2 x 1 pixels");
+  WritePng(folder_ / "mask.png", DepthPreview(depth));
+  refused(grasper + look, 3, "8 or 16-bit grey");
 }
 
 TEST_F(RobotSightTest, TheStateSaysWhoActsAndWhatIsUnlockedStaysSo) {

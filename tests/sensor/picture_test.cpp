@@ -131,5 +131,23 @@ TEST(ContactSheet, PlacesPicturesInRows) {
   EXPECT_THROW(ContactSheet(pictures, std::vector<std::string>(2, "x")), Error);
 }
 
+TEST(MaskPng, ComesBackAsItWasWrittenAndAlsoFromSixteenBits) {
+  const PixelMask mask{3, 2, {1, 0, 0, 1, 1, 0}};
+  const PixelMask back = DecodeMaskPng(EncodeMaskPng(mask), "mask");
+  EXPECT_EQ(back.width, 3);
+  EXPECT_EQ(back.set, mask.set);
+  constexpr float kNone = std::numeric_limits<float>::infinity();
+  const DepthImage depth{3, 2, {0.3F, kNone, kNone, 0.001F, 60, kNone}, {}, {}};
+  EXPECT_EQ(DecodeMaskPng(EncodeDepthPng(depth), "mask").set, mask.set);
+}
+
+TEST(MaskPng, OtherPicturesAreRefused) {
+  const Picture picture{2, 1, {1, 2, 3, 4, 5, 6}};
+  EXPECT_THROW(DecodeMaskPng(EncodePng(picture), "mask"), Error) << "colours";
+  EXPECT_THROW(DecodeMaskPng("text", "mask"), Error);
+  EXPECT_THROW(EncodeMaskPng({2, 2, {1}}), Error);
+  EXPECT_THROW(DecodeDepthPng(EncodeMaskPng({1, 1, {1}}), 0.001, "depth"), Error) << "8 bits";
+}
+
 }  // namespace
 }  // namespace doorforge

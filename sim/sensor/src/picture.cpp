@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -94,6 +95,38 @@ PngHeader HeaderOf(std::string_view bytes, const std::string& name) {
   return {number(16), number(20), byte(24), byte(25)};
 }
 
+std::string ListOf(const std::vector<int>& numbers) {
+  std::string list;
+  for (const int number : numbers) list += (list.empty() ? "" : " or ") + std::to_string(number);
+  return list;
+}
+
+// A grey PNG with one of these numbers of bits a pixel.
+cv::Mat DecodeGrey(std::string_view bytes, const std::string& name, const std::vector<int>& bits) {
+  const PngHeader header = HeaderOf(bytes, name);
+  const bool allowed = header.width >= 1 && header.height >= 1 && header.width <= kMostPixels &&
+                       header.height <= kMostPixels &&
+                       std::ranges::find(bits, header.bits) != bits.end() && header.color_type == 0;
+  if (!allowed)
+    throw Error(ErrorCode::kFormat,
+                name + ": a PNG of " + std::to_string(header.width) + " x " +
+                    std::to_string(header.height) + " pixels, " + std::to_string(header.bits) +
+                    " bits" + (header.color_type == 0 ? "" : ", not grey") + "; expected " +
+                    ListOf(bits) + "-bit grey, 1 to 8192 pixels a side");
+  const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8UC1,
+                        const_cast<char*>(bytes.data()));  // only read from
+  cv::Mat pixels;
+  try {
+    pixels = cv::imdecode(encoded, cv::IMREAD_UNCHANGED);
+  } catch (const cv::Exception&) {  // reported below
+  }
+  if (pixels.type() != (header.bits == 16 ? CV_16UC1 : CV_8UC1) ||
+      pixels.cols != static_cast<int>(header.width) ||
+      pixels.rows != static_cast<int>(header.height))
+    throw Error(ErrorCode::kFormat, name + ": the PNG is damaged");
+  return pixels;
+}
+
 }  // namespace
 
 cv::Mat ToMat(const Picture& picture) {
@@ -132,25 +165,7 @@ std::string EncodeDepthPng(const DepthImage& image) {
 }
 
 DepthImage DecodeDepthPng(std::string_view bytes, double metres_per_unit, const std::string& name) {
-  const PngHeader header = HeaderOf(bytes, name);
-  const bool allowed = header.width >= 1 && header.height >= 1 && header.width <= kMostPixels &&
-                       header.height <= kMostPixels && header.bits == 16 && header.color_type == 0;
-  if (!allowed)
-    throw Error(ErrorCode::kFormat,
-                name + ": a PNG of " + std::to_string(header.width) + " x " +
-                    std::to_string(header.height) + " pixels, " + std::to_string(header.bits) +
-                    " bits" + (header.color_type == 0 ? "" : ", not grey") +
-                    "; expected a depth picture: 16-bit grey, 1 to 8192 pixels a side");
-  const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8UC1,
-                        const_cast<char*>(bytes.data()));  // only read from
-  cv::Mat units;
-  try {
-    units = cv::imdecode(encoded, cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception&) {  // reported below
-  }
-  if (units.type() != CV_16UC1 || units.cols != static_cast<int>(header.width) ||
-      units.rows != static_cast<int>(header.height))
-    throw Error(ErrorCode::kFormat, name + ": the PNG is damaged");
+  const cv::Mat units = DecodeGrey(bytes, name, {16});
   DepthImage image{units.cols, units.rows, {}, {}, {}};
   image.depth_m.assign(units.total(), std::numeric_limits<float>::infinity());
   image.link.assign(units.total(), -1);
@@ -160,6 +175,24 @@ DepthImage DecodeDepthPng(std::string_view bytes, double metres_per_unit, const 
     if (pixels[i] != 0) image.depth_m[i] = static_cast<float>(pixels[i] * metres_per_unit);
   }
   return image;
+}
+
+PixelMask DecodeMaskPng(std::string_view bytes, const std::string& name) {
+  const cv::Mat set = DecodeGrey(bytes, name, {8, 16}) != 0;
+  PixelMask mask{set.cols, set.rows, {}};
+  for (std::size_t i = 0; i < set.total(); ++i)
+    mask.set.push_back(set.ptr<std::uint8_t>()[i] != 0 ? 1 : 0);
+  return mask;
+}
+
+std::string EncodeMaskPng(const PixelMask& mask) {
+  const auto count = static_cast<std::size_t>(mask.width) * static_cast<std::size_t>(mask.height);
+  Require(mask.width > 0 && mask.height > 0 && mask.set.size() == count,
+          ErrorCode::kInvalidArgument, "mask: empty, or its size and pixels disagree");
+  cv::Mat pixels(mask.height, mask.width, CV_8UC1);
+  for (std::size_t i = 0; i < count; ++i)
+    pixels.ptr<std::uint8_t>()[i] = mask.set[i] != 0 ? 255 : 0;
+  return Encode(pixels);
 }
 
 void WritePng(const std::filesystem::path& path, const Picture& picture) {

@@ -3,6 +3,7 @@
 
 // From a real depth picture and a robot's state to the hand's next pose.
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -22,8 +23,10 @@
 #include "doorforge/core/program.h"
 #include "doorforge/evaluate/robot_sight.h"
 #include "doorforge/learn/checkpoint.h"
+#include "doorforge/learn/grasp_policy.h"
 #include "doorforge/learn/stage_policy.h"
 #include "doorforge/physics/load_robot.h"
+#include "doorforge/rollout/run_episode.h"
 #include "doorforge/schemas/episode.h"
 #include "doorforge/sensor/picture.h"
 
@@ -39,12 +42,17 @@ constexpr std::uint64_t kMostPictureBytes = 512ULL << 20U;
 /// What --set holds.
 struct ActConfig {
   PolicyOptions policy;
+  GraspOptions grasp;
   CloudConfig cloud;  ///< As in the data set that the policies were trained from.
+  /// About the world's z, from the world's x to the way straight out of the closed leaf.
+  double door_yaw_rad = 0;
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
     visit("policy", self.policy);
+    visit("grasp", self.grasp);
     visit("cloud", self.cloud);
+    visit("door_yaw_rad", self.door_yaw_rad);
   }
 };
 
@@ -54,6 +62,8 @@ struct Options {
   std::string camera;
   std::string policy;
   std::string handler;
+  std::string grasper;
+  std::string handle;
   std::string stage = "auto";
   std::string base = "sliders";
   std::string config;
@@ -67,11 +77,15 @@ void AddOptions(CLI::App& app, Options& options) {
   app.add_option("--state", options.state, "robot's state at that moment (YAML)");
   app.add_flag("--stream", options.stream,
                "instead of --depth and --state: a decision for every line of standard input, "
-               "{\"depth\": FILE, \"state\": FILE}");
+               "{\"depth\": FILE, \"state\": FILE} or {\"depth\": FILE, \"handle\": FILE}");
+  app.add_option("--handle", options.handle,
+                 "instead of --state, before the robot moves: which pixels show the handle (grey "
+                 "PNG, not 0 where it is); says where and how to take hold");
   app.add_option("--camera", options.camera, "intrinsics and pose of the camera (YAML)")
       ->required();
   app.add_option("--policy", options.policy, "folder of a policy of `doorforge train open`");
   app.add_option("--handler", options.handler, "folder of a policy of `doorforge train handle`");
+  app.add_option("--grasper", options.grasper, "folder of a policy of `doorforge train grasp`");
   app.add_option("--stage", options.stage,
                  "which of them acts: open, handle, or auto: as the state says (unlocked)")
       ->check(CLI::IsMember({"auto", "open", "handle"}))
@@ -86,6 +100,7 @@ void AddOptions(CLI::App& app, Options& options) {
   app.footer(
       "Prints the hand's next pose as JSON. docs/act.md has the files of camera and state.\n\n"
       "examples:\n"
+      "  doorforge act --depth d.png --camera camera.yaml --handle mask.png --grasper run/grasper\n"
       "  doorforge act --depth d.png --camera camera.yaml --state state.yaml --policy run/opener "
       "--stage open\n"
       "  doorforge act --stream --camera camera.yaml --policy run/opener --handler run/handler");
@@ -104,16 +119,15 @@ Options Parse(int argc, char** argv) {
     throw Error(ErrorCode::kInvalidArgument,
                 std::string(error.what()) + "; see `doorforge act --help`");
   }
-  const bool one = !options.depth.empty() && !options.state.empty();
-  const bool none = options.depth.empty() && options.state.empty();
+  const bool one = !options.depth.empty() && options.state.empty() != options.handle.empty();
+  const bool none = options.depth.empty() && options.state.empty() && options.handle.empty();
   if (options.stream ? !none : !one)
     throw Error(ErrorCode::kInvalidArgument,
-                "--depth and --state, or --stream in place of both, are required; see `doorforge "
-                "act --help`");
-  if (options.policy.empty() && options.handler.empty())
+                "--depth and either --state or --handle, or --stream in place of them, are "
+                "required; see `doorforge act --help`");
+  if (options.policy.empty() && options.handler.empty() && options.grasper.empty())
     throw Error(ErrorCode::kInvalidArgument,
-                "--policy or --handler is required; see `doorforge "
-                "act --help`");
+                "--policy, --handler or --grasper is required; see `doorforge act --help`");
   return options;
 }
 
@@ -140,6 +154,17 @@ std::optional<Actor> LoadActor(const std::string& folder, Stage stage,
   return actor;
 }
 
+struct Grasper {
+  std::unique_ptr<GraspPolicy> policy;
+  std::string weights_sha256;
+};
+
+std::optional<Grasper> LoadGrasper(const std::string& folder, const GraspOptions& options) {
+  if (folder.empty()) return std::nullopt;
+  PolicyRecord record = ReadPolicy(folder, NameOf(Stage::kGrasp));
+  return Grasper{MakeGraspPolicy(std::move(record.networks), options), record.weights_sha256};
+}
+
 /// Decides picture by picture, as one episode: what has been unlocked stays unlocked.
 class Decider {
  public:
@@ -149,12 +174,25 @@ class Decider {
         robot_(LoadRobot({}, RobotBaseNamed(options.base))),
         camera_(ReadCalibratedCamera(options.camera)),
         opener_(LoadActor(options.policy, Stage::kOpen, config_.policy)),
-        handler_(LoadActor(options.handler, Stage::kHandle, config_.policy)) {}
+        handler_(LoadActor(options.handler, Stage::kHandle, config_.policy)),
+        grasper_(LoadGrasper(options.grasper, config_.grasp)) {}
+
+  // Where and how to take hold of the handle that a mask shows.
+  Json DecideGrasp(const fs::path& depth_path, const fs::path& handle_path) {
+    if (!grasper_)
+      throw Error(ErrorCode::kInvalidArgument,
+                  "a grasp is to be chosen, and --grasper, which chooses it, was not given");
+    const double yaw = config_.door_yaw_rad;
+    const HandleSight sight =
+        ObserveHandle(ReadDepth(depth_path),
+                      DecodeMaskPng(ReadFile(handle_path, kMostPictureBytes), handle_path.string()),
+                      camera_, -Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0), config_.cloud);
+    return Record(*grasper_->policy->Choose(sight.view), sight);
+  }
 
   Json Decide(const fs::path& depth_path, const fs::path& state_path) {
     const RobotState state = ReadRobotState(state_path, robot_);
-    const DepthImage depth = DecodeDepthPng(ReadFile(depth_path, kMostPictureBytes),
-                                            camera_.metres_per_unit, depth_path.string());
+    const DepthImage depth = ReadDepth(depth_path);
     const Stage stage = StageOf(state, state_path.string());
     const RobotSight sight = ObserveDepth(depth, camera_, state, config_.cloud);
     Actor& actor = ActorOf(stage);
@@ -162,6 +200,28 @@ class Decider {
   }
 
  private:
+  DepthImage ReadDepth(const fs::path& path) const {
+    return DecodeDepthPng(ReadFile(path, kMostPictureBytes), camera_.metres_per_unit,
+                          path.string());
+  }
+
+  Json Record(const GraspChoice& choice, const HandleSight& sight) const {
+    RigidTransform world_from_tcp = RigidTransform::Identity();
+    world_from_tcp.linear() = choice.world_from_hand_rotation * robot_.hand_from_tcp().linear();
+    world_from_tcp.translation() =
+        choice.contact_m + kGraspInsertion * choice.world_from_hand_rotation.col(2);
+    return {{"schema", "doorforge.decision"},
+            {"schema_version", kDecisionSchemaVersion},
+            {"stage", NameOf(Stage::kGrasp)},
+            {"world_from_hand", TransformToJson(world_from_tcp * robot_.hand_from_tcp().inverse())},
+            {"contact_m", Vector3ToJson(choice.contact_m)},
+            {"expected_door_angle_rad", choice.score_rad},
+            {"candidates", config_.grasp.points * config_.grasp.orientations},
+            {"visible_points", sight.visible_count},
+            {"handle_points", sight.handle_count},
+            {"weights_sha256", grasper_->weights_sha256}};
+  }
+
   Stage StageOf(const RobotState& state, const std::string& path) {
     if (stage_ != "auto") return *StageNamed(stage_);
     if (!state.unlocked && !unlocked_)
@@ -205,6 +265,7 @@ class Decider {
   CalibratedCamera camera_;
   std::optional<Actor> opener_;
   std::optional<Actor> handler_;
+  std::optional<Grasper> grasper_;
   bool unlocked_ = false;
 };
 
@@ -212,6 +273,9 @@ Json DecideLine(Decider& decider, const std::string& line) {
   Json request = Json::parse(line, nullptr, false);
   if (!request.is_object())
     throw Error(ErrorCode::kFormat, "expected a line {\"depth\": FILE, \"state\": FILE}");
+  if (request.contains("handle"))
+    return decider.DecideGrasp(ValueOf<std::string>(request, "depth", "line"),
+                               ValueOf<std::string>(request, "handle", "line"));
   return decider.Decide(ValueOf<std::string>(request, "depth", "line"),
                         ValueOf<std::string>(request, "state", "line"));
 }
@@ -245,7 +309,9 @@ int Run(int argc, char** argv) {
   const Options options = Parse(argc, argv);
   Decider decider(options);
   if (options.stream) return Stream(decider);
-  std::cout << decider.Decide(options.depth, options.state).dump(2) << "\n";
+  const Json decision = options.handle.empty() ? decider.Decide(options.depth, options.state)
+                                               : decider.DecideGrasp(options.depth, options.handle);
+  std::cout << decision.dump(2) << "\n";
   return 0;
 }
 

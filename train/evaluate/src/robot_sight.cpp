@@ -122,6 +122,31 @@ void RequireSameHand(const NamedNumbers& file, const RigidTransform& by_joints) 
             "world_from_base, at the order of the joints, and whether it is the frame panda_hand");
 }
 
+// Every point inside the crop, of which there must be enough.
+LabelledCloud VisiblePoints(const DepthImage& depth, const CalibratedCamera& camera,
+                            const CloudConfig& config) {
+  if (depth.width != camera.view.width || depth.height != camera.view.height)
+    throw Error(ErrorCode::kInvalidArgument,
+                "the depth picture has " + std::to_string(depth.width) + " x " +
+                    std::to_string(depth.height) + " pixels, the camera file says " +
+                    std::to_string(camera.view.width) + " x " + std::to_string(camera.view.height));
+  LabelledCloud visible = CropCloud(depth, camera.view, config);
+  const std::size_t found = visible.label.size();
+  if (found < static_cast<std::size_t>(config.point_count)) {
+    const auto with_depth =
+        std::ranges::count_if(depth.depth_m, [](float metres) { return std::isfinite(metres); });
+    throw Error(ErrorCode::kInvalidArgument,
+                "the depth picture gives " + std::to_string(found) + " points, needed are " +
+                    std::to_string(config.point_count) + ": " + std::to_string(with_depth) +
+                    " of " + std::to_string(depth.depth_m.size()) +
+                    " pixels have a depth, and kept are those " +
+                    Format("nearer than %.2f m and higher than %.2f m", config.max_depth_m,
+                           config.min_height_m) +
+                    "; look at depth_unit_m and world_from_camera in the camera file");
+  }
+  return visible;
+}
+
 }  // namespace
 
 CalibratedCamera ReadCalibratedCamera(const std::filesystem::path& path) {
@@ -172,30 +197,41 @@ RobotState ReadRobotState(const std::filesystem::path& path, const RobotModel& r
 
 RobotSight ObserveDepth(const DepthImage& depth, const CalibratedCamera& camera,
                         const RobotState& state, const CloudConfig& config) {
-  if (depth.width != camera.view.width || depth.height != camera.view.height)
-    throw Error(ErrorCode::kInvalidArgument,
-                "the depth picture has " + std::to_string(depth.width) + " x " +
-                    std::to_string(depth.height) + " pixels, the camera file says " +
-                    std::to_string(camera.view.width) + " x " + std::to_string(camera.view.height));
-  const LabelledCloud visible = CropCloud(depth, camera.view, config);
-  const std::size_t found = visible.label.size();
-  if (found < static_cast<std::size_t>(config.point_count)) {
-    const auto with_depth =
-        std::ranges::count_if(depth.depth_m, [](float metres) { return std::isfinite(metres); });
-    throw Error(ErrorCode::kInvalidArgument,
-                "the depth picture gives " + std::to_string(found) + " points, needed are " +
-                    std::to_string(config.point_count) + ": " + std::to_string(with_depth) +
-                    " of " + std::to_string(depth.depth_m.size()) +
-                    " pixels have a depth, and kept are those " +
-                    Format("nearer than %.2f m and higher than %.2f m", config.max_depth_m,
-                           config.min_height_m) +
-                    "; look at depth_unit_m and world_from_camera in the camera file");
-  }
+  const LabelledCloud visible = VisiblePoints(depth, camera, config);
   SampledCloud sampled = SampleCloud(visible, state.tcp_in_world_m, config.point_count);
   RobotSight sight;
   sight.observation.cloud = std::move(sampled.cloud);
   sight.observation.proprioception = state.proprioception;
   sight.visible_count = sampled.visible_count;
+  return sight;
+}
+
+HandleSight ObserveHandle(DepthImage depth, const PixelMask& handle, const CalibratedCamera& camera,
+                          const Eigen::Vector3d& approach, const CloudConfig& config) {
+  if (handle.width != depth.width || handle.height != depth.height)
+    throw Error(ErrorCode::kInvalidArgument,
+                "the handle's mask has " + std::to_string(handle.width) + " x " +
+                    std::to_string(handle.height) + " pixels, the depth picture " +
+                    std::to_string(depth.width) + " x " + std::to_string(depth.height));
+  constexpr auto kHandle = static_cast<std::uint8_t>(PointLabel::kHandle);
+  for (std::size_t i = 0; i < depth.label.size(); ++i)
+    depth.label[i] = handle.set[i] != 0 ? kHandle : static_cast<std::uint8_t>(PointLabel::kOther);
+  HandleSight sight;
+  sight.view.visible = VisiblePoints(depth, camera, config);
+  const LabelledCloud& visible = sight.view.visible;
+  sight.visible_count = static_cast<int>(visible.label.size());
+  sight.handle_count = static_cast<int>(std::ranges::count(visible.label, kHandle));
+  if (sight.handle_count == 0)
+    throw Error(ErrorCode::kInvalidArgument,
+                "no point to take hold of is in view: " +
+                    std::to_string(std::ranges::count(handle.set, 1)) +
+                    " pixels of the mask are set, and none of them has a depth inside the crop " +
+                    Format("(nearer than %.2f m, higher than %.2f m)", config.max_depth_m,
+                           config.min_height_m));
+  sight.view.approach = approach;
+  sight.view.sample = [visible, count = config.point_count](const Eigen::Vector3d& start) {
+    return SampleCloud(visible, start, count).cloud;
+  };
   return sight;
 }
 

@@ -36,6 +36,20 @@ std::string EncodeDepthPng(const DepthImage& image);
 /// @throws Error(kFormat) unless it is such a PNG of at most 8192 pixels a side.
 DepthImage DecodeDepthPng(std::string_view bytes, double metres_per_unit, const std::string& name);
 
+/// Which pixels belong to something, row by row from the top left.
+struct PixelMask {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> set;  ///< 1 or 0.
+};
+
+/// Of a grey PNG of 8 or 16 bits: every pixel that is not 0 is set.
+///
+/// @throws Error(kFormat) unless it is such a PNG of at most 8192 pixels a side.
+PixelMask DecodeMaskPng(std::string_view bytes, const std::string& name);
+/// 8-bit grey PNG, 255 where the mask is set. Throws Error(kInvalidArgument) on an empty mask.
+std::string EncodeMaskPng(const PixelMask& mask);
+
 /// EncodePng() or EncodeDepthPng() committed to a file (see core/committed_file.h).
 void WritePng(const std::filesystem::path& path, const Picture& picture);
 void WriteDepthPng(const std::filesystem::path& path, const DepthImage& image);

@@ -6,9 +6,11 @@
 #include <optional>
 
 #include "doorforge/core/rigid_transform.h"
+#include "doorforge/learn/grasp_policy.h"
 #include "doorforge/physics/robot_model.h"
 #include "doorforge/schemas/policy.h"
 #include "doorforge/sensor/depth_camera.h"
+#include "doorforge/sensor/picture.h"
 #include "doorforge/sensor/pinhole_view.h"
 #include "doorforge/sensor/point_cloud.h"
 
@@ -53,5 +55,20 @@ struct RobotSight {
 };
 RobotSight ObserveDepth(const DepthImage& depth, const CalibratedCamera& camera,
                         const RobotState& state, const CloudConfig& config = {});
+
+/// What a grasper is given of a picture of the closed door, and how much of it there is.
+struct HandleSight {
+  GraspView view;
+  int visible_count = 0;  ///< Points inside the crop.
+  int handle_count = 0;   ///< Of these, on the handle.
+};
+
+/// As ObserveDepth(), of the handle that the mask shows.
+///
+/// @param approach World: straight into the leaf.
+/// @throws Error(kInvalidArgument) as ObserveDepth(), if picture and mask differ in size, or no
+///     pixel of the mask is inside the crop.
+HandleSight ObserveHandle(DepthImage depth, const PixelMask& handle, const CalibratedCamera& camera,
+                          const Eigen::Vector3d& approach, const CloudConfig& config = {});
 
 }  // namespace doorforge

@@ -65,6 +65,22 @@ TEST(ConvexParts, OfALeverLeaveTheFingerGapFree) {
   EXPECT_TRUE(IsInAPart(parts, {0.06, 0.12, 0}));
 }
 
+// The grid's bound lets the neck's hull reach into the gap; what is measured does not.
+TEST(ConvexParts, AreCutFurtherWhereTheyMeasureMore) {
+  const ClosedMesh lever = Closed(Lever());
+  const auto coarse = ConvexParts(lever, {.max_concavity_m = 0.02});
+  EXPECT_GT(MeasureConvexParts(lever, coarse).protrusion_m, 0.01);
+  const auto fine = ConvexParts(lever, {.max_concavity_m = 0.02, .max_protrusion_m = 0.003});
+  EXPECT_GT(fine.size(), coarse.size());
+  const ConvexPartsFit fit = MeasureConvexParts(lever, fine);
+  EXPECT_LE(fit.protrusion_m, 0.003);
+  EXPECT_LE(fit.uncovered_m, 0.0005);
+  // no room for more
+  const auto few =
+      ConvexParts(lever, {.max_parts = 2, .max_concavity_m = 0.02, .max_protrusion_m = 0.003});
+  EXPECT_EQ(few.size(), coarse.size());
+}
+
 TEST(ConvexParts, OfATorusStayWithinTheConcavityAndCoverIt) {
   const ClosedMesh torus = Closed(Torus(0.05, 0.01, 48, 16));
   const auto parts = ConvexParts(torus, {.max_parts = 32, .max_concavity_m = 0.003});
@@ -93,8 +109,8 @@ TriangleMesh Lattice() {
 // With so few parts the first cuts must be taken back, or some panes stay filled.
 TEST(ConvexParts, OfALatticeLeaveItsPanesFree) {
   const ClosedMesh lattice = Closed(Lattice());
-  const auto parts = ConvexParts(lattice, {.max_parts = 16, .max_concavity_m = 0.01});
-  EXPECT_LE(parts.size(), 16U);
+  const auto parts = ConvexParts(lattice, {.max_parts = 15, .max_concavity_m = 0.01});
+  EXPECT_LE(parts.size(), 15U);
   const ConvexPartsFit fit = MeasureConvexParts(lattice, parts);
   EXPECT_LE(fit.protrusion_m, 0.01);
   EXPECT_LE(fit.uncovered_m, 0.002);
@@ -169,6 +185,7 @@ TEST(ConvexParts, AreTheSameTwice) {
 TEST(ConvexParts, RefuseSettingsOutOfRange) {
   EXPECT_THROW(ConvexParts(Closed(UnitBox()), {.max_parts = 0}), Error);
   EXPECT_THROW(ConvexParts(Closed(UnitBox()), {.max_concavity_m = 0}), Error);
+  EXPECT_THROW(ConvexParts(Closed(UnitBox()), {.max_protrusion_m = -1}), Error);
   EXPECT_THROW(ConvexParts(Closed(UnitBox()), {.max_vertices = 3}), Error);
 }
 

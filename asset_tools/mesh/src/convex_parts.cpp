@@ -17,11 +17,14 @@
 namespace doorforge {
 namespace {
 
-constexpr double kCoverShare = 0.5;   // of the concavity: what the parts may leave out
-constexpr double kHeldSkins = 2;      // how far surface may stand out of a hull that holds it
-constexpr int kRounds = 4;            // of cutting and joining
-constexpr double kSurplus = 2;        // regions, against those that may stay, to join from
-constexpr double kWorthwhile = 0.97;  // less of the depth must be left for another round
+constexpr double kCoverShare = 0.5;      // of the concavity: what the parts may leave out
+constexpr double kFineCoverShare = 0.1;  // the same after cuts that were measured
+constexpr double kCutShare = 0.875;      // of the parts: what those cuts may use
+constexpr double kHeldSkins = 2;         // how far surface may stand out of a hull that holds it
+constexpr int kRounds = 4;               // of cutting and joining
+constexpr double kSurplus = 2;           // regions, against those that may stay, to join from
+constexpr double kMostSurplus = 4;       // the same for a second search
+constexpr double kWorthwhile = 0.97;     // less of the depth must be left for another round
 
 // A piece of the surface, or a point that was noted for a region.
 struct Polygon {
@@ -179,24 +182,20 @@ class Decomposition {
     }
     smallest_m3_ = 1e-9 * whole.box.volume();
     if (Enclose(whole)) regions_.push_back(std::move(whole));
+    whole_ = regions_;
   }
 
   std::vector<TriangleMesh> Run() {
-    // joining frees parts for further cuts
-    for (int round = 0; round < kRounds; ++round) {
-      const bool cut = CutWorst(config_.max_parts);
-      const bool joined = JoinWithin(allowed_m_, 1);
-      if (!cut || !joined) break;
-    }
+    CutAndJoin(config_.max_parts);
     if (WorstDepth() > allowed_m_) SpendBetter();
-    std::vector<TriangleMesh> parts;
-    for (const Region& region : regions_)
-      parts.push_back(ReducedHull(region.hull, config_.max_vertices));
-    return Covering(std::move(parts), *mesh_, solid_,
-                    {.tolerance_m = kCoverShare * config_.max_concavity_m,
-                     .allowed_m = allowed_m_,
-                     .max_parts = config_.max_parts,
-                     .max_vertices = config_.max_vertices});
+    if (WorstDepth() > allowed_m_) SearchAgain();
+    std::vector<TriangleMesh> parts = Covered(kCoverShare);
+    const double most_m = config_.max_protrusion_m > 0 ? MostProtrusion(parts) : 0;
+    if (most_m > config_.max_protrusion_m && CutMeasured()) {
+      std::vector<TriangleMesh> finer = Covered(kFineCoverShare);
+      if (MostProtrusion(finer) < most_m) return finer;
+    }
+    return parts;
   }
 
  private:
@@ -228,6 +227,89 @@ class Decomposition {
     return worst_m;
   }
 
+  std::vector<TriangleMesh> Covered(double share) const {
+    std::vector<TriangleMesh> parts;
+    for (const Region& region : regions_)
+      parts.push_back(ReducedHull(region.hull, config_.max_vertices));
+    return Covering(std::move(parts), *mesh_, solid_,
+                    {.tolerance_m = share * config_.max_concavity_m,
+                     .allowed_m = allowed_m_,
+                     .max_parts = config_.max_parts,
+                     .max_vertices = config_.max_vertices});
+  }
+
+  // Joining frees parts for further cuts.
+  void CutAndJoin(int max_regions) {
+    for (int round = 0; round < kRounds; ++round) {
+      const bool cut = CutWorst(max_regions);
+      const bool joined = JoinWithin(allowed_m_, 1);
+      if (!cut || !joined) break;
+    }
+  }
+
+  // From the whole, with more cuts before anything is joined: what the first cuts of a ring or a
+  // cabinet separated amiss can then be put together otherwise. Kept if the worst depth falls.
+  void SearchAgain() {
+    const double before_m = WorstDepth();
+    std::vector<Region> before = std::exchange(regions_, whole_);
+    CutAndJoin(static_cast<int>(kMostSurplus * config_.max_parts));
+    JoinWithin(before_m, config_.max_parts);
+    const bool fits = static_cast<int>(regions_.size()) <= config_.max_parts;
+    if (!fits || WorstDepth() >= before_m) regions_ = std::move(before);
+  }
+
+  // The grid sees depths to within about two cells. While there is room, some of it kept for what
+  // the cuts leave uncovered, the region that stands out most as measured is cut where it does.
+  bool CutMeasured() {
+    bool any = false;
+    std::map<int, Concavity> measured;
+    while (static_cast<double>(regions_.size()) < kCutShare * config_.max_parts) {
+      Region* worst = nullptr;
+      for (Region& region : regions_) {
+        if (!measured.contains(region.id)) measured[region.id] = Protrusion(region.hull);
+        const double depth_m = measured[region.id].depth_m;
+        if (depth_m <= config_.max_protrusion_m || region.indivisible) continue;
+        if (worst == nullptr || depth_m > measured[worst->id].depth_m) worst = &region;
+      }
+      if (worst == nullptr) break;
+      worst->concavity = measured[worst->id];
+      if (Split(static_cast<std::size_t>(worst - regions_.data())))
+        any = true;
+      else
+        worst->indivisible = true;
+    }
+    return any;
+  }
+
+  // The point of the hull's surface that is farthest from the mesh's, if it is farther than may be;
+  // depth 0 where there is none.
+  Concavity Protrusion(const TriangleMesh& hull) const {
+    const double unseen_m = std::sqrt(3.0) * solid_.grid().cell_m;
+    std::vector<Concavity> probes;  // with their depths in the grid
+    for (const Eigen::Vector3d& point : PointsOn(hull, solid_.grid().cell_m)) {
+      const Eigen::Vector3i cell = solid_.grid().CellAt(point);
+      const double depth_m = solid_.DistanceAt(cell.x(), cell.y(), cell.z());
+      if (depth_m > 0 && depth_m + unseen_m > config_.max_protrusion_m)
+        probes.push_back({depth_m, point});
+    }
+    std::stable_sort(probes.begin(), probes.end(),
+                     [](const Concavity& a, const Concavity& b) { return a.depth_m > b.depth_m; });
+    Concavity farthest;
+    for (const Concavity& probe : probes) {
+      if (probe.depth_m + unseen_m <= farthest.depth_m) break;
+      const double depth_m = tree_.Distance(probe.at_m, probe.depth_m + unseen_m);
+      if (depth_m > std::max(farthest.depth_m, config_.max_protrusion_m))
+        farthest = {depth_m, probe.at_m};
+    }
+    return farthest;
+  }
+
+  double MostProtrusion(const std::vector<TriangleMesh>& parts) const {
+    double most_m = 0;
+    for (const TriangleMesh& part : parts) most_m = std::max(most_m, Protrusion(part).depth_m);
+    return most_m;
+  }
+
   // The parts did not suffice, since a cut is never taken back. So the worst regions are cut into
   // more than may stay, and those whose common hull is least deep are joined, until they are few
   // enough. Kept while the worst depth falls.
@@ -255,6 +337,8 @@ class Decomposition {
       if (Trim(static_cast<std::size_t>(worst - regions_.begin()))) continue;
       if (Split(static_cast<std::size_t>(worst - regions_.begin())))
         any = true;
+      else if (regions_.size() > 1)
+        regions_.erase(worst);  // flat pieces far apart: each is covered by itself at the end
       else
         worst->indivisible = true;
     }
@@ -478,6 +562,7 @@ class Decomposition {
   double allowed_m_;
   double smallest_m3_ = 0;
   std::vector<Region> regions_;
+  std::vector<Region> whole_;  // the first of them
   int next_id_ = 0;
   std::map<std::pair<int, int>, Between> between_;
 };
@@ -486,6 +571,8 @@ void CheckConfig(const ConvexPartsConfig& config) {
   Require(config.max_parts >= 1, ErrorCode::kInvalidConfig, "convex.max_parts: allowed 1 and more");
   Require(config.max_concavity_m > 0 && std::isfinite(config.max_concavity_m),
           ErrorCode::kInvalidConfig, "convex.max_concavity_m: must be positive");
+  Require(config.max_protrusion_m >= 0 && std::isfinite(config.max_protrusion_m),
+          ErrorCode::kInvalidConfig, "convex.max_protrusion_m: must not be negative");
   Require(config.max_vertices >= 4, ErrorCode::kInvalidConfig,
           "convex.max_vertices: allowed 4 and more");
   Require(config.max_grid_cells >= 1000, ErrorCode::kInvalidConfig,

@@ -127,20 +127,38 @@ double VolumeOf(const TriangleMesh& mesh) {
   return volume;
 }
 
+std::vector<Eigen::Vector3d> PointsOn(const TriangleMesh& mesh, double step_m) {
+  std::vector<Eigen::Vector3d> points;
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    const Eigen::Vector3d& a = mesh.vertices[static_cast<std::size_t>(t[0])];
+    const Eigen::Vector3d ab = mesh.vertices[static_cast<std::size_t>(t[1])] - a;
+    const Eigen::Vector3d ac = mesh.vertices[static_cast<std::size_t>(t[2])] - a;
+    const int across = 1 + static_cast<int>(ab.norm() / step_m);
+    const int along = 1 + static_cast<int>(ac.norm() / step_m);
+    for (int u = 0; u <= across; ++u) {
+      for (int v = 0; v * across <= along * (across - u); ++v)
+        points.emplace_back(a + ab * u / across + ac * v / along);
+    }
+  }
+  return points;
+}
+
 namespace {
 
-// Visits every `stride`-th row of cells inside the hull; stops where the depth exceeds `stop_m`.
+// Visits every `stride`-th row of cells inside the hull, but for those that hold nothing deeper
+// than `known_m`; stops where the depth exceeds `stop_m`. The first of the deepest.
 Concavity DeepestInside(const TriangleMesh& hull, const DistanceGrid& solid, int stride,
-                        double stop_m) {
+                        double stop_m, double known_m = 0) {
   const Grid& grid = solid.grid();
   const std::vector<HalfSpace> faces = HalfSpacesOf(hull);
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& vertex : hull.vertices) box.extend(vertex);
   const auto [low_j, high_j] = CellsWithin(grid, 1, box.min().y(), box.max().y());
   const auto [low_k, high_k] = CellsWithin(grid, 2, box.min().z(), box.max().z());
-  Concavity deepest;
+  Concavity deepest{known_m, Eigen::Vector3d::Zero()};
   for (int k = low_k; k <= high_k; k += stride) {
     for (int j = low_j; j <= high_j; j += stride) {
+      if (solid.LargestInRow(j, k) <= deepest.depth_m) continue;
       const Eigen::Vector3d center = grid.CenterOf(0, j, k);
       const Range range = InsideAlongX(faces, center.y(), center.z());
       if (range.low > range.high) continue;
@@ -157,22 +175,11 @@ Concavity DeepestInside(const TriangleMesh& hull, const DistanceGrid& solid, int
 
 // The same along the hull's own triangles: a hull thinner than a cell may miss every centre.
 Concavity DeepestOnSurface(const TriangleMesh& hull, const DistanceGrid& solid, double step_m) {
-  const Grid& grid = solid.grid();
   Concavity deepest;
-  for (const Eigen::Vector3i& t : hull.triangles) {
-    const Eigen::Vector3d& a = hull.vertices[static_cast<std::size_t>(t[0])];
-    const Eigen::Vector3d ab = hull.vertices[static_cast<std::size_t>(t[1])] - a;
-    const Eigen::Vector3d ac = hull.vertices[static_cast<std::size_t>(t[2])] - a;
-    const int across = 1 + static_cast<int>(ab.norm() / step_m);
-    const int along = 1 + static_cast<int>(ac.norm() / step_m);
-    for (int u = 0; u <= across; ++u) {
-      for (int v = 0; v * across <= along * (across - u); ++v) {
-        const Eigen::Vector3d point = a + ab * u / across + ac * v / along;
-        const Eigen::Vector3i cell = grid.CellAt(point);
-        const double depth = solid.DistanceAt(cell.x(), cell.y(), cell.z());
-        if (depth > deepest.depth_m) deepest = {depth, point};
-      }
-    }
+  for (const Eigen::Vector3d& point : PointsOn(hull, step_m)) {
+    const Eigen::Vector3i cell = solid.grid().CellAt(point);
+    const double depth = solid.DistanceAt(cell.x(), cell.y(), cell.z());
+    if (depth > deepest.depth_m) deepest = {depth, point};
   }
   return deepest;
 }
@@ -189,7 +196,11 @@ bool IsThin(const TriangleMesh& hull, double cell_m) {
 }
 
 Concavity Deepest(const TriangleMesh& hull, const DistanceGrid& solid, int stride, double stop_m) {
-  Concavity inside = DeepestInside(hull, solid, stride, stop_m);
+  // what a few rows hold lets most others be left out
+  constexpr int kFew = 8;
+  const double known_m = DeepestInside(hull, solid, kFew * stride, stop_m).depth_m;
+  if (known_m > stop_m) return {known_m, Eigen::Vector3d::Zero()};
+  Concavity inside = DeepestInside(hull, solid, stride, stop_m, std::nextafter(known_m, 0));
   const double cell_m = solid.grid().cell_m;
   if (inside.depth_m > stop_m || !IsThin(hull, cell_m)) return inside;
   Concavity surface = DeepestOnSurface(hull, solid, stride * cell_m);

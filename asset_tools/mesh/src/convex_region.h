@@ -32,6 +32,9 @@ TriangleMesh ReducedHull(const TriangleMesh& hull, int max_vertices);
 
 double VolumeOf(const TriangleMesh& mesh);
 
+/// Points on the triangles of a mesh, about `step_m` apart, with their corners.
+std::vector<Eigen::Vector3d> PointsOn(const TriangleMesh& mesh, double step_m);
+
 /// The cell inside a hull that is farthest from the solid.
 struct Concavity {
   double depth_m = 0;

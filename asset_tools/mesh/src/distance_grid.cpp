@@ -120,6 +120,8 @@ void DistanceGrid::SpreadDistances() {
   }
   const auto cell = static_cast<float>(grid_.cell_m);
   for (float& distance : distance_m_) distance = cell * std::sqrt(distance);
+  for (auto row = distance_m_.begin(); row != distance_m_.end(); row += grid_.size.x())
+    row_largest_m_.push_back(*std::max_element(row, row + grid_.size.x()));
 }
 
 }  // namespace doorforge

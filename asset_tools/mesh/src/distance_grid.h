@@ -19,14 +19,18 @@ class DistanceGrid {
 
   const Grid& grid() const { return grid_; }
   float DistanceAt(int i, int j, int k) const { return distance_m_[grid_.IndexOf(i, j, k)]; }
+  /// The largest in the row (j, k) along x.
+  float LargestInRow(int j, int k) const { return row_largest_m_[grid_.IndexOf(0, j, k) / Nx()]; }
 
  private:
   void MarkInside(const TriangleMesh& mesh);
   void MarkSurface(const TriangleMesh& mesh);
   void SpreadDistances();
+  std::size_t Nx() const { return static_cast<std::size_t>(grid_.size.x()); }
 
   Grid grid_;
   std::vector<float> distance_m_;
+  std::vector<float> row_largest_m_;
 };
 
 }  // namespace doorforge

@@ -17,10 +17,13 @@ namespace doorforge {
 struct MakePartConfig {
   RepairConfig repair = {.max_cap_fraction = 1};  ///< Hollow leaves become solid.
   /// A grid sees depths to within a third of the bound: this keeps nearly all within a centimetre.
-  ConvexPartsConfig frame_convex{.max_parts = 32, .max_concavity_m = 0.009};
-  ConvexPartsConfig leaf_convex{.max_parts = 32, .max_concavity_m = 0.009};
+  ConvexPartsConfig frame_convex{
+      .max_parts = 32, .max_concavity_m = 0.009, .max_protrusion_m = 0.01};
+  ConvexPartsConfig leaf_convex{
+      .max_parts = 32, .max_concavity_m = 0.009, .max_protrusion_m = 0.01};
   /// Finer: what the fingers grasp must not be thicker in collisions than in the picture.
-  ConvexPartsConfig handle_convex{.max_parts = 32, .max_concavity_m = 0.002};
+  ConvexPartsConfig handle_convex{
+      .max_parts = 32, .max_concavity_m = 0.002, .max_protrusion_m = 0.003};
   int threads = 0;  ///< 0: all processors. Does not change the result.
 
   template <class Self, class Visitor>

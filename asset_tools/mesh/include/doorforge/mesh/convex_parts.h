@@ -11,7 +11,9 @@ namespace doorforge {
 
 struct ConvexPartsConfig {
   int max_parts = 24;
-  double max_concavity_m = 0.005;  ///< How far a part may protrude beyond the mesh.
+  double max_concavity_m = 0.005;  ///< How far a part may protrude beyond the mesh, as a grid of
+                                   ///< cells of a third of it tells.
+  double max_protrusion_m = 0;     ///< The same as measured; 0: not measured.
   int max_vertices = 64;           ///< Of a part; at least 4.
   int max_grid_cells = 4'000'000;  ///< Cells of the grid that the search works on.
 
@@ -19,6 +21,7 @@ struct ConvexPartsConfig {
   static void VisitFields(Self& self, Visitor&& visit) {
     visit("max_parts", self.max_parts);
     visit("max_concavity_m", self.max_concavity_m);
+    visit("max_protrusion_m", self.max_protrusion_m);
     visit("max_vertices", self.max_vertices);
     visit("max_grid_cells", self.max_grid_cells);
   }
@@ -29,10 +32,12 @@ struct ConvexPartsConfig {
 /// The mesh is cut by planes along the axes, always the piece with the deepest concavity first,
 /// until the hull of every piece protrudes beyond the mesh by no more than `max_concavity_m` or
 /// `max_parts` are reached; pieces whose common hull keeps that bound are joined again. So an
-/// opening or a finger gap wider than twice the concavity stays free. Each part is a closed convex
-/// mesh with at most `max_vertices` vertices, outward orientation; a hull with more is reduced to
-/// those that leave the smallest rest outside. Overlapping pieces of the mesh count as their union.
-/// Deterministic. Measure the result with MeasureConvexParts().
+/// opening or a finger gap wider than twice the concavity stays free. Then the surface of every
+/// hull is measured, and what protrudes by more than `max_protrusion_m` is cut further while parts
+/// are left. Each part is a closed convex mesh with at most `max_vertices` vertices, outward
+/// orientation; a hull with more is reduced to those that leave the smallest rest outside.
+/// Overlapping pieces of the mesh count as their union. Deterministic. Measure the result with
+/// MeasureConvexParts().
 ///
 /// @throws Error(kInvalidConfig) on a config value out of range.
 std::vector<TriangleMesh> ConvexParts(const ClosedMesh& mesh, const ConvexPartsConfig& config);

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <optional>
 #include <set>
 
+#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
 #include "doorforge/core/committed_file.h"
@@ -18,8 +20,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array kTypes = {TensorType::kF64, TensorType::kF32, TensorType::kI64,
-                               TensorType::kU8};
+constexpr std::array kTypes = {TensorType::kF64, TensorType::kF32, TensorType::kF16,
+                               TensorType::kI64, TensorType::kU8};
 constexpr std::uint64_t kLengthBytes = 8;
 constexpr std::uint64_t kMostHeaderBytes = 100'000'000;  // the format's own limit
 constexpr std::size_t kAlignment = 64;
@@ -89,7 +91,7 @@ TensorType TypeNamed(const Json& json, const std::string& what, const std::strin
   for (const TensorType type : kTypes) {
     if (json == NameOf(type)) return type;
   }
-  Refuse(path, what + " has an element type other than F64, F32, I64 and U8");
+  Refuse(path, what + " has an element type other than F64, F32, F16, I64 and U8");
 }
 
 struct Range {
@@ -136,12 +138,12 @@ std::map<std::string, std::string> ParseMetadata(const Json& json, const std::st
 }  // namespace
 
 std::string_view NameOf(TensorType type) {
-  constexpr std::array<std::string_view, 4> kNames = {"F64", "F32", "I64", "U8"};
+  constexpr std::array<std::string_view, 5> kNames = {"F64", "F32", "F16", "I64", "U8"};
   return kNames.at(static_cast<std::size_t>(type));
 }
 
 std::size_t ElementSize(TensorType type) {
-  constexpr std::array<std::size_t, 4> kSizes = {8, 4, 8, 1};
+  constexpr std::array<std::size_t, 5> kSizes = {8, 4, 2, 8, 1};
   return kSizes.at(static_cast<std::size_t>(type));
 }
 
@@ -216,6 +218,25 @@ const Tensor& TensorNamed(const TensorFile& file, const std::string& name,
   if (found == file.tensors.end())
     throw Error(ErrorCode::kFormat, path + ": holds no tensor \"" + name + "\"");
   return found->second;
+}
+
+Tensor MakeHalfTensor(std::span<const float> values, std::vector<std::uint64_t> shape) {
+  std::vector<Eigen::half> halves(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    halves[i] = Eigen::half(values[i]);
+    Require(std::isfinite(static_cast<float>(halves[i])) || !std::isfinite(values[i]),
+            ErrorCode::kInvalidArgument, "a number is too large for half precision");
+  }
+  return internal::MakeTensor(TensorType::kF16, std::as_bytes(std::span(halves)), std::move(shape));
+}
+
+std::vector<float> FloatsOf(const Tensor& tensor, const std::vector<std::uint64_t>& shape,
+                            const std::string& path) {
+  if (tensor.type != TensorType::kF16) return ValuesOf<float>(tensor, shape, path);
+  internal::CheckTensor(tensor, TensorType::kF16, shape, path);
+  std::vector<Eigen::half> halves(tensor.bytes.size() / sizeof(Eigen::half));
+  internal::CopyBytes(tensor.bytes, halves.data());
+  return {halves.begin(), halves.end()};
 }
 
 namespace internal {

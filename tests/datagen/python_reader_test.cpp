@@ -76,6 +76,7 @@ for part in data.parts:
       };
       line("action", "<f4", "4 9", std::as_bytes(arrays.action));
       line("cloud", "<f4", "4 50 3", std::as_bytes(arrays.cloud));
+      line("executed", "<f4", "4 9", std::as_bytes(arrays.executed));
       line("joints", "<f4", "4 2", std::as_bytes(arrays.joints));
       line("label", "|u1", "4 50", std::as_bytes(arrays.label));
       line("proprio", "<f4", "4 32", std::as_bytes(arrays.proprio));

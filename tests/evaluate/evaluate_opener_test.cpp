@@ -65,6 +65,7 @@ void WriteUntrainedPolicy(const fs::path& data, const std::string& stage, const 
   PolicyProvenance provenance;
   provenance.stage = stage;
   provenance.dataset_sha256 = dataset.content_sha256;
+  provenance.trained_on = dataset.parts;
   provenance.config.family = FamilyOf(stage);
   WritePolicy(
       folder,
@@ -91,7 +92,7 @@ class EvaluateOpenerTest : public testing::Test {
     EvaluationRequest request;
     request.policy = folder_ / "policy";
     request.doors = {(folder_ / doors).string()};
-    request.data = folder_ / "data";
+    request.data = {folder_ / "data"};
     request.config.seeds = 1;
     request.config.scene.physics.max_opening_actions = 4;
     request.threads = 1;
@@ -141,14 +142,27 @@ TEST_F(EvaluateOpenerTest, DoorsWithSeenPartsAreRefusedByName) {
   EXPECT_EQ(EvaluateOpener(allowed).report.episodes.size(), 1U);
 }
 
-TEST_F(EvaluateOpenerTest, ItMustBeKnownWhatWasSeen) {
-  EvaluationRequest unknown = RequestFor("held_out");
-  unknown.data.clear();
-  EXPECT_NE(RefusalOf(unknown).find("--data"), std::string::npos);
+TEST_F(EvaluateOpenerTest, ThePolicyItselfKnowsWhatWasSeen) {
+  EvaluationRequest request = RequestFor("half_seen");
+  request.data.clear();
+  EXPECT_NE(RefusalOf(request).find("body_b__handle_a"), std::string::npos);
+  request = RequestFor("held_out");
+  request.data.clear();
+  request.config.expert_reference = false;
+  const EvaluationReport report = EvaluateOpener(request).report;
+  EXPECT_TRUE(report.training_doors.empty());
+  ASSERT_EQ(report.trained_on.bodies.size(), 1U);
+  EXPECT_EQ(report.trained_on.bodies[0].id, "body_a");
+
+  PolicyRecord old = ReadPolicy(request.policy);
+  old.provenance.trained_on = {};
+  WritePolicy(folder_ / "old", old.networks, old.provenance);
+  request.policy = folder_ / "old";
+  EXPECT_NE(RefusalOf(request).find("does not say which bodies"), std::string::npos);
 
   WriteDataset(DoorNamed("body_c", "handle_c"), folder_ / "other_data");
   EvaluationRequest wrong = RequestFor("held_out");
-  wrong.data = folder_ / "other_data";
+  wrong.data = {folder_ / "other_data"};
   EXPECT_NE(RefusalOf(wrong).find("trained from"), std::string::npos);
 }
 
@@ -159,15 +173,12 @@ TEST_F(EvaluateOpenerTest, ATrainedHandlePolicyTurnsTheHandleAndItsDoorsAreSeenT
   request.config.expert_reference = false;
   const std::string by_rule = EvaluateOpener(request).report.episodes.at(0).state_sha256;
   request.handler = folder_ / "handler";
-  request.handler_data = folder_ / "data";
   const EvaluationReport report = EvaluateOpener(request).report;
   EXPECT_NE(report.episodes.at(0).state_sha256, by_rule);
   EXPECT_EQ(report.provenance.handler_sha256, ReadPolicy(request.handler, "handle").weights_sha256);
 
   request.doors = {(folder_ / "half_seen").string()};
   EXPECT_NE(RefusalOf(request).find("body_b__handle_a"), std::string::npos);
-  request.handler_data.clear();
-  EXPECT_NE(RefusalOf(request).find("--handler-data"), std::string::npos);
   request.handler = folder_ / "policy";
   EXPECT_THROW(EvaluateOpener(request), Error) << "an opener does not turn handles";
 }
@@ -180,7 +191,6 @@ TEST_F(EvaluateOpenerTest, ATrainedGrasperTakesHoldAndItsDoorsAreSeenToo) {
   request.config.grasp.orientations = 4;
   const std::string by_rule = EvaluateOpener(request).report.episodes.at(0).state_sha256;
   request.grasper = folder_ / "grasper";
-  request.grasper_data = folder_ / "data";
   const Evaluation evaluation = EvaluateOpener(request);
   const EvaluationReport& report = evaluation.report;
   EXPECT_NE(report.episodes.at(0).state_sha256, by_rule);
@@ -190,16 +200,12 @@ TEST_F(EvaluateOpenerTest, ATrainedGrasperTakesHoldAndItsDoorsAreSeenToo) {
   const EvaluationReport back = ReportFromJson(ReportToJson(report), "report");
   EXPECT_EQ(back.provenance.grasper_sha256, report.provenance.grasper_sha256);
 
-  request.grasper_data.clear();
-  EXPECT_NE(RefusalOf(request).find("--grasper-data"), std::string::npos);
   request.doors = {(folder_ / "half_seen").string()};
-  request.grasper_data = folder_ / "data";
   EXPECT_NE(RefusalOf(request).find("body_b__handle_a"), std::string::npos);
   request.grasper = folder_ / "policy";
   EXPECT_THROW(EvaluateOpener(request), Error) << "an opener does not choose grasps";
 
   request.grasper = "random";
-  request.grasper_data.clear();
   const Evaluation sampled = EvaluateOpener(request);
   EXPECT_EQ(sampled.report.provenance.grasper_sha256, "random");
   EXPECT_TRUE(sampled.pictures.grasps.empty());

@@ -77,6 +77,8 @@ EvaluationReport ExampleReport() {
   for (int number = 0; number < kDoors; ++number) {
     report.doors.push_back(Door(number, "held_out"));
     report.training_doors.push_back(Door(number, "training"));
+    report.trained_on.bodies.push_back(report.training_doors.back().body);
+    report.trained_on.handles.push_back(report.training_doors.back().handle);
   }
   for (const ReportDoor& door : report.doors) {
     for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {

@@ -34,6 +34,7 @@ TEST(ReportPage, ReadsWithoutPicturesReferenceOrFailures) {
   report.provenance.policy = "expert";
   report.reference.clear();
   report.training_doors.clear();
+  report.trained_on = {};
   report.losses.clear();
   for (EvaluatedEpisode& episode : report.episodes) episode.outcome = EpisodeOutcome::kOpened;
   const std::string page = ReportPage(report, {});

@@ -43,12 +43,12 @@ TEST(Report, SuccessInTheFileIsCountedFromItsRows) {
 
 TEST(Report, ADoorIsSeenWhenItsBodyOrItsHandleWasTrainedOn) {
   EvaluationReport report = ExampleReport();
-  EXPECT_TRUE(SeenDoors(report.doors, report.training_doors).empty());
-  report.doors[1].handle.id = report.training_doors[3].handle.id;
-  report.doors[4].body.sha256 = report.training_doors[0].body.sha256;  // the same under another id
-  report.training_doors[2].handle.shape = ShapeDescriptor(13, 0.3);
+  EXPECT_TRUE(SeenDoors(report.doors, report.trained_on).empty());
+  report.doors[1].handle.id = report.trained_on.handles[3].id;
+  report.doors[4].body.sha256 = report.trained_on.bodies[0].sha256;  // the same under another id
+  report.trained_on.handles[2].shape = ShapeDescriptor(13, 0.3);
   report.doors[5].handle.shape = ShapeDescriptor(13, 0.3001);  // the same at another size
-  EXPECT_EQ(SeenDoors(report.doors, report.training_doors),
+  EXPECT_EQ(SeenDoors(report.doors, report.trained_on),
             (std::vector<std::string>{report.doors[1].id, report.doors[4].id, report.doors[5].id}));
 }
 

@@ -40,6 +40,14 @@ TrainerState SomeState() {
   return state;
 }
 
+// Half precision has 11 bits; below 6.1e-5 steps of 6.0e-8.
+void ExpectRounded(const std::vector<float>& found, const std::vector<float>& exact) {
+  ASSERT_EQ(found.size(), exact.size());
+  for (std::size_t i = 0; i < found.size(); ++i)
+    ASSERT_LE(std::abs(found[i] - exact[i]),
+              std::max(std::ldexp(std::abs(exact[i]), -11), 3.0e-8F));
+}
+
 void ExpectError(ErrorCode code, const std::string& part, const std::function<void()>& call) {
   try {
     call();
@@ -55,11 +63,15 @@ TEST(Checkpoint, APolicyComesBackAsItWasWritten) {
   const TrainerState state = SomeState();
   TrainConfig config;
   config.epochs = 3;
-  const PolicyProvenance provenance{"open", "abc", "0.1.0+test", config, 77};
+  const SeenParts parts{{{"body", "b", {}}}, {{"handle", "h", {}}, {"knob", "k", {}}}};
+  const PolicyProvenance provenance{"open", "abc", "0.1.0+test", config, 77, "def", parts};
   WritePolicy(folder, state.networks, provenance);
   const PolicyRecord record = ReadPolicy(folder);
-  EXPECT_EQ(record.networks.actor, state.networks.actor);
-  EXPECT_EQ(record.networks.critic, state.networks.critic);
+  ExpectRounded(record.networks.actor, state.networks.actor);
+  ExpectRounded(record.networks.critic, state.networks.critic);
+  EXPECT_EQ(record.provenance.from_weights_sha256, "def");
+  ASSERT_EQ(record.provenance.trained_on.handles.size(), 2U);
+  EXPECT_EQ(record.provenance.trained_on.handles[1].sha256, "k");
   EXPECT_EQ(record.networks.normalisation.state.deviation,
             state.networks.normalisation.state.deviation);
   EXPECT_EQ(record.networks.normalisation.cloud_centre_m,
@@ -85,8 +97,8 @@ TEST(Checkpoint, AGraspComesBackAsItWasWrittenAndIsNoOtherStagesPolicy) {
   WritePolicy(folder, networks, {"grasp", "abc", "0.1.0+test", config, 77});
   const PolicyRecord record = ReadPolicy(folder, "grasp");
   EXPECT_EQ(record.networks.family, NetworkFamily::kGrasp);
-  EXPECT_EQ(record.networks.actor, networks.actor);
-  EXPECT_EQ(record.networks.critic, networks.critic);
+  ExpectRounded(record.networks.actor, networks.actor);
+  ExpectRounded(record.networks.critic, networks.critic);
   EXPECT_EQ(record.provenance.config.sampled_points, 7);
   const std::string weights = ReadFile(folder / "policy.safetensors");
   EXPECT_NE(weights.find("\"discriminator.action.2.weight\""), std::string::npos);
@@ -102,8 +114,8 @@ TEST(Checkpoint, WeightsOfAnotherNetworkAreRefusedAlsoWhereTheirHashIsTheRecords
   TrainConfig config;
   config.family = NetworkFamily::kGrasp;
   WritePolicy(folder / "grasp", InitialNetworks(normalisation, false, 9, config.family),
-              {"grasp", "abc", "v", config, 1, ""});
-  WritePolicy(folder / "open", SomeState().networks, {"open", "abc", "v", {}, 1, ""});
+              {"grasp", "abc", "v", config, 1});
+  WritePolicy(folder / "open", SomeState().networks, {"open", "abc", "v", {}, 1});
   const std::string own = Sha256OfFile(folder / "open/policy.safetensors");
   CommitFile(folder / "open/policy.safetensors", ReadFile(folder / "grasp/policy.safetensors"));
   std::string record = ReadFile(folder / "open/policy.json");

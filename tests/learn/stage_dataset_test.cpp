@@ -16,6 +16,7 @@
 
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
 #include "doorforge/learn/checkpoint.h"
 #include "doorforge/learn/train_stage.h"
 #include "doorforge/schemas/dataset.h"
@@ -29,6 +30,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kDecisions = 3;
+
+void WriteProvenance(const fs::path& folder) {
+  const PartIdentity body{"body of " + folder.filename().string(), "", {}};
+  DatasetProvenance provenance;
+  provenance.doors.push_back(
+      {"door", "", "interior", "lever", body, {"handle", "", {}}, "CC0-1.0", "train"});
+  WriteJsonFile(folder / "provenance.json", ProvenanceToJson(provenance));
+}
 
 // A data set of `episodes` episodes with three decisions each, in one shard.
 testing::SyntheticSamples WriteDataset(const fs::path& folder, const std::string& split,
@@ -44,7 +53,7 @@ testing::SyntheticSamples WriteDataset(const fs::path& folder, const std::string
       decision.cloud.xyz.assign(sample.cloud.begin(), sample.cloud.end());
       decision.cloud.label.assign(sample.cloud.size() / 3, 0);
       for (std::size_t i = 0; i < decision.proprioception.size(); ++i)
-        decision.proprioception[i] = static_cast<float>(100 * e + 40 * t + i);
+        decision.proprioception[i] = 1e-3F * static_cast<float>(100 * e + 40 * t + i);
       decision.action = sample.action;
       decision.executed = sample.executed;
       decision.score_rad = sample.score_rad;
@@ -54,6 +63,7 @@ testing::SyntheticSamples WriteDataset(const fs::path& folder, const std::string
                EncodeEpisode(episode, EpisodeMetaToJson(episode), ""));
   }
   writer.Commit();
+  WriteProvenance(folder);
   return made;
 }
 
@@ -70,6 +80,8 @@ TEST(StageDataset, HoldsTheDecisionsOfTheShards) {
   ASSERT_EQ(dataset.train.size(), 9U);
   ASSERT_EQ(dataset.validation.size(), 3U);
   EXPECT_EQ(dataset.content_sha256.size(), 64U);
+  ASSERT_EQ(dataset.parts.bodies.size(), 1U);
+  EXPECT_EQ(dataset.parts.bodies[0].id, "body of doorforge_dataset_read");
   const TrainingSample& sample = dataset.train[5];  // episode 1, decision 2
   EXPECT_TRUE(std::equal(sample.cloud.begin(), sample.cloud.end(), made.samples[5].cloud.begin(),
                          made.samples[5].cloud.end()));
@@ -77,10 +89,11 @@ TEST(StageDataset, HoldsTheDecisionsOfTheShards) {
   EXPECT_EQ(sample.executed, made.samples[5].executed);
   EXPECT_NE(sample.executed, sample.action);
   EXPECT_EQ(sample.score_rad, made.samples[5].score_rad);
-  EXPECT_EQ(sample.state[0], 180);  // first joint position
-  EXPECT_EQ(sample.state[9], 191);  // first joint velocity
-  EXPECT_EQ(sample.base_m[0], 202);
-  EXPECT_EQ(sample.hand_m[2], 207);
+  EXPECT_FLOAT_EQ(sample.state[0], 0.180F);  // first joint position
+  EXPECT_FLOAT_EQ(sample.state[9], 0.191F);  // first joint velocity
+  EXPECT_FLOAT_EQ(sample.base_m[0], 0.202F);
+  EXPECT_FLOAT_EQ(sample.hand_m[2], 0.207F);
+  EXPECT_FLOAT_EQ(sample.hand_xyzw[3], 0.211F);
 }
 
 TEST(StageDataset, UsesTheSplitForValidationWhereThereIsOne) {
@@ -104,6 +117,8 @@ TEST(StageDataset, HoldsSeveralDataSetsInTheirOrder) {
   ASSERT_EQ(dataset.train.size(), 9U);  // halves of 2 and 4 episodes of 3 decisions
   EXPECT_EQ(dataset.validation.size(), 9U);
   EXPECT_EQ(dataset.train[5].action, made.samples[2].action);
+  EXPECT_EQ(dataset.parts.bodies.size(), 2U);
+  EXPECT_EQ(dataset.parts.handles.size(), 1U);
   EXPECT_NE(dataset.content_sha256,
             ReadStageDataset({{first, second}}, "open", 0.5).content_sha256);
   EXPECT_THROW(ReadStageDataset({}, "open", 0), Error);
@@ -244,6 +259,7 @@ TEST(TrainProgram, NamesTheEpisodeWithANumberThatIsNone) {
   ShardWriter writer(folder / "open/train", {0, "open", "train", "config"});
   writer.Add("ep000007", 1, std::move(members));
   writer.Commit();
+  WriteProvenance(folder);
   ExpectRefusal("open --data " + folder.string() + " --out " + (folder / "out").string(),
                 "episode ep000007: score holds a number that is not finite");
 }
@@ -264,7 +280,7 @@ TEST(TrainProgram, ALossThatIsNoNumberEndsTheRunAndTheLastGoodPolicyIsKept) {
   hooks.stop = [&] { return epoch_done; };
   const TrainerState good = TrainStage(dataset.train, dataset.validation, config, hooks);
   config.learning_rate = 1e30;  // what a run that goes wrong in its second epoch has behind it
-  WriteTrainerState(out, good, {"open", dataset.content_sha256, "v", config, 0, ""});
+  WriteTrainerState(out, good, {"open", dataset.content_sha256, "v", config, 0});
   const std::string state = ReadFile(out / "training.safetensors");
 
   const Answer answer = AnswerOf("open --data " + (folder / "data").string() +
@@ -278,7 +294,8 @@ TEST(TrainProgram, ALossThatIsNoNumberEndsTheRunAndTheLastGoodPolicyIsKept) {
       << answer.text;
   EXPECT_EQ(ReadFile(out / "training.safetensors"), state);
   const PolicyRecord kept = ReadPolicy(out);
-  EXPECT_EQ(kept.networks.actor, good.networks.actor);
+  WritePolicy(folder / "good", good.networks, kept.provenance);
+  EXPECT_EQ(kept.networks.actor, ReadPolicy(folder / "good").networks.actor);
   EXPECT_EQ(kept.provenance.step, good.step);
 }
 

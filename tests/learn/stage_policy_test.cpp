@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "doorforge/core/error.h"
@@ -34,7 +35,7 @@ TEST(StagePolicy, ActsAlikeInMemoryAndFromItsFolder) {
   std::filesystem::remove_all(folder);
   WritePolicy(folder, SomeNetworks(), {"open", "abc", "v", {}, 1});
   const Observation observation = SomeObservation();
-  const Action memory = MakePolicy(SomeNetworks())->Act(observation);
+  const Action memory = MakePolicy(ReadPolicy(folder).networks)->Act(observation);
   const Action loaded = LoadPolicy(folder)->Act(observation);
   EXPECT_EQ(memory.position_delta_m, loaded.position_delta_m);
   EXPECT_EQ(memory.world_from_hand_rotation, loaded.world_from_hand_rotation);
@@ -42,6 +43,50 @@ TEST(StagePolicy, ActsAlikeInMemoryAndFromItsFolder) {
                Eigen::Matrix3d::Identity())
                   .norm(),
               0, 1e-6);
+}
+
+// The same scene elsewhere: joints as before, cloud and hand moved.
+Observation Moved(Observation observation, const Eigen::Vector3f& by) {
+  for (std::size_t i = 0; i < observation.cloud.xyz.size(); ++i)
+    observation.cloud.xyz[i] += by[static_cast<Eigen::Index>(i % 3)];
+  for (std::size_t k = 0; k < 3; ++k)
+    observation.proprioception[25 + k] += by[static_cast<Eigen::Index>(k)];
+  return observation;
+}
+
+Observation WithHand(Observation observation, const Eigen::Quaternionf& hand) {
+  const std::array<float, 4> xyzw = {hand.x(), hand.y(), hand.z(), hand.w()};
+  std::copy(xyzw.begin(), xyzw.end(), observation.proprioception.end() - 4);
+  return observation;
+}
+
+TEST(StagePolicy, InTheHandsFrameItMovesAlikeWhereverTheDoorIs) {
+  StageNetworks networks = SomeNetworks();
+  const Observation here = WithHand(SomeObservation(), Eigen::Quaternionf::Identity());
+  const Observation there = Moved(here, {0.25F, -0.5F, 0.125F});
+  const auto difference = [&] {
+    return (MakePolicy(networks)->Act(here).position_delta_m -
+            MakePolicy(networks)->Act(there).position_delta_m)
+        .norm();
+  };
+  EXPECT_GT(difference(), 1e-4);  // the world's frame
+  networks.normalisation.frame = MotionFrame::kHand;
+  networks.normalisation.cloud_centre_m = {};
+  EXPECT_LT(difference(), 1e-5);
+}
+
+TEST(StagePolicy, InTheHandsFrameItTurnsTheHandFromWhereItIs) {
+  StageNetworks networks = SomeNetworks();
+  networks.normalisation.frame = MotionFrame::kHand;
+  const Eigen::Quaternionf hand(Eigen::AngleAxisf(0.7F, Eigen::Vector3f(1, 2, 3).normalized()));
+  const Action plain =
+      MakePolicy(networks)->Act(WithHand(SomeObservation(), Eigen::Quaternionf::Identity()));
+  const Action turned = MakePolicy(networks)->Act(WithHand(SomeObservation(), hand));
+  EXPECT_EQ(turned.position_delta_m, plain.position_delta_m);
+  EXPECT_LT((turned.world_from_hand_rotation -
+             plain.world_from_hand_rotation * hand.toRotationMatrix().cast<double>())
+                .norm(),
+            1e-5);
 }
 
 TEST(StagePolicy, RepeatsAnEpisodeAfterReset) {

@@ -8,6 +8,7 @@
 #include <set>
 #include <thread>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "doorforge/core/error.h"
@@ -146,21 +147,52 @@ TEST(TrainStage, TheCriticLearnsFromWhatWasExecutedAndTheActorFromWhatWasRight) 
   const auto train = testing::MakeSyntheticSamples(1, 8);
   auto others = train.samples;
   for (TrainingSample& sample : others) sample.executed[0] += 0.1F;
-  const TrainerState a = TrainStage(train.samples, {}, SmallConfig(), {.threads = 1});
-  const TrainerState b = TrainStage(others, {}, SmallConfig(), {.threads = 1});
+  const TrainerState a = TrainStage(train.samples, {}, SmallConfig(), {});
+  const TrainerState b = TrainStage(others, {}, SmallConfig(), {});
   EXPECT_EQ(a.networks.actor, b.networks.actor);
   EXPECT_NE(a.networks.critic, b.networks.critic);
+}
+
+TEST(TrainStage, InTheHandsFrameItLearnsTurnsThatDoNotDependOnTheHandsRotation) {
+  const auto train = testing::MakeSyntheticSamples(1, 8);
+  auto turned = train.samples;
+  const Eigen::Quaternionf by(Eigen::AngleAxisf(0.4F, Eigen::Vector3f(1, 1, 0).normalized()));
+  for (TrainingSample& sample : turned) {
+    sample.hand_xyzw = {by.x(), by.y(), by.z(), by.w()};
+    for (ActionVector* action : {&sample.action, &sample.executed}) {
+      Action target = FromVector(*action);
+      target.world_from_hand_rotation *= by.toRotationMatrix().cast<double>();
+      *action = ToVector(target);
+    }
+  }
+  TrainConfig config = SmallConfig();
+  const TrainerState a = TrainStage(train.samples, {}, config, {});
+  const TrainerState b = TrainStage(turned, {}, config, {});
+  ASSERT_EQ(a.steps.size(), b.steps.size());
+  EXPECT_EQ(a.networks.normalisation.frame, MotionFrame::kHand);
+  EXPECT_NEAR(a.steps[0].rotation_rad, b.steps[0].rotation_rad, 1e-4);
+  EXPECT_NEAR(a.steps.back().position_m, b.steps.back().position_m, 1e-3);
+
+  config.frame = "world";
+  EXPECT_EQ(TrainStage(train.samples, {}, config, {}).networks.normalisation.frame,
+            MotionFrame::kWorld);
+  TrainHooks hooks;
+  hooks.initial = a.networks;
+  EXPECT_THROW(TrainStage(train.samples, {}, config, hooks), Error);
+  config.frame = "elsewhere";
+  EXPECT_THROW(TrainStage(train.samples, {}, config, {}), Error);
 }
 
 TEST(TrainStage, BeginsWithTheNetworksOfAnotherRun) {
   const auto train = testing::MakeSyntheticSamples(1, 8);
   const auto others = testing::MakeSyntheticSamples(2, 8);
   TrainConfig config = SmallConfig();
-  const StageNetworks first = TrainStage(train.samples, {}, config, {.threads = 1}).networks;
+  const StageNetworks first = TrainStage(train.samples, {}, config, {}).networks;
   config.seed = 9;
   config.learning_rate = 1e-6;
-  const StageNetworks then =
-      TrainStage(others.samples, {}, config, {.threads = 1, .initial = first}).networks;
+  TrainHooks hooks;
+  hooks.initial = first;
+  const StageNetworks then = TrainStage(others.samples, {}, config, hooks).networks;
   EXPECT_EQ(then.normalisation.state.mean, first.normalisation.state.mean);
   ASSERT_EQ(then.actor.size(), first.actor.size());
   for (std::size_t i = 0; i < first.actor.size(); ++i)

@@ -3,6 +3,7 @@
 #include "doorforge/schemas/safetensors.h"
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -91,6 +92,20 @@ TEST(Safetensors, AreReadByNumpyAndWrittenByNumpy) {
             std::vector<std::int64_t>{-5});
 }
 
+TEST(Safetensors, HalvesAreTheNearestOnesTiesToEven) {
+  // 2049 lies between 2048 and 2050; 2051 between 2050 and 2052; 1e-8 below half the least number
+  const std::vector<float> values = {1.0F, -2.5F, 2049.0F, 2051.0F, 65504.0F, 1e-8F, 6e-8F};
+  const Tensor tensor = MakeHalfTensor(values, {7});
+  EXPECT_EQ(tensor.bytes.size(), 14U);
+  EXPECT_EQ(tensor.bytes.substr(0, 4), std::string("\x00\x3c\x00\xc1", 4));  // IEEE 754 binary16
+  const std::vector<float> expected = {1, -2.5F, 2048, 2052, 65504, 0, std::ldexp(1.0F, -24)};
+  EXPECT_EQ(FloatsOf(tensor, {7}, "some.safetensors"), expected);
+  EXPECT_EQ(FloatsOf(MakeTensor<float>(values, {7}), {7}, "some.safetensors"), values);
+  EXPECT_THROW(FloatsOf(tensor, {8}, "some.safetensors"), Error);
+  EXPECT_THROW(MakeHalfTensor(std::vector<float>{70000.0F}, {1}), Error);
+  EXPECT_THROW(MakeHalfTensor(values, {3}), Error);
+}
+
 TEST(Safetensors, RefuseFilesThatDoNotFollowTheFormat) {
   const std::string good = R"({"x":{"dtype":"F32","shape":[1],"data_offsets":[0,4]}})";
   EXPECT_NO_THROW(DecodeTensors(WithHeader(good, "abcd"), "x"));
@@ -100,7 +115,7 @@ TEST(Safetensors, RefuseFilesThatDoNotFollowTheFormat) {
   ExpectRefused(WithHeader("{\"x\":", ""), "parse");
   ExpectRefused(WithHeader(good, "abcde"), "belong to no tensor");
   ExpectRefused(WithHeader(good, "abc"), "outside the data");
-  ExpectRefused(WithHeader(R"({"x":{"dtype":"F16","shape":[2],"data_offsets":[0,4]}})", "abcd"),
+  ExpectRefused(WithHeader(R"({"x":{"dtype":"BF16","shape":[2],"data_offsets":[0,4]}})", "abcd"),
                 "element type");
   ExpectRefused(WithHeader(R"({"x":{"dtype":"F32","shape":[2],"data_offsets":[0,4]}})", "abcd"),
                 "does not fit");

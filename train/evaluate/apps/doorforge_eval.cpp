@@ -51,18 +51,15 @@ void AddOptions(CLI::App& app, Options& options) {
   app.add_option("--out", options.out,
                  "folder for report.json and report.html; without it only the table is printed");
   app.add_option("--data", options.request.data,
-                 "data set that the policy was trained from: says which doors it has seen");
+                 "data sets that the policy was trained from: the report lists and shows their "
+                 "doors");
   app.add_option("--handler", options.request.handler,
                  "folder of a policy of `doorforge train handle`; without it the rule turns the "
                  "handle")
       ->check(CLI::ExistingDirectory);
-  app.add_option("--handler-data", options.request.handler_data,
-                 "data set that --handler was trained from");
   app.add_option("--grasper", options.request.grasper,
                  "folder of a policy of `doorforge train grasp`, or `random` for sampled grasps; "
                  "without it the expert takes hold");
-  app.add_option("--grasper-data", options.request.grasper_data,
-                 "data set that --grasper was trained from");
   app.add_option("--seeds", options.seeds, "repetitions with other scenes (config: seeds, 3)");
   app.add_option("--seed", options.first_seed, "the first of them (config: first_seed, 1)");
   app.add_option("--episodes-per-door", options.episodes_per_door,
@@ -90,8 +87,8 @@ Options Parse(int argc, char** argv) {
   AddOptions(app, options);
   app.footer(
       "examples:\n"
-      "  doorforge eval --policy run/opener --data run/open_data --handler run/handler "
-      "--handler-data\n    run/handle_data --doors run/doors/test --out run/report\n"
+      "  doorforge eval --policy run/opener --handler run/handler --grasper run/grasper --doors "
+      "run/doors/test\n    --out run/report\n"
       "  doorforge eval --policy run/policy --data run/data --doors run/doors/test --out "
       "run/report\n"
       "  doorforge eval --policy expert --doors run/doors --split full:test -n 50 --seeds 3 --out "

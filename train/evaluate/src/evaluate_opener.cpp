@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <map>
 #include <memory>
 
 #include "doorforge/core/config_io.h"
@@ -103,19 +104,19 @@ std::string NameOfPolicy(const EvaluationRequest& request) {
   return (folder.has_filename() ? folder : folder.parent_path()).filename().string();
 }
 
-void RequireSameData(const PolicyRecord& policy, const fs::path& data, const char* option) {
-  const std::string& stage = policy.provenance.stage;
-  const std::string found = ReadStageDataset({{data}}, stage, 0).content_sha256;
+// The data sets are the policy's own, in the order in which it was trained from them.
+void RequireSameData(const PolicyRecord& policy, std::span<const fs::path> data) {
+  const std::string found = ReadStageDataset(data, policy.provenance.stage, 0).content_sha256;
   if (found != policy.provenance.dataset_sha256)
     throw Error(ErrorCode::kInvalidArgument,
-                data.string() + ": has the hash " + found.substr(0, 12) +
-                    "..., but the policy of the stage \"" + stage + "\" was trained from " +
+                "--data " + data[0].string() + ": has the hash " + found.substr(0, 12) +
+                    "..., but the policy was trained from " +
                     policy.provenance.dataset_sha256.substr(0, 12) +
-                    "...; give its own data set with " + option);
+                    "...; give its own data sets in their order, or none");
 }
 
 void RequireHeldOut(const EvaluationReport& report) {
-  const auto seen = SeenDoors(report.doors, report.training_doors);
+  const auto seen = SeenDoors(report.doors, report.trained_on);
   if (seen.empty()) return;
   std::string names;
   for (std::size_t i = 0; i < std::min(seen.size(), kMostNamedDoors); ++i)
@@ -129,27 +130,26 @@ void RequireHeldOut(const EvaluationReport& report) {
                   names);
 }
 
-// a policy's own data set, which says what doors it has seen
-struct SeenData {
-  fs::path data;
-  const char* option;
-};
+// The parts that it knows; from then on they are not held out.
+void AddSeenParts(const PolicyRecord& policy, const fs::path& folder, bool allow_seen,
+                  EvaluationReport& report) {
+  Require(allow_seen || !policy.provenance.trained_on.empty(), ErrorCode::kInvalidArgument,
+          folder.string() +
+              ": a policy of an earlier build, whose record does not say which bodies and handles "
+              "it was trained on; train it again, or pass --allow-seen to evaluate without that "
+              "check");
+  report.trained_on = Union(report.trained_on, policy.provenance.trained_on);
+}
 
-void AddTrainingDoors(const PolicyRecord& policy, const SeenData& seen, bool allow_seen,
+void AddTrainingDoors(const PolicyRecord& policy, std::span<const fs::path> data,
                       EvaluationReport& report) {
-  if (seen.data.empty()) {
-    Require(allow_seen, ErrorCode::kInvalidArgument,
-            std::string(seen.option) +
-                " is needed: the data set that the policy was trained from says which doors it "
-                "has seen; --allow-seen evaluates without that check");
-    return;
+  if (data.empty()) return;
+  RequireSameData(policy, data);
+  std::map<std::string, ReportDoor> doors;  // each once, by id
+  for (const fs::path& folder : data) {
+    for (ReportDoor& door : internal::TrainingDoors(folder)) doors[door.id] = std::move(door);
   }
-  RequireSameData(policy, seen.data, seen.option);
-  for (ReportDoor& door : internal::TrainingDoors(seen.data))
-    if (std::ranges::find(report.training_doors, door.id, &ReportDoor::id) ==
-        report.training_doors.end())
-      report.training_doors.push_back(std::move(door));
-  std::ranges::sort(report.training_doors, {}, &ReportDoor::id);
+  for (auto& [id, door] : doors) report.training_doors.push_back(std::move(door));
 }
 
 // fills in what the policies' and the data sets' records say
@@ -159,18 +159,19 @@ void AddTraining(const EvaluationRequest& request, EvaluationReport& report) {
     report.provenance.policy_sha256 = policy.weights_sha256;
     report.provenance.dataset_sha256 = policy.provenance.dataset_sha256;
     report.losses = internal::TrainingLosses(request.policy);
-    AddTrainingDoors(policy, {request.data, "--data"}, request.allow_seen, report);
+    AddSeenParts(policy, request.policy, request.allow_seen, report);
+    AddTrainingDoors(policy, request.data, report);
   }
   if (!request.handler.empty()) {
     const PolicyRecord handler = ReadPolicy(request.handler, "handle");
     report.provenance.handler_sha256 = handler.weights_sha256;
-    AddTrainingDoors(handler, {request.handler_data, "--handler-data"}, request.allow_seen, report);
+    AddSeenParts(handler, request.handler, request.allow_seen, report);
   }
   if (IsRandomGrasper(request)) report.provenance.grasper_sha256 = "random";
   if (!request.grasper.empty() && !IsRandomGrasper(request)) {
     const PolicyRecord grasper = ReadPolicy(request.grasper, "grasp");
     report.provenance.grasper_sha256 = grasper.weights_sha256;
-    AddTrainingDoors(grasper, {request.grasper_data, "--grasper-data"}, request.allow_seen, report);
+    AddSeenParts(grasper, request.grasper, request.allow_seen, report);
   }
   if (!request.allow_seen) RequireHeldOut(report);
 }
@@ -216,8 +217,8 @@ Evaluation EvaluateOpener(const EvaluationRequest& request) {
     report.reference = RunWithProgress("expert", doors, trials, Expert(), request.threads);
 
   evaluation.pictures = TakePictures({doors, trials, report.episodes}, contender, request.threads);
-  if (!request.data.empty())
-    evaluation.pictures.doors.merge(internal::TrainingPreviews(request.data, kTrainingPreviews));
+  for (const fs::path& data : request.data)
+    evaluation.pictures.doors.merge(internal::TrainingPreviews(data, kTrainingPreviews));
   return evaluation;
 }
 

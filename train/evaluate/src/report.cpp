@@ -186,15 +186,10 @@ auto ArrayFromJson(const Json& json, const std::string& path, const Codec& from_
 
 }  // namespace
 
-std::vector<std::string> SeenDoors(std::span<const ReportDoor> doors,
-                                   std::span<const ReportDoor> training_doors) {
+std::vector<std::string> SeenDoors(std::span<const ReportDoor> doors, const SeenParts& trained_on) {
   std::vector<std::string> seen;
   for (const ReportDoor& door : doors) {
-    const bool trained_on =
-        std::any_of(training_doors.begin(), training_doors.end(), [&](const ReportDoor& known) {
-          return door.body.SameAs(known.body) || door.handle.SameAs(known.handle);
-        });
-    if (trained_on) seen.push_back(door.id);
+    if (trained_on.Holds(door.body, door.handle)) seen.push_back(door.id);
   }
   return seen;
 }
@@ -208,6 +203,7 @@ Json ReportToJson(const EvaluationReport& report) {
   }
   json["provenance"] = ProvenanceToJson(report.provenance);
   json["doors"] = ArrayToJson(report.doors, DoorToJson);
+  json["trained_on"] = SeenPartsToJson(report.trained_on);
   json["training_doors"] = ArrayToJson(report.training_doors, DoorToJson);
   json["losses"] = ArrayToJson(report.losses, LossToJson);
   json["episodes"] = ArrayToJson(report.episodes, EvaluatedEpisodeToJson);
@@ -223,6 +219,7 @@ EvaluationReport ReportFromJson(const Json& json, const std::string& path) {
   EvaluationReport report;
   report.provenance = ProvenanceFromJson(MemberOf(json, "provenance", path), path + ".provenance");
   report.doors = read("doors", DoorFromJson);
+  report.trained_on = SeenPartsFromJson(MemberOf(json, "trained_on", path), path + ".trained_on");
   report.training_doors = read("training_doors", DoorFromJson);
   report.losses = read("losses", LossFromJson);
   report.episodes = read("episodes", EvaluatedEpisodeFromJson);

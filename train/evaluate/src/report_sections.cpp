@@ -293,7 +293,7 @@ std::string Lead(const EvaluationReport& report, bool held_out) {
 std::string HeadlineSection(const EvaluationReport& report, const ReportPictures& pictures) {
   const SuccessSummary summary = Summarise(report.episodes);
   const bool held_out =
-      !report.training_doors.empty() && SeenDoors(report.doors, report.training_doors).empty();
+      !report.trained_on.empty() && SeenDoors(report.doors, report.trained_on).empty();
   std::string figures =
       Figure(Percent(summary.opened.rate),
              "opened beyond 45°, 95&#160;% interval " + IntervalText(summary.opened), true);
@@ -399,11 +399,11 @@ std::string DoorSection(const EvaluationReport& report, const ReportPictures& pi
   std::string tiles;
   const auto shown = DoorsToShow(report.doors, pictures);
   for (const ReportDoor* door : shown) tiles += DoorTile(*door, pictures, report.episodes);
-  const auto seen = SeenDoors(report.doors, report.training_doors);
+  const auto seen = SeenDoors(report.doors, report.trained_on);
   std::string note = CountText(shown.size(), report.doors.size()) +
                      " Filled dots are episodes that opened the door, in the order of the seeds.";
-  if (!report.training_doors.empty()) {
-    note += seen.empty() ? " None of their bodies and handles occurs among the training doors."
+  if (!report.trained_on.empty()) {
+    note += seen.empty() ? " None of their bodies and handles was trained on."
                          : " The body or the handle of " + Plural(seen.size(), "door") +
                                " was trained on; these numbers do not show generalisation.";
   }

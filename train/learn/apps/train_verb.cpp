@@ -179,6 +179,7 @@ void BeginWith(const Options& options, PolicyProvenance& provenance, TrainHooks&
           ErrorCode::kInvalidArgument,
           options.from + ": was trained with another setting of linear_branches");
   provenance.from_weights_sha256 = policy.weights_sha256;
+  provenance.trained_on = Union(provenance.trained_on, policy.provenance.trained_on);
   hooks.initial = std::move(policy.networks);
 }
 
@@ -206,7 +207,8 @@ int Train(const Options& options) {
   WarnOfSlowLinearAlgebra();
   const std::vector<fs::path> folders(options.data.begin(), options.data.end());
   const StageDataset dataset = ReadStageDataset(folders, options.stage, config.validation_share);
-  PolicyProvenance provenance{options.stage, dataset.content_sha256, CodeVersion(), config, 0, ""};
+  PolicyProvenance provenance{options.stage, dataset.content_sha256, CodeVersion(), config, 0, "",
+                              dataset.parts};
 
   TrainHooks hooks;
   hooks.threads = options.threads;

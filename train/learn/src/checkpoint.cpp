@@ -30,19 +30,21 @@ constexpr const char* kStateFile = "training.safetensors";
 constexpr const char* kLossesFile = "losses.json";
 constexpr int kLossesSchemaVersion = 1;
 
+using MakeFloats = Tensor (*)(std::span<const float>, std::vector<std::uint64_t>);
+
 // Every layer's weight and bias under its own name.
 void AddParameters(const ParameterLayout& layout, const std::string& prefix,
-                   const std::vector<float>& parameters, TensorFile& file) {
+                   const std::vector<float>& parameters, MakeFloats make, TensorFile& file) {
   for (const DenseLayer& layer : layout.layers()) {
     const auto slice = [&](std::size_t begin, std::size_t count) {
       return std::span<const float>(parameters).subspan(begin, count);
     };
     const auto outputs = static_cast<std::uint64_t>(layer.outputs);
     file.tensors[prefix + layer.name + ".weight"] =
-        MakeTensor<float>(slice(layer.offset, layer.weight_count()),
-                          {outputs, static_cast<std::uint64_t>(layer.inputs)});
+        make(slice(layer.offset, layer.weight_count()),
+             {outputs, static_cast<std::uint64_t>(layer.inputs)});
     file.tensors[prefix + layer.name + ".bias"] =
-        MakeTensor<float>(slice(layer.bias_offset(), outputs), {outputs});
+        make(slice(layer.bias_offset(), outputs), {outputs});
   }
 }
 
@@ -52,7 +54,7 @@ std::vector<float> ReadParameters(const ParameterLayout& layout, const std::stri
   parameters.reserve(layout.size());
   const auto append = [&](const std::string& name, const std::vector<std::uint64_t>& shape) {
     const std::string where = path + ": " + name;
-    for (const float value : ValuesOf<float>(TensorNamed(file, name, path), shape, where)) {
+    for (const float value : FloatsOf(TensorNamed(file, name, path), shape, where)) {
       if (!std::isfinite(value))
         throw Error(ErrorCode::kFormat, where + ": holds a number that is not finite");
       parameters.push_back(value);
@@ -68,11 +70,11 @@ std::vector<float> ReadParameters(const ParameterLayout& layout, const std::stri
 
 std::string Prefix(const char* network) { return std::string(network) + "."; }
 
-TensorFile WeightsOf(const StageNetworks& networks) {
+TensorFile WeightsOf(const StageNetworks& networks, MakeFloats make) {
   TensorFile file;
   const NetworkNames names = NamesOf(networks.family);
-  AddParameters(ActorLayout(networks.family), Prefix(names.actor), networks.actor, file);
-  AddParameters(CriticLayout(networks.family), Prefix(names.critic), networks.critic, file);
+  AddParameters(ActorLayout(networks.family), Prefix(names.actor), networks.actor, make, file);
+  AddParameters(CriticLayout(networks.family), Prefix(names.critic), networks.critic, make, file);
   return file;
 }
 
@@ -165,6 +167,7 @@ Json ProvenanceToJson(const PolicyProvenance& provenance) {
                {"step", provenance.step}};
   if (!provenance.from_weights_sha256.empty())
     json["from_weights_sha256"] = provenance.from_weights_sha256;
+  json["trained_on"] = SeenPartsToJson(provenance.trained_on);
   return json;
 }
 
@@ -182,6 +185,9 @@ PolicyProvenance ProvenanceFromJson(const Json& json, NetworkFamily family,
   provenance.step = ValueOf<std::uint64_t>(json, "step", path);
   if (json.contains("from_weights_sha256"))
     provenance.from_weights_sha256 = ValueOf<std::string>(json, "from_weights_sha256", path);
+  if (json.contains("trained_on"))
+    provenance.trained_on =
+        SeenPartsFromJson(MemberOf(json, "trained_on", path), path + ".trained_on");
   return provenance;
 }
 
@@ -258,7 +264,7 @@ std::string ConfigHash(const TrainConfig& config) { return Sha256Hex(ConfigText(
 
 void WritePolicy(const fs::path& folder, const StageNetworks& networks,
                  const PolicyProvenance& provenance) {
-  const std::string weights = EncodeTensors(WeightsOf(networks));
+  const std::string weights = EncodeTensors(WeightsOf(networks, MakeHalfTensor));
   CommitFile(folder / kWeightsFile, weights);
   Json json = {{"schema", "doorforge.policy"},
                {"schema_version", kPolicySchemaVersion},
@@ -307,7 +313,7 @@ PolicyRecord ReadPolicy(const fs::path& folder, std::string_view stage) {
 
 void WriteTrainerState(const fs::path& folder, const TrainerState& state,
                        const PolicyProvenance& provenance) {
-  TensorFile file = WeightsOf(state.networks);
+  TensorFile file = WeightsOf(state.networks, MakeTensor<float>);
   for (const Moments& moments : MomentsOfState(state.networks.family))
     file.tensors[moments.name] = MakeTensor<float>(state.*(moments.values), {moments.size});
   AddLosses(state, file);

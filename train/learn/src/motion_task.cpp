@@ -60,9 +60,10 @@ class MotionTask : public StageTask {
   }
 
   GeometryCache CacheOf(std::span<const TrainingSample> samples, std::size_t bytes) const {
-    const std::array<float, 3> centre = input_.networks->normalisation.cloud_centre_m;
-    return {samples.size(), 1, bytes,
-            [samples, centre](std::size_t i) { return BuildGeometry(samples[i].cloud, centre); }};
+    const StageNormalisation& normalisation = input_.networks->normalisation;
+    return {samples.size(), 1, bytes, [samples, &normalisation](std::size_t i) {
+              return BuildGeometry(samples[i].cloud, CloudCentre(normalisation, samples[i].hand_m));
+            }};
   }
 
   TaskInput input_;

@@ -58,6 +58,7 @@ void AppendEpisode(const EpisodeArrays& arrays, std::vector<TrainingSample>& sam
     sample.label = arrays.label.subspan(t * kCloudPoints, kCloudPoints);
     sample.state = PolicyStateOf(proprioception);
     sample.hand_m = ToArray(HandPositionOf(proprioception));
+    std::copy_n(proprioception.end() - 4, 4, sample.hand_xyzw.begin());
     sample.base_m = ToArray(BasePositionOf(proprioception));
     sample.action = RowOf<std::tuple_size_v<ActionVector>>(arrays.action, t);
     sample.executed = arrays.executed.empty()
@@ -124,9 +125,11 @@ StageDataset ReadStageDataset(std::span<const fs::path> folders, std::string_vie
   Require(!folders.empty(), ErrorCode::kInvalidArgument, "no data set to read samples from");
   StageDataset dataset;
   std::string content;
-  for (const fs::path& folder : folders)
+  for (const fs::path& folder : folders) {
+    dataset.parts = Union(dataset.parts, SeenPartsOfDataset(folder));
     content += (content.empty() ? "" : "\n") +
                AppendDataset(folder, std::string(stage), validation_share, dataset);
+  }
   dataset.content_sha256 = Sha256Hex(content);
   return dataset;
 }

@@ -152,12 +152,27 @@ Normaliser<N> NormaliserFromJson(const Json& parent, const std::string& key,
 
 }  // namespace
 
-StageNormalisation MeasureNormalisation(std::span<const TrainingSample> samples) {
+std::string_view NameOf(MotionFrame frame) {
+  return frame == MotionFrame::kHand ? "hand" : "world";
+}
+
+std::array<float, 3> CloudCentre(const StageNormalisation& normalisation,
+                                 const std::array<float, 3>& hand_m) {
+  std::array<float, 3> centre = normalisation.cloud_centre_m;
+  if (normalisation.frame == MotionFrame::kHand) {
+    for (std::size_t k = 0; k < 3; ++k) centre[k] += hand_m[k];
+  }
+  return centre;
+}
+
+StageNormalisation MeasureNormalisation(std::span<const TrainingSample> samples,
+                                        MotionFrame frame) {
   Require(!samples.empty(), ErrorCode::kInvalidArgument, "no sample to train from");
   constexpr float kPosition = 0.005F;
   constexpr float kRotation = 0.05F;
   StageNormalisation normalisation;
-  normalisation.cloud_centre_m = MeanPoint(samples);
+  normalisation.frame = frame;
+  if (frame == MotionFrame::kWorld) normalisation.cloud_centre_m = MeanPoint(samples);
   normalisation.state =
       Measure<18>(samples, Filled<18>(0.02F), [](const TrainingSample& s) { return s.state; });
   normalisation.action = Measure<9>(samples,
@@ -174,7 +189,8 @@ StageNormalisation MeasureNormalisation(std::span<const TrainingSample> samples)
 }
 
 Json NormalisationToJson(const StageNormalisation& normalisation) {
-  return {{"cloud_centre_m", normalisation.cloud_centre_m},
+  return {{"frame", NameOf(normalisation.frame)},
+          {"cloud_centre_m", normalisation.cloud_centre_m},
           {"cloud_scale", 1},
           {"state", NormaliserToJson(normalisation.state)},
           {"action", NormaliserToJson(normalisation.action)},
@@ -185,6 +201,9 @@ Json NormalisationToJson(const StageNormalisation& normalisation) {
 
 StageNormalisation NormalisationFromJson(const Json& json, const std::string& path) {
   StageNormalisation normalisation;
+  // records of earlier builds have no frame: it was the world's
+  if (json.contains("frame") && ValueOf<std::string>(json, "frame", path) == "hand")
+    normalisation.frame = MotionFrame::kHand;
   normalisation.cloud_centre_m =
       ArrayFromJson<3>(MemberOf(json, "cloud_centre_m", path), path + ".cloud_centre_m");
   normalisation.state = NormaliserFromJson<18>(json, "state", path);

@@ -14,6 +14,7 @@
 #include "doorforge/learn/cloud_geometry.h"
 #include "doorforge/learn/point_encoder.h"
 
+#include "hand_frame.h"
 #include "head_networks.h"
 
 namespace doorforge {
@@ -46,8 +47,9 @@ class StagePolicy : public Policy {
 
   Action Act(const Observation& observation) override {
     internal::UseOneTorchThread();
+    const std::array<float, 3> hand_m = ToArray(HandPositionOf(observation.proprioception));
     const CloudGeometry geometry =
-        BuildGeometry(observation.cloud.xyz, networks_.normalisation.cloud_centre_m);
+        BuildGeometry(observation.cloud.xyz, CloudCentre(networks_.normalisation, hand_m));
     HeadBatch batch = Conditions(observation);
     AppendCopies(actor_.Forward(geometry).features, batch.size, batch.features);
     const std::vector<float> actions = DecodeActions(networks_, batch, Latents());
@@ -55,10 +57,17 @@ class StagePolicy : public Policy {
     ++decision_;
     ActionVector chosen{};
     std::copy_n(actions.begin() + static_cast<std::ptrdiff_t>(9 * best), 9, chosen.begin());
-    return FromVector(chosen);
+    return FromVector(InWorld(chosen, observation.proprioception));
   }
 
  private:
+  ActionVector InWorld(const ActionVector& action, const Proprioception& proprioception) const {
+    if (networks_.normalisation.frame == MotionFrame::kWorld) return action;
+    std::array<float, 4> hand_xyzw{};
+    std::copy_n(proprioception.end() - 4, 4, hand_xyzw.begin());
+    return internal::TargetOf(action, internal::RotationOf(hand_xyzw));
+  }
+
   HeadBatch Conditions(const Observation& observation) const {
     const StageNormalisation& normalisation = networks_.normalisation;
     const Proprioception& proprioception = observation.proprioception;

@@ -18,6 +18,7 @@
 #include "doorforge/learn/point_encoder.h"
 
 #include "adam.h"
+#include "hand_frame.h"
 #include "head_networks.h"
 #include "network_batch.h"
 #include "sampler.h"
@@ -82,6 +83,18 @@ void AddScaled(const StageLosses& losses, double factor, StageLosses& sum) {
   for (const auto value : kLosses) sum.*value += factor * losses.*value;
 }
 
+MotionFrame FrameOf(const TrainConfig& config) {
+  const bool hand = config.family == NetworkFamily::kMotion && config.frame == "hand";
+  return hand ? MotionFrame::kHand : MotionFrame::kWorld;
+}
+
+std::vector<TrainingSample> AllWithTurns(std::span<const TrainingSample> samples) {
+  std::vector<TrainingSample> turns;
+  turns.reserve(samples.size());
+  for (const TrainingSample& sample : samples) turns.push_back(internal::WithTurns(sample));
+  return turns;
+}
+
 // One of the two networks with what its training needs between steps.
 struct Network {
   NetworkRole role;
@@ -137,8 +150,8 @@ class Trainer {
     TrainerState state;
     state.networks = hooks_.initial
                          ? *hooks_.initial
-                         : InitialNetworks(MeasureNormalisation(train_), config_.linear_branches,
-                                           config_.seed, config_.family);
+                         : InitialNetworks(MeasureNormalisation(train_, FrameOf(config_)),
+                                           config_.linear_branches, config_.seed, config_.family);
     state.actor_first.resize(state.networks.actor.size());
     state.actor_second.resize(state.networks.actor.size());
     state.critic_first.resize(state.networks.critic.size());
@@ -410,6 +423,7 @@ void CheckTrainConfig(const TrainConfig& config) {
   RequireConfig(config.lambda_position >= 0 && config.lambda_rotation >= 0 &&
                     config.lambda_kl >= 0 && config.prior_reconstruction >= 0,
                 "lambda_*", "at least 0");
+  RequireConfig(config.frame == "hand" || config.frame == "world", "frame", "hand or world");
   RequireConfig(config.critic_interval >= 1, "critic_interval", "at least 1");
   RequireConfig(config.score_loss == "squared" || config.score_loss == "absolute", "score_loss",
                 "squared or absolute");
@@ -453,8 +467,16 @@ TrainerState TrainStage(std::span<const TrainingSample> train,
                         const TrainHooks& hooks) {
   CheckTrainConfig(config);
   Require(!train.empty(), ErrorCode::kInvalidArgument, "no sample to train from");
+  const MotionFrame frame = FrameOf(config);
+  Require(!hooks.initial || hooks.initial->normalisation.frame == frame,
+          ErrorCode::kInvalidArgument,
+          "the networks to begin with were trained with another setting of frame than \"" +
+              std::string(NameOf(frame)) + "\"");
   internal::UseOneTorchThread();
-  return Trainer(train, validation, config, hooks).Run();
+  if (frame == MotionFrame::kWorld) return Trainer(train, validation, config, hooks).Run();
+  const std::vector<TrainingSample> turns = AllWithTurns(train);
+  const std::vector<TrainingSample> validation_turns = AllWithTurns(validation);
+  return Trainer(turns, validation_turns, config, hooks).Run();
 }
 
 }  // namespace doorforge

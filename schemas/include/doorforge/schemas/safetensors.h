@@ -15,8 +15,8 @@ namespace doorforge {
 
 /// Element types of the safetensors format that this project writes and reads. A file with another
 /// type is refused.
-enum class TensorType { kF64, kF32, kI64, kU8 };
-std::string_view NameOf(TensorType type);  ///< "F64", "F32", "I64", "U8".
+enum class TensorType { kF64, kF32, kF16, kI64, kU8 };
+std::string_view NameOf(TensorType type);  ///< "F64", "F32", "F16", "I64", "U8".
 std::size_t ElementSize(TensorType type);  ///< [bytes]
 
 template <class T>
@@ -53,6 +53,14 @@ Tensor MakeTensor(std::span<const T> values, std::vector<std::uint64_t> shape);
 template <class T>
 std::vector<T> ValuesOf(const Tensor& tensor, const std::vector<std::uint64_t>& shape,
                         const std::string& path);
+
+/// A tensor of half precision: each value rounded to the nearest, ties to even. Throws
+/// Error(kInvalidArgument) as MakeTensor(), and for a finite value beyond 65504.
+Tensor MakeHalfTensor(std::span<const float> values, std::vector<std::uint64_t> shape);
+
+/// The elements of a tensor of single or half precision. Throws Error(kFormat) as ValuesOf().
+std::vector<float> FloatsOf(const Tensor& tensor, const std::vector<std::uint64_t>& shape,
+                            const std::string& path);
 
 /// What a .safetensors file holds (https://github.com/huggingface/safetensors): named tensors and
 /// free text.

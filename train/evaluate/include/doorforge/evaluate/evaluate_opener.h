@@ -18,16 +18,14 @@ struct EvaluationRequest {
   std::filesystem::path policy;  ///< Folder that `doorforge train open` wrote, or "expert".
   /// Folder that `doorforge train handle` wrote; empty: the rule turns the handle.
   std::filesystem::path handler;
-  std::filesystem::path handler_data;  ///< As `data`, of the handler.
   /// Folder that `doorforge train grasp` wrote, or "random": sampled grasps as in `datagen grasp`.
   /// Empty: the expert's grasp.
   std::filesystem::path grasper;
-  std::filesystem::path grasper_data;  ///< As `data`, of the grasper.
-  std::vector<std::string> doors;      ///< Folders of composed doors, see ReadDoors().
-  DoorSelection selection;             ///< Which of them.
-  /// Data set that the policy was trained from; it says which bodies and handles were seen. Empty
-  /// only with `allow_seen`, or for the expert.
-  std::filesystem::path data;
+  std::vector<std::string> doors;  ///< Folders of composed doors, see ReadDoors().
+  DoorSelection selection;         ///< Which of them.
+  /// Data sets that the policy was trained from, in their order: the report then lists and shows
+  /// the doors. May be empty.
+  std::vector<std::filesystem::path> data;
   bool allow_seen = false;  ///< Doors with trained-on parts are evaluated, and marked as such.
   EvaluationConfig config;
   int threads = 0;      ///< 0: all processors. Does not change the result.
@@ -46,8 +44,8 @@ struct Evaluation {
 ///
 /// Same request, same report and pictures, for any number of threads.
 ///
-/// @throws Error(kInvalidArgument) if a door's body or handle was in the policy's training set,
-///     naming these doors, or if `data` is not what the policy was trained from;
+/// @throws Error(kInvalidArgument) if a policy was trained on a door's body or handle, naming these
+///     doors, or if `data` is not what the policy was trained from;
 ///     Error(kInvalidConfig); Error(kMissing or kFormat) as the readers of policy, doors and data;
 ///     Error(kIncomplete) if the program was asked to stop.
 Evaluation EvaluateOpener(const EvaluationRequest& request);

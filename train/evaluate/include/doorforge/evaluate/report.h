@@ -10,11 +10,11 @@
 
 #include "doorforge/evaluate/evaluated_episode.h"
 #include "doorforge/evaluate/success_statistics.h"
-#include "doorforge/schemas/part_identity.h"
+#include "doorforge/schemas/seen_parts.h"
 
 namespace doorforge {
 
-inline constexpr int kReportSchemaVersion = 3;
+inline constexpr int kReportSchemaVersion = 4;
 
 /// What a report says of a door.
 struct ReportDoor {
@@ -57,16 +57,15 @@ struct ReportProvenance {
 struct EvaluationReport {
   ReportProvenance provenance;
   std::vector<ReportDoor> doors;            ///< Evaluated, sorted by id.
-  std::vector<ReportDoor> training_doors;   ///< The policy's; empty for the expert.
+  SeenParts trained_on;                     ///< By any of the policies; empty for the expert.
+  std::vector<ReportDoor> training_doors;   ///< Of the opener's data set, if it was given.
   std::vector<EvaluatedEpisode> episodes;   ///< Sorted by door, seed, episode.
   std::vector<EvaluatedEpisode> reference;  ///< The expert on the same scenes; may be empty.
   std::vector<LossCurve> losses;            ///< Of the training; empty for the expert.
 };
 
-/// Doors whose body or whose handle is a part of a training door, by id or by content: they are not
-/// held out.
-std::vector<std::string> SeenDoors(std::span<const ReportDoor> doors,
-                                   std::span<const ReportDoor> training_doors);
+/// Doors whose body or whose handle was trained on, by id, content or shape: they are not held out.
+std::vector<std::string> SeenDoors(std::span<const ReportDoor> doors, const SeenParts& trained_on);
 
 /// The record `report.json`, docs/format-report.md: the fields above and, computed, "success",
 /// "over_seeds", "over_angle" and "causes". Same report, same text.

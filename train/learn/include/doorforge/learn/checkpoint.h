@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "doorforge/learn/train_stage.h"
+#include "doorforge/schemas/seen_parts.h"
 
 namespace doorforge {
 
@@ -21,7 +22,8 @@ struct PolicyProvenance {
   std::string code_version;
   TrainConfig config;
   std::uint64_t step = 0;
-  std::string from_weights_sha256;  ///< Of the policy that it began with; empty: of none.
+  std::string from_weights_sha256 = {};  ///< Of the policy that it began with; empty: of none.
+  SeenParts trained_on = {};             ///< Empty in records of earlier builds.
 };
 
 /// The record of a policy's folder, docs/format-policy.md.
@@ -34,9 +36,9 @@ struct PolicyRecord {
 /// SHA-256 of the effective config's JSON text.
 std::string ConfigHash(const TrainConfig& config);
 
-/// Writes `policy.safetensors` (every weight under its layer's name, after the network's, see
-/// NetworkNames) and then `policy.json` (schema doorforge.policy: sizes, normalisation, provenance
-/// and the weights' SHA-256). Equal arguments give equal bytes.
+/// Writes `policy.safetensors` (every weight in half precision under its layer's name, after the
+/// network's, see NetworkNames) and then `policy.json` (schema doorforge.policy: sizes,
+/// normalisation, provenance and the weights' SHA-256). Equal arguments give equal bytes.
 void WritePolicy(const std::filesystem::path& folder, const StageNetworks& networks,
                  const PolicyProvenance& provenance);
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "doorforge/learn/training_sample.h"
+#include "doorforge/schemas/seen_parts.h"
 
 namespace doorforge {
 
@@ -20,6 +21,7 @@ class DatasetReader;
 struct StageDataset {
   std::vector<TrainingSample> train;
   std::vector<TrainingSample> validation;
+  SeenParts parts;             ///< Of the doors of all data sets.
   std::string content_sha256;  ///< Over both splits' shards, of all data sets in their order.
   std::vector<std::unique_ptr<DatasetReader>> readers;
 
@@ -29,9 +31,10 @@ struct StageDataset {
   StageDataset& operator=(StageDataset&&) noexcept;
 };
 
-/// Reads of every folder `<stage>/train`, and `<stage>/val` if there is one; otherwise the last
-/// `validation_share` of the episodes, rounded up, are set aside (whole episodes; none if the share
-/// is 0 or there is only one). Several data sets: the samples of the first, then the second's.
+/// Reads of every folder `provenance.json`, `<stage>/train`, and `<stage>/val` if there is one;
+/// otherwise the last `validation_share` of the episodes, rounded up, are set aside (whole
+/// episodes; none if the share is 0 or there is only one). Several data sets: the samples of the
+/// first, then the second's.
 ///
 /// @throws Error(kMissing or kFormat) as DatasetReader, or if clouds do not hold 4096 points;
 ///     Error(kInvalidArgument) without a folder.

@@ -31,9 +31,19 @@ struct Normaliser {
   }
 };
 
+/// How the motion networks are told where things are. kHand: clouds relative to the hand's position
+/// and the hand's turn from its present rotation, both along the world's axes, so that what was
+/// learned at one height and distance holds at others. kWorld: one centre for all clouds and
+/// absolute rotations, as UniDoorManip.
+enum class MotionFrame { kHand, kWorld };
+std::string_view NameOf(MotionFrame frame);  ///< "hand", "world".
+
 /// Constants between the world's numbers and the networks'. Part of a checkpoint.
 struct StageNormalisation {
-  std::array<float, 3> cloud_centre_m{};  ///< Subtracted from every cloud; the scale stays metres.
+  MotionFrame frame = MotionFrame::kWorld;
+  /// Subtracted from every cloud, in the hand's frame after the hand's position; the scale stays
+  /// metres.
+  std::array<float, 3> cloud_centre_m{};
   Normaliser<18> state;
   Normaliser<9> action;  ///< Position or contact point [m], then the six rotation numbers.
   Normaliser<3> hand_m;
@@ -41,8 +51,14 @@ struct StageNormalisation {
   Normaliser<1> score_rad;
 };
 
-/// Throws Error(kInvalidArgument) if there is no sample.
-StageNormalisation MeasureNormalisation(std::span<const TrainingSample> samples);
+/// In the hand's frame the samples' actions must be turns already.
+///
+/// @throws Error(kInvalidArgument) if there is no sample.
+StageNormalisation MeasureNormalisation(std::span<const TrainingSample> samples,
+                                        MotionFrame frame = MotionFrame::kWorld);
+/// What is subtracted from a cloud that is seen with the hand there.
+std::array<float, 3> CloudCentre(const StageNormalisation& normalisation,
+                                 const std::array<float, 3>& hand_m);
 nlohmann::ordered_json NormalisationToJson(const StageNormalisation& normalisation);
 /// Throws Error(kFormat), naming `path`.
 StageNormalisation NormalisationFromJson(const nlohmann::ordered_json& json,

@@ -38,6 +38,8 @@ struct TrainConfig {
   double prior_reconstruction = 1;
   /// True: no ReLU between the layers of the actor's branches and decoder, as released.
   bool linear_branches = false;
+  /// "hand" or "world" (UniDoorManip), see MotionFrame.
+  std::string frame = "hand";
   /// The critic learns on every n-th step only; 1: on all.
   int critic_interval = 1;
   /// What the discriminator minimises: "squared" error, which makes its score the expected angle,
@@ -64,6 +66,7 @@ struct TrainConfig {
       visit("lambda_kl", self.lambda_kl);
       visit("prior_reconstruction", self.prior_reconstruction);
       visit("linear_branches", self.linear_branches);
+      visit("frame", self.frame);
       visit("critic_interval", self.critic_interval);
     } else {
       visit("score_loss", self.score_loss);

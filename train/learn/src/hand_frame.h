@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "doorforge/learn/training_sample.h"
+
+namespace doorforge::internal {
+
+/// Rotation world_from_hand of a quaternion xyzw.
+Eigen::Matrix3d RotationOf(const std::array<float, 4>& xyzw);
+
+/// The action with the turn from the present rotation of the hand instead of the absolute one: rows
+/// of world_from_target * hand_from_world, near the identity. The position stays.
+ActionVector TurnOf(const ActionVector& action, const Eigen::Matrix3d& world_from_hand);
+
+/// Inverse of TurnOf().
+ActionVector TargetOf(const ActionVector& turn, const Eigen::Matrix3d& world_from_hand);
+
+/// The sample with turns for `action` and `executed`.
+TrainingSample WithTurns(TrainingSample sample);
+
+}  // namespace doorforge::internal

@@ -283,17 +283,20 @@ int PlanPipeline(const Pipeline& pipeline, const PipelineRun& run) {
   }
   double minutes = 0;
   double mebibytes = 0;
-  std::printf("%-14s %-10s %9s %10s   %s\n", "step", "", "minutes", "MiB", "why");
+  int width = 14;
+  for (const PlannedStep& row : planned)
+    width = std::max(width, static_cast<int>(row.step->name.size()));
+  std::printf("%-*s %-10s %9s %10s   %s\n", width, "step", "", "minutes", "MiB", "why");
   for (const PlannedStep& row : planned) {
     minutes += row.seconds / 60;
     mebibytes += row.mebibytes;
-    std::printf("%-14s %-10s %9.1f %10.0f   %s\n", row.step->name.c_str(), row.action.c_str(),
+    std::printf("%-*s %-10s %9.1f %10.0f   %s\n", width, row.step->name.c_str(), row.action.c_str(),
                 row.seconds / 60, row.mebibytes, row.why.c_str());
   }
   std::printf(
-      "%-14s %-10s %9.1f %10.0f   on %d threads, by the arithmetic of "
+      "%-*s %-10s %9.1f %10.0f   on %d threads, by the arithmetic of "
       "docs/pipeline.md\n",
-      "together", "", minutes, mebibytes, ThreadCount(run.threads));
+      width, "together", "", minutes, mebibytes, ThreadCount(run.threads));
   return 0;
 }
 

@@ -12,9 +12,10 @@ namespace {
 
 FailedEpisode FailureOf(const PlannedEpisode& planned, const DatasetDoor& door,
                         const Episode& episode) {
+  const bool opened = episode.outcome == EpisodeOutcome::kOpened;
   return {planned.key,
           door.id,
-          std::string(NameOf(episode.outcome)),
+          std::string(opened ? "no_decisions" : NameOf(episode.outcome)),
           episode.detail,
           episode.peak_hinge_rad,
           episode.peak_handle_rad};
@@ -30,9 +31,9 @@ bool IsOfEnvironment(const Error& error) {
 
 bool IsData(const CollectedEpisode& collected) {
   const Episode& episode = collected.episode;
+  if (episode.decisions.empty()) return false;
   if (episode.outcome == EpisodeOutcome::kOpened) return true;
-  return collected.keep_failed && !episode.decisions.empty() &&
-         episode.outcome != EpisodeOutcome::kDiverged;
+  return collected.keep_failed && episode.outcome != EpisodeOutcome::kDiverged;
 }
 
 EncodedEpisode RunAndEncode(const PlannedEpisode& planned, const DatasetDoor& door,

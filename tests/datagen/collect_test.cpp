@@ -46,6 +46,19 @@ TEST_F(CollectionTest, WritesSuccessesIntoShardsAndFailuresIntoALog) {
   EXPECT_NE(failures.find("synthetic ep000038"), std::string::npos);
 }
 
+TEST_F(CollectionTest, AnEpisodeInWhichThereWasNothingToDecideIsNoData) {
+  const CollectSummary summary = Collect(
+      plan_,
+      [this](const PlannedEpisode& planned) {
+        CollectedEpisode collected = synthetic::RunSynthetic(planned, doors_);
+        if (planned.number == 5) collected.episode.decisions.clear();
+        return collected;
+      },
+      RequestFor(folder_, 2));
+  EXPECT_EQ(summary.written, 33U);
+  EXPECT_EQ(summary.failures.at("no_decisions"), 1U);
+}
+
 TEST_F(CollectionTest, WritesTheSameBytesForAnyNumberOfThreads) {
   CollectInto(folder_ / "one", 1);
   CollectInto(folder_ / "five", 5);

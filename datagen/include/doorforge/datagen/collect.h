@@ -29,7 +29,9 @@ struct CollectedEpisode {
   bool keep_failed = false;
 };
 
-/// Whether the episode is written into its shard, or else listed among the failures.
+/// Whether the episode is written into its shard, or else listed among the failures: there as
+/// "no_decisions" if the door opened although nobody had anything to decide at the recorded stage,
+/// as where closing fingers turn the handle.
 bool IsData(const CollectedEpisode& collected);
 
 /// Runs a planned episode. Called from several threads at once; must be a pure function of the

@@ -28,6 +28,7 @@
 #include "doorforge/sensor/picture.h"
 
 #include "../physics/primitive_door.h"
+#include "../program_answer.h"
 
 namespace doorforge {
 namespace {
@@ -79,21 +80,8 @@ class Photographer : public Observer {
   CameraObserver camera_;
 };
 
-struct Answer {
-  int code = 0;
-  std::string text;
-};
-
-Answer RunAct(const std::string& arguments, const std::string& errors = "2>&1") {
-  const std::string command =
-      std::string(DOORFORGE_BINARY_DIR "/bin/doorforge-act act ") + arguments + " " + errors;
-  Answer answer;
-  FILE* pipe = ::popen(command.c_str(), "r");
-  std::array<char, 4096> buffer{};
-  while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), pipe))
-    answer.text.append(buffer.data(), count);
-  answer.code = WEXITSTATUS(::pclose(pipe));
-  return answer;
+ProgramAnswer RunAct(const std::string& arguments, const std::string& errors = "2>&1") {
+  return AnswerOf(DOORFORGE_BINARY_DIR "/bin/doorforge-act act " + arguments + " " + errors);
 }
 
 Json CameraFile(const CameraModel& camera, double pixel_centre) {
@@ -174,7 +162,7 @@ class RobotSightTest : public testing::Test {
   static std::vector<Json> Stream(const std::string& arguments, const std::string& lines,
                                   int code = 0) {
     CommitFile(folder_ / "lines", lines);
-    const Answer answer =
+    const ProgramAnswer answer =
         RunAct(arguments + " --stream < " + (folder_ / "lines").string(), "2>/dev/null");
     EXPECT_EQ(answer.code, code) << answer.text;
     std::istringstream rows(answer.text);
@@ -311,7 +299,7 @@ TEST_F(RobotSightTest, TheProgramTakesHoldAsTheGrasperDoesInTheSimulator) {
   const std::string grasper = " --grasper " + (folder_ / "grasper").string();
   const std::string look = " --depth " + (folder_ / "closed.png").string() + " --handle " +
                            (folder_ / "mask.png").string();
-  const Answer answer = RunAct(common + grasper + look, "2>/dev/null");
+  const ProgramAnswer answer = RunAct(common + grasper + look, "2>/dev/null");
   ASSERT_EQ(answer.code, 0);
   const Json decision = Json::parse(answer.text);
   EXPECT_EQ(decision["stage"], "grasp");
@@ -324,7 +312,7 @@ TEST_F(RobotSightTest, TheProgramTakesHoldAsTheGrasperDoesInTheSimulator) {
   EXPECT_NEAR(decision["expected_door_angle_rad"].get<double>(), expected->score_rad, 1e-4);
 
   const auto refused = [&](const std::string& arguments, int code, const std::string& reason) {
-    const Answer refusal = RunAct(common + arguments);
+    const ProgramAnswer refusal = RunAct(common + arguments);
     EXPECT_EQ(refusal.code, code) << refusal.text;
     EXPECT_NE(refusal.text.find(reason), std::string::npos) << refusal.text;
   };
@@ -419,9 +407,9 @@ TEST_F(RobotSightTest, ACameraFileWithAMissingKeyAndAPolicyOfAnotherStageAreRefu
   };
   EXPECT_NE(refusal("narrow.yaml").find("256 x 256"), std::string::npos);
   EXPECT_NE(refusal("no_fx.yaml").find("\"fx\" is missing"), std::string::npos);
-  const Answer answer = RunAct("--camera " + (folder_ / "camera.yaml").string() + " --policy " +
-                               (folder_ / "handler").string() + " --depth " + Depth(0).string() +
-                               " --state " + State(0).string());
+  const ProgramAnswer answer = RunAct("--camera " + (folder_ / "camera.yaml").string() +
+                                      " --policy " + (folder_ / "handler").string() + " --depth " +
+                                      Depth(0).string() + " --state " + State(0).string());
   EXPECT_EQ(answer.code, 3) << answer.text;
   EXPECT_NE(answer.text.find("handle"), std::string::npos) << answer.text;
 }

@@ -22,6 +22,7 @@
 #include "doorforge/schemas/dataset.h"
 #include "doorforge/schemas/episode_arrays.h"
 
+#include "../program_answer.h"
 #include "synthetic_samples.h"
 
 namespace doorforge {
@@ -177,26 +178,12 @@ TEST(TrainProgram, TwoProcessesEndInTheBytesOfOne) {
     EXPECT_EQ(ReadFile(folder / "two" / file), ReadFile(folder / "one" / file)) << file;
 }
 
-struct Answer {
-  int code = 0;
-  std::string text;
-};
-
-// Of `doorforge-train train ARGUMENTS`.
-Answer AnswerOf(const std::string& arguments) {
-  const std::string command =
-      DOORFORGE_BINARY_DIR "/bin/doorforge-train train " + arguments + " 2>&1";
-  Answer answer;
-  FILE* pipe = ::popen(command.c_str(), "r");
-  std::array<char, 4096> buffer{};
-  while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), pipe))
-    answer.text.append(buffer.data(), count);
-  answer.code = WEXITSTATUS(::pclose(pipe));
-  return answer;
+ProgramAnswer RunTraining(const std::string& arguments) {
+  return AnswerOf(DOORFORGE_BINARY_DIR "/bin/doorforge-train train " + arguments + " 2>&1");
 }
 
 void ExpectRefusal(const std::string& arguments, const std::string& reason) {
-  const Answer answer = AnswerOf(arguments);
+  const ProgramAnswer answer = RunTraining(arguments);
   EXPECT_EQ(answer.code, 3) << answer.text;
   EXPECT_NE(answer.text.find(reason), std::string::npos) << answer.text;
 }
@@ -226,7 +213,7 @@ TEST(TrainProgram, NamesACorruptShardInTheMiddleAndKeepsTheCheckpoint) {
   const std::string out = (folder / "out").string();
   const std::string arguments = "open --data " + (folder / "data").string() +
                                 " --epochs 1 --set batch_size=4 --threads 1 --out " + out;
-  ASSERT_EQ(AnswerOf(arguments).code, 0);
+  ASSERT_EQ(RunTraining(arguments).code, 0);
   const std::string policy = ReadFile(out + "/policy.safetensors");
   const std::string state = ReadFile(out + "/training.safetensors");
 
@@ -283,10 +270,10 @@ TEST(TrainProgram, ALossThatIsNoNumberEndsTheRunAndTheLastGoodPolicyIsKept) {
   WriteTrainerState(out, good, {"open", dataset.content_sha256, "v", config, 0});
   const std::string state = ReadFile(out / "training.safetensors");
 
-  const Answer answer = AnswerOf("open --data " + (folder / "data").string() +
-                                 " --epochs 2 --set batch_size=4 --set warmup_steps=1 "
-                                 "--set learning_rate=1e30 --resume --threads 1 --out " +
-                                 out.string());
+  const ProgramAnswer answer = RunTraining("open --data " + (folder / "data").string() +
+                                           " --epochs 2 --set batch_size=4 --set warmup_steps=1 "
+                                           "--set learning_rate=1e30 --resume --threads 1 --out " +
+                                           out.string());
   EXPECT_EQ(answer.code, 4) << answer.text;
   EXPECT_NE(answer.text.find("is not finite; lower learning_rate"), std::string::npos)
       << answer.text;

@@ -24,6 +24,13 @@ using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 using Values = std::map<std::string, std::vector<std::string>>;
 
+/// What a step would be made from now, and what is to be done about it.
+struct JudgedStep {
+  StepInputs inputs;
+  std::string output_sha256;  ///< Of what is there.
+  StepDecision decision;
+};
+
 /// A pipeline in its folder: what stands for the placeholders, and what the steps' records say.
 class Workshop {
  public:
@@ -48,10 +55,20 @@ class Workshop {
   }
 
   /// `hashes`: of the outputs of earlier steps.
-  StepInputs Inputs(const PipelineStep& step, const std::map<std::string, std::string>& hashes) {
-    StepInputs inputs = {{"build", CodeVersion()}, {"command", HashedCommand(step)}};
-    for (const std::string& need : step.needs) inputs.emplace_back(need, hashes.at(need));
-    return inputs;
+  JudgedStep Judge(const PipelineStep& step,
+                   const std::map<std::string, std::string>& hashes) const {
+    const std::optional<StepRecord> record = ReadStepRecord(run_.out, step.name);
+    const std::string finished_by = record ? BuildThatFinished(*record) : "";
+    const bool other = !finished_by.empty() && finished_by != CodeVersion();
+    JudgedStep judged;
+    judged.inputs = {{"build", other && run_.any_build ? finished_by : CodeVersion()},
+                     {"command", HashedCommand(step)}};
+    for (const std::string& need : step.needs) judged.inputs.emplace_back(need, hashes.at(need));
+    judged.output_sha256 = OutputHash(step);
+    judged.decision = Decide(record, judged.inputs, judged.output_sha256);
+    if (other && judged.decision.action == StepAction::kSkip)
+      judged.decision.why = "build " + finished_by + " made it, and nothing else has changed";
+    return judged;
   }
 
  private:
@@ -129,7 +146,9 @@ void ClearOutput(const PipelineStep& step, const PipelineRun& run, const StepDec
   if (decision.action == StepAction::kAnew && !run.overwrite && fs::exists(output))
     throw Error(ErrorCode::kInvalidArgument,
                 "step " + step.name + " would replace " + output.string() + ", because " +
-                    decision.why + "; pass --overwrite to allow it, or choose another --out");
+                    decision.why +
+                    "; pass --overwrite to allow it, --any-build if only the build has changed, "
+                    "or choose another --out");
   RemoveStepRecord(run.out, step.name);
   fs::remove_all(output);
 }
@@ -151,9 +170,7 @@ int Finish(const PipelineStep& step, Workshop& workshop, const PipelineRun& run,
     std::fprintf(stderr, "   given\n");
     return 0;
   }
-  const StepInputs inputs = workshop.Inputs(step, hashes);
-  const StepDecision decision =
-      Decide(ReadStepRecord(run.out, step.name), inputs, workshop.OutputHash(step));
+  const auto [inputs, output, decision] = workshop.Judge(step, hashes);
   std::fprintf(stderr, "   %s: %s\n", NameOf(decision.action), decision.why.c_str());
   if (decision.action != StepAction::kSkip) {
     ClearOutput(step, run, decision);
@@ -215,9 +232,7 @@ std::vector<PlannedStep> Plan(const Pipeline& pipeline, const PipelineRun& run) 
       row.why =
           begun ? "after " + *waits + ", unless that comes out as before" : "it has not run yet";
     } else {
-      const std::string output = workshop.OutputHash(step);
-      const StepDecision decision =
-          Decide(ReadStepRecord(run.out, step.name), workshop.Inputs(step, hashes), output);
+      const auto [inputs, output, decision] = workshop.Judge(step, hashes);
       row.action = NameOf(decision.action);
       row.why = decision.why;
       if (decision.action == StepAction::kSkip) hashes[step.name] = output;

@@ -14,7 +14,9 @@ struct PipelineRun {
   std::filesystem::path out;  ///< Everything is made below it.
   int threads = 0;            ///< 0: all processors.
   bool overwrite = false;     ///< Outputs of steps whose inputs changed may be replaced.
-  bool json = false;          ///< The plan as one JSON document.
+  /// What other builds finished counts as done where nothing else has changed.
+  bool any_build = false;
+  bool json = false;  ///< The plan as one JSON document.
   /// For messages: how the user goes on after an interruption.
   std::string again = "give the same command again";
 };

@@ -56,6 +56,10 @@ void AddFiles(const fs::path& folder, const std::vector<std::string>& endings,
 
 }  // namespace
 
+std::string BuildThatFinished(const StepRecord& record) {
+  return record.output_sha256.empty() ? "" : ValueOfInput(record.inputs, "build");
+}
+
 StepDecision Decide(const std::optional<StepRecord>& record, const StepInputs& inputs,
                     const std::string& output_sha256) {
   if (!record) return {StepAction::kStart, "it has not run yet"};

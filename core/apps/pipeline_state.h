@@ -32,6 +32,9 @@ struct StepDecision {
   std::string why;
 };
 
+/// The build that made a step's output; empty unless it is done.
+std::string BuildThatFinished(const StepRecord& record);
+
 /// @param output_sha256 Of what is there now; empty if there is nothing.
 StepDecision Decide(const std::optional<StepRecord>& record, const StepInputs& inputs,
                     const std::string& output_sha256);

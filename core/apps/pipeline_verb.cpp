@@ -55,6 +55,10 @@ void ParseOptions(int argc, char** argv, Options& options) {
   app.add_flag("--json", options.run.json, "the plan as one JSON document");
   app.add_flag("--overwrite", options.run.overwrite,
                "replace what steps made whose inputs have changed since");
+  app.add_flag(
+      "--any-build", options.run.any_build,
+      "keep finished steps of other builds where nothing else has changed; each policy and\n"
+      "data set names the build that made it");
   app.footer("presets:\n" + PresetLines() +
              "\nexamples:\n"
              "  doorforge pipeline plan quick --out run/quick\n"

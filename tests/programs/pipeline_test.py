@@ -160,6 +160,31 @@ class Graph(PipelineTest):
         self.pipeline("diamond.yaml", "--out", "elsewhere")
         self.assertEqual(self.ran(), [])
 
+    def test_what_another_build_finished_is_kept_only_where_asked_and_where_nothing_else_has_changed(self):
+        self.pipeline("diamond.yaml", "--out", "out")
+        self.ran()
+        shutil.copytree(self.folder / "out", self.folder / "begun")
+        for name in NEEDS:  # as if another build had made it all
+            for out, finished in (("out", True), ("begun", name != "c")):
+                path = self.folder / out / "pipeline" / f"{name}.json"
+                record = json.loads(path.read_text())
+                record["inputs"]["build"] = "0.0.1"
+                if not finished:
+                    record["output_sha256"] = ""
+                path.write_text(json.dumps(record))
+        self.assertIn("--any-build", self.pipeline("diamond.yaml", "--out", "out", code=2).stderr)
+        plan = json.loads(self.pipeline("plan", "diamond.yaml", "--out", "out", "--any-build", "--json").stdout)
+        self.assertEqual({step["action"] for step in plan["steps"]}, {"skip"})
+        self.assertIn("0.0.1", plan["steps"][0]["why"])
+        records = digests(self.folder / "out/pipeline", ("lock",))
+        self.pipeline("diamond.yaml", "--out", "out", "--any-build")
+        self.assertEqual(self.ran(), [])
+        self.assertEqual(digests(self.folder / "out/pipeline", ("lock",)), records, "a step's record names its build")
+        self.pipeline("diamond.yaml", "--out", "out", "--any-build", "--overwrite", "--set", "value_c=200")
+        self.assertEqual(self.ran(), ["c", "d"])
+        self.pipeline("diamond.yaml", "--out", "begun", "--any-build", "--overwrite")
+        self.assertEqual(self.ran(), ["c"], "what was begun by another build is not gone on with")
+
     def test_a_folder_of_the_users_stands_for_a_step_and_those_before_it_are_left_out(self):
         text = declaration(0).replace('"name": "b"', '"name": "doors"').replace("{b}", "{doors}")
         text = text.replace('"b", "c"', '"doors", "c"').replace('["b"]', '["doors"]')

@@ -34,26 +34,37 @@ std::string ArrayOption(const SlurmArray& array, int parallel) {
          (parallel > 0 ? "%" + std::to_string(parallel) : "");
 }
 
+// `ids` are the arrays that Slurm has taken so far. Where it refuses another one (its limit of
+// jobs, a MaxArraySize below ours), they must not run for nothing, and must not be there beside
+// those of the next try.
 std::string SubmitPart(const SlurmScript& script) {
   std::string text =
+      "ids=()\n"
+      "give_up() {\n"
+      "  local code=$?\n"
+      "  echo \"$script: sbatch refused a job${ids[*]:+; cancelling ${ids[*]}}\" >&2\n"
+      "  if [ ${#ids[@]} -gt 0 ]; then scancel \"${ids[@]}\"; fi\n"
+      "  exit \"$code\"\n"
+      "}\n"
       "submit() {\n"
       "  mkdir -p \"$dataset.slurm\"\n"
-      "  local ids=() id\n";
+      "  local id\n";
   for (const SlurmArray& array : CutIntoArrays(script.tasks, script.array_size))
     text += "  id=$(\"${sbatch[@]}\" --job-name=doorforge-task " +
             ArrayOption(array, script.parallel) +
-            " --output=\"$dataset.slurm/task-%A_%a.log\" \"$script\" task " +
-            std::to_string(array.first) + ")\n  ids+=(\"${id%%;*}\")\n";
+            " --output=\"$logs/task-%A_%a.log\" \"$script\" task " + std::to_string(array.first) +
+            ") || give_up\n  ids+=(\"${id%%;*}\")\n";
   return text +
          "  local all=${ids[*]}\n"
          "  id=$(\"${sbatch[@]}\" --job-name=doorforge-merge --dependency=\"afterok:${all// /:}\" "
          "\\\n"
-         "    --kill-on-invalid-dep=yes --output=\"$dataset.slurm/merge-%j.log\" \"$script\" "
-         "merge)\n"
+         "    --kill-on-invalid-dep=yes --output=\"$logs/merge-%j.log\" \"$script\" merge) || "
+         "give_up\n"
          "  local merge=${id%%;*}\n"
+         "  ids+=(\"$merge\")\n"
          "  id=$(\"${sbatch[@]}\" --job-name=doorforge-verify --dependency=\"afterok:$merge\" \\\n"
-         "    --kill-on-invalid-dep=yes --output=\"$dataset.slurm/verify-%j.log\" \"$script\" "
-         "verify)\n"
+         "    --kill-on-invalid-dep=yes --output=\"$logs/verify-%j.log\" \"$script\" verify) || "
+         "give_up\n"
          "  echo \"tasks $all merge $merge verify ${id%%;*}\"\n"
          "}\n";
 }
@@ -80,7 +91,8 @@ std::string SlurmScriptText(const SlurmScript& script) {
          "# verification. Given again, it goes on; what is done ends at once.\n"
          "set -euo pipefail\n"
          "script=$(realpath \"$0\")\nprogram=" +
-         Quoted(script.program) + "\ndataset=" + Quoted(script.dataset) + "\ncd " +
+         Quoted(script.program) + "\ndataset=" + Quoted(script.dataset) +
+         "\nlogs=${dataset//%/%%}.slurm  # sbatch writes a % for two\ncd " +
          Quoted(script.work_folder) +
          "\nsbatch=(sbatch --parsable --requeue --open-mode=append --nodes=1 --ntasks=1\n"
          "  --cpus-per-task=" +

@@ -10,6 +10,7 @@
 #include "doorforge/datagen/slurm_script.h"
 #include "doorforge/datagen/task_number.h"
 
+#include "../program_answer.h"
 #include "synthetic.h"
 
 namespace doorforge {
@@ -232,6 +233,86 @@ TEST(SlurmScriptText, QuotesWhatItIsGiven) {
   EXPECT_NE(text.find("task 2002"), std::string::npos);
   script.arguments.push_back("two\nlines");
   EXPECT_THROW(SlurmScriptText(script), Error);
+}
+
+// bash runs the script with an sbatch and a scancel that write down how they were called;
+// tests/cluster has it run by Slurm.
+class SubmittedScript : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("doorforge_submitted_" + std::to_string(::getpid()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    AddProgram("sbatch", R"(echo "$*" >> "$0.calls"; number=$(wc -l < "$0.calls")
+[ "$number" -lt "$REFUSED" ] || { echo "sbatch: error: limit of jobs" >&2; exit 7; }
+echo "$((100 + number));cluster")");
+    AddProgram("scancel", R"(echo "$*" >> "$0.calls")");
+    SlurmScript script;
+    script.program = "/opt/doorforge";
+    script.work_folder = "/";
+    script.dataset = (folder_ / "100%j").string();
+    script.tasks = 2500;
+    std::ofstream(folder_ / "collect.sh") << SlurmScriptText(script);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void AddProgram(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << "#!/bin/bash\n" << text << "\n";
+    fs::permissions(folder_ / name, fs::perms::owner_all);
+  }
+
+  // Slurm refuses the call of this number.
+  ProgramAnswer Submit(int refused) const {
+    return AnswerOf("PATH='" + folder_.string() + "':$PATH REFUSED=" + std::to_string(refused) +
+                    " bash '" + (folder_ / "collect.sh").string() + "' 2>&1");
+  }
+
+  std::vector<std::string> CallsOf(const std::string& program) const {
+    std::vector<std::string> calls;
+    std::ifstream file(folder_ / (program + ".calls"));
+    for (std::string line; std::getline(file, line);) calls.push_back(line);
+    return calls;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(SubmittedScript, CutsTheTasksIntoArraysAndMergesAfterAllOfThem) {
+  const ProgramAnswer answer = Submit(99);
+  EXPECT_EQ(answer.code, 0);
+  EXPECT_EQ(answer.text, "tasks 101 102 103 merge 104 verify 105\n");
+  const std::vector<std::string> calls = CallsOf("sbatch");
+  ASSERT_EQ(calls.size(), 5U);
+  const auto expect = [&](std::size_t call, const std::string& what) {
+    EXPECT_NE(calls[call].find(what), std::string::npos) << calls[call] << "\n" << what;
+  };
+  expect(0, "--array=0-1000 ");
+  expect(0, "collect.sh task 0");
+  expect(1, "--array=0-1000 ");
+  expect(1, "collect.sh task 1001");
+  expect(2, "--array=0-497 ");
+  expect(2, "collect.sh task 2002");
+  expect(3, "--dependency=afterok:101:102:103 ");
+  expect(4, "--dependency=afterok:104 ");
+  expect(4, "100%%j.slurm/verify-%j.log");  // of a name with a % that Slurm is not to fill in
+  EXPECT_TRUE(fs::is_directory(folder_ / "100%j.slurm"));
+  EXPECT_TRUE(CallsOf("scancel").empty());
+}
+
+TEST_F(SubmittedScript, CancelsWhatSlurmTookWhereItRefusesTheRest) {
+  for (const auto& [refused, cancelled] : std::vector<std::pair<int, std::string>>{
+           {3, "101 102"}, {4, "101 102 103"}, {5, "101 102 103 104"}}) {
+    for (const char* program : {"sbatch.calls", "scancel.calls"}) fs::remove(folder_ / program);
+    const ProgramAnswer answer = Submit(refused);
+    EXPECT_EQ(answer.code, 7);
+    EXPECT_NE(answer.text.find("cancelling " + cancelled), std::string::npos) << answer.text;
+    EXPECT_EQ(CallsOf("sbatch").size(), static_cast<std::size_t>(refused));
+    EXPECT_EQ(CallsOf("scancel"), std::vector<std::string>{cancelled});
+  }
+  fs::remove(folder_ / "sbatch.calls");
+  fs::remove(folder_ / "scancel.calls");
+  EXPECT_EQ(Submit(1).code, 7);
+  EXPECT_TRUE(CallsOf("scancel").empty());
 }
 
 }  // namespace

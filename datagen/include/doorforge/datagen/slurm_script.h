@@ -34,7 +34,8 @@ std::vector<SlurmArray> CutIntoArrays(int tasks, int array_size);
 /// A bash script that is both what sbatch runs and what submits it: `bash FILE` submits the arrays,
 /// then the merge after all of them, then the verification after the merge, and prints their job
 /// numbers. A task that is requeued goes on where it was. Given again, all that is done ends at
-/// once.
+/// once. Where Slurm refuses one of the jobs, those before it are cancelled and the script ends
+/// with sbatch's code.
 ///
 /// @throws Error(kInvalidArgument) on numbers out of range or a text with a line break.
 std::string SlurmScriptText(const SlurmScript& script);

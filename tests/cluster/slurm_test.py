@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The doorforge authors
 # SPDX-License-Identifier: Apache-2.0
-"""A collection through a real Slurm on this machine: a four-task array, one task killed and requeued, the
-merge and the verification after them, and the bytes of a run by one process.
+"""Collections through a real Slurm on this machine: a four-task array, one task killed and requeued, and ten
+tasks where an array holds four at most; the merge and the verification after them, and the bytes of a run by
+one process.
 
     python3 tests/cluster/slurm_test.py BUILD_FOLDER [--install] [--episodes N] [--doors DOORS ...]
 
@@ -35,6 +36,7 @@ BINARY_DIR = options.build_folder.resolve()
 DOORFORGE = BINARY_DIR / "bin/doorforge"
 PROGRAMS = ["slurmctld", "slurmd", "munged", "sbatch", "scontrol", "squeue"]
 EPISODES, TASKS = options.episodes, 4
+ARRAY_SIZE = 4  # Slurm's MaxArraySize, 1001 by default
 PER_SHARD = 8 if EPISODES < 1000 else 128
 PATIENCE = 400 + 2 * EPISODES  # [s]
 BODIES = ["interior_flush_01", "interior_four_panel_02", "interior_framed_02"]
@@ -110,7 +112,7 @@ JobAcctGatherType=jobacct_gather/none
 AccountingStorageType=accounting_storage/none
 ReturnToService=2
 KillWait=5
-MaxArraySize=1001
+MaxArraySize={ARRAY_SIZE}
 NodeName={host} NodeAddr=127.0.0.1 CPUs={os.cpu_count()} State=UNKNOWN
 PartitionName=main Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 """)
@@ -248,6 +250,36 @@ class SlurmTest(unittest.TestCase):
 
         self.doorforge(*self.collection("single"))
         self.assert_same(self.folder / "single", self.folder / "array")
+
+    def test_more_tasks_than_an_array_holds_become_several_arrays(self) -> None:
+        tasks = 10
+        small = ["datagen", "open", "--doors", *self.doors, "--episodes", 2 * tasks, "--seed", 7, "-j", 1, "--set",
+                 "collection.episodes_per_shard=2", "--set", "cloud.point_count=64", "--set", "preview=false"]
+        script = ["--slurm", "arrays.sh", "--tasks", tasks, "--submit", "--slurm-memory", 0]
+        # as where the cluster's arrays are smaller than Slurm's default
+        refused = subprocess.run([DOORFORGE, *map(str, small), "--out", self.folder / "arrays", *map(str, script)],
+                                 env=self.slurm.environment, capture_output=True, text=True, cwd=self.folder)
+        self.assertNotEqual(refused.returncode, 0)
+        self.assertIn("Invalid job array specification", refused.stderr)
+        self.assertIn("sbatch refused a job", refused.stderr)
+        self.assertEqual(self.slurm.run("squeue", "-h"), "")
+
+        submitted = self.doorforge(*small, "--out", self.folder / "arrays", *script, "--slurm-array", ARRAY_SIZE)
+        words = submitted.stdout.split()
+        self.assertEqual([words[0], *words[4::2]], ["tasks", "merge", "verify"], submitted.stdout)
+        arrays, merge, verify = words[1:4], words[5], words[7]
+        wait_for(lambda: self.slurm.state(verify) in ("COMPLETED", "FAILED", "CANCELLED") or
+                 self.slurm.state(merge) in ("FAILED", "CANCELLED"), PATIENCE, "the verification")
+        logs = {log.name: log.read_text(errors="replace") for log in (self.folder / "arrays.slurm").iterdir()}
+        self.assertEqual([self.slurm.state(merge), self.slurm.state(verify)], ["COMPLETED"] * 2, logs)
+        self.assertEqual({name for name in logs if name.startswith("task-")},
+                         {f"task-{array}_{i}.log" for array, count in zip(arrays, (4, 4, 2)) for i in range(count)})
+        for array, first in zip(arrays, (0, 4, 8)):
+            self.assertIn(f"task {first}/{tasks}: 1 shards", logs[f"task-{array}_0.log"])
+        self.assertIn("no faults", logs[f"verify-{verify}.log"])
+
+        self.doorforge(*small, "--out", self.folder / "single")
+        self.assert_same(self.folder / "single", self.folder / "arrays")
 
     def assert_same(self, a: pathlib.Path, b: pathlib.Path) -> None:
         names = [sorted(str(path.relative_to(root)) for path in root.rglob("*") if path.is_file())

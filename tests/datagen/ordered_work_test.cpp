@@ -11,7 +11,7 @@
 namespace doorforge {
 namespace {
 
-constexpr auto kNever = [] { return false; };
+constexpr auto kNeverStopped = [] { return false; };
 
 TEST(OrderedWork, HandsItemsOnInOrderForAnyNumberOfThreads) {
   for (const int threads : {1, 2, 7}) {
@@ -25,7 +25,7 @@ TEST(OrderedWork, HandsItemsOnInOrderForAnyNumberOfThreads) {
           EXPECT_EQ(item, i * i);
           seen.push_back(i);
         },
-        kNever);
+        kNeverStopped);
     EXPECT_EQ(work.Run(200, threads), 200U);
     ASSERT_EQ(seen.size(), 200U);
     for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_EQ(seen[i], i);
@@ -45,7 +45,7 @@ TEST(OrderedWork, KeepsOnlyAFewItemsInMemory) {
         }
         return 0;
       },
-      [&](std::size_t, int) { --alive; }, kNever);
+      [&](std::size_t, int) { --alive; }, kNeverStopped);
   work.Run(500, 3);
   EXPECT_LE(most, 12);
 }
@@ -56,13 +56,13 @@ TEST(OrderedWork, RethrowsWhatTheWorkersThrow) {
         if (i == 30) throw std::runtime_error("produce");
         return 0;
       },
-      [](std::size_t, int) {}, kNever);
+      [](std::size_t, int) {}, kNeverStopped);
   EXPECT_THROW(producing.Run(100, 3), std::runtime_error);
   OrderedWork<int> consuming([](std::size_t) { return 0; },
                              [](std::size_t i, int) {
                                if (i == 30) throw std::runtime_error("consume");
                              },
-                             kNever);
+                             kNeverStopped);
   EXPECT_THROW(consuming.Run(100, 3), std::runtime_error);
 }
 
@@ -76,7 +76,7 @@ TEST(OrderedWork, StopsWhenAsked) {
 }
 
 TEST(OrderedWork, DoesNothingForNoItems) {
-  OrderedWork<int> work([](std::size_t) { return 0; }, [](std::size_t, int) {}, kNever);
+  OrderedWork<int> work([](std::size_t) { return 0; }, [](std::size_t, int) {}, kNeverStopped);
   EXPECT_EQ(work.Run(0, 4), 0U);
 }
 

@@ -28,11 +28,6 @@ Eigen::AlignedBox3d BoundsOf(const PartDraft& draft, const std::string& piece) {
   return bounds;
 }
 
-void ExpectNear(const Eigen::Vector3d& found, const Eigen::Vector3d& expected, double tolerance) {
-  EXPECT_LT((found - expected).norm(), tolerance)
-      << "found " << found.transpose() << ", expected " << expected.transpose();
-}
-
 std::vector<ForeignObject> ReadAll(const fs::path& path, const ReadConfig& config = {},
                                    const std::string& format = "auto") {
   std::vector<ForeignObject> objects;

@@ -28,11 +28,6 @@ const RawPiece& PieceNamed(const PartDraft& draft, const std::string& name) {
   throw std::runtime_error("no piece " + name);
 }
 
-void ExpectNear(const Eigen::Vector3d& found, const Eigen::Vector3d& expected, double tolerance) {
-  EXPECT_LT((found - expected).norm(), tolerance)
-      << "found " << found.transpose() << ", expected " << expected.transpose();
-}
-
 // an error of this code whose message holds `part`
 void ExpectRefused(const fs::path& folder, ErrorCode code, const std::string& part,
                    const std::string& category = "") {

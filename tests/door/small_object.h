@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "doorforge/core/triangle_mesh.h"
 #include "doorforge/schemas/mesh_file.h"
 
@@ -155,6 +157,12 @@ inline std::filesystem::path TestFolder(const std::string& name) {
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;
+}
+
+inline void ExpectNear(const Eigen::Vector3d& found, const Eigen::Vector3d& expected,
+                       double tolerance) {
+  EXPECT_LT((found - expected).norm(), tolerance)
+      << "found " << found.transpose() << ", expected " << expected.transpose();
 }
 
 }  // namespace doorforge

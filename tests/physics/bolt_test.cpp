@@ -17,7 +17,7 @@
 namespace doorforge {
 namespace {
 
-constexpr double kTimeStep = 1.0 / 240;
+constexpr double kBoltTimeStep = 1.0 / 240;
 
 DoorAsset Bolted(DoorAsset door, double throw_m = 0.012) {
   door.latch.type = LatchType::kBolt;
@@ -27,7 +27,7 @@ DoorAsset Bolted(DoorAsset door, double throw_m = 0.012) {
 
 // Turns the handle until it is `angle` and holds it there by a stiff, damped hand.
 void HoldHandle(LoneDoor& door, double angle, double seconds, double hinge_nm = 0) {
-  for (double time = 0; time < seconds; time += kTimeStep)
+  for (double time = 0; time < seconds; time += kBoltTimeStep)
     door.Step(hinge_nm, 40 * (angle - door.handle_rad()) - 0.15 * door.handle_rad_s());
 }
 

@@ -13,7 +13,8 @@ struct Segment {
   Eigen::Vector3d center;
 };
 
-MassProperties BoxMass(double mass, const Eigen::Vector3d& size, const Eigen::Vector3d& center) {
+MassProperties CentredBoxMass(double mass, const Eigen::Vector3d& size,
+                              const Eigen::Vector3d& center) {
   const Eigen::Vector3d square = size.cwiseAbs2();
   MassProperties properties;
   properties.mass_kg = mass;
@@ -30,7 +31,7 @@ UrdfLink BoxLink(const std::string& name, double mass, const Eigen::Vector3d& si
                  const Eigen::Vector3d& center) {
   UrdfLink link;
   link.name = name;
-  link.inertial = BoxMass(mass, size, center);
+  link.inertial = CentredBoxMass(mass, size, center);
   UrdfShape shape;
   shape.name = name;
   shape.link_from_shape = Translation(center);

@@ -17,21 +17,6 @@ double ArmOf(const DoorAsset& door) {
   return grasp.cross(door.hinge.axis).norm();
 }
 
-// About the hinge line, which leaf and handle turn about together.
-double InertiaAboutHinge(const DoorAsset& door) {
-  double inertia = 0;
-  for (const int link : {kLeafLink, kHandleLink}) {
-    const MassProperties& mass = door.links[static_cast<std::size_t>(link)].mass;
-    const RigidTransform leaf_from_link = link == kLeafLink
-                                              ? RigidTransform::Identity()
-                                              : door.handle_joint.parent_from_child_at_zero;
-    const Eigen::Vector3d center = leaf_from_link * mass.center_of_mass_m;
-    inertia += door.hinge.axis.dot(mass.inertia_kg_m2 * door.hinge.axis) +
-               mass.mass_kg * center.cross(door.hinge.axis).squaredNorm();
-  }
-  return inertia;
-}
-
 TEST(OpeningTrial, OpensALeverDoorAsItIsMeantTo) {
   const DoorAsset door = MakePrimitiveDoor({});
   const OpeningTrial trial = TryOpening(door);

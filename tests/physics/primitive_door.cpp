@@ -11,7 +11,7 @@ namespace doorforge {
 namespace {
 
 constexpr double kLeafThickness = 0.04;
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kRadPerDegree = std::numbers::pi / 180;
 
 // Disc about x.
 TriangleMesh DiscMesh(double low_x, double high_x, double radius) {
@@ -166,13 +166,14 @@ DoorAsset MakePrimitiveDoor(const PrimitiveDoor& door) {
   const Eigen::Vector3d high(kLeafThickness / 2, door.width_m, door.height_m);
   asset.links[kLeafLink].geometry.push_back(Piece("leaf", BoxMesh(low, high), PointLabel::kBody));
   asset.links[kLeafLink].mass = BoxMass(door.leaf_mass_kg, low, high);
-  asset.hinge = {"hinge", RigidTransform::Identity(), {0, 0, -1}, 0, 110 * kDegree, 200, 3, 0.5};
+  asset.hinge = {"hinge", RigidTransform::Identity(), {0, 0, -1}, 0, 110 * kRadPerDegree, 200, 3,
+                 0.5};
   asset.handle_joint = {
       "handle_joint",
       Translation({kLeafThickness / 2, door.width_m - 0.06, door.handle_height_m}),
       {1, 0, 0},
       0,
-      45 * kDegree,
+      45 * kRadPerDegree,
       10,
       10,
       0.05};
@@ -185,6 +186,20 @@ DoorAsset MakePrimitiveDoor(const PrimitiveDoor& door) {
   asset.latch.unlock_angle_rad = 0.65 * asset.handle_joint.upper_rad;
   asset.latch.handle_done_angle_rad = 0.75 * asset.handle_joint.upper_rad;
   return OnItsSide(std::move(asset), door);
+}
+
+double InertiaAboutHinge(const DoorAsset& door) {
+  double inertia = 0;
+  for (const int link : {kLeafLink, kHandleLink}) {
+    const MassProperties& mass = door.links[static_cast<std::size_t>(link)].mass;
+    const RigidTransform leaf_from_link = link == kLeafLink
+                                              ? RigidTransform::Identity()
+                                              : door.handle_joint.parent_from_child_at_zero;
+    const Eigen::Vector3d center = leaf_from_link * mass.center_of_mass_m;
+    inertia += door.hinge.axis.dot(mass.inertia_kg_m2 * door.hinge.axis) +
+               mass.mass_kg * center.cross(door.hinge.axis).squaredNorm();
+  }
+  return inertia;
 }
 
 }  // namespace doorforge

@@ -29,6 +29,9 @@ PrimitiveDoor RandomPrimitive(Mechanism mechanism, std::uint64_t seed, std::uint
 /// Handle range 45 degrees, unlocks at 65 % of it; the paper's latch unless the mechanism is kNone.
 DoorAsset MakePrimitiveDoor(const PrimitiveDoor& door);
 
+/// About the hinge line, which leaf and handle turn about together.
+double InertiaAboutHinge(const DoorAsset& door);
+
 TriangleMesh BoxMesh(const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 
 }  // namespace doorforge

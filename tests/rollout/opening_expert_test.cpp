@@ -10,7 +10,7 @@ namespace doorforge {
 namespace {
 
 // A hinge along -z at the origin, a hand 0.5 m along y, a handle that does not turn.
-Observation HeldDoor(double hinge_rad) {
+Observation ObservedDoor(double hinge_rad) {
   Observation observation;
   PrivilegedState& state = observation.privileged;
   state.hinge_rad = hinge_rad;
@@ -30,7 +30,7 @@ TEST(OpeningExpert, LeadsTheHandAlongTheArcByAtMostItsStep) {
   expert.Reset();
   double last = 0;
   for (int i = 0; i < 6; ++i) {
-    const Observation observation = HeldDoor(0.1 * i);
+    const Observation observation = ObservedDoor(0.1 * i);
     const Action action = expert.Act(observation);
     const Eigen::Vector3d target =
         observation.privileged.world_from_hand.translation() + action.position_delta_m;
@@ -52,7 +52,7 @@ TEST(OpeningExpert, PressesTheHandleUntilTheDoorIsAjarThenLetsItGo) {
   OpeningExpert expert;
   expert.Reset();
   const auto press_of = [&](double hinge) {
-    const Observation observation = HeldDoor(hinge);
+    const Observation observation = ObservedDoor(hinge);
     const Action action = expert.Act(observation);
     // turn about the handle's axis that is left after the hinge's
     const Eigen::Vector3d up = action.world_from_hand_rotation.col(2);

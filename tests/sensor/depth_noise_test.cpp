@@ -13,7 +13,7 @@
 namespace doorforge {
 namespace {
 
-const std::vector<RigidTransform> kStill(2, RigidTransform::Identity());
+const std::vector<RigidTransform> kStillWall(2, RigidTransform::Identity());
 
 // looks along -x at a wall that fills the picture
 CameraModel Facing(double distance) {
@@ -24,7 +24,8 @@ CameraModel Facing(double distance) {
 }
 
 DepthImage WallAt(double distance) {
-  return DepthCamera({{shapes::Wall(0, 9), 0, PointLabel::kBody}}).Render(Facing(distance), kStill);
+  return DepthCamera({{shapes::Wall(0, 9), 0, PointLabel::kBody}})
+      .Render(Facing(distance), kStillWall);
 }
 
 struct Spread {
@@ -104,7 +105,7 @@ TEST(DepthNoise, EdgesLoseTheShareOfPixelsThatWasAskedFor) {
   // a board 0.2 m before the wall: its outline is four edges two pixels wide
   const DepthImage ideal = DepthCamera({{shapes::Wall(0, 9), 0, PointLabel::kBody},
                                         {shapes::Wall(0.2, 0.5), 1, PointLabel::kHandle}})
-                               .Render(Facing(1.5), kStill);
+                               .Render(Facing(1.5), kStillWall);
   const auto missing = [&](double dropout) {
     DepthNoiseConfig config{.sensor = "time_of_flight"};
     config.edge_dropout = dropout;
@@ -123,7 +124,7 @@ TEST(DepthNoise, EdgesLoseTheShareOfPixelsThatWasAskedFor) {
 TEST(DepthNoise, FlyingPixelsLieBetweenTheTwoSidesOfAnEdge) {
   const DepthImage ideal = DepthCamera({{shapes::Wall(0, 9), 0, PointLabel::kBody},
                                         {shapes::Wall(0.2, 0.5), 1, PointLabel::kHandle}})
-                               .Render(Facing(1.5), kStill);
+                               .Render(Facing(1.5), kStillWall);
   DepthNoiseConfig config{.sensor = "time_of_flight"};
   config.edge_dropout = 0;
   int flying = 0;
@@ -141,7 +142,7 @@ TEST(DepthNoise, SurfacesAlongTheRaysAreNotSeen) {
   floor.vertices = {{-9, -9, 1.4}, {9, -9, 1.4}, {9, 9, 1.4}, {-9, 9, 1.4}};
   floor.triangles = {{0, 1, 2}, {0, 2, 3}};
   const CameraModel camera = Facing(1.5);
-  const DepthImage ideal = DepthCamera({{floor, 0, PointLabel::kBody}}).Render(camera, kStill);
+  const DepthImage ideal = DepthCamera({{floor, 0, PointLabel::kBody}}).Render(camera, kStillWall);
   DepthNoiseConfig config{.sensor = "time_of_flight"};
   config.edge_step_m = 10;  // rows of the floor are far apart in depth
   const DepthImage noisy = WithDepthNoise(ideal, camera, config, Rng(1, "noise"));

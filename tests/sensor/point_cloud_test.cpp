@@ -16,7 +16,7 @@
 namespace doorforge {
 namespace {
 
-const std::vector<RigidTransform> kStill(4, RigidTransform::Identity());
+const std::vector<RigidTransform> kStillScene(4, RigidTransform::Identity());
 
 LabelledCloud Line(int count) {
   LabelledCloud cloud;
@@ -39,7 +39,7 @@ std::vector<Point> PointsOf(const LabelledCloud& cloud) {
 TEST(CropCloud, PutsPointsBackOntoTheSurfaceTheyCameFrom) {
   DepthCamera camera({{shapes::Wall(0.0, 0.4), 0, PointLabel::kBody}});
   const CameraModel model;
-  const LabelledCloud cloud = CropCloud(camera.Render(model, kStill), model);
+  const LabelledCloud cloud = CropCloud(camera.Render(model, kStillScene), model);
   ASSERT_GT(cloud.label.size(), 2000U);
   double lowest_z = 9;
   double highest_y = -9;
@@ -56,7 +56,7 @@ TEST(CropCloud, PutsPointsBackOntoTheSurfaceTheyCameFrom) {
 TEST(CropCloud, DropsWhatIsFarOrLow) {
   DepthCamera camera({{shapes::Wall(0, 3), 0, PointLabel::kBody}});
   const CameraModel model;
-  const DepthImage image = camera.Render(model, kStill);
+  const DepthImage image = camera.Render(model, kStillScene);
   const Eigen::Vector3d forward = WorldFromCamera(model).linear().col(2);
   const LabelledCloud cloud = CropCloud(image, model);
   double deepest = 0;
@@ -78,14 +78,14 @@ TEST(CropCloud, RefusesAnImageOfAnotherCamera) {
   const CameraModel model;
   CameraModel other;
   other.width = 128;
-  EXPECT_THROW(CropCloud(camera.Render(model, kStill), other), Error);
+  EXPECT_THROW(CropCloud(camera.Render(model, kStillScene), other), Error);
 }
 
 TEST(ObserveCloud, GivesExactly4096VisiblePointsStartingAtTheGripper) {
   DepthCamera camera({{shapes::Box({-0.05, -0.5, 0}, {0, 0.5, 2}), 0, PointLabel::kBody},
                       {shapes::Box({0.5, 0.1, 0.9}, {0.6, 0.2, 1.1}), 1, PointLabel::kRobot}});
   const CameraModel model;
-  const DepthImage image = camera.Render(model, kStill);
+  const DepthImage image = camera.Render(model, kStillScene);
   const LabelledCloud visible = CropCloud(image, model);
   const Eigen::Vector3d gripper(0.55, 0.15, 1.2);
   const SampledCloud sampled = ObserveCloud(image, model, gripper);

@@ -227,11 +227,15 @@ Json CroissantContext() {
                   {"data", {{"@id", "cr:data"}, {"@type", "@json"}}},
                   {"dataType", {{"@id", "cr:dataType"}, {"@type", "@vocab"}}},
                   {"examples", {{"@id", "cr:examples"}, {"@type", "@json"}}}};
-  for (const char* term :
-       {"citeAs",   "column",      "extract",   "field",         "fileProperty", "fileObject",
-        "fileSet",  "format",      "includes",  "isLiveDataset", "jsonPath",     "key",
-        "md5",      "parentField", "path",      "recordSet",     "references",   "regex",
-        "repeated", "replace",     "separator", "source",        "subField",     "transform"})
+  for (const char* term : {"citeAs",       "column",        "equivalentProperty",
+                           "extract",      "field",         "fileObject",
+                           "fileProperty", "fileSet",       "format",
+                           "includes",     "jsonPath",      "key",
+                           "md5",          "isLiveDataset", "parentField",
+                           "path",         "recordSet",     "references",
+                           "regex",        "repeated",      "replace",
+                           "samplingRate", "separator",     "source",
+                           "subField",     "transform"})
     context[term] = std::string("cr:") + term;
   return context;
 }

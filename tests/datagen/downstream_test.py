@@ -19,6 +19,7 @@ import numpy as np
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 GOLDEN = SOURCE / "tests/golden/dataset_v1"
 GRASPS = SOURCE / "tests/golden/dataset_v1_grasp"
+HANDLES = SOURCE / "tests/golden/dataset_v1_handle"
 BUILD = pathlib.Path(sys.argv.pop(1)) if len(sys.argv) > 1 else SOURCE / "build/dev"
 sys.path.insert(0, str(SOURCE / "python"))
 sys.dont_write_bytecode = True
@@ -107,6 +108,19 @@ class Robomimic(DownstreamTest):
             self.assertEqual([int(file[f"data/demo_{i}"].attrs["success"]) for i in range(4)], [1, 0, 1, 0])
             self.assertEqual(file["data/demo_0/obs/state"].dtype, np.float64)
 
+    def test_what_was_executed_is_beside_what_was_asked_for(self):
+        import h5py
+
+        out = self.folder / "handle.hdf5"
+        self.run_dataset("export", HANDLES, "--to", "robomimic", "--stage", "handle", "--out", out)
+        episodes = reader.Dataset(HANDLES).episodes("handle", "train")
+        with h5py.File(out) as file:
+            self.assertEqual(len(file["data"]), len(episodes))
+            for number, episode in enumerate(episodes):
+                executed = file[f"data/demo_{number}/obs/executed"][:]
+                np.testing.assert_array_equal(executed, episode["executed"])
+                self.assertGreater(np.abs(executed - file[f"data/demo_{number}/actions"][:]).max(), 1e-3)
+
     def test_damage_and_a_stage_that_is_not_there_end_without_a_file(self):
         folder, out = self.copy(), self.folder / "a.hdf5"
         missing = dataset("export", folder, "--to", "robomimic", "--stage", "grasp", "--out", out)
@@ -121,6 +135,12 @@ class Robomimic(DownstreamTest):
         self.assertEqual(result.returncode, 3)
         self.assertIn("cloud.npy", result.stderr)
         self.assertEqual([path.name for path in self.folder.iterdir()], ["data"])
+
+
+# of the context that the specification of Croissant 1.0 gives in its appendix
+CROISSANT_TERMS = """citeAs column equivalentProperty extract field fileProperty fileObject fileSet format includes
+    isLiveDataset jsonPath key md5 parentField path recordSet references regex repeated replace samplingRate separator
+    source subField transform""".split()
 
 
 class Card(DownstreamTest):
@@ -165,6 +185,8 @@ class Card(DownstreamTest):
         self.assertEqual(self.croissant["license"], "https://spdx.org/licenses/CC0-1.0.html")
         for required in ("@context", "name", "description", "distribution", "recordSet"):
             self.assertTrue(self.croissant[required])
+        self.assertEqual({name: meaning for name, meaning in self.croissant["@context"].items()
+                          if meaning == f"cr:{name}"}, {name: f"cr:{name}" for name in CROISSANT_TERMS})
         self.assertEqual(self.croissant["@context"]["cr"], "http://mlcommons.org/croissant/")
         ids = {item["@id"] for item in self.croissant["distribution"]}
         self.assertEqual(len(ids), len(self.croissant["distribution"]))
@@ -245,7 +267,7 @@ class Schemas(DownstreamTest):
 
     def records(self):
         """Pairs of schema and record of the golden data sets."""
-        for folder in (GOLDEN, GRASPS):
+        for folder in (GOLDEN, GRASPS, HANDLES):
             yield from self.records_of(folder)
 
     def records_of(self, folder):

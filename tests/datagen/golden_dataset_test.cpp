@@ -1,5 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <map>
 #include <sstream>
 
 #include "doorforge/core/committed_file.h"
@@ -17,25 +20,25 @@ namespace {
 
 const std::filesystem::path kGolden = DOORFORGE_SOURCE_DIR "/tests/golden/dataset_v1";
 
-TEST(GoldenDatasetTest, TheFilesAreTheOnesThatWereCommitted) {
-  std::istringstream lines(ReadFile(DOORFORGE_SOURCE_DIR "/tests/golden/dataset_v1.sha256"));
+// As the list beside the folder has them.
+std::map<std::string, std::string> ListedHashes(const std::filesystem::path& folder) {
+  std::istringstream lines(ReadFile(folder.string() + ".sha256"));
   std::map<std::string, std::string> listed;
   std::string hash;
   std::string path;
   while (lines >> hash >> path) listed[path] = hash;
-  EXPECT_EQ(synthetic::HashesBelow(kGolden), listed);
+  return listed;
+}
+
+TEST(GoldenDatasetTest, TheFilesAreTheOnesThatWereCommitted) {
+  EXPECT_EQ(synthetic::HashesBelow(kGolden), ListedHashes(kGolden));
 }
 
 // Written by the first builds that kept failed grasps, joint states and a checksum of the index.
 const std::filesystem::path kGoldenGrasps = DOORFORGE_SOURCE_DIR "/tests/golden/dataset_v1_grasp";
 
 TEST(GoldenDatasetTest, GraspsThatFailedAreReadAndCountedAsFailed) {
-  std::istringstream lines(ReadFile(DOORFORGE_SOURCE_DIR "/tests/golden/dataset_v1_grasp.sha256"));
-  std::map<std::string, std::string> listed;
-  std::string hash;
-  std::string path;
-  while (lines >> hash >> path) listed[path] = hash;
-  EXPECT_EQ(synthetic::HashesBelow(kGoldenGrasps), listed);
+  EXPECT_EQ(synthetic::HashesBelow(kGoldenGrasps), ListedHashes(kGoldenGrasps));
   const DatasetReader reader(kGoldenGrasps, "grasp", "train");
   ASSERT_EQ(reader.size(), 4U);
   for (std::size_t i = 0; i < reader.size(); ++i) {
@@ -51,6 +54,33 @@ TEST(GoldenDatasetTest, GraspsThatFailedAreReadAndCountedAsFailed) {
   EXPECT_EQ(description.stages.at(0).all.succeeded, 2U);
   EXPECT_EQ(DescribeDataset(kGoldenGrasps).at("parts").at(0).at("success_rate").get<double>(),
             2.0 / static_cast<double>(description.stages.at(0).all.episodes));
+}
+
+// Written by the first builds that kept what was executed beside what was asked for, and in which
+// hands took hold at sampled grasps as well.
+const std::filesystem::path kGoldenHandles = DOORFORGE_SOURCE_DIR "/tests/golden/dataset_v1_handle";
+
+TEST(GoldenDatasetTest, TurnsFromSampledGraspsAreReadWithWhatWasExecuted) {
+  EXPECT_EQ(synthetic::HashesBelow(kGoldenHandles), ListedHashes(kGoldenHandles));
+  const DatasetReader reader(kGoldenHandles, "handle", "train");
+  ASSERT_EQ(reader.size(), 7U);
+  std::map<std::string, int> grasps;
+  for (std::size_t i = 0; i < reader.size(); ++i) {
+    const EpisodeArrays arrays = reader.Arrays(i);
+    ASSERT_EQ(arrays.executed.size(), 9 * arrays.decisions);
+    double largest = 0;
+    for (std::size_t k = 0; k < arrays.action.size(); ++k)
+      largest = std::max(largest, std::abs(double{arrays.executed[k]} - arrays.action[k]));
+    EXPECT_GT(largest, 1e-3);  // the action noise
+    EXPECT_LT(largest, 0.2);
+    ++grasps[reader.Meta(i).at("policies").at("grasp").get<std::string>()];
+  }
+  EXPECT_EQ(grasps, (std::map<std::string, int>{{"expert", 5}, {"sampled", 2}}));
+  for (const DatasetFinding& finding : VerifyDataset({kGoldenHandles, 1, {}}))
+    ADD_FAILURE() << finding.code << ' ' << finding.where << ": " << finding.measured;
+  const EpisodeDescription description = DescribeEpisodes(kGoldenHandles, 0);
+  EXPECT_EQ(description.stages.at(0).all.episodes, 10U);
+  EXPECT_EQ(description.stages.at(0).all.succeeded, 7U);
 }
 
 TEST(GoldenDatasetTest, IsReadByThisVersion) {

@@ -99,9 +99,11 @@ class EpisodeCheck {
     const std::uint8_t label = *std::max_element(arrays.label.begin(), arrays.label.end());
     if (label >= kPointLabelCount)
       Add("DST006", "label.npy", "label " + std::to_string(label), "0 to 4", kCollectAgain);
-    const double rotation = RotationError(arrays.action);
-    if (!(rotation < 1e-4))
-      Add("DST006", "action.npy", "rotation rows off by " + Text(rotation), "1e-4", kCollectAgain);
+    for (const auto& [member, values] : {columns[0], columns[2]}) {
+      const double rotation = RotationError(values);
+      if (!(rotation < 1e-4))
+        Add("DST006", member, "rotation rows off by " + Text(rotation), "1e-4", kCollectAgain);
+    }
     const double quaternion = QuaternionError(arrays.proprio);
     if (!(quaternion < 1e-4))
       Add("DST006", "proprio.npy", "quaternion's norm off by " + Text(quaternion), "1e-4",

@@ -51,6 +51,7 @@ inline void FillDecision(Decision& decision, Rng& rng) {
   for (float& value : decision.proprioception) value = static_cast<float>(rng.Uniform(-1, 1));
   for (std::size_t i = 28; i < 32; ++i) decision.proprioception[i] = i == 31 ? 1.0F : 0.0F;
   decision.action = {0.01F, 0, 0, 1, 0, 0, 0, 1, 0};
+  decision.executed = decision.action;
   decision.score_rad = rng.Uniform(0, 0.1);
 }
 

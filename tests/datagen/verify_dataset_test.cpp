@@ -91,6 +91,11 @@ TEST_F(VerifyDatasetTest, FindsValuesThatCannotBe) {
   EXPECT_EQ(Codes(), (std::set<std::string>{"DST006", "DST008"}));
 }
 
+TEST_F(VerifyDatasetTest, FindsAnExecutedTurnThatIsNone) {
+  AddShard([](Episode& episode) { episode.decisions[2].executed[4] = 0.5F; });
+  EXPECT_EQ(Codes(), (std::set<std::string>{"DST006", "DST008"}));
+}
+
 TEST_F(VerifyDatasetTest, FindsAFailureAmongTheSuccesses) {
   AddShard([](Episode& episode) { episode.outcome = EpisodeOutcome::kDoorStuck; });
   EXPECT_EQ(Codes(), (std::set<std::string>{"DST007", "DST008"}));

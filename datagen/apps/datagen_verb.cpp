@@ -111,6 +111,8 @@ bool HoldsNothing(const fs::path& folder) {
 // Whether the folder is one to go on in is decided where config.yaml is compared.
 void PrepareFolder(const Options& options) {
   const fs::path out = options.out;
+  Require(!fs::exists(out) || fs::is_directory(out), ErrorCode::kInvalidArgument,
+          options.out + ": is a file; --out takes a folder");
   if (!fs::exists(out) || HoldsNothing(out)) {
     fs::create_directories(out);
     return;

@@ -29,8 +29,7 @@ Sight RecordingCamera::Look(const SceneSnapshot& snapshot) {
   Sight sight = camera_.Look(snapshot);
   visible_.push_back(sight.sampled.visible_count);
   hidden_.push_back(occlusion_.Measure(sight.ideal, model_, snapshot));
-  last_ = sight.depth;
-  if (!first_) first_ = last_;
+  depth_.push_back(sight.depth);
   return sight;
 }
 
@@ -53,10 +52,11 @@ nlohmann::ordered_json RecordingCamera::OcclusionRecord(std::size_t looks) const
   return record;
 }
 
-std::string RecordingCamera::PreviewPng() const {
-  if (!first_) return {};
-  const Picture pictures[] = {DepthPreview(*first_, max_depth_m_),
-                              DepthPreview(*last_, max_depth_m_)};
+std::string RecordingCamera::PreviewPng(std::size_t looks) const {
+  const std::size_t count = std::min(looks, depth_.size());
+  if (count == 0) return {};
+  const Picture pictures[] = {DepthPreview(depth_.front(), max_depth_m_),
+                              DepthPreview(depth_[count - 1], max_depth_m_)};
   return EncodePng(ContactSheet(
       pictures, {}, {.columns = 2, .tile_width = model_.width, .tile_height = model_.height}));
 }

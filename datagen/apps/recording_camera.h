@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,8 +29,9 @@ class RecordingCamera : public Observer {
   std::vector<int> Visible(std::size_t looks) const;
   /// Hidden shares by name, one number a look each, of the first `looks` looks.
   nlohmann::ordered_json OcclusionRecord(std::size_t looks) const;
-  /// Depth at the first look and at the last one; empty if there was none.
-  std::string PreviewPng() const;
+  /// Depth at the first and at the last of the first `looks` looks; empty if there was none. Who
+  /// acts after the recorded stage looks through this camera too.
+  std::string PreviewPng(std::size_t looks) const;
 
  private:
   Sight Look(const SceneSnapshot& snapshot);
@@ -40,8 +40,7 @@ class RecordingCamera : public Observer {
   double max_depth_m_;
   CameraObserver camera_;
   OcclusionMeter occlusion_;
-  std::optional<DepthImage> first_;
-  std::optional<DepthImage> last_;
+  std::vector<DepthImage> depth_;
   std::vector<int> visible_;
   std::vector<Occlusion> hidden_;
 };

@@ -212,7 +212,7 @@ class Reobservation {
     meta["visible_points"] = camera.Visible(decisions);
     meta["hidden"] = camera.OcclusionRecord(decisions);
     if (!config_.robot) meta["robot_seen"] = false;
-    if (config_.preview) collected.preview_png = camera.PreviewPng();
+    if (config_.preview) collected.preview_png = camera.PreviewPng(decisions);
   }
 
   RobotModel RobotOf(const Scene& scene) const {

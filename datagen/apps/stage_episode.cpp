@@ -148,7 +148,7 @@ CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const DoorAsset&
   if (at_grasp) collected.meta["robot_seen"] = false;
   collected.keep_failed = at_grasp;
   const bool is_kept = episode.outcome == EpisodeOutcome::kOpened || collected.keep_failed;
-  if (config.preview && is_kept) collected.preview_png = camera.PreviewPng();
+  if (config.preview && is_kept) collected.preview_png = camera.PreviewPng(decisions);
   return collected;
 }
 

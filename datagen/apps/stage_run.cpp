@@ -23,9 +23,15 @@ RobotModel RobotFor(const StageConfig& config) {
   return robot;
 }
 
-std::unique_ptr<PolicyPool> PoolOf(const std::string& folder, Stage stage) {
+std::unique_ptr<PolicyPool> PoolOf(const std::string& folder, Stage stage, const std::string& role,
+                                   const CloudConfig& cloud) {
   if (folder.empty()) return nullptr;
-  auto pool = std::make_unique<PolicyPool>(ReadTrainedPolicy(folder, stage));
+  const TrainedPolicy policy = ReadTrainedPolicy(folder, stage, role);
+  Require(policy.cloud_points == 0 || policy.cloud_points == cloud.point_count,
+          ErrorCode::kInvalidArgument,
+          folder + ": --" + role + " takes clouds of " + std::to_string(policy.cloud_points) +
+              " points; config.cloud.point_count is " + std::to_string(cloud.point_count));
+  auto pool = std::make_unique<PolicyPool>(policy);
   pool->Take();  // weights of another network are refused here, not in the first episode
   return pool;
 }
@@ -72,9 +78,9 @@ DoorFolder DoorsFor(const StageRequest& request) {
 StageRun::StageRun(const StageRequest& request)
     : config_(Checked(request)),
       robot_(RobotFor(config_)),
-      handler_(PoolOf(request.policies.handler, Stage::kHandle)),
-      opener_(PoolOf(request.policies.opener, Stage::kOpen)),
-      learner_(PoolOf(request.policies.learner, config_.stage)),
+      handler_(PoolOf(request.policies.handler, Stage::kHandle, "handler", config_.cloud)),
+      opener_(PoolOf(request.policies.opener, Stage::kOpen, "opener", config_.cloud)),
+      learner_(PoolOf(request.policies.learner, config_.stage, "learner", config_.cloud)),
       doors_(DoorsFor(request)),
       shelf_(doors_),
       plan_(MakePlan(PartsOf(doors_), config_.episodes, config_.seed, config_.collection)) {}

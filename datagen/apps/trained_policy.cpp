@@ -15,25 +15,32 @@ namespace fs = std::filesystem;
 
 constexpr int kPolicySchemaVersion = 1;
 
-std::string OptionOf(Stage stage) { return stage == Stage::kOpen ? "--opener" : "--handler"; }
+// Of policies that say so.
+int CloudPointsOf(const nlohmann::ordered_json& json, const std::string& path) {
+  if (!json.contains("sizes") || !json["sizes"].contains("cloud_points")) return 0;
+  return ValueOf<int>(json["sizes"], "cloud_points", path + ".sizes");
+}
 
 }  // namespace
 
-TrainedPolicy ReadTrainedPolicy(const fs::path& folder, Stage stage) {
+TrainedPolicy ReadTrainedPolicy(const fs::path& folder, Stage stage, const std::string& role) {
   const fs::path path = folder / "policy.json";
   if (!fs::is_regular_file(path))
-    throw Error(ErrorCode::kMissing, folder.string() + ": no policy here (no policy.json); " +
-                                         OptionOf(stage) +
-                                         " takes the folder that `doorforge train " +
+    throw Error(ErrorCode::kMissing, folder.string() + ": no policy here (no policy.json); --" +
+                                         role + " takes the folder that `doorforge train " +
                                          std::string(NameOf(stage)) + "` wrote");
   const nlohmann::ordered_json json = ReadJsonFile(path);
   RequireSchema(json, "doorforge.policy", kPolicySchemaVersion, path.string());
   const auto found = ValueOf<std::string>(json, "stage", path.string());
   if (found != NameOf(stage))
-    throw Error(ErrorCode::kInvalidArgument,
-                path.string() + ": a policy of the stage \"" + found + "\"; " + OptionOf(stage) +
-                    " takes one of the stage \"" + std::string(NameOf(stage)) + '"');
-  TrainedPolicy policy{stage, folder, {found, Sha256OfFile(path), {}, {}, {}}};
+    throw Error(ErrorCode::kInvalidArgument, path.string() + ": a policy of the stage \"" + found +
+                                                 "\"; --" + role + " takes one of the stage \"" +
+                                                 std::string(NameOf(stage)) + '"');
+  TrainedPolicy policy{stage,
+                       folder,
+                       {found, Sha256OfFile(path), {}, {}, {}},
+                       role,
+                       CloudPointsOf(json, path.string())};
   DatasetPolicy& identity = policy.identity;
   identity.weights_sha256 = ValueOf<std::string>(json, "weights_sha256", path.string());
   const fs::path weights = folder / ValueOf<std::string>(json, "weights", path.string());
@@ -49,7 +56,7 @@ TrainedPolicy ReadTrainedPolicy(const fs::path& folder, Stage stage) {
 }
 
 std::string TrainedPolicyText(const TrainedPolicy& policy) {
-  return OptionOf(policy.stage).substr(2) + ": policy.json sha256 " + policy.identity.policy_sha256;
+  return policy.role + ": policy.json sha256 " + policy.identity.policy_sha256;
 }
 
 PolicyPool::Loan PolicyPool::Take() {

@@ -20,6 +20,8 @@ struct TrainedPolicy {
   Stage stage = Stage::kOpen;
   std::filesystem::path folder;
   DatasetPolicy identity;
+  std::string role;      ///< handler, opener or learner, as its option is called.
+  int cloud_points = 0;  ///< Of the clouds that it takes; 0: its record does not say.
 };
 
 /// Folders of trained policies that act in the rules' place; empty: the rule.
@@ -36,7 +38,8 @@ struct PolicyFolders {
 ///
 /// @throws Error(kMissing) if there is no policy, Error(kFormat) if it is of another schema or its
 ///     weights are others than the record's, Error(kInvalidArgument) if it is of another stage.
-TrainedPolicy ReadTrainedPolicy(const std::filesystem::path& folder, Stage stage);
+TrainedPolicy ReadTrainedPolicy(const std::filesystem::path& folder, Stage stage,
+                                const std::string& role);
 
 /// A line for config.yaml, so that a policy that has changed is noticed when a run goes on.
 std::string TrainedPolicyText(const TrainedPolicy& policy);

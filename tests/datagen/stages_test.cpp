@@ -13,10 +13,15 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/datagen/verify_dataset.h"
+#include "doorforge/rollout/run_episode.h"
+#include "doorforge/rollout/standing_place.h"
 #include "doorforge/schemas/dataset.h"
 
 #include "../physics/primitive_door.h"
+#include "datagen_verb.h"
+#include "recording_camera.h"
 #include "reobserve.h"
+#include "robot_meshes.h"
 #include "stage_run.h"
 
 namespace doorforge {
@@ -59,9 +64,11 @@ class StagesTest : public testing::Test {
     return request;
   }
 
-  fs::path Collected(Stage stage, std::uint64_t episodes, double noise_m = 0) const {
+  fs::path Collected(Stage stage, std::uint64_t episodes, double noise_m = 0,
+                     double sampled_grasps = 0) const {
     StageRequest stage_request = RequestFor(stage, episodes);
     if (noise_m > 0) stage_request.config.cloud.noise.sensor = "structured_light";
+    stage_request.config.sampled_grasps = sampled_grasps;
     StageRun run(stage_request);
     CollectRequest request = run.Request();
     request.folder = folder_ / std::string(NameOf(stage));
@@ -99,8 +106,35 @@ class StagesTest : public testing::Test {
     return "";
   }
 
+  // What `doorforge datagen open` with these words more ends with.
+  std::string RefusalOfVerb(std::vector<std::string> words) const {
+    words.insert(words.begin(), {"datagen", "open", "--doors", (folder_ / "doors").string(),
+                                 "--out", (folder_ / "refused").string(), "--episodes", "1"});
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    try {
+      RunDatagenVerb(static_cast<int>(pointers.size()), pointers.data());
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  }
+
   fs::path folder_;
 };
+
+// as of `--task "$UNSET"`: all episodes instead of a share, or the rule instead of the policy
+TEST_F(StagesTest, AnEmptyValueIsNotAnOptionThatWasLeftOut) {
+  for (const char* option :
+       {"--task", "--opener", "--handler", "--learner", "--robot", "--config", "--set", "--slurm"})
+    EXPECT_NE(RefusalOfVerb({option, ""}).find(std::string(option) + ": its value is empty"),
+              std::string::npos)
+        << option << ": " << RefusalOfVerb({option, ""});
+  EXPECT_FALSE(fs::exists(folder_ / "refused"));
+
+  std::ofstream(folder_ / "refused") << "a file";
+  EXPECT_NE(RefusalOfVerb({}).find("refused: is a file; --out takes a folder"), std::string::npos);
+}
 
 TEST_F(StagesTest, HandleRecordsTurnsAndLeavesDoorsWithoutALatchOut) {
   const fs::path data = Collected(Stage::kHandle, 4);
@@ -163,10 +197,11 @@ TEST_F(StagesTest, GraspsGoodAndBadAreWrittenWithTheFinalAngle) {
 
 TEST_F(StagesTest, LookedAtAgainAsItWasADatasetHasTheSameShards) {
   for (const Stage stage : {Stage::kOpen, Stage::kHandle, Stage::kGrasp}) {
-    const fs::path data = Collected(stage, 3, 0.01);
+    const fs::path data = Collected(stage, 3, 0.01, /*sampled_grasps=*/0.5);
     const ReobserveRequest request = Again(data);
     ReobserveDataset(request);
     ExpectSound(request.out);
+    EXPECT_GT(DatasetReader(data, NameOf(stage), "train").size(), 0U) << NameOf(stage);
     EXPECT_EQ(TarHash(request.out, stage), TarHash(data, stage)) << NameOf(stage);
   }
 }
@@ -192,6 +227,30 @@ TEST_F(StagesTest, WithoutTheRobotOnlyWhatIsSeenChanges) {
     EXPECT_GT(robot_points(a.label), 0);
     EXPECT_EQ(robot_points(b.label), 0);
   }
+}
+
+// as after a recorded handle, where a trained opener goes on looking
+TEST_F(StagesTest, ThePreviewEndsWithTheLastLookThatIsRecorded) {
+  const PrimitiveDoor shape;
+  const DoorAsset door = MakePrimitiveDoor(shape);
+  const StageConfig config = DefaultsOf(Stage::kHandle);
+  const RobotModel robot = LoadRobot("", RobotBaseNamed(config.scene.physics.base), RobotMeshes());
+  const Scene scene = SceneFor(robot, SampleScene(door, 1, 0, config.scene), door);
+  const auto preview_after = [&](const std::vector<double>& hinges, std::size_t recorded) {
+    RecordingCamera camera(scene, door, robot, config.cloud);
+    for (const double hinge_rad : hinges) {
+      SceneSnapshot snapshot;
+      snapshot.robot =
+          robot.PoseAt(JointVector::Zero(robot.joint_count()), scene.world_from_robot_base);
+      snapshot.door = DoorFromLinks(door, hinge_rad, 0);
+      for (RigidTransform& pose : snapshot.door) pose = scene.world_from_door * pose;
+      camera.LookAtAll(snapshot);
+    }
+    return camera.PreviewPng(recorded);
+  };
+  const std::string recorded = preview_after({0, 0.2}, 2);
+  EXPECT_EQ(preview_after({0, 0.2, 0.9}, 2), recorded);
+  EXPECT_NE(preview_after({0, 0.9}, 2), recorded);
 }
 
 TEST_F(StagesTest, AnotherCameraIsInTheRecord) {
@@ -226,6 +285,17 @@ TEST_F(StagesTest, RefusesAPolicyBeforeAnyWork) {
   EXPECT_NE(Refusal(request).find("version"), std::string::npos);
   write("policy.json",
         R"({"schema": "doorforge.policy", "schema_version": 1, "stage": "open", )" + tail);
+  StageRequest corrected = RequestFor(Stage::kHandle, 2);
+  corrected.policies.learner = request.policies.opener;
+  EXPECT_NE(Refusal(corrected).find("the stage \"open\"; --learner takes one of"),
+            std::string::npos)
+      << Refusal(corrected);
+  write("policy.json", R"({"schema": "doorforge.policy", "schema_version": 1, "stage": "open", )"
+                       R"("sizes": {"cloud_points": 4096}, )" +
+                           tail);
+  EXPECT_NE(Refusal(request).find("takes clouds of 4096 points; config.cloud.point_count is 512"),
+            std::string::npos)
+      << Refusal(request);
   write("w", "other numbers");
   EXPECT_NE(Refusal(request).find("SHA-256 is not the one"), std::string::npos);
 

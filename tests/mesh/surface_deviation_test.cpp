@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/mesh/surface_deviation.h"
 
+#include <array>
+
 #include <gtest/gtest.h>
 
 #include "doorforge/core/error.h"
@@ -136,6 +138,36 @@ TEST(TriangleTree, TellsInsideWhereTheRayMeetsACorner) {
       }
     }
   }
+}
+
+// A bar in a slab comes out below, by 30 mm; its own surface is 10 mm wide.
+TEST(SolidOverlap, AlongALineIsAsDeepAsASmallSolidLiesInALargeOne) {
+  const TriangleMesh slab = Box({0, 0, 0}, {1, 1, 0.1});
+  const TriangleMesh bar = Box({0.4, 0.4, 0.02}, {0.6, 0.41, 0.03});
+  const std::array<TriangleMesh, 2> pieces = {slab, bar};
+  const SolidOverlap solids(slab, bar);
+  const RigidTransform still = RigidTransform::Identity();
+  const std::vector<Eigen::Vector3d> common = solids.CommonSurface(still, pieces, 0.012);
+  EXPECT_NEAR(LeastExtent(common, {}), 0.01, 1e-9);
+  for (const double sign : {1.0, -1.0})
+    EXPECT_NEAR(solids.DepthAlong(still, pieces, {0, 0, sign}, common), 0.03, 1e-9);
+}
+
+// Two plates whose piece spans the air between them: only the plate that the bar is in counts.
+TEST(SolidOverlap, AlongALineEndsWhereTheSolidDoes) {
+  const TriangleMesh plates =
+      Together(Box({0, 0, 0}, {1, 1, 0.01}), Box({0, 0, 0.09}, {1, 1, 0.1}));
+  const TriangleMesh bar = Box({0.4, 0.4, 0.007}, {0.6, 0.41, 0.06});
+  const std::array<TriangleMesh, 2> pieces = {Box({0, 0, 0}, {1, 1, 0.1}), bar};
+  const SolidOverlap solids(bar, plates);
+  const std::array<TriangleMesh, 2> swapped = {pieces[1], pieces[0]};
+  const RigidTransform still = RigidTransform::Identity();
+  const std::vector<Eigen::Vector3d> common = solids.CommonSurface(still, swapped, 0.012);
+  ASSERT_FALSE(common.empty());
+  // the bar leaves the pieces below, by 60 mm: of these 53 are its own, 7 the plate's
+  EXPECT_NEAR(solids.DepthAlong(still, swapped, {0, 0, 1}, common), 0.06, 1e-9);
+  const std::array<TriangleMesh, 2> thin = {bar, Box({0, 0, 0}, {1, 1, 0.01})};
+  EXPECT_NEAR(solids.DepthAlong(still, thin, {0, 0, 1}, common), 0.003, 1e-9);
 }
 
 }  // namespace

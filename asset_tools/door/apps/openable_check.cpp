@@ -64,7 +64,10 @@ class DrawnOverlaps {
       solids = std::make_unique<SolidOverlap>(moving->mesh, Find(pair.fixed).second->mesh);
     const std::array<TriangleMesh, 2> regions = {Placed(*pair.moving_hull, pose), *pair.fixed_hull};
     const std::vector<Eigen::Vector3d> surface = solids->CommonSurface(pose, regions, kStep);
-    DrawnOverlap drawn{LeastExtent(surface, {&pair.direction, 1}), 1e300};
+    // both are lower bounds; the former alone takes a small piece deep in a large one for shallow
+    const double depth_m = std::max(LeastExtent(surface, {&pair.direction, 1}),
+                                    solids->DepthAlong(pose, regions, pair.direction, surface));
+    DrawnOverlap drawn{depth_m, 1e300};
     for (const Eigen::Vector3d& point : surface)
       drawn.from_hinge_m = std::min(drawn.from_hinge_m, FromHinge(point));
     return drawn;

@@ -106,6 +106,59 @@ std::vector<Eigen::Vector3d> SolidOverlap::CommonSurface(const RigidTransform& f
   return points;
 }
 
+namespace {
+
+// How far a piece reaches from a point inside it.
+double ReachOf(const std::vector<HalfSpace>& piece, const Eigen::Vector3d& point,
+               const Eigen::Vector3d& direction) {
+  double reach = std::numeric_limits<double>::infinity();
+  for (const HalfSpace& face : piece) {
+    const double across = face.normal.dot(direction);
+    if (across > 1e-9) reach = std::min(reach, (face.offset - face.normal.dot(point)) / across);
+  }
+  return std::max(0.0, reach);
+}
+
+// How far the solid goes on from a point in it or on its surface, no farther than the piece.
+double ReachOf(const TriangleTree& solid, const std::vector<HalfSpace>& piece,
+               const Eigen::Vector3d& point, const Eigen::Vector3d& direction) {
+  const Eigen::Vector3d behind = point + kOnFace * direction;
+  if (!solid.IsInside(behind)) return 0;
+  return std::min(solid.FirstHit(behind, direction, 0) + kOnFace, ReachOf(piece, point, direction));
+}
+
+double Extreme(const TriangleMesh& mesh, const Eigen::Vector3d& direction) {
+  double extreme = -std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector3d& vertex : mesh.vertices)
+    extreme = std::max(extreme, direction.dot(vertex));
+  return extreme;
+}
+
+}  // namespace
+
+double SolidOverlap::DepthAlong(const RigidTransform& fixed_from_moving,
+                                std::span<const TriangleMesh, 2> pieces,
+                                const Eigen::Vector3d& line,
+                                std::span<const Eigen::Vector3d> common) const {
+  Eigen::Vector3d up = line.normalized();  // where the moving piece ends
+  if (Extreme(pieces[0], -up) + Extreme(pieces[1], up) <
+      Extreme(pieces[0], up) + Extreme(pieces[1], -up))
+    up = -up;
+  const std::vector<HalfSpace> fixed_piece = HalfSpacesOf(pieces[1]);
+  const RigidTransform moving_from_fixed = fixed_from_moving.inverse();
+  const Eigen::Vector3d moving_up = moving_from_fixed.linear() * up;
+  TriangleMesh own_piece = pieces[0];
+  for (Eigen::Vector3d& vertex : own_piece.vertices) vertex = moving_from_fixed * vertex;
+  const std::vector<HalfSpace> moving_piece = HalfSpacesOf(own_piece);
+  double most = 0;
+  for (const Eigen::Vector3d& point : common) {
+    most = std::max(
+        most, ReachOf(surfaces_->moving_tree, moving_piece, moving_from_fixed * point, moving_up) +
+                  ReachOf(surfaces_->fixed_tree, fixed_piece, point, -up));
+  }
+  return most;
+}
+
 double LeastExtent(std::span<const Eigen::Vector3d> points, std::span<const Eigen::Vector3d> also) {
   if (points.size() < 2) return 0;
   double least = std::numeric_limits<double>::infinity();

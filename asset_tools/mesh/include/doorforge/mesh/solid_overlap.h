@@ -28,6 +28,17 @@ class SolidOverlap {
                                              std::span<const TriangleMesh> regions,
                                              double step_m) const;
 
+  /// How far the solids are in each other along a line, in the sense in which the two convex
+  /// `pieces` (the moving solid's, the fixed one's, in the frame of `fixed`) come apart soonest:
+  /// from where the fixed solid begins to where the moving one ends, each no farther than its
+  /// piece, at the point of `common` where that is most. `common` is what CommonSurface() found in
+  /// both pieces; 0 where that is empty. For convex solids that are their own pieces it is the
+  /// pieces' overlap along that line, which the common surface alone does not tell: a small solid
+  /// deep in a large one has a small surface.
+  double DepthAlong(const RigidTransform& fixed_from_moving,
+                    std::span<const TriangleMesh, 2> pieces, const Eigen::Vector3d& line,
+                    std::span<const Eigen::Vector3d> common) const;
+
  private:
   struct Surfaces;
   std::unique_ptr<const Surfaces> surfaces_;

@@ -11,7 +11,10 @@ tidy=no
 if [ "${1:-}" = --tidy ]; then tidy=yes; shift; fi
 scripts/install_packages.sh build test
 git ls-files '*.h' '*.cpp' | xargs -r clang-format --dry-run --Werror
-cmake --preset dev
+# clang-tidy looks at each source by itself
+together=ON
+if [ "$tidy" = yes ]; then together=OFF; fi
+cmake --preset dev -DDOORFORGE_BUILD_FROM_NOTHING="$together"
 cmake --build --preset dev --parallel "$(nproc)"
 if [ "$tidy" = yes ]; then
   git ls-files '*.cpp' | grep -v '^tests/\|^benchmarks/' | xargs -r -P "$(nproc)" -n 4 clang-tidy -p build/dev --quiet

@@ -24,31 +24,13 @@
 #include "doorforge/schemas/part_identity.h"
 #include "doorforge/schemas/split.h"
 
+#include "catalogue_parts.h"
 #include "scratch_folder.h"
 
 namespace doorforge {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path DataOfSource() { return fs::path(DOORFORGE_SOURCE_DIR) / "data"; }
-
-const std::vector<Part>& AllParts() {
-  static const std::vector<Part> kParts = [] {
-    std::vector<Part> parts;
-    for (const CatalogueEntry& entry : ListCatalogue(DataOfSource()))
-      parts.push_back(BuildCataloguePart(entry));
-    return parts;
-  }();
-  return kParts;
-}
-
-const Part& PartNamed(const std::string& id) {
-  for (const Part& part : AllParts()) {
-    if (part.id == id) return part;
-  }
-  throw Error(ErrorCode::kMissing, id);
-}
 
 Eigen::AlignedBox3d BoundsOfPiece(const PartPiece& piece) {
   return MeasureTopology(piece.mesh).bounds;

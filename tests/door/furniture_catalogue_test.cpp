@@ -14,6 +14,7 @@
 #include "doorforge/door/catalogue.h"
 #include "doorforge/door/grasp.h"
 
+#include "catalogue_parts.h"
 #include "scratch_folder.h"
 
 namespace doorforge {
@@ -22,8 +23,7 @@ namespace {
 const std::vector<CatalogueEntry>& Entries() {
   static const std::vector<CatalogueEntry> kEntries = [] {
     std::vector<CatalogueEntry> some;
-    for (const CatalogueEntry& entry :
-         ListCatalogue(std::filesystem::path(DOORFORGE_SOURCE_DIR) / "data")) {
+    for (const CatalogueEntry& entry : ListCatalogue(DataOfSource())) {
       if (entry.category == Category::kSafe || entry.category == Category::kStorageFurniture ||
           entry.category == Category::kRefrigerator)
         some.push_back(entry);
@@ -40,7 +40,7 @@ const std::vector<Part>& SomeParts() {
     std::set<std::string> families;
     for (std::size_t i = 0; i < Entries().size(); ++i) {
       if (families.insert(Entries()[i].family).second || i % 4 == 0)
-        parts.push_back(BuildCataloguePart(Entries()[i]));
+        parts.push_back(PartNamed(Entries()[i].id));
     }
     return parts;
   }();

@@ -14,6 +14,7 @@
 #include "doorforge/door/export_urdf.h"
 #include "doorforge/door/validate_door.h"
 
+#include "catalogue_parts.h"
 #include "scratch_folder.h"
 
 namespace doorforge {
@@ -24,7 +25,7 @@ namespace fs = std::filesystem;
 const std::vector<CatalogueEntry>& InteriorEntries() {
   static const std::vector<CatalogueEntry> kEntries = [] {
     std::vector<CatalogueEntry> interior;
-    for (const CatalogueEntry& entry : ListCatalogue(fs::path(DOORFORGE_SOURCE_DIR) / "data")) {
+    for (const CatalogueEntry& entry : ListCatalogue(DataOfSource())) {
       if (entry.category == Category::kInterior) interior.push_back(entry);
     }
     return interior;
@@ -35,7 +36,7 @@ const std::vector<CatalogueEntry>& InteriorEntries() {
 std::vector<Part> PartsOf(const std::string& family) {
   std::vector<Part> parts;
   for (const CatalogueEntry& entry : InteriorEntries()) {
-    if (entry.family == family) parts.push_back(BuildCataloguePart(entry));
+    if (entry.family == family) parts.push_back(PartNamed(entry.id));
   }
   return parts;
 }
@@ -158,9 +159,9 @@ TEST(InteriorCatalogue, ABodyOfEveryFamilyTakesAHandleOfEveryFamilyWithoutAFindi
   for (const CatalogueEntry& entry : InteriorEntries()) {
     if (!seen.insert(entry.family).second) continue;
     if (entry.role == PartRole::kBody)
-      bodies.emplace(entry.family, BuildCataloguePart(entry));
+      bodies.emplace(entry.family, PartNamed(entry.id));
     else
-      handles.push_back(BuildCataloguePart(entry));
+      handles.push_back(PartNamed(entry.id));
   }
   std::size_t next = 0;
   for (const auto& [family, body] : bodies) {

@@ -12,12 +12,13 @@
 #include "doorforge/door/compose.h"
 #include "doorforge/door/grasp.h"
 
+#include "catalogue_parts.h"
+
 namespace doorforge {
 namespace {
 
 std::vector<CatalogueEntry> EntriesOf(Category category, PartRole role) {
-  std::vector<CatalogueEntry> entries =
-      ListCatalogue(std::filesystem::path(DOORFORGE_SOURCE_DIR) / "data");
+  std::vector<CatalogueEntry> entries = ListCatalogue(DataOfSource());
   std::erase_if(entries, [&](const CatalogueEntry& entry) {
     return entry.category != category || entry.role != role;
   });
@@ -29,7 +30,7 @@ const std::vector<Part>& PartsOf(Category category, PartRole role) {
   std::vector<Part>& parts = built[{category, role}];
   if (parts.empty()) {
     for (const CatalogueEntry& entry : EntriesOf(category, role))
-      parts.push_back(BuildCataloguePart(entry));
+      parts.push_back(PartNamed(entry.id));
   }
   return parts;
 }

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include <ATen/ATen.h>
+#include <c10/core/GradMode.h>
 #include <time.h>  // NOLINT: clock_gettime is POSIX
 #include <torch/csrc/api/include/torch/version.h>
 
@@ -38,7 +39,7 @@ std::string MappedBlas() {
 
 LinearAlgebra MeasureLinearAlgebra() {
   internal::UseOneTorchThread();
-  const at::AutoGradMode mode(false);
+  const c10::AutoGradMode mode(false);
   constexpr std::int64_t kSize = 512;
   const at::Tensor a = at::full({kSize, kSize}, 0.5);
   const at::Tensor b = at::full({kSize, kSize}, 0.25);

@@ -5,7 +5,9 @@
 // time goes into, and how it grows with samples, doors and threads.
 //
 //   datagen_throughput DOORS SCRATCH [--samples 1000,10000] [--plot growth.svg]
+//   datagen_throughput --rows MEASURED --plot growth.svg
 //
+// The second draws what an earlier run has printed into the file MEASURED.
 // DOORS is a folder of composed doors, SCRATCH one that datasets are written to and removed from.
 // --samples 1000,10000,100000 goes further: beyond 20,000 samples with 16 doors on two threads
 // alone, which takes 22 processor minutes for 100,000, and 6 GB in SCRATCH.
@@ -97,7 +99,7 @@ StageRequest RequestFor(const std::string& doors, std::uint64_t episodes) {
   StageConfig config = DefaultsOf(Stage::kOpen);
   config.episodes = episodes;
   config.seed = 3;
-  return {config, {doors}, "", "", 0};
+  return {config, {doors}, {}, 0};
 }
 
 Split MeasureSplit(const std::string& doors, const fs::path& scratch, std::uint64_t episodes) {
@@ -199,6 +201,10 @@ void Print(const Run& run) {
   std::fflush(stdout);
 }
 
+std::string Counted(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
 // Processor seconds over samples, both on logarithmic axes; a straight line of slope one is linear.
 std::string PlotOf(const std::vector<Run>& runs) {
   constexpr double kLeft = 70;
@@ -231,8 +237,8 @@ std::string PlotOf(const std::vector<Run>& runs) {
   const char* const colors[] = {"#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#ff7f0e"};
   std::vector<std::string> names;
   for (const Run& run : runs) {
-    const std::string name =
-        std::to_string(run.doors) + " doors, " + std::to_string(run.threads) + " threads";
+    const std::string name = Counted(run.doors, "door") + ", " +
+                             Counted(static_cast<std::size_t>(run.threads), "thread");
     auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) {
       names.push_back(name);
@@ -240,12 +246,32 @@ std::string PlotOf(const std::vector<Run>& runs) {
       svg << "<text x=\"" << kLeft + kSize + 8 << "\" y=\"" << kTop + 16 + 18 * names.size()
           << "\" fill=\"" << colors[(names.size() - 1) % 5] << "\">" << name << "</text>\n";
     }
-    svg << "<circle cx=\"" << x(run.samples) << "\" cy=\"" << y(run.processor_s)
-        << "\" r=\"4\" fill=\"" << colors[static_cast<std::size_t>(found - names.begin()) % 5]
+    // rings of different size: the points nearly coincide
+    const auto series = static_cast<std::size_t>(found - names.begin());
+    svg << "<circle cx=\"" << x(run.samples) << "\" cy=\"" << y(run.processor_s) << "\" r=\""
+        << 2 + 3 * series << "\" fill=\"none\" stroke-width=\"2\" stroke=\"" << colors[series % 5]
         << "\"/>\n";
   }
   svg << "</svg>\n";
   return svg.str();
+}
+
+// What Print() has printed; other lines are passed over.
+std::vector<Run> ReadRuns(const fs::path& path) {
+  std::ifstream file(path);
+  std::vector<Run> runs;
+  for (std::string line; std::getline(file, line);) {
+    Run run;
+    if (std::sscanf(line.c_str(), "%zu doors %d threads %lf samples %lf s processor %lf s wall",
+                    &run.doors, &run.threads, &run.samples, &run.processor_s, &run.wall_s) == 5)
+      runs.push_back(run);
+  }
+  Require(!runs.empty(), ErrorCode::kFormat, path.string() + ": holds no line of a run");
+  return runs;
+}
+
+void WritePlot(const std::string& path, const std::vector<Run>& runs) {
+  if (!path.empty()) std::ofstream(path) << PlotOf(runs);
 }
 
 // A folder of some of the doors, as links.
@@ -268,14 +294,20 @@ std::string SomeDoors(const fs::path& doors, const fs::path& scratch, std::size_
 
 int Main(int argc, char** argv) {
   Require(argc >= 3, ErrorCode::kInvalidArgument,
-          "usage: datagen_throughput DOORS SCRATCH [--samples 1000,10000] [--plot growth.svg]");
+          "usage: datagen_throughput DOORS SCRATCH [--samples 1000,10000] [--plot growth.svg], or "
+          "--rows MEASURED --plot growth.svg");
   const fs::path doors = argv[1];
   const fs::path scratch = argv[2];
+  const bool draws_only = doors == "--rows";
   std::string samples = "1000,10000";
   std::string plot;
   for (int i = 3; i + 1 < argc; i += 2) {
     if (std::string(argv[i]) == "--samples") samples = argv[i + 1];
     if (std::string(argv[i]) == "--plot") plot = argv[i + 1];
+  }
+  if (draws_only) {
+    WritePlot(plot, ReadRuns(scratch));
+    return 0;
   }
   fs::create_directories(scratch);
   const std::string one = SomeDoors(doors, scratch, 1);
@@ -296,7 +328,7 @@ int Main(int argc, char** argv) {
       Print(runs.back());
     }
   }
-  if (!plot.empty()) std::ofstream(plot) << PlotOf(runs);
+  WritePlot(plot, runs);
   fs::remove_all(one);
   fs::remove_all(some);
   return 0;

@@ -191,7 +191,7 @@ double BytesBelow(const fs::path& folder) {
 // decisions where they open, 1 to 25 in general, and clouds are nearly all of their bytes.
 void RequireSpace(const Options& options, const StageRun& run, const CollectionTask& task) {
   constexpr double kBytesAPoint = 13;
-  constexpr double kGiB = 1 << 30;
+  constexpr double kMiB = 1 << 20;
   const double decisions = run.config().stage == Stage::kGrasp ? 1 : 16;
   const double whole = static_cast<double>(run.config().episodes) * decisions * kBytesAPoint *
                        run.config().cloud.point_count / task.count;
@@ -200,9 +200,9 @@ void RequireSpace(const Options& options, const StageRun& run, const CollectionT
   if (available > needed) return;
   char text[200];
   std::snprintf(text, sizeof text,
-                ": about %.1f GiB are needed, %.1f GiB are free; make room, choose another --out, "
+                ": about %.0f MiB are needed, %.0f MiB are free; make room, choose another --out, "
                 "or ask for fewer --episodes",
-                needed / kGiB, available / kGiB);
+                needed / kMiB, available / kMiB);
   if (available < needed / 4) throw Error(ErrorCode::kIo, options.out + text);
   std::fprintf(stderr, "doorforge: warning: %s%s\n", options.out.c_str(), text);
 }

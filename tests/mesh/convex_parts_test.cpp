@@ -81,6 +81,23 @@ TEST(ConvexParts, AreCutFurtherWhereTheyMeasureMore) {
   EXPECT_EQ(few.size(), coarse.size());
 }
 
+// As many parts as four levers need one by one, and no more: none may be left unused.
+TEST(ConvexParts, AreAllSpentWhereTheyMeasureMore) {
+  const ConvexPartsConfig one{.max_concavity_m = 0.02, .max_protrusion_m = 0.003};
+  const std::size_t needed = 4 * ConvexParts(Closed(Lever()), one).size();
+  TriangleMesh levers;
+  for (int i = 0; i < 4; ++i) {
+    TriangleMesh lever = Lever();
+    for (Eigen::Vector3d& vertex : lever.vertices) vertex.z() += 0.2 * i;
+    levers = Together(levers, lever);
+  }
+  ConvexPartsConfig all = one;
+  all.max_parts = static_cast<int>(needed);
+  const auto parts = ConvexParts(Closed(levers), all);
+  EXPECT_EQ(parts.size(), needed);
+  EXPECT_LE(MeasureConvexParts(Closed(levers), parts).protrusion_m, 0.003);
+}
+
 TEST(ConvexParts, OfATorusStayWithinTheConcavityAndCoverIt) {
   const ClosedMesh torus = Closed(Torus(0.05, 0.01, 48, 16));
   const auto parts = ConvexParts(torus, {.max_parts = 32, .max_concavity_m = 0.003});

@@ -19,7 +19,8 @@ namespace {
 
 constexpr double kCoverShare = 0.5;      // of the concavity: what the parts may leave out
 constexpr double kFineCoverShare = 0.1;  // the same after cuts that were measured
-constexpr double kCutShare = 0.875;      // of the parts: what those cuts may use
+constexpr double kCutShare = 0.875;      // of the parts: what those cuts may use in any case
+constexpr int kExchanges = 16;           // measured cuts and joins without gain before they end
 constexpr double kHeldSkins = 2;         // how far surface may stand out of a hull that holds it
 constexpr int kRounds = 4;               // of cutting and joining
 constexpr double kSurplus = 2;           // regions, against those that may stay, to join from
@@ -181,7 +182,7 @@ class Decomposition {
       polygon.wall_m = WallBehind(polygon);
     }
     smallest_m3_ = 1e-9 * whole.box.volume();
-    if (Enclose(whole)) regions_.push_back(std::move(whole));
+    if (Enclose(whole, {})) regions_.push_back(std::move(whole));
     whole_ = regions_;
   }
 
@@ -190,29 +191,46 @@ class Decomposition {
     if (WorstDepth() > allowed_m_) SpendBetter();
     if (WorstDepth() > allowed_m_) SearchAgain();
     std::vector<TriangleMesh> parts = Covered(kCoverShare);
-    const double most_m = config_.max_protrusion_m > 0 ? MostProtrusion(parts) : 0;
-    if (most_m > config_.max_protrusion_m && CutMeasured()) {
-      std::vector<TriangleMesh> finer = Covered(kFineCoverShare);
-      if (MostProtrusion(finer) < most_m) return finer;
-    }
-    return parts;
+    return config_.max_protrusion_m > 0 ? Measured(std::move(parts)) : parts;
   }
 
  private:
+  using RegionPair = std::pair<std::size_t, std::size_t>;
+
+  // What a cut is to make less.
+  enum class Depths { kOfGrid, kMeasured };
+
+  // The common hull of two regions: its depth and its volume beyond the two hulls. Asked with a
+  // bound on the depth, it may stop at any depth beyond.
+  struct Between {
+    double depth_m = 1e300;
+    double air_m3 = 1e300;
+    double asked_m = 0;
+  };
+
+  // Which of two joins is better: within the bound by air, else by depth.
+  using Cost = std::pair<double, double>;
+  Cost CostOf(const Between& between) const {
+    return {between.depth_m <= allowed_m_ ? 0 : between.depth_m, between.air_m3};
+  }
+
   double WallBehind(const Polygon& triangle) const {
     const std::vector<Eigen::Vector3d>& p = triangle.corners;
     const Eigen::Vector3d inwards = -DoubledAreaOf(triangle).normalized();
     return tree_.FirstHit((p[0] + p[1] + p[2]) / 3, inwards, 1e-3 * SkinM());
   }
 
-  // Fills in hull and concavity; false where the region holds nothing.
-  bool Enclose(Region& region) {
+  // Fills in hull and concavity; false where the region holds nothing. Of the box's corners those
+  // count that lie in the solid and in the hull that the region is cut from: the box of two regions
+  // that were joined holds what belongs to others.
+  bool Enclose(Region& region, const std::vector<HalfSpace>& cut_from) {
     region.id = next_id_++;
     // kept with the surface as polygons of one point, so that later cuts and joins know them
     for (int corner = 0; corner < 8; ++corner) {
       const Eigen::Vector3d point =
           region.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
-      if (IsSolidBehind(point, region.box)) region.surface.push_back({{point}});
+      if (IsHeldBy(cut_from, {{point}}) && IsSolidBehind(point, region.box))
+        region.surface.push_back({{point}});
     }
     std::optional<TriangleMesh> hull = HullOf(PointsOf(region.surface));
     if (!hull || !(VolumeOf(*hull) > smallest_m3_)) return false;
@@ -258,35 +276,128 @@ class Decomposition {
     if (!fits || WorstDepth() >= before_m) regions_ = std::move(before);
   }
 
-  // The grid sees depths to within about two cells. While there is room, some of it kept for what
-  // the cuts leave uncovered, the region that stands out most as measured is cut where it does.
-  bool CutMeasured() {
-    bool any = false;
-    std::map<int, Concavity> measured;
-    while (static_cast<double>(regions_.size()) < kCutShare * config_.max_parts) {
-      Region* worst = nullptr;
-      for (Region& region : regions_) {
-        if (!measured.contains(region.id)) measured[region.id] = Protrusion(region.hull);
-        const double depth_m = measured[region.id].depth_m;
-        if (depth_m <= config_.max_protrusion_m || region.indivisible) continue;
-        if (worst == nullptr || depth_m > measured[worst->id].depth_m) worst = &region;
-      }
-      if (worst == nullptr) break;
-      worst->concavity = measured[worst->id];
-      if (Split(static_cast<std::size_t>(worst - regions_.data())))
-        any = true;
-      else
-        worst->indivisible = true;
+  // The grid sees depths to within about two cells, so at the end what counts is measured. The
+  // parts that covering did not need are cut with.
+  std::vector<TriangleMesh> Measured(std::vector<TriangleMesh> parts) {
+    const auto most = static_cast<std::size_t>(config_.max_parts);
+    const auto spare = [&](const std::vector<TriangleMesh>& covering) {
+      return most - std::min(most, covering.size());
+    };
+    double most_m = MostProtrusion(parts);
+    std::size_t room = std::max(static_cast<std::size_t>(kCutShare * config_.max_parts),
+                                regions_.size() + spare(parts));
+    for (int round = 0; round < kRounds && most_m > config_.max_protrusion_m; ++round) {
+      if (!ExchangeMeasured(room)) break;
+      std::vector<TriangleMesh> finer = Covered(kFineCoverShare);
+      room = regions_.size() + spare(finer);
+      const double finer_m = MostProtrusion(finer);
+      if (finer_m >= most_m) continue;
+      parts = std::move(finer);
+      most_m = finer_m;
     }
+    return parts;
+  }
+
+  // The region that stands out most as measured is cut where it does; where there is no room, the
+  // pair whose common hull stands out least is joined first, if that is less. Many pairs that the
+  // grid calls too deep are within the bound. Kept where it was best; true if that is not at first.
+  bool ExchangeMeasured(std::size_t room) {
+    std::vector<Region> best = regions_;
+    Excess least = ExcessOf(regions_);
+    bool any = false;
+    for (int since = 0; since < kExchanges; ++since) {
+      const std::optional<std::size_t> worst = WorstMeasured();
+      if (!worst) break;
+      if (!Trim(*worst)) {
+        const Concavity measured = MeasuredOf(regions_[*worst]);
+        if (regions_.size() >= room) {
+          const auto pair = LeastMeasuredPair(kWorthwhile * measured.depth_m);
+          if (!pair) break;
+          Join(*pair);
+          continue;
+        }
+        regions_[*worst].concavity = measured;
+        if (!Split(*worst, Depths::kMeasured)) regions_[*worst].indivisible = true;
+      }
+      const Excess excess = ExcessOf(regions_);
+      if (excess >= least) continue;
+      least = excess;
+      best = regions_;
+      any = true;
+      since = 0;
+    }
+    regions_ = std::move(best);
     return any;
+  }
+
+  // How far regions stand out beyond the bound: the farthest, then all of them.
+  using Excess = std::pair<double, double>;
+  Excess ExcessOf(const std::vector<Region>& regions) {
+    Excess excess{0, 0};
+    for (const Region& region : regions) {
+      const double beyond_m = MeasuredOf(region).depth_m - config_.max_protrusion_m;
+      excess = {std::max(excess.first, beyond_m), excess.second + std::max(0.0, beyond_m)};
+    }
+    return excess;
+  }
+
+  const Concavity& MeasuredOf(const Region& region) {
+    const auto [entry, is_new] = measured_.try_emplace(region.id);
+    if (is_new) entry->second = Protrusion(region.hull);
+    return entry->second;
+  }
+
+  // Of those that stand out by more than they may and that a cut may divide.
+  std::optional<std::size_t> WorstMeasured() {
+    std::optional<std::size_t> worst;
+    double worst_m = config_.max_protrusion_m;
+    for (std::size_t i = 0; i < regions_.size(); ++i) {
+      const double depth_m = MeasuredOf(regions_[i]).depth_m;
+      if (regions_[i].indivisible || depth_m <= worst_m) continue;
+      worst_m = depth_m;
+      worst = i;
+    }
+    return worst;
+  }
+
+  // The pair whose common hull stands out least as measured, less than `below_m`: the first that
+  // stays within the bound, in the order of the grid. That tells of depths inside as well, which
+  // may be less than a cell more.
+  std::optional<RegionPair> LeastMeasuredPair(double below_m) {
+    const double seen_m = below_m + solid_.grid().cell_m;
+    std::vector<std::pair<Cost, RegionPair>> pairs;
+    for (std::size_t a = 0; a < regions_.size(); ++a) {
+      for (std::size_t b = a + 1; b < regions_.size(); ++b) {
+        const Between between = BetweenOf(regions_[a], regions_[b], seen_m);
+        if (between.depth_m <= seen_m) pairs.push_back({CostOf(between), {a, b}});
+      }
+    }
+    std::sort(pairs.begin(), pairs.end());
+    std::optional<RegionPair> best;
+    for (const auto& [cost, pair] : pairs) {
+      const double depth_m = MeasuredBetween(regions_[pair.first], regions_[pair.second]);
+      if (depth_m >= below_m) continue;
+      best = pair;
+      if (depth_m <= config_.max_protrusion_m) break;
+      below_m = depth_m;
+    }
+    return best;
+  }
+
+  double MeasuredBetween(const Region& a, const Region& b) {
+    const auto [entry, is_new] = measured_between_.try_emplace({a.id, b.id}, 1e300);
+    if (!is_new) return entry->second;
+    const std::optional<TriangleMesh> hull = CommonHull(a, b);
+    if (hull) entry->second = Protrusion(*hull).depth_m;
+    return entry->second;
   }
 
   // The point of the hull's surface that is farthest from the mesh's, if it is farther than may be;
   // depth 0 where there is none.
-  Concavity Protrusion(const TriangleMesh& hull) const {
+  Concavity Protrusion(const TriangleMesh& hull, int stride = 1) const {
     const double unseen_m = std::sqrt(3.0) * solid_.grid().cell_m;
     std::vector<Concavity> probes;  // with their depths in the grid
-    for (const Eigen::Vector3d& point : PointsOn(hull, solid_.grid().cell_m)) {
+    for (const Eigen::Vector3d& point : PointsOn(hull, stride * solid_.grid().cell_m)) {
       const Eigen::Vector3i cell = solid_.grid().CellAt(point);
       const double depth_m = solid_.DistanceAt(cell.x(), cell.y(), cell.z());
       if (depth_m > 0 && depth_m + unseen_m > config_.max_protrusion_m)
@@ -335,7 +446,7 @@ class Decomposition {
           [](const Region& a, const Region& b) { return UrgencyOf(a) < UrgencyOf(b); });
       if (worst == regions_.end() || UrgencyOf(*worst) <= allowed_m_) break;
       if (Trim(static_cast<std::size_t>(worst - regions_.begin()))) continue;
-      if (Split(static_cast<std::size_t>(worst - regions_.begin())))
+      if (Split(static_cast<std::size_t>(worst - regions_.begin()), Depths::kOfGrid))
         any = true;
       else if (regions_.size() > 1)
         regions_.erase(worst);  // flat pieces far apart: each is covered by itself at the end
@@ -377,13 +488,16 @@ class Decomposition {
 
   // Wholly in one of the hulls, but for a skin.
   bool IsHeldBy(const std::vector<std::vector<HalfSpace>>& hulls, const Polygon& polygon) const {
-    return std::any_of(hulls.begin(), hulls.end(), [&](const std::vector<HalfSpace>& hull) {
-      return std::all_of(hull.begin(), hull.end(), [&](const HalfSpace& face) {
-        return std::all_of(polygon.corners.begin(), polygon.corners.end(),
-                           [&](const Eigen::Vector3d& p) {
-                             return face.normal.dot(p) <= face.offset + kHeldSkins * SkinM();
-                           });
-      });
+    return std::any_of(hulls.begin(), hulls.end(),
+                       [&](const std::vector<HalfSpace>& hull) { return IsHeldBy(hull, polygon); });
+  }
+
+  bool IsHeldBy(const std::vector<HalfSpace>& hull, const Polygon& polygon) const {
+    return std::all_of(hull.begin(), hull.end(), [&](const HalfSpace& face) {
+      return std::all_of(polygon.corners.begin(), polygon.corners.end(),
+                         [&](const Eigen::Vector3d& p) {
+                           return face.normal.dot(p) <= face.offset + kHeldSkins * SkinM();
+                         });
     });
   }
 
@@ -392,16 +506,17 @@ class Decomposition {
   }
 
   // Replaces a region by its two sides of the best cut; false if no cut separates anything.
-  bool Split(std::size_t index) {
-    const std::optional<Cut> cut = BestCut(regions_[index]);
+  bool Split(std::size_t index, Depths depths) {
+    const std::optional<Cut> cut = BestCut(regions_[index], depths);
     if (!cut) return false;
+    const std::vector<HalfSpace> cut_from = HalfSpacesOf(regions_[index].hull);
     std::vector<Region> sides;
     for (const int sign : {-1, 1}) {
       Region side;
       side.box = regions_[index].box;
       (sign < 0 ? side.box.max() : side.box.min())[cut->axis] = cut->position_m;
       side.surface = OneSide(regions_[index], *cut, sign);
-      if (Enclose(side)) sides.push_back(std::move(side));
+      if (Enclose(side, cut_from)) sides.push_back(std::move(side));
     }
     if (sides.size() < 2) return false;
     regions_[index] = std::move(sides[0]);
@@ -420,7 +535,7 @@ class Decomposition {
   // the air in both hulls. Depth matters because an opening is rid of by cutting its walls off one
   // by one, which gains no air before the last. Faces are preferred, since walls end there, and so
   // are halves over slivers.
-  std::optional<Cut> BestCut(const Region& region) const {
+  std::optional<Cut> BestCut(const Region& region, Depths depths) const {
     constexpr double kAirWeight = 0.5;
     constexpr double kFaceBonus = 0.02;
     constexpr double kHalfBonus = 0.05;
@@ -428,8 +543,8 @@ class Decomposition {
     std::optional<Cut> best;
     double best_score = 1e300;
     for (const Candidate& candidate : Candidates(region, solid_.grid().cell_m)) {
-      const std::optional<Side> below = SideOf(region, candidate.cut, -1);
-      const std::optional<Side> above = SideOf(region, candidate.cut, 1);
+      const std::optional<Side> below = SideOf(region, candidate.cut, -1, depths);
+      const std::optional<Side> above = SideOf(region, candidate.cut, 1, depths);
       if (!below || !above) continue;
       const double deep = (below->depth_m * below->area_m2 + above->depth_m * above->area_m2) /
                           (region.concavity.depth_m * (below->area_m2 + above->area_m2));
@@ -444,15 +559,21 @@ class Decomposition {
   }
 
   // Nothing where the side is empty or flat.
-  std::optional<Side> SideOf(const Region& region, const Cut& cut, int sign) const {
+  std::optional<Side> SideOf(const Region& region, const Cut& cut, int sign, Depths depths) const {
     const std::vector<Polygon> surface = OneSide(region, cut, sign);
     const std::optional<TriangleMesh> hull = HullOf(PointsOf(surface));
     if (!hull || !(VolumeOf(*hull) > smallest_m3_)) return std::nullopt;
-    // every third row is enough to compare
-    const double depth_m = ConcavityOf(*hull, solid_, 3).depth_m;
-    Side side{VolumeOf(*hull), depth_m > allowed_m_ ? depth_m : 0, 0};
+    Side side{VolumeOf(*hull), ComparableDepth(*hull, depths), 0};
     for (const Polygon& polygon : surface) side.area_m2 += 0.5 * DoubledAreaOf(polygon).norm();
     return side;
+  }
+
+  // Of a hull, where it makes a cut necessary; every third row or point is enough to compare.
+  double ComparableDepth(const TriangleMesh& hull, Depths depths) const {
+    constexpr int kStride = 3;
+    if (depths == Depths::kMeasured) return Protrusion(hull, kStride).depth_m;
+    const double depth_m = ConcavityOf(hull, solid_, kStride).depth_m;
+    return depth_m > allowed_m_ ? depth_m : 0;
   }
 
   // The surface on one side of a cut, and the points in the solid that were noted for it.
@@ -500,21 +621,26 @@ class Decomposition {
   }
 
   bool JoinBestPair(double depth_m) {
-    std::pair<double, double> least{depth_m, 1e300};
-    std::pair<std::size_t, std::size_t> best{0, 0};
+    Cost least{depth_m, 1e300};
+    RegionPair best{0, 0};
     for (std::size_t a = 0; a < regions_.size(); ++a) {
       for (std::size_t b = a + 1; b < regions_.size(); ++b) {
         const Between between = BetweenOf(regions_[a], regions_[b], depth_m);
-        const std::pair<double, double> cost{between.depth_m <= allowed_m_ ? 0 : between.depth_m,
-                                             between.air_m3};
+        const Cost cost = CostOf(between);
         if (between.depth_m > depth_m || cost >= least) continue;
         least = cost;
         best = {a, b};
       }
     }
     if (best.second == 0) return false;
-    Region joined = std::move(regions_[best.first]);
-    const Region& other = regions_[best.second];
+    Join(best);
+    return true;
+  }
+
+  // The second of the pair, which comes after the first, is gone.
+  void Join(const RegionPair& pair) {
+    Region joined = std::move(regions_[pair.first]);
+    const Region& other = regions_[pair.second];
     joined.id = next_id_++;
     joined.box.extend(other.box);
     joined.surface.insert(joined.surface.end(), other.surface.begin(), other.surface.end());
@@ -522,9 +648,8 @@ class Decomposition {
     joined.concavity = ConcavityOf(joined.hull, solid_);
     joined.indivisible = false;
     joined.trimmed = false;
-    regions_[best.first] = std::move(joined);
-    regions_.erase(regions_.begin() + static_cast<std::ptrdiff_t>(best.second));
-    return true;
+    regions_[pair.first] = std::move(joined);
+    regions_.erase(regions_.begin() + static_cast<std::ptrdiff_t>(pair.second));
   }
 
   static std::optional<TriangleMesh> CommonHull(const Region& a, const Region& b) {
@@ -532,14 +657,6 @@ class Decomposition {
     points.insert(points.end(), b.hull.vertices.begin(), b.hull.vertices.end());
     return HullOf(points);
   }
-
-  // The common hull of two regions: its depth and its volume beyond the two hulls. Asked with a
-  // bound on the depth, it may stop at any depth beyond.
-  struct Between {
-    double depth_m = 1e300;
-    double air_m3 = 1e300;
-    double asked_m = 0;
-  };
 
   const Between& BetweenOf(const Region& a, const Region& b, double bound_m) {
     Between& between = between_[{a.id, b.id}];
@@ -565,6 +682,8 @@ class Decomposition {
   std::vector<Region> whole_;  // the first of them
   int next_id_ = 0;
   std::map<std::pair<int, int>, Between> between_;
+  std::map<int, Concavity> measured_;  // by the region's id
+  std::map<std::pair<int, int>, double> measured_between_;
 };
 
 void CheckConfig(const ConvexPartsConfig& config) {

@@ -20,8 +20,8 @@ def sha256(path: pathlib.Path) -> str:
 
 
 class TrainedCollection(ProgramTest):
-    def collect(self, stage: str, out: str, threads: int, *options: object):
-        return run("datagen", stage, "--doors", self.folder / "door", "--out", self.folder / out, "--episodes", 2,
+    def collect(self, stage: str, out: str, threads: int, *options: object, episodes: int = 2):
+        return run("datagen", stage, "--doors", self.folder / "door", "--out", self.folder / out, "--episodes", episodes,
                    "--seed", 3, "--set", "preview=false", "-j", threads, *options)
 
     def train(self, stage: str, seed: int, out: str) -> pathlib.Path:
@@ -50,6 +50,19 @@ class TrainedCollection(ProgramTest):
                          [("handle", sha256(handler / "policy.json")), ("open", sha256(opener / "policy.json"))])
         self.assert_ends(run("dataset", "verify", self.folder / "one", "--regenerate", "100%", "--doors",
                              self.folder / "door", *policies), 0)
+
+        # a learner drives, and is corrected and recorded; what it led to can be made and looked at again
+        learner = ["--learner", handler, "--set", "sampled_grasps=0.5", "--set", "learner_decisions=2"]
+        self.assert_ends(self.collect("handle", "corrected", 2, *learner, "--set", "preview=true", episodes=4), 0)
+        recorded = json.loads((self.folder / "corrected/provenance.json").read_text())["policies"]
+        self.assertEqual([policy["policy_sha256"] for policy in recorded], [sha256(handler / "policy.json")])
+        self.assert_ends(run("dataset", "verify", self.folder / "corrected", "--regenerate", "50%", "--doors",
+                             self.folder / "door", "--learner", handler), 0)
+        self.assert_ends(run("dataset", "re-observe", self.folder / "corrected", "--doors", self.folder / "door",
+                             "--out", self.folder / "again"), 0)
+        tars = {name: digest for name, digest in digests(self.folder / "corrected").items() if name.endswith(".tar")}
+        self.assertEqual(tars, {name: digest for name, digest in digests(self.folder / "again").items()
+                                if name.endswith(".tar")})
 
         # another opener is not the one that the data set was begun with
         other = self.train("open", 2, "other")

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <functional>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -68,6 +69,52 @@ TEST_F(RunStagesTest, AHandThatDoesNotTurnLeavesTheHandleStuck) {
   const Episode episode = Run(door, scene, {.recorded = Stage::kHandle, .handle = &stays});
   EXPECT_EQ(episode.outcome, EpisodeOutcome::kHandleStuck) << episode.detail;
   EXPECT_EQ(episode.decisions.size(), 3U);
+}
+
+// Says that the handle is turned after so many questions, whatever has become of it.
+std::function<bool()> AfterQuestions(int count) {
+  return [count, asked = 0]() mutable { return ++asked >= count; };
+}
+
+TEST_F(RunStagesTest, APredictedFlagThatComesInTimeChangesNothing) {
+  const DoorAsset door = MakePrimitiveDoor({});
+  const Scene scene = SampleScene(door, 1, 0);
+  HandleExpert turns;
+  EpisodeRoles roles{.recorded = Stage::kHandle, .handle = &turns};
+  const Episode told = Run(door, scene, roles);
+  ASSERT_EQ(told.outcome, EpisodeOutcome::kOpened) << told.detail;
+  roles.predicted_turned = AfterQuestions(static_cast<int>(told.decisions.size()));
+  const Episode predicted = Run(door, scene, roles);
+  EXPECT_EQ(predicted.state_sha256, told.state_sha256);
+  EXPECT_EQ(predicted.decisions.size(), told.decisions.size());
+  EXPECT_TRUE(predicted.handle_done);
+}
+
+TEST_F(RunStagesTest, APredictedFlagThatComesTooEarlyLeavesTheHandleStuckAndIsNamed) {
+  const DoorAsset door = MakePrimitiveDoor({});
+  HandleExpert turns;
+  const Episode episode =
+      Run(door, SampleScene(door, 1, 0),
+          {.recorded = Stage::kHandle, .handle = &turns, .predicted_turned = AfterQuestions(1)});
+  EXPECT_EQ(episode.decisions.size(), 1U);
+  EXPECT_EQ(episode.outcome, EpisodeOutcome::kHandleStuck) << episode.detail;
+  EXPECT_FALSE(episode.handle_done);
+  EXPECT_NE(episode.detail.find("the switch came with the handle at"), std::string::npos)
+      << episode.detail;
+}
+
+TEST_F(RunStagesTest, APredictedFlagThatNeverComesEndsTheEpisodeAndIsNamed) {
+  const DoorAsset door = MakePrimitiveDoor({});
+  Scene scene = SampleScene(door, 1, 0);
+  scene.physics.max_handle_actions = 6;
+  HandleExpert turns;
+  const Episode episode =
+      Run(door, scene,
+          {.recorded = Stage::kHandle, .handle = &turns, .predicted_turned = [] { return false; }});
+  EXPECT_EQ(episode.decisions.size(), 6U);
+  EXPECT_NE(episode.outcome, EpisodeOutcome::kOpened);
+  EXPECT_GE(episode.peak_handle_rad, door.latch.handle_done_angle_rad);
+  EXPECT_NE(episode.detail.find("the switch did not come"), std::string::npos) << episode.detail;
 }
 
 TEST_F(RunStagesTest, ALearnerDrivesFirstAndTheRuleSaysWhatItWouldHaveDone) {

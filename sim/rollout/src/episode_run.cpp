@@ -264,18 +264,33 @@ bool EpisodeRun::IsTurned() const {
   return !state.locked && state.handle_rad >= episode_.scene.latch.handle_done_angle_rad;
 }
 
+// Whether it is time to open, by whoever says so.
+bool EpisodeRun::EndsTurn() const {
+  if (!roles_.predicted_turned) return IsTurned();
+  return actions_ > 0 && roles_.predicted_turned();
+}
+
 EpisodeRun::Failure EpisodeRun::Turn(Policy& handle) {
   const PhysicsConfig& physics = episode_.scene.physics;
   if (episode_.scene.latch.type == LatchType::kNone) return std::nullopt;
   BeginStage(handle, Stage::kHandle);
   const auto off = [&] { return step_ - last_pad_step_; };
-  while (actions_ < physics.max_handle_actions && !diverged_ && !IsTurned()) {
+  while (actions_ < physics.max_handle_actions && !diverged_ && !EndsTurn()) {
     Decide(handle, Stage::kHandle);
     if (off() > 3 * physics.steps_per_action) break;
   }
   Watch("unlock");
-  if (IsTurned()) return std::nullopt;
-  return TurnFailure(off() > physics.steps_per_action);
+  const WorldState& state = world_.state();
+  if (EndsTurn()) {
+    if (!IsTurned() && !state.handle_done)
+      early_ =
+          Format("the switch came with the handle at %.1f of %.1f deg", state.handle_rad / kDegree,
+                 episode_.scene.latch.handle_done_angle_rad / kDegree);
+    return std::nullopt;
+  }
+  const Failure failure = TurnFailure(off() > physics.steps_per_action);
+  if (IsTurned()) problem_ += ", and the switch did not come";
+  return failure;
 }
 
 EpisodeRun::Failure EpisodeRun::TurnFailure(bool lost) {
@@ -429,7 +444,6 @@ EpisodeRun::Failure EpisodeRun::Open(Policy& opening) {
   // a hand that has been off the door for a second does not come back by itself
   const int given_up = 6 * physics.steps_per_action;
   BeginStage(opening, Stage::kOpen);
-  episode_.handle_done = true;
   last_touch_step_ = step_;
   for (int i = 0; i < physics.max_opening_actions && !coasted_ && !diverged_; ++i) {
     if (opened_ && world_.state().hinge_rad > physics.finish_hinge_rad) break;
@@ -437,6 +451,7 @@ EpisodeRun::Failure EpisodeRun::Open(Policy& opening) {
     if (step_ - last_touch_step_ > given_up) break;
   }
   Watch("end");
+  episode_.handle_done = early_.empty() || world_.state().handle_done;
   if (opened_) return std::nullopt;
   const bool lost = step_ - last_pad_step_ > physics.steps_per_action;
   problem_ = Format(
@@ -448,6 +463,10 @@ EpisodeRun::Failure EpisodeRun::Open(Policy& opening) {
   if (!contacts.arm_touches.empty()) problem_ += ", arm touches " + contacts.arm_touches;
   if (coasted_) problem_ += ", the door coasted past 45 deg by itself";
   if (coasted_) return EpisodeOutcome::kGripLost;
+  if (!episode_.handle_done) {
+    problem_ += "; " + early_;
+    if (world_.state().locked) return EpisodeOutcome::kHandleStuck;
+  }
   if (!lost) return HeldUpBy(contacts).value_or(EpisodeOutcome::kDoorStuck);
   problem_ += why_lost_;
   return held_up_at_loss_.value_or(EpisodeOutcome::kGripLost);

@@ -34,6 +34,7 @@ class EpisodeRun {
   Failure Reach();
   Failure Grasp();
   bool IsTurned() const;
+  bool EndsTurn() const;
   Failure TurnFailure(bool lost);
   void RecordChoice(ChosenGrasp chosen);
   void Step(const RobotCommand& command);
@@ -74,7 +75,8 @@ class EpisodeRun {
 
   Rng action_noise_;
   std::optional<std::array<double, 6>> action_bias_;
-  int actions_ = 0;  // of the present stage
+  int actions_ = 0;    // of the present stage
+  std::string early_;  // how far the handle was, where a predicted flag came too early
 
   // bookkeeping of contacts, in steps
   long step_ = 0;

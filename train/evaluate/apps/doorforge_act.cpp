@@ -25,6 +25,7 @@
 #include "doorforge/learn/checkpoint.h"
 #include "doorforge/learn/grasp_policy.h"
 #include "doorforge/learn/stage_policy.h"
+#include "doorforge/learn/turning_policy.h"
 #include "doorforge/physics/load_robot.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/schemas/episode.h"
@@ -143,6 +144,7 @@ ActConfig ConfigOf(const Options& options) {
 struct Actor {
   std::unique_ptr<Policy> policy;
   std::string weights_sha256;
+  const TurningPolicy* turning = nullptr;  // the same, where it says when the handle is turned
 };
 
 std::optional<Actor> LoadActor(const std::string& folder, Stage stage,
@@ -151,6 +153,18 @@ std::optional<Actor> LoadActor(const std::string& folder, Stage stage,
   PolicyRecord record = ReadPolicy(folder, NameOf(stage));
   Actor actor{MakePolicy(std::move(record.networks), options), record.weights_sha256};
   actor.policy->Reset();
+  return actor;
+}
+
+std::optional<Actor> LoadHandler(const std::string& folder, const PolicyOptions& options) {
+  std::optional<Actor> actor = LoadActor(folder, Stage::kHandle, options);
+  if (!actor) return actor;
+  const auto classifier = ReadTurnedClassifier(
+      folder, ReadPolicy(folder, NameOf(Stage::kHandle)).provenance.dataset_sha256);
+  if (!classifier) return actor;
+  auto turning = std::make_unique<TurningPolicy>(std::move(actor->policy), *classifier);
+  actor->turning = turning.get();
+  actor->policy = std::move(turning);
   return actor;
 }
 
@@ -170,11 +184,12 @@ class Decider {
  public:
   explicit Decider(const Options& options)
       : stage_(options.stage),
+        stream_(options.stream),
         config_(ConfigOf(options)),
         robot_(LoadRobot({}, RobotBaseNamed(options.base))),
         camera_(ReadCalibratedCamera(options.camera)),
         opener_(LoadActor(options.policy, Stage::kOpen, config_.policy)),
-        handler_(LoadActor(options.handler, Stage::kHandle, config_.policy)),
+        handler_(LoadHandler(options.handler, config_.policy)),
         grasper_(LoadGrasper(options.grasper, config_.grasp)) {}
 
   // Where and how to take hold of the handle that a mask shows.
@@ -224,14 +239,18 @@ class Decider {
 
   Stage StageOf(const RobotState& state, const std::string& path) {
     if (stage_ != "auto") return *StageNamed(stage_);
-    if (!state.unlocked && !unlocked_)
+    if (!state.unlocked && !unlocked_ && !Predicts())
       throw Error(ErrorCode::kInvalidConfig,
                   path +
                       ": the key \"unlocked\" is missing, which says whether the handle has "
-                      "been turned; or pass --stage");
-    unlocked_ = unlocked_ || *state.unlocked;
+                      "been turned; pass --stage, or use --stream with a --handler that says it "
+                      "itself (it has a turned.safetensors)");
+    unlocked_ = unlocked_ || (state.unlocked ? *state.unlocked : handler_->turning->Turned());
     return unlocked_ ? Stage::kOpen : Stage::kHandle;
   }
+
+  // Whether the handle policy can say when the handle is turned: it has seen the episode so far.
+  bool Predicts() const { return stream_ && handler_ && handler_->turning != nullptr; }
 
   Actor& ActorOf(Stage stage) {
     std::optional<Actor>& actor = stage == Stage::kOpen ? opener_ : handler_;
@@ -249,17 +268,20 @@ class Decider {
     RigidTransform target = RigidTransform::Identity();
     target.linear() = action.world_from_hand_rotation;
     target.translation() = state.world_from_hand.translation() + action.position_delta_m;
-    return {{"schema", "doorforge.decision"},
-            {"schema_version", kDecisionSchemaVersion},
-            {"stage", NameOf(stage)},
-            {"world_from_hand", TransformToJson(target)},
-            {"position_delta_m", Vector3ToJson(action.position_delta_m)},
-            {"candidates", config_.policy.candidates},
-            {"visible_points", sight.visible_count},
-            {"weights_sha256", actor.weights_sha256}};
+    Json record = {{"schema", "doorforge.decision"},
+                   {"schema_version", kDecisionSchemaVersion},
+                   {"stage", NameOf(stage)},
+                   {"world_from_hand", TransformToJson(target)},
+                   {"position_delta_m", Vector3ToJson(action.position_delta_m)},
+                   {"candidates", config_.policy.candidates},
+                   {"visible_points", sight.visible_count},
+                   {"weights_sha256", actor.weights_sha256}};
+    if (stage == Stage::kHandle && Predicts()) record["turned"] = handler_->turning->Turned();
+    return record;
   }
 
   std::string stage_;
+  bool stream_;
   ActConfig config_;
   RobotModel robot_;
   CalibratedCamera camera_;

@@ -17,6 +17,7 @@
 #include "doorforge/evaluate/trained_grasp.h"
 #include "doorforge/learn/checkpoint.h"
 #include "doorforge/learn/stage_dataset.h"
+#include "doorforge/learn/turning_policy.h"
 #include "doorforge/physics/load_robot.h"
 #include "doorforge/rollout/camera_observer.h"
 #include "doorforge/rollout/opening_expert.h"
@@ -33,7 +34,11 @@ namespace fs = std::filesystem;
 constexpr std::size_t kTrainingPreviews = 12;
 constexpr std::size_t kMostNamedDoors = 8;
 
-bool IsExpert(const EvaluationRequest& request) { return request.policy == "expert"; }
+bool IsOwn(const EvaluationRequest& request) { return request.own.make_open != nullptr; }
+
+bool IsExpert(const EvaluationRequest& request) {
+  return !IsOwn(request) && request.policy == "expert";
+}
 
 Contender Expert() {
   return {[] { return Players{std::make_unique<OpeningExpert>()}; }, nullptr};
@@ -41,7 +46,8 @@ Contender Expert() {
 
 // Whether nothing that is to be evaluated is trained or sampled.
 bool IsExpertAlone(const EvaluationRequest& request) {
-  return IsExpert(request) && request.handler.empty() && request.grasper.empty();
+  return IsExpert(request) && !request.own.make_handle && request.handler.empty() &&
+         request.grasper.empty();
 }
 
 bool IsRandomGrasper(const EvaluationRequest& request) { return request.grasper == "random"; }
@@ -76,6 +82,33 @@ void AddGrasper(const EvaluationRequest& request, Players& players) {
   }
 }
 
+bool IsSwitchPredicted(const EvaluationRequest& request) {
+  return request.config.unlock_switch == "predicted";
+}
+
+void CheckSwitch(const EvaluationRequest& request) {
+  const std::string& name = request.config.unlock_switch;
+  Require(!request.own.make_handle || request.handler.empty(), ErrorCode::kInvalidArgument,
+          "two policies are to turn the handle: one's own and --handler; leave one out");
+  Require(name == "privileged" || IsSwitchPredicted(request), ErrorCode::kInvalidConfig,
+          "config.switch: \"" + name + "\", expected \"privileged\" or \"predicted\"");
+  Require(!IsSwitchPredicted(request) || !request.handler.empty(), ErrorCode::kInvalidArgument,
+          "the switch is predicted by the policy that turns the handle: give one with --handler, "
+          "or use the privileged switch");
+}
+
+void AddHandler(const EvaluationRequest& request, Players& players) {
+  if (request.own.make_handle) players.handle = request.own.make_handle();
+  if (request.handler.empty()) return;
+  if (!IsSwitchPredicted(request)) {
+    players.handle = LoadPolicy(request.handler, request.config.policy, "handle");
+    return;
+  }
+  auto handler = LoadTurningPolicy(request.handler, request.config.policy);
+  players.predicted_turned = [policy = handler.get()] { return policy->Turned(); };
+  players.handle = std::move(handler);
+}
+
 Contender ContenderOf(const EvaluationRequest& request) {
   if (IsExpertAlone(request)) return Expert();
   const std::string& base = request.config.scene.physics.base;
@@ -84,12 +117,13 @@ Contender ContenderOf(const EvaluationRequest& request) {
           "config.scene.physics.base: a policy knows sliders or a fixed base, found " + base);
   return {[&request] {
             Players players;
-            if (IsExpert(request))
+            if (IsOwn(request))
+              players.open = request.own.make_open();
+            else if (IsExpert(request))
               players.open = std::make_unique<OpeningExpert>();
             else
               players.open = LoadPolicy(request.policy, request.config.policy);
-            if (!request.handler.empty())
-              players.handle = LoadPolicy(request.handler, request.config.policy, "handle");
+            AddHandler(request, players);
             AddGrasper(request, players);
             return players;
           },
@@ -99,6 +133,7 @@ Contender ContenderOf(const EvaluationRequest& request) {
 }
 
 std::string NameOfPolicy(const EvaluationRequest& request) {
+  if (IsOwn(request)) return request.own.name;
   if (IsExpert(request)) return "expert";
   const fs::path folder = fs::absolute(request.policy).lexically_normal();
   return (folder.has_filename() ? folder : folder.parent_path()).filename().string();
@@ -141,10 +176,7 @@ void AddSeenParts(const PolicyRecord& policy, const fs::path& folder, bool allow
   report.trained_on = Union(report.trained_on, policy.provenance.trained_on);
 }
 
-void AddTrainingDoors(const PolicyRecord& policy, std::span<const fs::path> data,
-                      EvaluationReport& report) {
-  if (data.empty()) return;
-  RequireSameData(policy, data);
+void AddTrainingDoors(std::span<const fs::path> data, EvaluationReport& report) {
   std::map<std::string, ReportDoor> doors;  // each once, by id
   for (const fs::path& folder : data) {
     for (ReportDoor& door : internal::TrainingDoors(folder)) doors[door.id] = std::move(door);
@@ -154,14 +186,20 @@ void AddTrainingDoors(const PolicyRecord& policy, std::span<const fs::path> data
 
 // fills in what the policies' and the data sets' records say
 void AddTraining(const EvaluationRequest& request, EvaluationReport& report) {
-  if (!IsExpert(request)) {
+  if (IsOwn(request)) {
+    for (const fs::path& folder : request.data)
+      report.trained_on = Union(report.trained_on, SeenPartsOfDataset(folder));
+    AddTrainingDoors(request.data, report);
+  } else if (!IsExpert(request)) {
     const PolicyRecord policy = ReadPolicy(request.policy);
     report.provenance.policy_sha256 = policy.weights_sha256;
     report.provenance.dataset_sha256 = policy.provenance.dataset_sha256;
     report.losses = internal::TrainingLosses(request.policy);
     AddSeenParts(policy, request.policy, request.allow_seen, report);
-    AddTrainingDoors(policy, request.data, report);
+    if (!request.data.empty()) RequireSameData(policy, request.data);
+    AddTrainingDoors(request.data, report);
   }
+  if (request.own.make_handle) report.provenance.handler_sha256 = kOwnPolicy;
   if (!request.handler.empty()) {
     const PolicyRecord handler = ReadPolicy(request.handler, "handle");
     report.provenance.handler_sha256 = handler.weights_sha256;
@@ -204,6 +242,7 @@ EvaluationReport NewReport(const EvaluationRequest& request, std::span<const Doo
 }  // namespace
 
 Evaluation EvaluateOpener(const EvaluationRequest& request) {
+  CheckSwitch(request);
   const std::vector<DoorAsset> doors = ReadDoors(request.doors, request.selection);
   const std::vector<Trial> trials = PlanTrials(doors, request.config);
   Evaluation evaluation;

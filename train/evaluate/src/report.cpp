@@ -186,6 +186,11 @@ auto ArrayFromJson(const Json& json, const std::string& path, const Codec& from_
 
 }  // namespace
 
+bool IsSwitchPredicted(const ReportProvenance& provenance) {
+  return provenance.config.is_object() &&
+         provenance.config.value("switch", "privileged") == "predicted";
+}
+
 std::vector<std::string> SeenDoors(std::span<const ReportDoor> doors, const SeenParts& trained_on) {
   std::vector<std::string> seen;
   for (const ReportDoor& door : doors) {

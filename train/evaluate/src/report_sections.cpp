@@ -17,7 +17,13 @@ namespace {
 
 using Episodes = std::span<const EvaluatedEpisode>;
 
+// Whether somebody's own class opens, and no folder of weights.
+bool IsOwn(const EvaluationReport& report) {
+  return !IsExpert(report) && report.provenance.policy_sha256.empty();
+}
+
 std::string PolicyName(const EvaluationReport& report) {
+  if (IsOwn(report)) return Escape(report.provenance.policy);
   return IsExpert(report) ? "rule-based expert" : "trained opener";
 }
 
@@ -263,7 +269,9 @@ std::vector<std::string> TrainedStages(const EvaluationReport& report) {
 
 std::string Title(const EvaluationReport& report, bool held_out) {
   const std::vector<std::string> stages = TrainedStages(report);
-  std::string who = stages.empty() ? "The rule-based expert" : "A trained policy for ";
+  std::string who = stages.empty()  ? "The rule-based expert"
+                    : IsOwn(report) ? "The policy " + Escape(report.provenance.policy) + " for "
+                                    : "A trained policy for ";
   for (std::size_t i = 0; i < stages.size(); ++i)
     who += (i == 0 ? "" : i + 1 < stages.size() ? ", " : " and ") + stages[i];
   return who + " on " + Plural(report.doors.size(), "door") +
@@ -279,9 +287,13 @@ std::string Lead(const EvaluationReport& report, bool held_out) {
                                 ? "A mobile Franka tries a sampled grasp"
                                 : "A trained policy chooses the grasp from a point cloud";
   const std::string handle =
-      provenance.handler_sha256.empty() ? "; a rule turns it" : "; a trained policy turns it";
+      provenance.handler_sha256.empty()         ? "; a rule turns it"
+      : provenance.handler_sha256 == kOwnPolicy ? "; a policy of one's own turns it"
+      : IsSwitchPredicted(provenance)           ? "; a trained policy turns it and says when it has"
+                                                : "; a trained policy turns it";
   const std::string opening =
       IsExpert(report) ? "; a rule opens the door."
+      : IsOwn(report)  ? "; the policy " + Escape(provenance.policy) + " opens the door."
                        : "; a trained policy opens the door from an occluded point cloud and the "
                          "robot's own joints.";
   return grasp + handle + opening +

@@ -73,9 +73,12 @@ Episode PlayTrial(const Scene& scene, const DoorAsset& door, const RobotModel& r
                   const Players& players, Observer* observer) {
   std::unique_ptr<GraspChooser> grasp;
   if (players.make_grasp) grasp = players.make_grasp(scene, door, robot);
-  return RunStages(
-      scene, door, robot,
-      {.grasp = grasp.get(), .handle = players.handle.get(), .open = players.open.get()}, observer);
+  return RunStages(scene, door, robot,
+                   {.grasp = grasp.get(),
+                    .handle = players.handle.get(),
+                    .predicted_turned = players.predicted_turned,
+                    .open = players.open.get()},
+                   observer);
 }
 
 std::vector<EvaluatedEpisode> RunTrials(std::span<const DoorAsset> doors,

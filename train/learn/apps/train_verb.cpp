@@ -160,10 +160,21 @@ void CheckFolder(const Options& options) {
   }
 }
 
+// At "handle": of the decisions that turned the handle, how many it finds.
+void PrintTurned(const StageDataset& dataset, const fs::path& out) {
+  const auto classifier = ReadTurnedClassifier(out, dataset.content_sha256);
+  if (!classifier || dataset.turned_validation.empty()) return;
+  const TurnedAccuracy accuracy = MeasureTurned(*classifier, dataset.turned_validation);
+  std::printf("turned:     %d of %d last actions told, %d of %d calls too early (validation)\n",
+              accuracy.correct, accuracy.turned, accuracy.called - accuracy.correct,
+              accuracy.called);
+}
+
 void PrintSummary(const TrainerState& state, const StageDataset& dataset, const Options& options) {
   std::printf("policy:     %s\n", fs::absolute(options.out).lexically_normal().c_str());
   std::printf("samples:    %zu for training, %zu for validation\n", dataset.train.size(),
               dataset.validation.size());
+  PrintTurned(dataset, options.out);
   if (state.epochs.empty()) return;
   const EpochLosses& last = state.epochs.back();
   const NetworkFamily family = state.networks.family;
@@ -215,7 +226,10 @@ int Train(const Options& options) {
   hooks.group = group.get();
   if (!options.from.empty()) BeginWith(options, provenance, hooks);
   if (options.resume && HasTrainerState(out)) hooks.resume = ReadTrainerState(out, provenance);
-  if (first) CommitFile(out / "config.yaml", ToJson(config).dump(2) + "\n");
+  if (first) {
+    CommitFile(out / "config.yaml", ToJson(config).dump(2) + "\n");
+    WriteTurnedClassifier(out, FitTurnedClassifier(dataset.turned_train), dataset.content_sha256);
+  }
 
   const std::uint64_t per_epoch = StepsPerEpoch(dataset.train.size(), config);
   const std::uint64_t total = per_epoch * static_cast<std::uint64_t>(EpochsOf(config));

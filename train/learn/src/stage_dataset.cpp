@@ -69,6 +69,31 @@ void AppendEpisode(const EpisodeArrays& arrays, std::vector<TrainingSample>& sam
   }
 }
 
+// When the handle was "handle done": its angle after each executed action, against the scene's.
+std::vector<TurnedExample> TurnedExamplesOf(const DatasetReader& reader, std::size_t begin,
+                                            std::size_t end) {
+  constexpr double kRounding = 1e-6;  // [rad] of the shards' single precision
+  std::vector<TurnedExample> examples;
+  for (std::size_t i = begin; i < end; ++i) {
+    const EpisodeArrays arrays = reader.Arrays(i);
+    const std::string path = "episode " + reader.entry(i).key + ": meta.json";
+    const double done =
+        EpisodeFromMeta(reader.Meta(i), path).scene.latch.handle_done_angle_rad - kRounding;
+    const auto executed = arrays.executed.empty() ? arrays.action : arrays.executed;
+    const auto proprioception = [&](std::size_t t) {
+      return RowOf<std::tuple_size_v<Proprioception>>(arrays.proprio, t);
+    };
+    for (std::size_t t = 0; t < arrays.decisions; ++t) {
+      const auto action = RowOf<std::tuple_size_v<ActionVector>>(executed, t);
+      const double handle_rad =
+          static_cast<double>(arrays.joints[2 * t + 1]) + static_cast<double>(arrays.score[t]);
+      examples.push_back(
+          {HandMotionOf(proprioception(0), proprioception(t), action), handle_rad >= done});
+    }
+  }
+  return examples;
+}
+
 // Episodes [begin, end) of a split.
 std::vector<TrainingSample> SamplesOf(const DatasetReader& reader, const std::string& stage,
                                       std::size_t begin, std::size_t end) {
@@ -92,6 +117,21 @@ void AppendAll(std::vector<T> from, std::vector<T>& to) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
+// Episodes [begin, end) of a stage's split.
+struct EpisodeRange {
+  const DatasetReader& reader;
+  const std::string& stage;
+  std::size_t begin;
+  std::size_t end;
+};
+
+void AppendEpisodes(const EpisodeRange& range, std::vector<TrainingSample>& samples,
+                    std::vector<TurnedExample>& turned) {
+  AppendAll(SamplesOf(range.reader, range.stage, range.begin, range.end), samples);
+  if (range.stage == NameOf(Stage::kHandle))
+    AppendAll(TurnedExamplesOf(range.reader, range.begin, range.end), turned);
+}
+
 // Appends a data set's samples; returns the hash of its content.
 std::string AppendDataset(const fs::path& folder, const std::string& stage, double validation_share,
                           StageDataset& dataset) {
@@ -101,15 +141,17 @@ std::string AppendDataset(const fs::path& folder, const std::string& stage, doub
   if (fs::exists(folder / stage / "val")) {
     dataset.readers.push_back(std::make_unique<DatasetReader>(folder, stage, "val"));
     const DatasetReader& validation = *dataset.readers.back();
-    AppendAll(SamplesOf(train, stage, 0, episodes), dataset.train);
-    AppendAll(SamplesOf(validation, stage, 0, validation.size()), dataset.validation);
+    AppendEpisodes({train, stage, 0, episodes}, dataset.train, dataset.turned_train);
+    AppendEpisodes({validation, stage, 0, validation.size()}, dataset.validation,
+                   dataset.turned_validation);
     return train.ContentHash() + "\n" + validation.ContentHash();
   }
   const auto aside = std::min(
       episodes > 0 ? episodes - 1 : 0,
       static_cast<std::size_t>(std::ceil(validation_share * static_cast<double>(episodes))));
-  AppendAll(SamplesOf(train, stage, 0, episodes - aside), dataset.train);
-  AppendAll(SamplesOf(train, stage, episodes - aside, episodes), dataset.validation);
+  AppendEpisodes({train, stage, 0, episodes - aside}, dataset.train, dataset.turned_train);
+  AppendEpisodes({train, stage, episodes - aside, episodes}, dataset.validation,
+                 dataset.turned_validation);
   return train.ContentHash();
 }
 

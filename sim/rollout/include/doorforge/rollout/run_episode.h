@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "doorforge/physics/door_world.h"
@@ -64,7 +65,11 @@ struct EpisodeRoles {
   Stage recorded = Stage::kOpen;
   GraspChooser* grasp = nullptr;  ///< Null: PlanGrasp()'s grasp.
   Policy* handle = nullptr;       ///< Null: the rule of RunEpisode(), which turns it in one go.
-  Policy* open = nullptr;         ///< Never null.
+  /// Asked after each action of `handle`, and not before the first: whether the handle is turned.
+  /// Opening begins after the first yes, whatever the simulator knows. Null: the simulator's
+  /// flag, turned to "handle done" and unlocked.
+  std::function<bool()> predicted_turned = nullptr;
+  Policy* open = nullptr;  ///< Never null.
   /// Drives the first `learner_decisions` of the recorded stage in the place of that stage's
   /// policy, which is asked at each of them what it would do: the record's action corrects the
   /// learner on the states that it gets itself into (Ross et al. 2011). Null: nobody.
@@ -78,9 +83,12 @@ struct EpisodeRoles {
 /// later stages show what comes of it. `observer` is asked for clouds at recorded decisions and by
 /// policies that look.
 ///
-/// Outcomes are RunEpisode()'s. A chosen grasp is tried as it is: the fingers close also where the
-/// hand did not quite arrive, and one pad on the handle is enough to go on. Without a grasp in view
-/// the episode is kNotReached, without decisions.
+/// Outcomes are RunEpisode()'s. If a predicted flag came before the handle was "handle done", and
+/// it never was later, a door that stays locked is kHandleStuck, and `handle_done` is false; if it
+/// does not come within max_handle_actions, the episode ends as one whose handle did not turn. A
+/// chosen grasp is tried as it is: the fingers close also where the hand did not quite arrive, and
+/// one pad on the handle is enough to go on. Without a grasp in view the episode is kNotReached,
+/// without decisions.
 ///
 /// @throws Error(kInvalidArgument) as RunEpisode(), or if the recorded stage has nobody to decide.
 Episode RunStages(const Scene& scene, const DoorAsset& door, const RobotModel& robot,

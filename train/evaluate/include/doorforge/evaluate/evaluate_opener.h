@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,21 +12,33 @@
 #include "doorforge/evaluate/evaluation_config.h"
 #include "doorforge/evaluate/report.h"
 #include "doorforge/evaluate/report_page.h"
+#include "doorforge/schemas/policy.h"
 
 namespace doorforge {
 
+/// Policies that are no folder, such as a class of one's own. A new one is made for every thread;
+/// all must be equal and forget everything at Reset(). They are called from one thread at a time.
+struct OwnPolicies {
+  std::string name;                                              ///< In table and report.
+  std::function<std::unique_ptr<Policy>()> make_open = nullptr;  ///< Opens; null: nobody.
+  /// Turns the handle; null: `handler`, or the rule.
+  std::function<std::unique_ptr<Policy>()> make_handle = nullptr;
+};
+
 /// What is to be evaluated.
 struct EvaluationRequest {
-  std::filesystem::path policy;  ///< Folder that `doorforge train open` wrote, or "expert".
+  /// Folder that `doorforge train open` wrote, or "expert". Not read where `own` opens.
+  std::filesystem::path policy;
   /// Folder that `doorforge train handle` wrote; empty: the rule turns the handle.
   std::filesystem::path handler;
   /// Folder that `doorforge train grasp` wrote, or "random": sampled grasps as in `datagen grasp`.
   /// Empty: the expert's grasp.
   std::filesystem::path grasper;
+  OwnPolicies own;
   std::vector<std::string> doors;  ///< Folders of composed doors, see ReadDoors().
   DoorSelection selection;         ///< Which of them.
   /// Data sets that the policy was trained from, in their order: the report then lists and shows
-  /// the doors. May be empty.
+  /// the doors. May be empty. Of a policy of one's own, nothing else says which doors it has seen.
   std::vector<std::filesystem::path> data;
   bool allow_seen = false;  ///< Doors with trained-on parts are evaluated, and marked as such.
   EvaluationConfig config;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "doorforge/learn/grasp_policy.h"
 #include "doorforge/learn/stage_policy.h"
@@ -18,6 +19,9 @@ struct EvaluationConfig {
   std::uint64_t first_seed = 1;  ///< The seeds are first_seed, first_seed + 1, ...
   int episodes_per_door = 1;     ///< In each seed, >= 1.
   bool expert_reference = true;  ///< The expert opens the same scenes, too.
+  /// Who says that the handle is turned and opening may begin, where a trained policy turns it:
+  /// "privileged", the simulator, or "predicted", the policy itself, as on a robot.
+  std::string unlock_switch = "privileged";
   PolicyOptions policy;
   GraspOptions grasp;              ///< Of a trained grasper.
   RandomGraspConfig random_grasp;  ///< Of the grasper "random".
@@ -30,6 +34,7 @@ struct EvaluationConfig {
     visit("first_seed", self.first_seed);
     visit("episodes_per_door", self.episodes_per_door);
     visit("expert_reference", self.expert_reference);
+    visit("switch", self.unlock_switch);
     visit("policy", self.policy);
     visit("grasp", self.grasp);
     visit("random_grasp", self.random_grasp);

@@ -38,19 +38,26 @@ struct LossCurve {
   std::vector<double> validation;
 };
 
+/// Stands for a hash where a policy is no folder but a class of somebody's program.
+inline constexpr const char* kOwnPolicy = "own";
+
 /// Where the numbers come from: hashes name the inputs, so that a report can be checked or made
 /// again. No times of day: equal inputs give equal reports.
 struct ReportProvenance {
-  std::string policy;               ///< Name of the policy's folder, or "expert".
-  std::string policy_sha256;        ///< Of its weights; empty for the expert.
-  std::string dataset_sha256;       ///< Of the data set it was trained from; empty if unknown.
-  std::string handler_sha256 = {};  ///< Weights of who turned the handle; empty: the rule.
+  std::string policy;          ///< Name of the policy's folder or of one's own, or "expert".
+  std::string policy_sha256;   ///< Of its weights; empty for the expert and one's own.
+  std::string dataset_sha256;  ///< Of the data set it was trained from; empty if unknown.
+  /// Weights of who turned the handle, or kOwnPolicy; empty: the rule.
+  std::string handler_sha256 = {};
   /// Weights of who chose the grasp, or "random"; empty: the expert.
   std::string grasper_sha256 = {};
   std::string code_version;  ///< CodeVersion() of the evaluating program.
   std::string command;       ///< The command line.
   nlohmann::ordered_json config = nlohmann::ordered_json::object();  ///< The effective config.
 };
+
+/// Whether opening began when the policy that turned the handle said so, and not the simulator.
+bool IsSwitchPredicted(const ReportProvenance& provenance);
 
 /// Everything an evaluation found out. Success rates, intervals and counts are not stored but
 /// computed from `episodes`, so that they cannot disagree.

@@ -36,6 +36,8 @@ std::vector<Trial> PlanTrials(std::span<const DoorAsset> doors, const Evaluation
 struct Players {
   std::unique_ptr<Policy> open;
   std::unique_ptr<Policy> handle = nullptr;  ///< Null: the rule turns the handle.
+  /// As EpisodeRoles::predicted_turned, of `handle`; null: the simulator's flag.
+  std::function<bool()> predicted_turned = nullptr;
   /// Makes an episode's chooser of the grasp; null: PlanGrasp()'s grasp.
   std::function<std::unique_ptr<GraspChooser>(const Scene&, const DoorAsset&, const RobotModel&)>
       make_grasp = nullptr;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "doorforge/learn/training_sample.h"
+#include "doorforge/learn/turned_classifier.h"
 #include "doorforge/schemas/seen_parts.h"
 
 namespace doorforge {
@@ -21,6 +22,9 @@ class DatasetReader;
 struct StageDataset {
   std::vector<TrainingSample> train;
   std::vector<TrainingSample> validation;
+  /// Of the stage "handle": one for each sample, in its order.
+  std::vector<TurnedExample> turned_train;
+  std::vector<TurnedExample> turned_validation;
   SeenParts parts;             ///< Of the doors of all data sets.
   std::string content_sha256;  ///< Over both splits' shards, of all data sets in their order.
   std::vector<std::unique_ptr<DatasetReader>> readers;

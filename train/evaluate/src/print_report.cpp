@@ -62,11 +62,13 @@ std::string Causes(const EvaluationReport& report) {
 std::string StagesLine(const ReportProvenance& provenance) {
   const auto actor = [](const std::string& sha256, const char* otherwise) {
     if (sha256.empty()) return std::string(otherwise);
-    return sha256 == "random" ? sha256 : "trained " + sha256.substr(0, 12);
+    const bool named = sha256 == "random" || sha256 == kOwnPolicy;
+    return named ? sha256 : "trained " + sha256.substr(0, 12);
   };
   return "grasp: " + actor(provenance.grasper_sha256, "expert") +
          "; handle: " + actor(provenance.handler_sha256, "rule") +
-         "; opening: " + actor(provenance.policy_sha256, "expert") + "\n";
+         (IsSwitchPredicted(provenance) ? ", which says when it is turned" : "") +
+         "; opening: " + actor(provenance.policy_sha256, provenance.policy.c_str()) + "\n";
 }
 
 }  // namespace

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/learn/turning_policy.h"
+
+#include <utility>
+
+#include "doorforge/core/error.h"
+#include "doorforge/learn/checkpoint.h"
+
+namespace doorforge {
+
+TurningPolicy::TurningPolicy(std::unique_ptr<Policy> policy, const TurnedClassifier& classifier)
+    : policy_(std::move(policy)), classifier_(classifier) {}
+
+void TurningPolicy::Reset() {
+  policy_->Reset();
+  first_.reset();
+  turned_ = false;
+}
+
+Action TurningPolicy::Act(const Observation& observation) {
+  Action action = policy_->Act(observation);
+  if (!first_) first_ = observation.proprioception;
+  const HandMotion motion = HandMotionOf(*first_, observation.proprioception, ToVector(action));
+  turned_ = turned_ || classifier_.Probability(motion) >= 0.5;
+  return action;
+}
+
+std::unique_ptr<TurningPolicy> LoadTurningPolicy(const std::filesystem::path& folder,
+                                                 const PolicyOptions& options) {
+  PolicyRecord record = ReadPolicy(folder, "handle");
+  const auto classifier = ReadTurnedClassifier(folder, record.provenance.dataset_sha256);
+  if (!classifier)
+    throw Error(ErrorCode::kInvalidArgument,
+                folder.string() +
+                    ": this policy cannot tell when the handle is turned (it has no "
+                    "turned.safetensors, which earlier builds did not write); run its training "
+                    "command again with --resume, which adds it, or use the privileged switch");
+  return std::make_unique<TurningPolicy>(MakePolicy(std::move(record.networks), options),
+                                         *classifier);
+}
+
+}  // namespace doorforge

@@ -42,12 +42,14 @@ void WriteProvenance(const fs::path& folder) {
 
 // A data set of `episodes` episodes with three decisions each, in one shard.
 testing::SyntheticSamples WriteDataset(const fs::path& folder, const std::string& split,
-                                       std::size_t episodes, int shard = 0) {
+                                       std::size_t episodes, int shard = 0,
+                                       const std::string& stage = "open") {
   auto made = testing::MakeSyntheticSamples(11, episodes * kDecisions);
-  ShardWriter writer(folder / "open" / split, {shard, "open", split, "config"});
+  ShardWriter writer(folder / stage / split, {shard, stage, split, "config"});
   for (std::size_t e = 0; e < episodes; ++e) {
     Episode episode;
     episode.outcome = EpisodeOutcome::kOpened;
+    episode.scene.latch.handle_done_angle_rad = 0.44;
     for (std::size_t t = 0; t < kDecisions; ++t) {
       TrainingSample& sample = made.samples[e * kDecisions + t];
       Decision decision;
@@ -57,7 +59,8 @@ testing::SyntheticSamples WriteDataset(const fs::path& folder, const std::string
         decision.proprioception[i] = 1e-3F * static_cast<float>(100 * e + 40 * t + i);
       decision.action = sample.action;
       decision.executed = sample.executed;
-      decision.score_rad = sample.score_rad;
+      decision.score_rad = sample.score_rad;  // 0.05 to 0.07
+      decision.handle_rad = 0.2 * static_cast<double>(t);
       episode.decisions.push_back(decision);
     }
     writer.Add("ep" + std::to_string(100000 + e), kDecisions,
@@ -95,6 +98,22 @@ TEST(StageDataset, HoldsTheDecisionsOfTheShards) {
   EXPECT_FLOAT_EQ(sample.base_m[0], 0.202F);
   EXPECT_FLOAT_EQ(sample.hand_m[2], 0.207F);
   EXPECT_FLOAT_EQ(sample.hand_xyzw[3], 0.211F);
+}
+
+TEST(StageDataset, SaysOfTheHandlesDecisionsWhichTurnedIt) {
+  const fs::path folder = EmptyFolder("turned");
+  WriteDataset(folder, "train", 4, 0, "handle");
+  const StageDataset dataset = ReadStageDataset({{folder}}, "handle", 0.25);
+  ASSERT_EQ(dataset.turned_train.size(), 9U);
+  ASSERT_EQ(dataset.turned_validation.size(), 3U);
+  for (std::size_t i = 0; i < 9; ++i)
+    EXPECT_EQ(dataset.turned_train[i].turned, i % kDecisions == 2) << i;
+  const TurnedExample& example = dataset.turned_train[4];  // episode 1, decision 1
+  EXPECT_NEAR(example.motion[6], 0.04F, 1e-6);             // the hand's way along x
+  EXPECT_NEAR(example.motion[9], 0.04F + dataset.train[4].executed[0], 1e-6);
+  const fs::path other = EmptyFolder("not_turned");
+  WriteDataset(other, "train", 4);
+  EXPECT_TRUE(ReadStageDataset({{other}}, "open", 0.25).turned_train.empty());
 }
 
 TEST(StageDataset, UsesTheSplitForValidationWhereThereIsOne) {

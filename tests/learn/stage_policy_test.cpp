@@ -4,12 +4,19 @@
 
 #include <filesystem>
 #include <limits>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
+#include "doorforge/core/rng.h"
 #include "doorforge/learn/checkpoint.h"
+#include "doorforge/learn/turning_policy.h"
+#include "doorforge/schemas/safetensors.h"
 
 #include "door_cloud.h"
 #include "synthetic_samples.h"
@@ -126,6 +133,145 @@ TEST(StagePolicy, RefusesObservationsItCannotRead) {
   PolicyOptions none;
   none.candidates = 0;
   EXPECT_THROW(MakePolicy(SomeNetworks(), none), Error);
+}
+
+// ---- when the handle is turned ------------------------------------------------------------------
+
+constexpr double kDoneRad = 0.6;
+
+// Turns about x, so far and after the action, and what a rule of them says; the rest is noise.
+std::vector<TurnedExample> RuleExamples(std::uint64_t seed, int count) {
+  Rng rng(seed, "test/turned");
+  std::vector<TurnedExample> examples;
+  for (int i = 0; i < count; ++i) {
+    TurnedExample example;
+    for (float& number : example.motion) number = static_cast<float>(0.02 * rng.Normal());
+    const double turn = rng.Uniform(0, 1);
+    example.motion[0] = static_cast<float>(turn - 0.2);
+    example.motion[3] = static_cast<float>(turn);
+    example.turned = turn >= kDoneRad;
+    examples.push_back(example);
+  }
+  return examples;
+}
+
+TurnedClassifier RuleClassifier() { return *FitTurnedClassifier(RuleExamples(1, 600)); }
+
+TEST(TurnedClassifier, LearnsARuleAndHoldsItBeyondWhatItSaw) {
+  const TurnedClassifier classifier = RuleClassifier();
+  const std::vector<TurnedExample> unseen = RuleExamples(2, 1000);
+  const TurnedAccuracy accuracy = MeasureTurned(classifier, unseen);
+  EXPECT_GT(accuracy.turned, 350);
+  EXPECT_GT(accuracy.correct, 0.96 * accuracy.turned);
+  EXPECT_LT(accuracy.called - accuracy.correct, 0.04 * accuracy.called);
+  HandMotion far{};
+  far[0] = 1.2F;
+  far[3] = 1.4F;
+  EXPECT_GT(classifier.Probability(far), 0.99);
+  EXPECT_LT(classifier.Probability(HandMotion{}), 0.01);
+}
+
+TEST(TurnedClassifier, AtItsMinimumTheMeanProbabilityIsTheShareThatIsTurned) {
+  // the gradient to the bias, which no ridge holds, is zero there
+  const std::vector<TurnedExample> examples = RuleExamples(3, 500);
+  const TurnedClassifier classifier = *FitTurnedClassifier(examples);
+  double excess = 0;
+  for (const TurnedExample& example : examples)
+    excess += classifier.Probability(example.motion) - (example.turned ? 1 : 0);
+  EXPECT_NEAR(excess / 500, 0, 1e-6);
+}
+
+TEST(TurnedClassifier, NeedsExamplesOfBothKinds) {
+  std::vector<TurnedExample> examples = RuleExamples(4, 50);
+  for (TurnedExample& example : examples) example.turned = true;
+  EXPECT_FALSE(FitTurnedClassifier(examples));
+  EXPECT_FALSE(FitTurnedClassifier({}));
+}
+
+TEST(TurnedClassifier, ComesBackFromItsFolderAndRefusesWhatDoesNotBelongThere) {
+  const auto folder = std::filesystem::path(::testing::TempDir()) / "doorforge_turned";
+  std::filesystem::remove_all(folder);
+  EXPECT_FALSE(ReadTurnedClassifier(folder, "data"));
+  const TurnedClassifier classifier = RuleClassifier();
+  WriteTurnedClassifier(folder, classifier, "data");
+  const auto read = ReadTurnedClassifier(folder, "data");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->weight, classifier.weight);
+  EXPECT_EQ(read->mean, classifier.mean);
+  EXPECT_EQ(read->deviation, classifier.deviation);
+  EXPECT_EQ(read->bias, classifier.bias);
+  EXPECT_EQ(RuleClassifier().weight, classifier.weight) << "fitted twice";
+  EXPECT_THROW(ReadTurnedClassifier(folder, "other data"), Error);
+
+  const auto path = folder / "turned.safetensors";
+  const TensorFile good = ReadTensors(path);
+  const auto refuses = [&](const TensorFile& file) {
+    CommitFile(path, EncodeTensors(file));
+    try {
+      ReadTurnedClassifier(folder, "data");
+    } catch (const Error& error) {
+      return error.code() == ErrorCode::kFormat &&
+             std::string(error.what()).find("turned.safetensors") != std::string::npos;
+    }
+    return false;
+  };
+  TensorFile wider = good;
+  wider.tensors["weight"] = MakeTensor<float>(std::vector<float>(29), {29});
+  EXPECT_TRUE(refuses(wider));
+  TensorFile newer = good;
+  newer.metadata["schema_version"] = "2";
+  EXPECT_TRUE(refuses(newer));
+  TensorFile flat = good;
+  flat.tensors["deviation"] = MakeTensor<float>(std::vector<float>(28), {28});
+  EXPECT_TRUE(refuses(flat));
+
+  WriteTurnedClassifier(folder, std::nullopt, "data");
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+// Turns the hand about x by a step further at every action.
+class Turning : public Policy {
+ public:
+  Action Act(const Observation& observation) override {
+    const auto* xyzw = &observation.proprioception[28];
+    const Eigen::Quaternionf hand(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
+    return {{0.01, 0, 0},
+            Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitX()).toRotationMatrix() *
+                hand.toRotationMatrix().cast<double>()};
+  }
+};
+
+// The hand after it has turned about x, as a robot tells it.
+Observation AfterTurn(double turn_rad) {
+  const auto turn = static_cast<float>(turn_rad);
+  Observation observation;
+  observation.proprioception[25] = 0.05F * turn;
+  return WithHand(observation, Eigen::AngleAxisf(turn, Eigen::Vector3f::UnitX()) *
+                                   Eigen::AngleAxisf(0.7F, Eigen::Vector3f::UnitY()));
+}
+
+TEST(TurnedClassifier, ReadsTheHandsTurnAndWaySinceTheStageBegan) {
+  const Observation now = AfterTurn(0.4);
+  const HandMotion motion =
+      HandMotionOf(AfterTurn(0).proprioception, now.proprioception, ToVector(Turning().Act(now)));
+  const HandMotion expected = {0.4F, 0, 0, 0.6F, 0, 0, 0.02F, 0, 0, 0.03F, 0, 0};
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(motion[i], expected[i], 1e-5) << i;
+}
+
+TEST(TurningPolicy, SaysWhenTheHandleIsTurnedAndHoldsToItUntilReset) {
+  TurningPolicy policy(std::make_unique<Turning>(), RuleClassifier());
+  policy.Reset();
+  EXPECT_FALSE(policy.Turned());
+  policy.Act(AfterTurn(0));
+  EXPECT_FALSE(policy.Turned());
+  policy.Act(AfterTurn(0.6));
+  EXPECT_TRUE(policy.Turned());
+  policy.Act(AfterTurn(0));
+  EXPECT_TRUE(policy.Turned());
+  policy.Reset();
+  EXPECT_FALSE(policy.Turned());
+  policy.Act(AfterTurn(0.6));  // where the stage begins does not matter
+  EXPECT_FALSE(policy.Turned());
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "doorforge/evaluate/run_trials.h"
 #include "doorforge/learn/checkpoint.h"
 #include "doorforge/learn/stage_dataset.h"
+#include "doorforge/learn/turned_classifier.h"
 #include "doorforge/physics/scene_sampling.h"
 #include "doorforge/rollout/camera_observer.h"
 #include "doorforge/rollout/opening_expert.h"
@@ -20,6 +21,7 @@
 #include "doorforge/schemas/episode_arrays.h"
 
 #include "../physics/primitive_door.h"
+#include "../program_answer.h"
 
 namespace doorforge {
 namespace {
@@ -181,6 +183,58 @@ TEST_F(EvaluateOpenerTest, ATrainedHandlePolicyTurnsTheHandleAndItsDoorsAreSeenT
   EXPECT_NE(RefusalOf(request).find("body_b__handle_a"), std::string::npos);
   request.handler = folder_ / "policy";
   EXPECT_THROW(EvaluateOpener(request), Error) << "an opener does not turn handles";
+}
+
+TEST_F(EvaluateOpenerTest, AHandlePolicyThatSaysWhenItIsDoneIsBelieved) {
+  EvaluationRequest request = RequestFor("held_out");
+  request.policy = "expert";
+  request.data.clear();
+  request.config.expert_reference = false;
+  request.config.unlock_switch = "predicted";
+  EXPECT_NE(RefusalOf(request).find("--handler"), std::string::npos);
+  const fs::path handler = folder_ / "handler";
+  request.handler = handler;
+  EXPECT_NE(RefusalOf(request).find("run its training command again with --resume"),
+            std::string::npos);
+
+  TurnedClassifier always;
+  always.deviation.fill(1);
+  always.bias = 10;
+  WriteTurnedClassifier(handler, always, ReadPolicy(handler, "handle").provenance.dataset_sha256);
+  const EvaluationReport report = EvaluateOpener(request).report;
+  EXPECT_TRUE(IsSwitchPredicted(report.provenance));
+  const EvaluatedEpisode& row = report.episodes.at(0);
+  EXPECT_FALSE(row.handle_done);
+  EXPECT_EQ(row.outcome, EpisodeOutcome::kHandleStuck) << row.detail;
+  EXPECT_NE(row.detail.find("the switch came with the handle at"), std::string::npos) << row.detail;
+  fs::remove(handler / "turned.safetensors");
+
+  request.config.unlock_switch = "sometimes";
+  EXPECT_THROW(EvaluateOpener(request), Error);
+}
+
+TEST_F(EvaluateOpenerTest, AProgramWithItsOwnPolicyEvaluatesItWithOneCommand) {
+  const std::string program = DOORFORGE_BINARY_DIR "/bin/evaluate_own_policy";
+  const fs::path out = folder_ / "own_report";
+  const ProgramAnswer answer = AnswerOf(
+      program + " --doors " + (folder_ / "held_out").string() +
+      " --seeds 1 --threads 1 --set expert_reference=false --out " + out.string() + " 2>/dev/null");
+  EXPECT_EQ(answer.code, 0) << answer.text;
+  EXPECT_NE(answer.text.find("95 % interval"), std::string::npos) << answer.text;
+  EXPECT_NE(answer.text.find("handle: rule; opening: circle_about_hinge"), std::string::npos)
+      << answer.text;
+  const EvaluationReport report = ReportFromJson(ReadJsonFile(out / "report.json"), "report");
+  EXPECT_EQ(report.provenance.policy, "circle_about_hinge");
+  ASSERT_EQ(report.episodes.size(), 1U);
+  EXPECT_EQ(report.episodes[0].outcome, EpisodeOutcome::kOpened) << report.episodes[0].detail;
+  EXPECT_TRUE(fs::exists(out / "report.html"));
+
+  // what it was trained on, if anything, is for its maker to say
+  const std::string seen = program + " --doors " + (folder_ / "seen").string() + " --data " +
+                           (folder_ / "data").string() + " 2>&1";
+  const ProgramAnswer refused = AnswerOf(seen);
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.text.find("body_a__handle_a"), std::string::npos) << refused.text;
 }
 
 TEST_F(EvaluateOpenerTest, ATrainedGrasperTakesHoldAndItsDoorsAreSeenToo) {

@@ -22,6 +22,7 @@
 #include "doorforge/learn/checkpoint.h"
 #include "doorforge/learn/grasp_policy.h"
 #include "doorforge/learn/stage_policy.h"
+#include "doorforge/learn/turned_classifier.h"
 #include "doorforge/physics/scene_sampling.h"
 #include "doorforge/rollout/camera_observer.h"
 #include "doorforge/rollout/run_episode.h"
@@ -341,6 +342,24 @@ TEST_F(RobotSightTest, TheStateSaysWhoActsAndWhatIsUnlockedStaysSo) {
   for (const Json& answer : answers) stages.push_back(answer.value("stage", "error"));
   EXPECT_EQ(stages, (std::vector<std::string>{"error", "handle", "open", "open", "error"}));
   EXPECT_NE(answers.at(0)["error"].get<std::string>().find("unlocked"), std::string::npos);
+}
+
+TEST_F(RobotSightTest, InALoopTheHandlePolicySaysItselfWhenOpeningBegins) {
+  TurnedClassifier always;
+  always.deviation.fill(1);
+  always.bias = 10;
+  WriteUntrained(folder_ / "says_when", "handle");
+  WriteTurnedClassifier(folder_ / "says_when", always, std::string(64, 'a'));
+  const std::string handler = "--handler " + (folder_ / "says_when").string();
+  const std::vector<Json> answers = Stream(With("camera_corner.yaml", handler),
+                                           Line(Depth(0), State(0)) + Line(Depth(1), State(1)));
+  EXPECT_EQ(answers.at(0)["stage"], "handle");
+  EXPECT_EQ(answers.at(0)["turned"], true);
+  EXPECT_EQ(answers.at(1)["stage"], "open");
+  const ProgramAnswer alone = RunAct(With("camera_corner.yaml", handler) + " --depth " +
+                                     Depth(0).string() + " --state " + State(0).string());
+  EXPECT_EQ(alone.code, 2) << "one picture does not say how far the hand has turned";
+  EXPECT_NE(alone.text.find("unlocked"), std::string::npos) << alone.text;
 }
 
 TEST_F(RobotSightTest, APictureOrAStateThatCannotBeUsedIsNamedAndTheLoopGoesOn) {

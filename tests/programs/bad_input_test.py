@@ -40,7 +40,7 @@ class BadInput(ProgramTest):
                     out.unlink()
                     out.with_name(out.name + ".report.json").unlink()
                 self.assert_nothing_left()
-                self.assertLess(seconds, 150)
+                self.assertLess(seconds, 120)
 
     def test_an_empty_file_and_a_folder_are_no_meshes(self):
         for name in ("empty.obj", "empty.stl", "empty.ply", "empty.dae", "empty.glb"):

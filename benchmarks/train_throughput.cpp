@@ -103,7 +103,7 @@ Measured MeasureFused(const Network& network, InstructionSet set, bool all_point
   Measured measured;
   PointEncoder::Trace trace;
   for (const std::vector<float>& cloud : network.clouds) {
-    const CloudGeometry geometry = BuildGeometry(cloud, kCentre, outputs, set);
+    const CloudGeometry geometry = BuildGeometry(cloud, {kCentre}, outputs, set);
     seconds += BestSeconds(repetitions, [&] {
       trace = encoder.Forward(geometry, std::move(trace));
       encoder.AddGradient(geometry, trace, wanted, gradient);
@@ -118,7 +118,8 @@ double GeometrySeconds(const Network& network, InstructionSet set, bool all_poin
                        int repetitions) {
   std::vector<std::uint16_t> outputs(all_points ? kCloudPoints : 1);
   std::iota(outputs.begin(), outputs.end(), std::uint16_t{0});
-  return BestSeconds(repetitions, [&] { BuildGeometry(network.clouds[0], kCentre, outputs, set); });
+  return BestSeconds(repetitions,
+                     [&] { BuildGeometry(network.clouds[0], {kCentre}, outputs, set); });
 }
 
 void PrintFused(const Network& network, InstructionSet set, const Measured& stock,

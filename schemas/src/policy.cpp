@@ -40,6 +40,18 @@ Eigen::Vector3f HandPositionOf(const Proprioception& proprioception) {
   return At(proprioception, 25);
 }
 
+Eigen::Matrix3d HandRotationOf(const Proprioception& proprioception) {
+  const float* xyzw = proprioception.data() + 28;
+  return Eigen::Quaternionf(xyzw[3], xyzw[0], xyzw[1], xyzw[2])
+      .cast<double>()
+      .normalized()
+      .toRotationMatrix();
+}
+
+Eigen::Vector2f FingerOpeningsOf(const Proprioception& proprioception) {
+  return {proprioception[kControlledJoints], proprioception[kControlledJoints + 1]};
+}
+
 ActionVector ToVector(const Action& action) {
   ActionVector vector{};
   for (std::size_t i = 0; i < 3; ++i) {

@@ -86,6 +86,19 @@ TEST(Checkpoint, APolicyComesBackAsItWasWritten) {
   EXPECT_EQ(ReadFile(folder / "policy.json"), before);
 }
 
+TEST(Checkpoint, WhatTheNetworksAreToldComesBackAndIsWhatItWasInEarlierRecords) {
+  const auto made = testing::MakeSyntheticSamples(1, 3);
+  const MotionView view{MotionFrame::kHand, StateKind::kNone, 0.25F};
+  auto json = NormalisationToJson(MeasureNormalisation(made.samples, view));
+  EXPECT_EQ(NormalisationFromJson(json, "policy.json").view, view);
+  json["state_of"] = "elsewhere";
+  ExpectError(ErrorCode::kFormat, "policy.json.state_of",
+              [&] { NormalisationFromJson(json, "policy.json"); });
+  for (const char* key : {"frame", "state_of", "context_m"}) json.erase(key);
+  EXPECT_EQ(NormalisationFromJson(json, "policy.json").view,
+            (MotionView{MotionFrame::kWorld, StateKind::kJoints, 0}));
+}
+
 TEST(Checkpoint, AGraspComesBackAsItWasWrittenAndIsNoOtherStagesPolicy) {
   const fs::path folder = EmptyFolder("grasp");
   const auto made = testing::MakeSyntheticSamples(1, 3);

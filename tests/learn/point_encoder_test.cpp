@@ -8,7 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include "doorforge/core/error.h"
 #include "doorforge/core/rng.h"
+#include "doorforge/learn/point_operators.h"
 
 #include "door_cloud.h"
 #include "reference_network.h"
@@ -103,7 +105,7 @@ TEST(PointEncoder, GivesTheFeaturesAndGradientsOfStockOperatorsForAllPoints) {
   const auto expected = reference.Run(wanted);
   for (const InstructionSet set : SupportedSets()) {
     SCOPED_TRACE(NameOf(set));
-    const CloudGeometry geometry = BuildGeometry(cloud, kCentre, AllPoints(), set);
+    const CloudGeometry geometry = BuildGeometry(cloud, {kCentre}, AllPoints(), set);
     const PointEncoder encoder(net.layout, "", net.parameters, set);
     const PointEncoder::Trace trace = encoder.Forward(geometry);
     EXPECT_LT(WorstRelative(expected.features, trace.features), 1e-5);
@@ -125,7 +127,7 @@ TEST(PointEncoder, GivesTheFeatureAndGradientOfStockOperatorsForPointZeroAlone) 
   const auto expected = reference.Run(wanted_of_all);
   for (const InstructionSet set : SupportedSets()) {
     SCOPED_TRACE(NameOf(set));
-    const CloudGeometry geometry = BuildGeometry(cloud, kCentre);
+    const CloudGeometry geometry = BuildGeometry(cloud, {kCentre});
     const PointEncoder encoder(net.layout, "", net.parameters, set);
     const PointEncoder::Trace trace = encoder.Forward(geometry);
     ASSERT_EQ(trace.features.size(), std::size_t{kFeatureSize});
@@ -141,8 +143,8 @@ TEST(PointEncoder, LeavesOutOnlyWhatPointZeroDoesNotDependOn) {
   const std::vector<float> cloud = testing::DoorCloud(7, 0.1);
   const InstructionSet set = BestInstructionSet();
   const PointEncoder encoder(net.layout, "", net.parameters, set);
-  const CloudGeometry all = BuildGeometry(cloud, kCentre, AllPoints(), set);
-  const CloudGeometry one = BuildGeometry(cloud, kCentre);
+  const CloudGeometry all = BuildGeometry(cloud, {kCentre}, AllPoints(), set);
+  const CloudGeometry one = BuildGeometry(cloud, {kCentre});
   EXPECT_EQ(one.upsampling[0].size(), 1U);
   EXPECT_EQ(one.upsampling[1].size(), 3U);
   EXPECT_LE(one.upsampling[2].size(), 9U);
@@ -150,6 +152,55 @@ TEST(PointEncoder, LeavesOutOnlyWhatPointZeroDoesNotDependOn) {
   const std::vector<float> of_all = encoder.Forward(all).features;
   EXPECT_EQ(encoder.Forward(one).features,
             std::vector<float>(of_all.begin(), of_all.begin() + kFeatureSize));
+}
+
+// The cloud with all points farther than this from point 0 moved outward.
+std::vector<float> WithFarPointsMoved(std::vector<float> cloud, float radius_m) {
+  for (std::size_t i = 0; i < cloud.size(); i += 3) {
+    float squared = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      squared += (cloud[i + k] - cloud[k]) * (cloud[i + k] - cloud[k]);
+    if (squared <= radius_m * radius_m) continue;
+    for (std::size_t k = 0; k < 3; ++k) cloud[i + k] += 0.5F * (cloud[i + k] - cloud[k]);
+  }
+  return cloud;
+}
+
+std::size_t PointsWithinOfFirst(const std::vector<float>& cloud, float radius_m) {
+  return PointsWithin(ToColumns(cloud, {}), {cloud[0], cloud[1], cloud[2]}, radius_m, kCloudPoints,
+                      InstructionSet::kBaseline)
+      .size();
+}
+
+TEST(PointEncoder, SeesNothingBeyondTheWindow) {
+  const Net net;
+  const PointEncoder encoder(net.layout, "", net.parameters, BestInstructionSet());
+  const std::vector<float> cloud = testing::DoorCloud(7, 0.1);
+  const auto features = [&](const std::vector<float>& xyz, float radius_m) {
+    return encoder.Forward(BuildGeometry(xyz, {kCentre, radius_m})).features;
+  };
+  constexpr float kRadius = 0.7F;
+  const std::size_t inside = PointsWithinOfFirst(cloud, kRadius);
+  ASSERT_GT(inside, 1100U);
+  ASSERT_LT(inside, 3500U);
+  EXPECT_EQ(BuildGeometry(cloud, {kCentre, kRadius}).xyz.size(), 3 * inside);
+  const std::vector<float> moved = WithFarPointsMoved(cloud, kRadius);
+  EXPECT_EQ(features(moved, kRadius), features(cloud, kRadius));
+  EXPECT_NE(features(moved, 0), features(cloud, 0));
+  EXPECT_NE(features(WithFarPointsMoved(cloud, 0.5F * kRadius), kRadius), features(cloud, kRadius));
+  EXPECT_EQ(features(cloud, 50), features(cloud, 0)) << "all are inside";
+}
+
+TEST(PointEncoder, AWindowWithFewPointsHoldsTheNearest) {
+  const std::vector<float> cloud = testing::DoorCloud(7, 0.1);
+  const CloudGeometry geometry = BuildGeometry(cloud, {kCentre, 0.01F});
+  EXPECT_EQ(geometry.xyz.size(), std::size_t{3} * 1024);
+  constexpr std::array<std::uint16_t, 2> kOutputs = {0, 4095};
+  EXPECT_EQ(
+      BuildGeometry(cloud, {kCentre, 50}, kOutputs, BestInstructionSet()).upsampling[0].size(), 2U);
+  std::vector<float> alone = cloud;
+  alone[std::size_t{3} * 4095] += 40;
+  EXPECT_THROW(BuildGeometry(alone, {kCentre, 0.01F}, kOutputs, BestInstructionSet()), Error);
 }
 
 TEST(PointEncoder, GivesTheSameBitsWithEveryFusingInstructionSet) {
@@ -160,7 +211,7 @@ TEST(PointEncoder, GivesTheSameBitsWithEveryFusingInstructionSet) {
   std::vector<std::vector<float>> gradients;
   for (const InstructionSet set : {InstructionSet::kAvx2, InstructionSet::kAvx512}) {
     constexpr std::array<std::uint16_t, 1> kPointZero = {0};
-    const CloudGeometry geometry = BuildGeometry(cloud, kCentre, kPointZero, set);
+    const CloudGeometry geometry = BuildGeometry(cloud, {kCentre}, kPointZero, set);
     const PointEncoder encoder(net.layout, "", net.parameters, set);
     gradients.emplace_back(net.parameters.size());
     encoder.AddGradient(geometry, encoder.Forward(geometry), wanted, gradients.back());
@@ -171,7 +222,7 @@ TEST(PointEncoder, GivesTheSameBitsWithEveryFusingInstructionSet) {
 TEST(PointEncoder, AgreesWithFiniteDifferences) {
   Net net;
   const std::vector<float> cloud = testing::DoorCloud(3, 0.5);
-  const CloudGeometry geometry = BuildGeometry(cloud, kCentre);
+  const CloudGeometry geometry = BuildGeometry(cloud, {kCentre});
   const std::vector<float> wanted = RandomVector(kFeatureSize, "differences");
   const auto value = [&] {
     const PointEncoder encoder(net.layout, "", net.parameters, BestInstructionSet());

@@ -93,11 +93,9 @@ TEST(StageDataset, HoldsTheDecisionsOfTheShards) {
   EXPECT_EQ(sample.executed, made.samples[5].executed);
   EXPECT_NE(sample.executed, sample.action);
   EXPECT_EQ(sample.score_rad, made.samples[5].score_rad);
-  EXPECT_FLOAT_EQ(sample.state[0], 0.180F);  // first joint position
-  EXPECT_FLOAT_EQ(sample.state[9], 0.191F);  // first joint velocity
-  EXPECT_FLOAT_EQ(sample.base_m[0], 0.202F);
-  EXPECT_FLOAT_EQ(sample.hand_m[2], 0.207F);
-  EXPECT_FLOAT_EQ(sample.hand_xyzw[3], 0.211F);
+  EXPECT_FLOAT_EQ(sample.proprioception[0], 0.180F);   // first joint position
+  EXPECT_FLOAT_EQ(sample.proprioception[11], 0.191F);  // first joint velocity
+  EXPECT_FLOAT_EQ(sample.proprioception[31], 0.211F);  // the hand's quaternion, w
 }
 
 TEST(StageDataset, SaysOfTheHandlesDecisionsWhichTurnedIt) {

@@ -77,14 +77,14 @@ TEST(StagePolicy, InTheHandsFrameItMovesAlikeWhereverTheDoorIs) {
         .norm();
   };
   EXPECT_GT(difference(), 1e-4);  // the world's frame
-  networks.normalisation.frame = MotionFrame::kHand;
+  networks.normalisation.view.frame = MotionFrame::kHand;
   networks.normalisation.cloud_centre_m = {};
   EXPECT_LT(difference(), 1e-5);
 }
 
 TEST(StagePolicy, InTheHandsFrameItTurnsTheHandFromWhereItIs) {
   StageNetworks networks = SomeNetworks();
-  networks.normalisation.frame = MotionFrame::kHand;
+  networks.normalisation.view.frame = MotionFrame::kHand;
   const Eigen::Quaternionf hand(Eigen::AngleAxisf(0.7F, Eigen::Vector3f(1, 2, 3).normalized()));
   const Action plain =
       MakePolicy(networks)->Act(WithHand(SomeObservation(), Eigen::Quaternionf::Identity()));
@@ -94,6 +94,32 @@ TEST(StagePolicy, InTheHandsFrameItTurnsTheHandFromWhereItIs) {
              plain.world_from_hand_rotation * hand.toRotationMatrix().cast<double>())
                 .norm(),
             1e-5);
+}
+
+TEST(StagePolicy, TheStateIsOfTheHandOrOfTheJointsOrNone) {
+  const Observation observation = WithHand(SomeObservation(), Eigen::Quaternionf::Identity());
+  Observation other_arm = observation;
+  for (const std::size_t first : {0U, 11U}) {
+    for (std::size_t i = first; i < first + 9; ++i) other_arm.proprioception[i] += 0.3F;
+  }
+  Observation other_fingers = observation;
+  other_fingers.proprioception[10] += 0.02F;
+  const Observation other_turn =
+      WithHand(observation, Eigen::Quaternionf(Eigen::AngleAxisf(0.5F, Eigen::Vector3f::UnitX())));
+  const auto matters = [&](StateKind kind, const Observation& other) {
+    StageNetworks networks = SomeNetworks();
+    networks.normalisation.view.state = kind;
+    const auto policy = MakePolicy(std::move(networks));
+    return policy->Act(other).position_delta_m != policy->Act(observation).position_delta_m;
+  };
+  EXPECT_TRUE(matters(StateKind::kJoints, other_arm));
+  EXPECT_FALSE(matters(StateKind::kJoints, other_fingers));
+  EXPECT_FALSE(matters(StateKind::kJoints, other_turn));
+  EXPECT_FALSE(matters(StateKind::kHand, other_arm));
+  EXPECT_TRUE(matters(StateKind::kHand, other_fingers));
+  EXPECT_TRUE(matters(StateKind::kHand, other_turn));
+  for (const Observation& other : {other_arm, other_fingers, other_turn})
+    EXPECT_FALSE(matters(StateKind::kNone, other));
 }
 
 TEST(StagePolicy, RepeatsAnEpisodeAfterReset) {

@@ -16,10 +16,12 @@ TrainingSample MakeSample(double hinge_rad, Rng& rng) {
   const double c = std::cos(hinge_rad);
   const double s = std::sin(hinge_rad);
   TrainingSample sample;
-  for (float& v : sample.state) v = static_cast<float>(0.1 * rng.Normal());
-  sample.state[0] = static_cast<float>(hinge_rad + 0.05 * rng.Normal());
-  sample.hand_m = {static_cast<float>(0.8 * s), static_cast<float>(0.8 * c - 0.4), 1.0F};
-  sample.base_m = {static_cast<float>(0.7 + 0.1 * rng.Normal()), 0.0F, 0.1F};
+  Proprioception& proprioception = sample.proprioception;
+  for (std::size_t i = 0; i < 22; ++i) proprioception[i] = static_cast<float>(0.1 * rng.Normal());
+  proprioception[0] = static_cast<float>(hinge_rad + 0.05 * rng.Normal());
+  const std::array<double, 10> poses = {
+      0.7 + 0.1 * rng.Normal(), 0, 0.1, 0.8 * s, 0.8 * c - 0.4, 1.0, 0, 0, 0, 1};
+  std::copy(poses.begin(), poses.end(), proprioception.begin() + 22);
   Action action;
   action.position_delta_m = {0.06 * c, -0.06 * s, 0.0};
   action.world_from_hand_rotation = RotationAbout(Eigen::Vector3d::UnitZ(), -hinge_rad).linear() *

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <barrier>
 #include <cmath>
+#include <functional>
+#include <initializer_list>
 #include <set>
 #include <thread>
 
@@ -130,7 +132,7 @@ TEST(TrainStage, LearnsToReadTheHingeFromTheCloud) {
   auto validation = testing::MakeSyntheticSamples(4, 24);
   // only the cloud tells the angle
   for (auto* samples : {&train.samples, &validation.samples}) {
-    for (TrainingSample& sample : *samples) sample.state[0] = 0;
+    for (TrainingSample& sample : *samples) sample.proprioception[0] = 0;
   }
   TrainConfig config;
   config.epochs = 7;
@@ -158,7 +160,8 @@ TEST(TrainStage, InTheHandsFrameItLearnsTurnsThatDoNotDependOnTheHandsRotation) 
   auto turned = train.samples;
   const Eigen::Quaternionf by(Eigen::AngleAxisf(0.4F, Eigen::Vector3f(1, 1, 0).normalized()));
   for (TrainingSample& sample : turned) {
-    sample.hand_xyzw = {by.x(), by.y(), by.z(), by.w()};
+    const std::array<float, 4> xyzw = {by.x(), by.y(), by.z(), by.w()};
+    std::copy(xyzw.begin(), xyzw.end(), sample.proprioception.begin() + 28);
     for (ActionVector* action : {&sample.action, &sample.executed}) {
       Action target = FromVector(*action);
       target.world_from_hand_rotation *= by.toRotationMatrix().cast<double>();
@@ -166,21 +169,33 @@ TEST(TrainStage, InTheHandsFrameItLearnsTurnsThatDoNotDependOnTheHandsRotation) 
     }
   }
   TrainConfig config = SmallConfig();
+  config.state = "joints";
   const TrainerState a = TrainStage(train.samples, {}, config, {});
   const TrainerState b = TrainStage(turned, {}, config, {});
   ASSERT_EQ(a.steps.size(), b.steps.size());
-  EXPECT_EQ(a.networks.normalisation.frame, MotionFrame::kHand);
+  EXPECT_EQ(a.networks.normalisation.view.frame, MotionFrame::kHand);
   EXPECT_NEAR(a.steps[0].rotation_rad, b.steps[0].rotation_rad, 1e-4);
   EXPECT_NEAR(a.steps.back().position_m, b.steps.back().position_m, 1e-3);
 
   config.frame = "world";
-  EXPECT_EQ(TrainStage(train.samples, {}, config, {}).networks.normalisation.frame,
+  EXPECT_EQ(TrainStage(train.samples, {}, config, {}).networks.normalisation.view.frame,
             MotionFrame::kWorld);
   TrainHooks hooks;
   hooks.initial = a.networks;
   EXPECT_THROW(TrainStage(train.samples, {}, config, hooks), Error);
-  config.frame = "elsewhere";
-  EXPECT_THROW(TrainStage(train.samples, {}, config, {}), Error);
+  config = SmallConfig();
+  EXPECT_THROW(TrainStage(train.samples, {}, config, hooks), Error) << "another state";
+  config.state = "joints";
+  EXPECT_NO_THROW(TrainStage(train.samples, {}, config, hooks));
+  config.context_m = 0.3;
+  EXPECT_THROW(TrainStage(train.samples, {}, config, hooks), Error) << "another context";
+  for (const auto& change : std::initializer_list<std::function<void(TrainConfig&)>>{
+           [](TrainConfig& c) { c.frame = "elsewhere"; }, [](TrainConfig& c) { c.state = "all"; },
+           [](TrainConfig& c) { c.context_m = -1; }}) {
+    TrainConfig bad = SmallConfig();
+    change(bad);
+    EXPECT_THROW(TrainStage(train.samples, {}, bad, {}), Error);
+  }
 }
 
 TEST(TrainStage, BeginsWithTheNetworksOfAnotherRun) {

@@ -77,6 +77,10 @@ TEST(Policy, StateIsTheArmWithoutTheFingers) {
   EXPECT_EQ(state[17], 19);
   EXPECT_EQ(HandPositionOf(proprioception), Eigen::Vector3f(25, 26, 27));
   EXPECT_EQ(BasePositionOf(proprioception), Eigen::Vector3f(22, 23, 24));
+  EXPECT_EQ(FingerOpeningsOf(proprioception), Eigen::Vector2f(9, 10));
+  for (std::size_t i = 28; i < 32; ++i) proprioception[i] = 0.5F;  // x to y to z to x
+  EXPECT_TRUE((HandRotationOf(proprioception) * Eigen::Vector3d::UnitX())
+                  .isApprox(Eigen::Vector3d::UnitY(), 1e-6));
 }
 
 TEST(Episode, MetaReadsBackToTheSameText) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 
 #include "doorforge/core/error.h"
 #include "doorforge/learn/point_operators.h"
@@ -24,6 +25,40 @@ void ToRows(const Indices& kept, Indices& indices) {
   std::vector<std::uint16_t> row(kept.empty() ? 0 : kept.back() + std::size_t{1});
   for (std::size_t i = 0; i < kept.size(); ++i) row[kept[i]] = static_cast<std::uint16_t>(i);
   for (std::uint16_t& index : indices) index = row[index];
+}
+
+float SquaredDistance(const PointColumns& points, std::size_t a, std::size_t b) {
+  const float dx = points.x[a] - points.x[b];
+  const float dy = points.y[a] - points.y[b];
+  const float dz = points.z[a] - points.z[b];
+  return dx * dx + dy * dy + dz * dz;
+}
+
+// The points of the window in their order, so that point 0 stays the first.
+Indices InWindow(const PointColumns& points, float radius_m) {
+  Indices inside(points.size());
+  std::iota(inside.begin(), inside.end(), std::uint16_t{0});
+  if (radius_m <= 0) return inside;
+  std::vector<float> distance(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) distance[i] = SquaredDistance(points, 0, i);
+  std::vector<float> sorted = distance;
+  const auto needed = sorted.begin() + (kSetAbstractions[0].points - 1);
+  std::nth_element(sorted.begin(), needed, sorted.end());
+  const float limit = std::max(radius_m * radius_m, *needed);
+  std::erase_if(inside, [&](std::uint16_t i) { return distance[i] > limit; });
+  return inside;
+}
+
+// Where the outputs are among the points of the window.
+Indices OutputsInside(const Indices& inside, std::span<const std::uint16_t> outputs) {
+  Indices rows;
+  for (const std::uint16_t output : outputs) {
+    const auto found = std::lower_bound(inside.begin(), inside.end(), output);
+    Require(found != inside.end() && *found == output, ErrorCode::kInvalidArgument,
+            "an output point must be in the cloud's window");
+    rows.push_back(static_cast<std::uint16_t>(std::distance(inside.begin(), found)));
+  }
+  return rows;
 }
 
 // The targets of each level: the outputs, and upwards their three nearest. Fills skip, neighbour
@@ -71,27 +106,29 @@ CloudGeometry::Level BallsOf(const PointColumns& below, const PointColumns& cent
 
 }  // namespace
 
-CloudGeometry BuildGeometry(std::span<const float> xyz, const std::array<float, 3>& centre,
+CloudGeometry BuildGeometry(std::span<const float> xyz, const CloudWindow& window,
                             std::span<const std::uint16_t> outputs, InstructionSet set) {
   Require(xyz.size() == std::size_t{3} * kCloudPoints, ErrorCode::kInvalidArgument,
           "a cloud must hold 4096 points, found " + std::to_string(xyz.size() / 3));
   Require(std::all_of(xyz.begin(), xyz.end(), [](float v) { return std::isfinite(v); }),
           ErrorCode::kInvalidArgument, "a cloud must hold finite numbers");
   std::array<PointColumns, 5> points;
-  points[0] = ToColumns(xyz, centre);
+  points[0] = ToColumns(xyz, window.centre);
+  const Indices inside = InWindow(points[0], window.radius_m);
+  points[0] = points[0].Select(inside);
   for (std::size_t level = 0; level < 4; ++level) {
     points[level + 1] =
         points[level].Select(FarthestPoints(points[level], kSetAbstractions[level].points, set));
   }
 
   CloudGeometry geometry;
-  geometry.xyz.reserve(xyz.size());
+  geometry.xyz.reserve(3 * points[0].size());
   for (std::size_t i = 0; i < points[0].size(); ++i) {
     const std::array<float, 3> point = points[0][i];
     geometry.xyz.insert(geometry.xyz.end(), point.begin(), point.end());
   }
   // from the coarsest level down: a level keeps what the one above and the upsampling read
-  std::array<Indices, 5> kept = PlanUpsampling(points, outputs, geometry);
+  std::array<Indices, 5> kept = PlanUpsampling(points, OutputsInside(inside, outputs), geometry);
   for (std::size_t level = 4; level-- > 0;) {
     geometry.levels[level] =
         BallsOf(points[level], points[level + 1], kept[level + 1], kSetAbstractions[level], set);
@@ -105,9 +142,9 @@ CloudGeometry BuildGeometry(std::span<const float> xyz, const std::array<float, 
   return geometry;
 }
 
-CloudGeometry BuildGeometry(std::span<const float> xyz, const std::array<float, 3>& centre) {
+CloudGeometry BuildGeometry(std::span<const float> xyz, const CloudWindow& window) {
   constexpr std::array<std::uint16_t, 1> kPointZero = {0};
-  return BuildGeometry(xyz, centre, kPointZero, BestInstructionSet());
+  return BuildGeometry(xyz, window, kPointZero, BestInstructionSet());
 }
 
 }  // namespace doorforge

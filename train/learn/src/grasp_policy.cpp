@@ -56,7 +56,7 @@ class TrainedGraspPolicy : public GraspPolicy {
     internal::HeadBatch batch;
     batch.size = static_cast<int>(outputs.size());
     batch.features = affordance_
-                         .Forward(BuildGeometry(cloud.xyz, normalisation.cloud_centre_m, outputs,
+                         .Forward(BuildGeometry(cloud.xyz, {normalisation.cloud_centre_m}, outputs,
                                                 BestInstructionSet()))
                          .features;
     for (const std::size_t point : handle) {

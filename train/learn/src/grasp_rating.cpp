@@ -21,7 +21,7 @@ GraspRater::GraspRater(const StageNetworks& networks)
 std::vector<float> GraspRater::Rate(std::span<const float> xyz,
                                     std::span<const Eigen::Matrix3d> orientations) const {
   const StageNormalisation& normalisation = networks_->normalisation;
-  const CloudGeometry geometry = BuildGeometry(xyz, normalisation.cloud_centre_m);
+  const CloudGeometry geometry = BuildGeometry(xyz, {normalisation.cloud_centre_m});
   const std::vector<float> feature = encoder_.Forward(geometry).features;
   const Eigen::Vector3d contact(xyz[0], xyz[1], xyz[2]);
   HeadBatch batch;

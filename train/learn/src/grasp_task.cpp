@@ -83,9 +83,9 @@ class GraspTask : public StageTask {
   CloudGeometry GeometryOf(SampleSet set, int lesson, std::size_t i) const {
     const std::array<float, 3>& centre = input_.networks->normalisation.cloud_centre_m;
     const std::span<const float> cloud = SamplesOf(set)[i].cloud;
-    if (lesson != kAffordanceLesson) return BuildGeometry(cloud, centre);
+    if (lesson != kAffordanceLesson) return BuildGeometry(cloud, {centre});
     const RatedPoints& rated = rated_.at(static_cast<std::size_t>(set))[i];
-    return BuildGeometry(BeginningAt(cloud, rated.first), centre, rated.points,
+    return BuildGeometry(BeginningAt(cloud, rated.first), {centre}, rated.points,
                          BestInstructionSet());
   }
 

@@ -2,16 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hand_frame.h"
 
-#include <Eigen/Geometry>
-
 namespace doorforge::internal {
-
-Eigen::Matrix3d RotationOf(const std::array<float, 4>& xyzw) {
-  return Eigen::Quaternionf(xyzw[3], xyzw[0], xyzw[1], xyzw[2])
-      .cast<double>()
-      .normalized()
-      .toRotationMatrix();
-}
 
 ActionVector TurnOf(const ActionVector& action, const Eigen::Matrix3d& world_from_hand) {
   Action turn = FromVector(action);
@@ -26,7 +17,7 @@ ActionVector TargetOf(const ActionVector& turn, const Eigen::Matrix3d& world_fro
 }
 
 TrainingSample WithTurns(TrainingSample sample) {
-  const Eigen::Matrix3d world_from_hand = RotationOf(sample.hand_xyzw);
+  const Eigen::Matrix3d world_from_hand = HandRotationOf(sample.proprioception);
   sample.action = TurnOf(sample.action, world_from_hand);
   sample.executed = TurnOf(sample.executed, world_from_hand);
   return sample;

@@ -8,9 +8,6 @@
 
 namespace doorforge::internal {
 
-/// Rotation world_from_hand of a quaternion xyzw.
-Eigen::Matrix3d RotationOf(const std::array<float, 4>& xyzw);
-
 /// The action with the turn from the present rotation of the hand instead of the absolute one: rows
 /// of world_from_target * hand_from_world, near the identity. The position stays.
 ActionVector TurnOf(const ActionVector& action, const Eigen::Matrix3d& world_from_hand);

@@ -125,9 +125,9 @@ Reconstruction Compare(const Tensor& decoded, const Tensor& wanted) {
 
 class Actor {
  public:
-  Actor(const StageNetworks& networks, const HeadBatch& batch, const Tensor& features,
-        bool with_gradient)
-      : parameters_(ActorLayout(), networks.actor, with_gradient),
+  Actor(const StageNetworks& networks, const HeadParameters& parameters, const HeadBatch& batch,
+        const Tensor& features)
+      : parameters_(parameters),
         networks_(networks),
         activation_(networks.linear_branches ? Activation::kNone : Activation::kLeaky),
         features_(features),
@@ -147,10 +147,8 @@ class Actor {
     return {parameters_.Dense("mean", hidden), parameters_.Dense("log_variance", hidden)};
   }
 
-  const HeadParameters& parameters() const { return parameters_; }
-
  private:
-  HeadParameters parameters_;
+  const HeadParameters& parameters_;
   const StageNetworks& networks_;
   Activation activation_;
   Tensor features_;
@@ -191,18 +189,44 @@ Tensor AffordanceScore(const HeadParameters& parameters, const StageNetworks& ne
                     parameters.Branch("point", Activation::kRectified, View(batch.points, 3)));
 }
 
-void BackPropagate(const Tensor& objective, const Tensor& features,
-                   const HeadParameters& parameters, std::span<float> gradient,
-                   HeadResult& result) {
-  objective.backward();
-  parameters.AddGradient(gradient);
-  const Tensor grad = features.grad().contiguous();
-  result.feature_gradient.assign(grad.data_ptr<float>(), grad.data_ptr<float>() + grad.numel());
-}
-
 std::vector<float> ToVector(const Tensor& tensor) {
   const Tensor flat = tensor.contiguous();
   return {flat.data_ptr<float>(), flat.data_ptr<float>() + flat.numel()};
+}
+
+// What a head gives for a batch: what is minimised, and what is reported.
+struct Loss {
+  Tensor objective;
+  StageLosses losses = UnknownLosses();
+};
+
+Loss MeanAbsolute(const Tensor& score, const HeadBatch& batch, double StageLosses::*reported) {
+  Loss loss{(score - View(batch.gains, 1)).abs().mean()};
+  loss.losses.*reported = loss.objective.item<double>();
+  return loss;
+}
+
+// A network's values and where its gradient goes; empty: none is wanted.
+struct Head {
+  const ParameterLayout& layout;
+  const std::vector<float>& values;
+  std::span<float> gradient;
+};
+
+// `loss_of(parameters, features)` and, where a gradient is wanted, the way back.
+template <class LossOf>
+HeadResult Evaluate(const Head& head, const HeadBatch& batch, const LossOf& loss_of) {
+  const bool with_gradient = !head.gradient.empty();
+  const at::AutoGradMode mode(with_gradient);
+  const Tensor features = View(batch.features, kFeatureSize).set_requires_grad(with_gradient);
+  const HeadParameters parameters(head.layout, head.values, with_gradient);
+  const Loss loss = loss_of(parameters, features);
+  HeadResult result{loss.losses, loss.objective.template item<double>(), {}};
+  if (!with_gradient) return result;
+  loss.objective.backward();
+  parameters.AddGradient(head.gradient);
+  result.feature_gradient = ToVector(features.grad());
+  return result;
 }
 
 }  // namespace
@@ -214,87 +238,64 @@ void UseOneTorchThread() {
 
 HeadResult ActorObjective(const StageNetworks& networks, const HeadBatch& batch,
                           const TrainConfig& config, std::span<float> gradient) {
-  const bool with_gradient = !gradient.empty();
-  const at::AutoGradMode mode(with_gradient);
-  const Tensor features = View(batch.features, kFeatureSize).set_requires_grad(with_gradient);
-  const Actor actor(networks, batch, features, with_gradient);
-  const Tensor actions = View(batch.actions, 9);
-  const Tensor wanted = Denormalise(networks.normalisation.action, actions);
-
-  const auto [mean, log_variance] = actor.Posterior(actions);
-  const Tensor latent = mean + (0.5 * log_variance).exp() * View(batch.noise, kLatentSize);
-  const Tensor divergence =
-      (0.5 * (mean.square() + log_variance.exp() - 1 - log_variance)).sum(1).mean();
-  const Reconstruction posterior = Compare(actor.Decode(latent), wanted);
-  const Reconstruction prior = Compare(actor.Decode(torch::zeros_like(latent)), wanted);
-  const auto weigh = [&](const Reconstruction& r) {
-    return config.lambda_position * r.position + config.lambda_rotation * r.rotation;
+  const auto loss_of = [&](const HeadParameters& parameters, const Tensor& features) {
+    const Actor actor(networks, parameters, batch, features);
+    const Tensor actions = View(batch.actions, 9);
+    const Tensor wanted = Denormalise(networks.normalisation.action, actions);
+    const auto [mean, log_variance] = actor.Posterior(actions);
+    const Tensor latent = mean + (0.5 * log_variance).exp() * View(batch.noise, kLatentSize);
+    const Tensor divergence =
+        (0.5 * (mean.square() + log_variance.exp() - 1 - log_variance)).sum(1).mean();
+    const Reconstruction posterior = Compare(actor.Decode(latent), wanted);
+    const Reconstruction prior = Compare(actor.Decode(torch::zeros_like(latent)), wanted);
+    const auto weigh = [&](const Reconstruction& r) {
+      return config.lambda_position * r.position + config.lambda_rotation * r.rotation;
+    };
+    Loss loss{weigh(posterior) + config.prior_reconstruction * weigh(prior) +
+              config.lambda_kl * divergence};
+    loss.losses.position_m = prior.position.item<double>();
+    loss.losses.rotation_rad = prior.rotation.item<double>();
+    loss.losses.divergence = divergence.item<double>();
+    return loss;
   };
-  const Tensor objective =
-      weigh(posterior) + config.prior_reconstruction * weigh(prior) + config.lambda_kl * divergence;
-
-  HeadResult result;
-  result.objective = objective.item<double>();
-  result.losses.position_m = prior.position.item<double>();
-  result.losses.rotation_rad = prior.rotation.item<double>();
-  result.losses.divergence = divergence.item<double>();
-  if (with_gradient) BackPropagate(objective, features, actor.parameters(), gradient, result);
-  return result;
+  return Evaluate({ActorLayout(), networks.actor, gradient}, batch, loss_of);
 }
 
 HeadResult CriticObjective(const StageNetworks& networks, const HeadBatch& batch,
                            std::span<float> gradient) {
-  const bool with_gradient = !gradient.empty();
-  const at::AutoGradMode mode(with_gradient);
-  const Tensor features = View(batch.features, kFeatureSize).set_requires_grad(with_gradient);
-  const HeadParameters parameters(CriticLayout(), networks.critic, with_gradient);
-  const Tensor score = CriticScore(parameters, networks, batch, features);
-  const Tensor objective = (score - View(batch.gains, 1)).abs().mean();
-  HeadResult result;
-  result.objective = objective.item<double>();
-  result.losses.score_rad = result.objective;
-  if (with_gradient) BackPropagate(objective, features, parameters, gradient, result);
-  return result;
+  return Evaluate({CriticLayout(), networks.critic, gradient}, batch,
+                  [&](const HeadParameters& parameters, const Tensor& features) {
+                    return MeanAbsolute(CriticScore(parameters, networks, batch, features), batch,
+                                        &StageLosses::score_rad);
+                  });
 }
 
 HeadResult DiscriminatorObjective(const StageNetworks& networks, const HeadBatch& batch,
                                   const TrainConfig& config, std::span<float> gradient) {
-  const bool with_gradient = !gradient.empty();
-  const at::AutoGradMode mode(with_gradient);
-  const Tensor features = View(batch.features, kFeatureSize).set_requires_grad(with_gradient);
-  const HeadParameters parameters(CriticLayout(NetworkFamily::kGrasp), networks.critic,
-                                  with_gradient);
-  const Tensor difference =
-      DiscriminatorScore(parameters, networks, batch, features) - View(batch.gains, 1);
-  const Tensor absolute = difference.abs().mean();
-  const Tensor objective = config.score_loss == "squared" ? difference.square().mean() : absolute;
-  HeadResult result;
-  result.objective = objective.item<double>();
-  result.losses.score_rad = absolute.item<double>();
-  if (with_gradient) BackPropagate(objective, features, parameters, gradient, result);
-  return result;
+  const auto loss_of = [&](const HeadParameters& parameters, const Tensor& features) {
+    const Tensor score = DiscriminatorScore(parameters, networks, batch, features);
+    Loss loss = MeanAbsolute(score, batch, &StageLosses::score_rad);
+    if (config.score_loss == "squared")
+      loss.objective = (score - View(batch.gains, 1)).square().mean();
+    return loss;
+  };
+  return Evaluate({CriticLayout(NetworkFamily::kGrasp), networks.critic, gradient}, batch, loss_of);
 }
 
 HeadResult AffordanceObjective(const StageNetworks& networks, const HeadBatch& batch,
                                std::span<float> gradient) {
-  const bool with_gradient = !gradient.empty();
-  const at::AutoGradMode mode(with_gradient);
-  const Tensor features = View(batch.features, kFeatureSize).set_requires_grad(with_gradient);
-  const HeadParameters parameters(ActorLayout(NetworkFamily::kGrasp), networks.actor,
-                                  with_gradient);
-  const Tensor score = AffordanceScore(parameters, networks, batch, features);
-  const Tensor objective = (score - View(batch.gains, 1)).abs().mean();
-  HeadResult result;
-  result.objective = objective.item<double>();
-  result.losses.affordance_rad = result.objective;
-  if (with_gradient) BackPropagate(objective, features, parameters, gradient, result);
-  return result;
+  return Evaluate({ActorLayout(NetworkFamily::kGrasp), networks.actor, gradient}, batch,
+                  [&](const HeadParameters& parameters, const Tensor& features) {
+                    return MeanAbsolute(AffordanceScore(parameters, networks, batch, features),
+                                        batch, &StageLosses::affordance_rad);
+                  });
 }
 
 std::vector<float> DecodeActions(const StageNetworks& networks, const HeadBatch& batch,
                                  const std::vector<float>& latents) {
   const at::AutoGradMode mode(false);
-  const Actor actor(networks, batch, View(batch.features, kFeatureSize), false);
+  const HeadParameters parameters(ActorLayout(), networks.actor, false);
+  const Actor actor(networks, parameters, batch, View(batch.features, kFeatureSize));
   return ToVector(actor.Decode(View(latents, kLatentSize)));
 }
 

@@ -62,7 +62,8 @@ class MotionTask : public StageTask {
   GeometryCache CacheOf(std::span<const TrainingSample> samples, std::size_t bytes) const {
     const StageNormalisation& normalisation = input_.networks->normalisation;
     return {samples.size(), 1, bytes, [samples, &normalisation](std::size_t i) {
-              return BuildGeometry(samples[i].cloud, CloudCentre(normalisation, samples[i].hand_m));
+              return BuildGeometry(samples[i].cloud,
+                                   WindowOf(normalisation, samples[i].proprioception));
             }};
   }
 

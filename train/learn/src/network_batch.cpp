@@ -15,7 +15,17 @@ void Append(const std::array<float, N>& values, std::vector<float>& out) {
   out.insert(out.end(), values.begin(), values.end());
 }
 
+std::array<float, 3> ToArray(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
+
 }  // namespace
+
+void AppendSituation(const StageNormalisation& normalisation, const Proprioception& proprioception,
+                     HeadBatch& batch) {
+  Append(normalisation.state.Apply(StateOf(normalisation.view.state, proprioception)),
+         batch.states);
+  Append(normalisation.hand_m.Apply(ToArray(HandPositionOf(proprioception))), batch.hands);
+  Append(normalisation.base_m.Apply(ToArray(BasePositionOf(proprioception))), batch.bases);
+}
 
 GeometryCache::GeometryCache(std::size_t samples, std::size_t points, std::size_t budget_bytes,
                              Build build)
@@ -43,10 +53,8 @@ HeadBatch MakeHeadBatch(std::span<const TrainingSample> samples,
   batch.size = static_cast<int>(indices.size());
   for (const std::size_t index : indices) {
     const TrainingSample& sample = samples[index];
-    Append(normalisation.state.Apply(sample.state), batch.states);
+    AppendSituation(normalisation, sample.proprioception, batch);
     Append(normalisation.action.Apply(sample.action), batch.actions);
-    Append(normalisation.hand_m.Apply(sample.hand_m), batch.hands);
-    Append(normalisation.base_m.Apply(sample.base_m), batch.bases);
     batch.gains.push_back(sample.score_rad);
   }
   return batch;

@@ -38,6 +38,10 @@ class GeometryCache {
   Geometries geometry_;
 };
 
+/// Appends the normalised state and positions of hand and base.
+void AppendSituation(const StageNormalisation& normalisation, const Proprioception& proprioception,
+                     HeadBatch& batch);
+
 /// The normalised numbers of these samples; features and noise are left empty.
 HeadBatch MakeHeadBatch(std::span<const TrainingSample> samples,
                         std::span<const std::size_t> indices,

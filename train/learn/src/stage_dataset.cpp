@@ -52,14 +52,10 @@ void RequireFinite(const EpisodeArrays& arrays, const std::string& key) {
 
 void AppendEpisode(const EpisodeArrays& arrays, std::vector<TrainingSample>& samples) {
   for (std::size_t t = 0; t < arrays.decisions; ++t) {
-    const auto proprioception = RowOf<std::tuple_size_v<Proprioception>>(arrays.proprio, t);
     TrainingSample sample;
     sample.cloud = arrays.cloud.subspan(t * kCloudFloats, kCloudFloats);
     sample.label = arrays.label.subspan(t * kCloudPoints, kCloudPoints);
-    sample.state = PolicyStateOf(proprioception);
-    sample.hand_m = ToArray(HandPositionOf(proprioception));
-    std::copy_n(proprioception.end() - 4, 4, sample.hand_xyzw.begin());
-    sample.base_m = ToArray(BasePositionOf(proprioception));
+    sample.proprioception = RowOf<std::tuple_size_v<Proprioception>>(arrays.proprio, t);
     sample.action = RowOf<std::tuple_size_v<ActionVector>>(arrays.action, t);
     sample.executed = arrays.executed.empty()
                           ? sample.action

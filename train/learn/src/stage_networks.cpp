@@ -95,6 +95,8 @@ Normaliser<N> Measure(std::span<const TrainingSample> samples, const std::array<
   return normaliser;
 }
 
+std::array<float, 3> ToArray(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
+
 template <std::size_t N>
 constexpr std::array<float, N> Filled(float value) {
   std::array<float, N> array{};
@@ -150,46 +152,99 @@ Normaliser<N> NormaliserFromJson(const Json& parent, const std::string& key,
   return normaliser;
 }
 
+template <class Kind>
+Kind NamedKind(const Json& json, const char* key, std::initializer_list<Kind> kinds,
+               const std::string& path) {
+  const auto name = ValueOf<std::string>(json, key, path);
+  for (const Kind kind : kinds) {
+    if (NameOf(kind) == name) return kind;
+  }
+  throw Error(ErrorCode::kFormat,
+              path + "." + key + ": \"" + name + "\" is not known to this build");
+}
+
+// What the records of earlier builds lack is as the default.
+MotionView ViewFromJson(const Json& json, const std::string& path) {
+  MotionView view;
+  if (json.contains("frame"))
+    view.frame = NamedKind(json, "frame", {MotionFrame::kHand, MotionFrame::kWorld}, path);
+  if (json.contains("state_of"))
+    view.state =
+        NamedKind(json, "state_of", {StateKind::kHand, StateKind::kJoints, StateKind::kNone}, path);
+  if (json.contains("context_m")) view.context_m = ValueOf<float>(json, "context_m", path);
+  return view;
+}
+
 }  // namespace
 
 std::string_view NameOf(MotionFrame frame) {
   return frame == MotionFrame::kHand ? "hand" : "world";
 }
 
-std::array<float, 3> CloudCentre(const StageNormalisation& normalisation,
-                                 const std::array<float, 3>& hand_m) {
-  std::array<float, 3> centre = normalisation.cloud_centre_m;
-  if (normalisation.frame == MotionFrame::kHand) {
-    for (std::size_t k = 0; k < 3; ++k) centre[k] += hand_m[k];
+std::string_view NameOf(StateKind kind) {
+  switch (kind) {
+    case StateKind::kHand:
+      return "hand";
+    case StateKind::kJoints:
+      return "joints";
+    case StateKind::kNone:
+      return "none";
   }
-  return centre;
+  return "";
+}
+
+PolicyState StateOf(StateKind kind, const Proprioception& proprioception) {
+  if (kind == StateKind::kJoints) return PolicyStateOf(proprioception);
+  PolicyState state{};
+  if (kind == StateKind::kNone) return state;
+  const Eigen::Matrix3f world_from_hand = HandRotationOf(proprioception).cast<float>();
+  const Eigen::Vector2f fingers = FingerOpeningsOf(proprioception);
+  for (std::size_t i = 0; i < 6; ++i)
+    state[i] = world_from_hand(static_cast<Eigen::Index>(i / 3), static_cast<Eigen::Index>(i % 3));
+  for (std::size_t i = 0; i < 2; ++i) state[6 + i] = fingers[static_cast<Eigen::Index>(i)];
+  return state;
+}
+
+CloudWindow WindowOf(const StageNormalisation& normalisation,
+                     const Proprioception& proprioception) {
+  CloudWindow window{normalisation.cloud_centre_m, normalisation.view.context_m};
+  if (normalisation.view.frame == MotionFrame::kHand) {
+    const Eigen::Vector3f hand_m = HandPositionOf(proprioception);
+    for (std::size_t k = 0; k < 3; ++k) window.centre[k] += hand_m[static_cast<Eigen::Index>(k)];
+  }
+  return window;
 }
 
 StageNormalisation MeasureNormalisation(std::span<const TrainingSample> samples,
-                                        MotionFrame frame) {
+                                        const MotionView& view) {
   Require(!samples.empty(), ErrorCode::kInvalidArgument, "no sample to train from");
   constexpr float kPosition = 0.005F;
   constexpr float kRotation = 0.05F;
   StageNormalisation normalisation;
-  normalisation.frame = frame;
-  if (frame == MotionFrame::kWorld) normalisation.cloud_centre_m = MeanPoint(samples);
+  normalisation.view = view;
+  if (view.frame == MotionFrame::kWorld) normalisation.cloud_centre_m = MeanPoint(samples);
   normalisation.state =
-      Measure<18>(samples, Filled<18>(0.02F), [](const TrainingSample& s) { return s.state; });
+      Measure<18>(samples, Filled<18>(view.state == StateKind::kHand ? 0.005F : 0.02F),
+                  [&](const TrainingSample& s) { return StateOf(view.state, s.proprioception); });
   normalisation.action = Measure<9>(samples,
                                     {kPosition, kPosition, kPosition, kRotation, kRotation,
                                      kRotation, kRotation, kRotation, kRotation},
                                     [](const TrainingSample& s) { return s.action; });
-  normalisation.hand_m =
-      Measure<3>(samples, Filled<3>(0.02F), [](const TrainingSample& s) { return s.hand_m; });
-  normalisation.base_m =
-      Measure<3>(samples, Filled<3>(0.02F), [](const TrainingSample& s) { return s.base_m; });
+  normalisation.hand_m = Measure<3>(samples, Filled<3>(0.02F), [](const TrainingSample& s) {
+    return ToArray(HandPositionOf(s.proprioception));
+  });
+  normalisation.base_m = Measure<3>(samples, Filled<3>(0.02F), [](const TrainingSample& s) {
+    return ToArray(BasePositionOf(s.proprioception));
+  });
   normalisation.score_rad = Measure<1>(
       samples, {0.005F}, [](const TrainingSample& s) { return std::array<float, 1>{s.score_rad}; });
   return normalisation;
 }
 
 Json NormalisationToJson(const StageNormalisation& normalisation) {
-  return {{"frame", NameOf(normalisation.frame)},
+  return {{"frame", NameOf(normalisation.view.frame)},
+          {"state_of", NameOf(normalisation.view.state)},
+          {"context_m", normalisation.view.context_m},
           {"cloud_centre_m", normalisation.cloud_centre_m},
           {"cloud_scale", 1},
           {"state", NormaliserToJson(normalisation.state)},
@@ -201,9 +256,7 @@ Json NormalisationToJson(const StageNormalisation& normalisation) {
 
 StageNormalisation NormalisationFromJson(const Json& json, const std::string& path) {
   StageNormalisation normalisation;
-  // records of earlier builds have no frame: it was the world's
-  if (json.contains("frame") && ValueOf<std::string>(json, "frame", path) == "hand")
-    normalisation.frame = MotionFrame::kHand;
+  normalisation.view = ViewFromJson(json, path);
   normalisation.cloud_centre_m =
       ArrayFromJson<3>(MemberOf(json, "cloud_centre_m", path), path + ".cloud_centre_m");
   normalisation.state = NormaliserFromJson<18>(json, "state", path);

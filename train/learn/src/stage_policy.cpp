@@ -16,22 +16,16 @@
 
 #include "hand_frame.h"
 #include "head_networks.h"
+#include "network_batch.h"
 
 namespace doorforge {
 namespace {
 
 using internal::HeadBatch;
 
-template <std::size_t N>
-void AppendCopies(const std::array<float, N>& values, int copies, std::vector<float>& out) {
-  for (int i = 0; i < copies; ++i) out.insert(out.end(), values.begin(), values.end());
-}
-
 void AppendCopies(const std::vector<float>& values, int copies, std::vector<float>& out) {
   for (int i = 0; i < copies; ++i) out.insert(out.end(), values.begin(), values.end());
 }
-
-std::array<float, 3> ToArray(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
 
 class StagePolicy : public Policy {
  public:
@@ -47,9 +41,8 @@ class StagePolicy : public Policy {
 
   Action Act(const Observation& observation) override {
     internal::UseOneTorchThread();
-    const std::array<float, 3> hand_m = ToArray(HandPositionOf(observation.proprioception));
-    const CloudGeometry geometry =
-        BuildGeometry(observation.cloud.xyz, CloudCentre(networks_.normalisation, hand_m));
+    const CloudGeometry geometry = BuildGeometry(
+        observation.cloud.xyz, WindowOf(networks_.normalisation, observation.proprioception));
     HeadBatch batch = Conditions(observation);
     AppendCopies(actor_.Forward(geometry).features, batch.size, batch.features);
     const std::vector<float> actions = DecodeActions(networks_, batch, Latents());
@@ -62,23 +55,15 @@ class StagePolicy : public Policy {
 
  private:
   ActionVector InWorld(const ActionVector& action, const Proprioception& proprioception) const {
-    if (networks_.normalisation.frame == MotionFrame::kWorld) return action;
-    std::array<float, 4> hand_xyzw{};
-    std::copy_n(proprioception.end() - 4, 4, hand_xyzw.begin());
-    return internal::TargetOf(action, internal::RotationOf(hand_xyzw));
+    if (networks_.normalisation.view.frame == MotionFrame::kWorld) return action;
+    return internal::TargetOf(action, HandRotationOf(proprioception));
   }
 
   HeadBatch Conditions(const Observation& observation) const {
-    const StageNormalisation& normalisation = networks_.normalisation;
-    const Proprioception& proprioception = observation.proprioception;
-    const int copies = options_.candidates;
     HeadBatch batch;
-    batch.size = copies;
-    AppendCopies(normalisation.state.Apply(PolicyStateOf(proprioception)), copies, batch.states);
-    AppendCopies(normalisation.hand_m.Apply(ToArray(HandPositionOf(proprioception))), copies,
-                 batch.hands);
-    AppendCopies(normalisation.base_m.Apply(ToArray(BasePositionOf(proprioception))), copies,
-                 batch.bases);
+    batch.size = options_.candidates;
+    for (int i = 0; i < batch.size; ++i)
+      internal::AppendSituation(networks_.normalisation, observation.proprioception, batch);
     return batch;
   }
 
@@ -97,7 +82,8 @@ class StagePolicy : public Policy {
     for (std::size_t i = 0; i < actions.size(); i += 9) {
       ActionVector action{};
       std::copy_n(actions.begin() + static_cast<std::ptrdiff_t>(i), 9, action.begin());
-      AppendCopies(networks_.normalisation.action.Apply(action), 1, batch.actions);
+      const ActionVector numbers = networks_.normalisation.action.Apply(action);
+      batch.actions.insert(batch.actions.end(), numbers.begin(), numbers.end());
     }
     const std::vector<float> scores = ScoreActions(networks_, batch);
     return static_cast<std::size_t>(

@@ -83,9 +83,15 @@ void AddScaled(const StageLosses& losses, double factor, StageLosses& sum) {
   for (const auto value : kLosses) sum.*value += factor * losses.*value;
 }
 
-MotionFrame FrameOf(const TrainConfig& config) {
-  const bool hand = config.family == NetworkFamily::kMotion && config.frame == "hand";
-  return hand ? MotionFrame::kHand : MotionFrame::kWorld;
+MotionView ViewOf(const TrainConfig& config) {
+  MotionView view;
+  if (config.family == NetworkFamily::kGrasp) return view;
+  if (config.frame == NameOf(MotionFrame::kHand)) view.frame = MotionFrame::kHand;
+  for (const StateKind kind : {StateKind::kHand, StateKind::kNone}) {
+    if (config.state == NameOf(kind)) view.state = kind;
+  }
+  view.context_m = static_cast<float>(config.context_m);
+  return view;
 }
 
 std::vector<TrainingSample> AllWithTurns(std::span<const TrainingSample> samples) {
@@ -150,7 +156,7 @@ class Trainer {
     TrainerState state;
     state.networks = hooks_.initial
                          ? *hooks_.initial
-                         : InitialNetworks(MeasureNormalisation(train_, FrameOf(config_)),
+                         : InitialNetworks(MeasureNormalisation(train_, ViewOf(config_)),
                                            config_.linear_branches, config_.seed, config_.family);
     state.actor_first.resize(state.networks.actor.size());
     state.actor_second.resize(state.networks.actor.size());
@@ -424,6 +430,9 @@ void CheckTrainConfig(const TrainConfig& config) {
                     config.lambda_kl >= 0 && config.prior_reconstruction >= 0,
                 "lambda_*", "at least 0");
   RequireConfig(config.frame == "hand" || config.frame == "world", "frame", "hand or world");
+  RequireConfig(config.state == "hand" || config.state == "joints" || config.state == "none",
+                "state", "hand, joints or none");
+  RequireConfig(config.context_m >= 0 && config.context_m < 100, "context_m", "in [0, 100)");
   RequireConfig(config.critic_interval >= 1, "critic_interval", "at least 1");
   RequireConfig(config.score_loss == "squared" || config.score_loss == "absolute", "score_loss",
                 "squared or absolute");
@@ -467,13 +476,13 @@ TrainerState TrainStage(std::span<const TrainingSample> train,
                         const TrainHooks& hooks) {
   CheckTrainConfig(config);
   Require(!train.empty(), ErrorCode::kInvalidArgument, "no sample to train from");
-  const MotionFrame frame = FrameOf(config);
-  Require(!hooks.initial || hooks.initial->normalisation.frame == frame,
-          ErrorCode::kInvalidArgument,
-          "the networks to begin with were trained with another setting of frame than \"" +
-              std::string(NameOf(frame)) + "\"");
+  const MotionView view = ViewOf(config);
+  Require(!hooks.initial || hooks.initial->normalisation.view == view, ErrorCode::kInvalidArgument,
+          "the networks to begin with were trained with other settings of frame, state or "
+          "context_m than \"" +
+              config.frame + "\", \"" + config.state + "\", " + std::to_string(config.context_m));
   internal::UseOneTorchThread();
-  if (frame == MotionFrame::kWorld) return Trainer(train, validation, config, hooks).Run();
+  if (view.frame == MotionFrame::kWorld) return Trainer(train, validation, config, hooks).Run();
   const std::vector<TrainingSample> turns = AllWithTurns(train);
   const std::vector<TrainingSample> validation_turns = AllWithTurns(validation);
   return Trainer(turns, validation_turns, config, hooks).Run();

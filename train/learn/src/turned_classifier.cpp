@@ -14,8 +14,6 @@
 #include "doorforge/core/rigid_transform.h"
 #include "doorforge/schemas/safetensors.h"
 
-#include "hand_frame.h"
-
 namespace doorforge {
 namespace {
 
@@ -30,12 +28,6 @@ constexpr int kUnknowns = static_cast<int>(kTurnedInputs) + 1;
 
 using Inputs = std::array<double, kTurnedInputs>;
 using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
-
-Eigen::Matrix3d HandRotationOf(const Proprioception& proprioception) {
-  std::array<float, 4> xyzw{};
-  std::copy_n(proprioception.end() - 4, 4, xyzw.begin());
-  return internal::RotationOf(xyzw);
-}
 
 // The motion, the magnitudes of its numbers, the lengths of its vectors.
 Inputs InputsOf(const HandMotion& motion) {

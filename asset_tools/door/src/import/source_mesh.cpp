@@ -170,7 +170,8 @@ std::string FileNamesOf(const std::vector<SourceMesh>& meshes) {
   std::size_t count = 0;
   for (const SourceMesh& mesh : meshes) {
     if (mesh.file.empty() || ++count > kNamedFiles) continue;
-    names += (names.empty() ? "" : " ") + mesh.file.filename().string();
+    if (!names.empty()) names += ' ';
+    names += mesh.file.filename().string();
   }
   if (count > kNamedFiles) names += " and " + std::to_string(count - kNamedFiles) + " more";
   return names;

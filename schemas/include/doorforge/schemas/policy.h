@@ -22,6 +22,9 @@ using PolicyState = std::array<float, 18>;
 PolicyState PolicyStateOf(const Proprioception& proprioception);
 Eigen::Vector3f BasePositionOf(const Proprioception& proprioception);
 Eigen::Vector3f HandPositionOf(const Proprioception& proprioception);
+/// Rotation world_from_hand.
+Eigen::Matrix3d HandRotationOf(const Proprioception& proprioception);
+Eigen::Vector2f FingerOpeningsOf(const Proprioception& proprioception);  ///< Left, right [m].
 
 /// What the simulator knows and a robot would not; only rule-based experts may read it.
 struct PrivilegedState {

@@ -45,19 +45,28 @@ struct CloudGeometry {
 
     std::size_t size() const { return skip.size(); }
   };
-  std::vector<float> xyz;  ///< 4096 x 3, relative to the centre [m]: level 0.
+  std::vector<float> xyz;  ///< The window's points x 3, relative to its centre [m]: level 0.
   std::array<Level, 4> levels;
   std::array<Upsampling, 4> upsampling;  ///< [0] ends in the output points.
 };
 
+/// From where a cloud is seen, and how much of it.
+struct CloudWindow {
+  std::array<float, 3> centre{};  ///< Subtracted from every point [m].
+  /// Points farther from point 0 than this [m] are left out, but never more than leaves 1024 of
+  /// them; 0: all stay.
+  float radius_m = 0;
+};
+
 /// @param xyz 4096 x 3 finite numbers [m], world frame.
-/// @param centre Subtracted from every point; the same for all clouds of a policy.
-/// @param outputs Points whose feature will be read, ascending; the policies read point 0.
-/// @throws Error(kInvalidArgument) on another number of points, or numbers that are not finite.
-CloudGeometry BuildGeometry(std::span<const float> xyz, const std::array<float, 3>& centre,
+/// @param outputs Points whose feature will be read, ascending; the policies read point 0. All of
+///     them must be in the window.
+/// @throws Error(kInvalidArgument) on another number of points, numbers that are not finite, or an
+///     output outside of the window.
+CloudGeometry BuildGeometry(std::span<const float> xyz, const CloudWindow& window,
                             std::span<const std::uint16_t> outputs, InstructionSet set);
 
 /// BuildGeometry() for point 0 alone.
-CloudGeometry BuildGeometry(std::span<const float> xyz, const std::array<float, 3>& centre);
+CloudGeometry BuildGeometry(std::span<const float> xyz, const CloudWindow& window);
 
 }  // namespace doorforge

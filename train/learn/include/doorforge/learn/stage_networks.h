@@ -10,6 +10,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "doorforge/learn/cloud_geometry.h"
 #include "doorforge/learn/parameters.h"
 #include "doorforge/learn/training_sample.h"
 
@@ -38,9 +39,27 @@ struct Normaliser {
 enum class MotionFrame { kHand, kWorld };
 std::string_view NameOf(MotionFrame frame);  ///< "hand", "world".
 
+/// What the motion networks are told of the robot itself, 18 numbers. kHand: rows 1 and 2 of the
+/// hand's rotation and both finger openings, the rest 0; like the hand's frame it does not depend
+/// on where the door stands. kJoints: nine positions and nine velocities, as UniDoorManip. kNone:
+/// 18 times 0.
+enum class StateKind { kHand, kJoints, kNone };
+std::string_view NameOf(StateKind kind);  ///< "hand", "joints", "none".
+PolicyState StateOf(StateKind kind, const Proprioception& proprioception);
+
+/// How the motion networks are told of the scene. Default: what the grasp's networks are told, and
+/// UniDoorManip's.
+struct MotionView {
+  MotionFrame frame = MotionFrame::kWorld;
+  StateKind state = StateKind::kJoints;
+  float context_m = 0;  ///< CloudWindow::radius_m of every cloud.
+
+  friend bool operator==(const MotionView&, const MotionView&) = default;
+};
+
 /// Constants between the world's numbers and the networks'. Part of a checkpoint.
 struct StageNormalisation {
-  MotionFrame frame = MotionFrame::kWorld;
+  MotionView view;
   /// Subtracted from every cloud, in the hand's frame after the hand's position; the scale stays
   /// metres.
   std::array<float, 3> cloud_centre_m{};
@@ -55,10 +74,9 @@ struct StageNormalisation {
 ///
 /// @throws Error(kInvalidArgument) if there is no sample.
 StageNormalisation MeasureNormalisation(std::span<const TrainingSample> samples,
-                                        MotionFrame frame = MotionFrame::kWorld);
-/// What is subtracted from a cloud that is seen with the hand there.
-std::array<float, 3> CloudCentre(const StageNormalisation& normalisation,
-                                 const std::array<float, 3>& hand_m);
+                                        const MotionView& view = {});
+/// Of a cloud that is seen at that moment.
+CloudWindow WindowOf(const StageNormalisation& normalisation, const Proprioception& proprioception);
 nlohmann::ordered_json NormalisationToJson(const StageNormalisation& normalisation);
 /// Throws Error(kFormat), naming `path`.
 StageNormalisation NormalisationFromJson(const nlohmann::ordered_json& json,

@@ -40,6 +40,10 @@ struct TrainConfig {
   bool linear_branches = false;
   /// "hand" or "world" (UniDoorManip), see MotionFrame.
   std::string frame = "hand";
+  /// "hand", "joints" (UniDoorManip) or "none", see StateKind.
+  std::string state = "hand";
+  /// Points farther than this from point 0 are not seen [m]; 0: all are, see CloudWindow.
+  double context_m = 0;
   /// The critic learns on every n-th step only; 1: on all.
   int critic_interval = 1;
   /// What the discriminator minimises: "squared" error, which makes its score the expected angle,
@@ -67,6 +71,8 @@ struct TrainConfig {
       visit("prior_reconstruction", self.prior_reconstruction);
       visit("linear_branches", self.linear_branches);
       visit("frame", self.frame);
+      visit("state", self.state);
+      visit("context_m", self.context_m);
       visit("critic_interval", self.critic_interval);
     } else {
       visit("score_loss", self.score_loss);

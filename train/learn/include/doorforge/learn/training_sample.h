@@ -17,10 +17,7 @@ struct TrainingSample {
   std::span<const float> cloud;
   /// PointLabel of each point. Not owned; the stage "grasp" alone reads it.
   std::span<const std::uint8_t> label{};
-  PolicyState state{};
-  std::array<float, 3> hand_m{};               ///< World.
-  std::array<float, 4> hand_xyzw{0, 0, 0, 1};  ///< Quaternion world_from_hand.
-  std::array<float, 3> base_m{};               ///< World.
+  Proprioception proprioception{};
   /// What the expert did; at the stage "grasp" the contact point in the world and the rotation that
   /// were tried.
   ActionVector action{};

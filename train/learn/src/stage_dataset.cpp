@@ -165,8 +165,8 @@ StageDataset ReadStageDataset(std::span<const fs::path> folders, std::string_vie
   std::string content;
   for (const fs::path& folder : folders) {
     dataset.parts = Union(dataset.parts, SeenPartsOfDataset(folder));
-    content += (content.empty() ? "" : "\n") +
-               AppendDataset(folder, std::string(stage), validation_share, dataset);
+    if (!content.empty()) content += '\n';
+    content += AppendDataset(folder, std::string(stage), validation_share, dataset);
   }
   dataset.content_sha256 = Sha256Hex(content);
   return dataset;

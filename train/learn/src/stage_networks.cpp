@@ -171,7 +171,8 @@ MotionView ViewFromJson(const Json& json, const std::string& path) {
   if (json.contains("state_of"))
     view.state =
         NamedKind(json, "state_of", {StateKind::kHand, StateKind::kJoints, StateKind::kNone}, path);
-  if (json.contains("context_m")) view.context_m = ValueOf<float>(json, "context_m", path);
+  if (json.contains("context_m"))
+    view.context_m = static_cast<float>(ValueOf<double>(json, "context_m", path));
   return view;
 }
 

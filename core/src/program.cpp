@@ -95,6 +95,4 @@ int RunChild(const std::vector<std::string>& argv) {
   return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
-std::string CodeVersion() { return DOORFORGE_CODE_VERSION; }
-
 }  // namespace doorforge

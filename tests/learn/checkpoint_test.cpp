@@ -88,7 +88,7 @@ TEST(Checkpoint, APolicyComesBackAsItWasWritten) {
 
 TEST(Checkpoint, WhatTheNetworksAreToldComesBackAndIsWhatItWasInEarlierRecords) {
   const auto made = testing::MakeSyntheticSamples(1, 3);
-  const MotionView view{MotionFrame::kHand, StateKind::kNone, 0.25F};
+  const NetworkView view{ViewFrame::kHand, StateKind::kNone, 0.25F};
   auto json = NormalisationToJson(MeasureNormalisation(made.samples, view));
   EXPECT_EQ(NormalisationFromJson(json, "policy.json").view, view);
   json["state_of"] = "elsewhere";
@@ -96,7 +96,7 @@ TEST(Checkpoint, WhatTheNetworksAreToldComesBackAndIsWhatItWasInEarlierRecords) 
               [&] { NormalisationFromJson(json, "policy.json"); });
   for (const char* key : {"frame", "state_of", "context_m"}) json.erase(key);
   EXPECT_EQ(NormalisationFromJson(json, "policy.json").view,
-            (MotionView{MotionFrame::kWorld, StateKind::kJoints, 0}));
+            (NetworkView{ViewFrame::kWorld, StateKind::kJoints, 0}));
 }
 
 TEST(Checkpoint, AGraspComesBackAsItWasWrittenAndIsNoOtherStagesPolicy) {

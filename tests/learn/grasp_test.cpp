@@ -180,6 +180,7 @@ TEST(TrainGrasp, PrefersThePointsAndTheTurnsThatOpenDoorsItHasNotSeen) {
   config.batch_size = 8;
   config.sampled_points = 2;
   config.learning_rate = 2e-3;
+  config.frame = "world";
   const StageNetworks networks = TrainStage(train.samples, {}, config, {}).networks;
   const auto policy = MakeGraspPolicy(networks, {.orientations = 32});
   int opened = 0;
@@ -204,6 +205,52 @@ TEST(TrainGrasp, PrefersThePointsAndTheTurnsThatOpenDoorsItHasNotSeen) {
   // by chance a quarter would open, and both halves of the handles would score alike
   EXPECT_GE(opened, 7);
   EXPECT_GT(upper, 2 * lower);
+}
+
+// All of it moved.
+GraspWorld Moved(GraspWorld world, const Eigen::Vector3f& by) {
+  for (std::size_t i = 0; i < world.cloud.xyz.size(); ++i)
+    world.cloud.xyz[i] += by[static_cast<Eigen::Index>(i % 3)];
+  return world;
+}
+
+TEST(GraspPolicy, InTheHandsFrameItChoosesAlikeWhereverTheDoorIsAndSeesNoFartherThanTheContext) {
+  const GraspSamples train = MakeGraspSamples(6, 8);
+  TrainConfig config = GraspConfig();
+  config.epochs = 1;
+  config.batch_size = 8;
+  config.context_m = 0.3;
+  const Eigen::Vector3f by(0.5F, -0.25F, -0.5F);
+  for (const char* frame : {"hand", "world"}) {
+    config.frame = frame;
+    const auto policy = MakeGraspPolicy(TrainStage(train.samples, {}, config, {}).networks);
+    const auto choose = [&](const GraspWorld& world) {
+      return *policy->Choose({world.cloud, kApproach,
+                              [&](const Eigen::Vector3d& start) { return world.From(start); }});
+    };
+    const GraspWorld here(17);
+    const GraspChoice a = choose(here);
+    const GraspChoice b = choose(Moved(here, by));
+    ASSERT_EQ(a.affordance_rad.size(), b.affordance_rad.size());
+    double difference = 0;
+    for (std::size_t i = 0; i < a.affordance_rad.size(); ++i)
+      difference =
+          std::max<double>(difference, std::abs(a.affordance_rad[i] - b.affordance_rad[i]));
+    if (config.frame == "world") {
+      EXPECT_GT(difference, 1e-3);
+      continue;
+    }
+    EXPECT_LT(difference, 1e-4);
+    EXPECT_NEAR(a.score_rad, b.score_rad, 1e-4);
+    GraspWorld other_leaf = here;
+    for (std::size_t i = kCloudPoints / 16; i < kCloudPoints; ++i) {
+      if ((here.Point(i) - Eigen::Vector3d(0.05, here.handle_y, here.handle_z)).norm() > 0.5)
+        other_leaf.cloud.xyz[3 * i] += 0.4F;
+    }
+    const GraspChoice c = choose(other_leaf);
+    EXPECT_EQ(c.affordance_rad, a.affordance_rad);
+    EXPECT_EQ(c.score_rad, a.score_rad);
+  }
 }
 
 TEST(GraspPolicy, ChoosesNothingWithoutAHandleInView) {

@@ -77,14 +77,14 @@ TEST(StagePolicy, InTheHandsFrameItMovesAlikeWhereverTheDoorIs) {
         .norm();
   };
   EXPECT_GT(difference(), 1e-4);  // the world's frame
-  networks.normalisation.view.frame = MotionFrame::kHand;
+  networks.normalisation.view.frame = ViewFrame::kHand;
   networks.normalisation.cloud_centre_m = {};
   EXPECT_LT(difference(), 1e-5);
 }
 
 TEST(StagePolicy, InTheHandsFrameItTurnsTheHandFromWhereItIs) {
   StageNetworks networks = SomeNetworks();
-  networks.normalisation.view.frame = MotionFrame::kHand;
+  networks.normalisation.view.frame = ViewFrame::kHand;
   const Eigen::Quaternionf hand(Eigen::AngleAxisf(0.7F, Eigen::Vector3f(1, 2, 3).normalized()));
   const Action plain =
       MakePolicy(networks)->Act(WithHand(SomeObservation(), Eigen::Quaternionf::Identity()));

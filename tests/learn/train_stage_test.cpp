@@ -173,13 +173,13 @@ TEST(TrainStage, InTheHandsFrameItLearnsTurnsThatDoNotDependOnTheHandsRotation) 
   const TrainerState a = TrainStage(train.samples, {}, config, {});
   const TrainerState b = TrainStage(turned, {}, config, {});
   ASSERT_EQ(a.steps.size(), b.steps.size());
-  EXPECT_EQ(a.networks.normalisation.view.frame, MotionFrame::kHand);
+  EXPECT_EQ(a.networks.normalisation.view.frame, ViewFrame::kHand);
   EXPECT_NEAR(a.steps[0].rotation_rad, b.steps[0].rotation_rad, 1e-4);
   EXPECT_NEAR(a.steps.back().position_m, b.steps.back().position_m, 1e-3);
 
   config.frame = "world";
   EXPECT_EQ(TrainStage(train.samples, {}, config, {}).networks.normalisation.view.frame,
-            MotionFrame::kWorld);
+            ViewFrame::kWorld);
   TrainHooks hooks;
   hooks.initial = a.networks;
   EXPECT_THROW(TrainStage(train.samples, {}, config, hooks), Error);

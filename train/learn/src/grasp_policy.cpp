@@ -49,21 +49,23 @@ class TrainedGraspPolicy : public GraspPolicy {
  private:
   // The affordance of the cloud's handle points.
   GraspChoice ScoredPoints(const LabelledCloud& cloud) const {
-    const std::vector<std::size_t> handle = internal::HandlePointsOf(cloud.label);
-    const std::vector<std::uint16_t> outputs(handle.begin(), handle.end());
     const StageNormalisation& normalisation = networks_.normalisation;
+    const CloudWindow window = internal::GraspWindow(normalisation, cloud.xyz);
+    const std::array<float, 3> origin = internal::GraspOrigin(normalisation, cloud.xyz);
+    const std::vector<std::size_t> handle =
+        internal::PointsInWindow(cloud.xyz, window, internal::HandlePointsOf(cloud.label));
+    const std::vector<std::uint16_t> outputs(handle.begin(), handle.end());
     GraspChoice choice;
     internal::HeadBatch batch;
     batch.size = static_cast<int>(outputs.size());
-    batch.features = affordance_
-                         .Forward(BuildGeometry(cloud.xyz, {normalisation.cloud_centre_m}, outputs,
-                                                BestInstructionSet()))
-                         .features;
+    batch.features =
+        affordance_.Forward(BuildGeometry(cloud.xyz, window, outputs, BestInstructionSet()))
+            .features;
     for (const std::size_t point : handle) {
       for (std::size_t k = 0; k < 3; ++k) {
         const float coordinate = cloud.xyz[3 * point + k];
         choice.point_xyz.push_back(coordinate);
-        batch.points.push_back((coordinate - normalisation.action.mean.at(k)) /
+        batch.points.push_back((coordinate - origin.at(k) - normalisation.action.mean.at(k)) /
                                normalisation.action.deviation.at(k));
       }
     }

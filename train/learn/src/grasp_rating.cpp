@@ -9,6 +9,7 @@
 #include "doorforge/learn/cloud_geometry.h"
 #include "doorforge/learn/orientation_sampling.h"
 
+#include "handle_points.h"
 #include "head_networks.h"
 
 namespace doorforge::internal {
@@ -21,9 +22,10 @@ GraspRater::GraspRater(const StageNetworks& networks)
 std::vector<float> GraspRater::Rate(std::span<const float> xyz,
                                     std::span<const Eigen::Matrix3d> orientations) const {
   const StageNormalisation& normalisation = networks_->normalisation;
-  const CloudGeometry geometry = BuildGeometry(xyz, {normalisation.cloud_centre_m});
+  const CloudGeometry geometry = BuildGeometry(xyz, GraspWindow(normalisation, xyz));
   const std::vector<float> feature = encoder_.Forward(geometry).features;
-  const Eigen::Vector3d contact(xyz[0], xyz[1], xyz[2]);
+  const std::array<float, 3> origin = GraspOrigin(normalisation, xyz);
+  const Eigen::Vector3d contact(xyz[0] - origin[0], xyz[1] - origin[1], xyz[2] - origin[2]);
   HeadBatch batch;
   batch.size = static_cast<int>(2 * orientations.size());
   for (const Eigen::Matrix3d& orientation : orientations) {

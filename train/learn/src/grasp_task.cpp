@@ -81,11 +81,12 @@ class GraspTask : public StageTask {
   }
 
   CloudGeometry GeometryOf(SampleSet set, int lesson, std::size_t i) const {
-    const std::array<float, 3>& centre = input_.networks->normalisation.cloud_centre_m;
+    const StageNormalisation& normalisation = input_.networks->normalisation;
     const std::span<const float> cloud = SamplesOf(set)[i].cloud;
-    if (lesson != kAffordanceLesson) return BuildGeometry(cloud, {centre});
+    if (lesson != kAffordanceLesson) return BuildGeometry(cloud, GraspWindow(normalisation, cloud));
     const RatedPoints& rated = rated_.at(static_cast<std::size_t>(set))[i];
-    return BuildGeometry(BeginningAt(cloud, rated.first), {centre}, rated.points,
+    const std::vector<float> begun = BeginningAt(cloud, rated.first);
+    return BuildGeometry(begun, GraspWindow(normalisation, begun), rated.points,
                          BestInstructionSet());
   }
 
@@ -110,18 +111,21 @@ class GraspTask : public StageTask {
     for (const std::size_t index : batch.indices) {
       const RatedPoints& rated = rated_.at(static_cast<std::size_t>(batch.set))[index];
       const std::vector<float> cloud = BeginningAt(SamplesOf(batch.set)[index].cloud, rated.first);
-      for (const std::uint16_t point : rated.points)
-        AppendPoint(std::span(cloud).subspan(std::size_t{3} * point, 3), head.points);
+      for (const std::uint16_t point : rated.points) AppendPoint(cloud, point, head.points);
       head.gains.insert(head.gains.end(), rated.targets.begin(), rated.targets.end());
     }
     head.size = static_cast<int>(head.gains.size());
     return head;
   }
 
-  void AppendPoint(std::span<const float> xyz, std::vector<float>& points) const {
-    const Normaliser<9>& action = input_.networks->normalisation.action;
+  void AppendPoint(const std::vector<float>& xyz, std::size_t point,
+                   std::vector<float>& points) const {
+    const StageNormalisation& normalisation = input_.networks->normalisation;
+    const std::array<float, 3> origin = GraspOrigin(normalisation, xyz);
+    const Normaliser<9>& action = normalisation.action;
     for (std::size_t k = 0; k < 3; ++k)
-      points.push_back((xyz[k] - action.mean.at(k)) / action.deviation.at(k));
+      points.push_back((xyz[3 * point + k] - origin.at(k) - action.mean.at(k)) /
+                       action.deviation.at(k));
   }
 
   // Some of the cloud's handle points; the contact that was tried where it shows no handle.
@@ -135,6 +139,7 @@ class GraspTask : public StageTask {
     for (std::size_t& point : handle) {  // places after the exchange of two points
       if (point == rated.first || point == 0) point = point == 0 ? rated.first : 0;
     }
+    handle = PointsInWindow(cloud, GraspWindow(input_.networks->normalisation, cloud), handle);
     Rng rng(input_.config->seed,
             (set == SampleSet::kTrain ? "train/ratings/" : "val/ratings/") + std::to_string(i));
     for (std::size_t k = 0; k < handle.size(); ++k)

@@ -16,11 +16,18 @@ ActionVector TargetOf(const ActionVector& turn, const Eigen::Matrix3d& world_fro
   return ToVector(target);
 }
 
-TrainingSample WithTurns(TrainingSample sample) {
+TrainingSample WithTurns(const TrainingSample& sample) {
   const Eigen::Matrix3d world_from_hand = HandRotationOf(sample.proprioception);
-  sample.action = TurnOf(sample.action, world_from_hand);
-  sample.executed = TurnOf(sample.executed, world_from_hand);
-  return sample;
+  TrainingSample turns = sample;
+  turns.action = TurnOf(sample.action, world_from_hand);
+  turns.executed = TurnOf(sample.executed, world_from_hand);
+  return turns;
+}
+
+TrainingSample AboutContact(const TrainingSample& sample) {
+  TrainingSample about = sample;
+  for (std::size_t k = 0; k < 3; ++k) about.action[k] -= sample.cloud[k];
+  return about;
 }
 
 }  // namespace doorforge::internal

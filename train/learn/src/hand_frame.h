@@ -16,6 +16,9 @@ ActionVector TurnOf(const ActionVector& action, const Eigen::Matrix3d& world_fro
 ActionVector TargetOf(const ActionVector& turn, const Eigen::Matrix3d& world_from_hand);
 
 /// The sample with turns for `action` and `executed`.
-TrainingSample WithTurns(TrainingSample sample);
+TrainingSample WithTurns(const TrainingSample& sample);
+
+/// The sample of a grasp with its contact told from point 0 of its cloud.
+TrainingSample AboutContact(const TrainingSample& sample);
 
 }  // namespace doorforge::internal

@@ -45,4 +45,28 @@ std::vector<float> BeginningAt(std::span<const float> xyz, std::size_t first) {
   return swapped;
 }
 
+std::array<float, 3> GraspOrigin(const StageNormalisation& normalisation,
+                                 std::span<const float> xyz) {
+  if (normalisation.view.frame == ViewFrame::kWorld) return {};
+  return {xyz[0], xyz[1], xyz[2]};
+}
+
+CloudWindow GraspWindow(const StageNormalisation& normalisation, std::span<const float> xyz) {
+  return WindowOf(normalisation, {xyz[0], xyz[1], xyz[2]});
+}
+
+std::vector<std::size_t> PointsInWindow(std::span<const float> xyz, const CloudWindow& window,
+                                        std::span<const std::size_t> points) {
+  std::vector<std::size_t> inside;
+  for (const std::size_t point : points) {
+    float squared = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      squared += (xyz[3 * point + k] - xyz[k]) * (xyz[3 * point + k] - xyz[k]);
+    // a little less than the radius: the geometry's own distances are rounded otherwise
+    if (window.radius_m <= 0 || squared < 0.999F * window.radius_m * window.radius_m)
+      inside.push_back(point);
+  }
+  return inside;
+}
+
 }  // namespace doorforge::internal

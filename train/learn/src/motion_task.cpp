@@ -8,6 +8,11 @@
 namespace doorforge::internal {
 namespace {
 
+std::array<float, 3> HandOf(const Proprioception& proprioception) {
+  const Eigen::Vector3f hand_m = HandPositionOf(proprioception);
+  return {hand_m.x(), hand_m.y(), hand_m.z()};
+}
+
 class MotionTask : public StageTask {
  public:
   explicit MotionTask(const TaskInput& input)
@@ -63,7 +68,7 @@ class MotionTask : public StageTask {
     const StageNormalisation& normalisation = input_.networks->normalisation;
     return {samples.size(), 1, bytes, [samples, &normalisation](std::size_t i) {
               return BuildGeometry(samples[i].cloud,
-                                   WindowOf(normalisation, samples[i].proprioception));
+                                   WindowOf(normalisation, HandOf(samples[i].proprioception)));
             }};
   }
 

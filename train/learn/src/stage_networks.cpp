@@ -164,10 +164,10 @@ Kind NamedKind(const Json& json, const char* key, std::initializer_list<Kind> ki
 }
 
 // What the records of earlier builds lack is as the default.
-MotionView ViewFromJson(const Json& json, const std::string& path) {
-  MotionView view;
+NetworkView ViewFromJson(const Json& json, const std::string& path) {
+  NetworkView view;
   if (json.contains("frame"))
-    view.frame = NamedKind(json, "frame", {MotionFrame::kHand, MotionFrame::kWorld}, path);
+    view.frame = NamedKind(json, "frame", {ViewFrame::kHand, ViewFrame::kWorld}, path);
   if (json.contains("state_of"))
     view.state =
         NamedKind(json, "state_of", {StateKind::kHand, StateKind::kJoints, StateKind::kNone}, path);
@@ -178,9 +178,7 @@ MotionView ViewFromJson(const Json& json, const std::string& path) {
 
 }  // namespace
 
-std::string_view NameOf(MotionFrame frame) {
-  return frame == MotionFrame::kHand ? "hand" : "world";
-}
+std::string_view NameOf(ViewFrame frame) { return frame == ViewFrame::kHand ? "hand" : "world"; }
 
 std::string_view NameOf(StateKind kind) {
   switch (kind) {
@@ -207,23 +205,22 @@ PolicyState StateOf(StateKind kind, const Proprioception& proprioception) {
 }
 
 CloudWindow WindowOf(const StageNormalisation& normalisation,
-                     const Proprioception& proprioception) {
+                     const std::array<float, 3>& hand_or_point_m) {
   CloudWindow window{normalisation.cloud_centre_m, normalisation.view.context_m};
-  if (normalisation.view.frame == MotionFrame::kHand) {
-    const Eigen::Vector3f hand_m = HandPositionOf(proprioception);
-    for (std::size_t k = 0; k < 3; ++k) window.centre[k] += hand_m[static_cast<Eigen::Index>(k)];
+  if (normalisation.view.frame == ViewFrame::kHand) {
+    for (std::size_t k = 0; k < 3; ++k) window.centre[k] += hand_or_point_m[k];
   }
   return window;
 }
 
 StageNormalisation MeasureNormalisation(std::span<const TrainingSample> samples,
-                                        const MotionView& view) {
+                                        const NetworkView& view) {
   Require(!samples.empty(), ErrorCode::kInvalidArgument, "no sample to train from");
   constexpr float kPosition = 0.005F;
   constexpr float kRotation = 0.05F;
   StageNormalisation normalisation;
   normalisation.view = view;
-  if (view.frame == MotionFrame::kWorld) normalisation.cloud_centre_m = MeanPoint(samples);
+  if (view.frame == ViewFrame::kWorld) normalisation.cloud_centre_m = MeanPoint(samples);
   normalisation.state =
       Measure<18>(samples, Filled<18>(view.state == StateKind::kHand ? 0.005F : 0.02F),
                   [&](const TrainingSample& s) { return StateOf(view.state, s.proprioception); });

@@ -41,8 +41,10 @@ class StagePolicy : public Policy {
 
   Action Act(const Observation& observation) override {
     internal::UseOneTorchThread();
-    const CloudGeometry geometry = BuildGeometry(
-        observation.cloud.xyz, WindowOf(networks_.normalisation, observation.proprioception));
+    const Eigen::Vector3f hand_m = HandPositionOf(observation.proprioception);
+    const CloudGeometry geometry =
+        BuildGeometry(observation.cloud.xyz,
+                      WindowOf(networks_.normalisation, {hand_m.x(), hand_m.y(), hand_m.z()}));
     HeadBatch batch = Conditions(observation);
     AppendCopies(actor_.Forward(geometry).features, batch.size, batch.features);
     const std::vector<float> actions = DecodeActions(networks_, batch, Latents());
@@ -55,7 +57,7 @@ class StagePolicy : public Policy {
 
  private:
   ActionVector InWorld(const ActionVector& action, const Proprioception& proprioception) const {
-    if (networks_.normalisation.view.frame == MotionFrame::kWorld) return action;
+    if (networks_.normalisation.view.frame == ViewFrame::kWorld) return action;
     return internal::TargetOf(action, HandRotationOf(proprioception));
   }
 

@@ -40,6 +40,8 @@ using internal::StageTask;
 // threads nor on that of processes, each of which has a subtree.
 constexpr std::size_t kGradientParts = 8;
 
+constexpr float kHandleScale = 0.1F;  // [m]
+
 // Sums equally long parts, a power of two of them, as a binary tree; the sum is left in the first.
 void SumAsTree(std::span<std::span<float>> parts) {
   for (std::size_t stride = 1; stride < parts.size(); stride *= 2) {
@@ -83,22 +85,25 @@ void AddScaled(const StageLosses& losses, double factor, StageLosses& sum) {
   for (const auto value : kLosses) sum.*value += factor * losses.*value;
 }
 
-MotionView ViewOf(const TrainConfig& config) {
-  MotionView view;
-  if (config.family == NetworkFamily::kGrasp) return view;
-  if (config.frame == NameOf(MotionFrame::kHand)) view.frame = MotionFrame::kHand;
+NetworkView ViewOf(const TrainConfig& config) {
+  NetworkView view;
+  if (config.frame == NameOf(ViewFrame::kHand)) view.frame = ViewFrame::kHand;
   for (const StateKind kind : {StateKind::kHand, StateKind::kNone}) {
-    if (config.state == NameOf(kind)) view.state = kind;
+    const bool has_state = config.family == NetworkFamily::kMotion;
+    if (has_state && config.state == NameOf(kind)) view.state = kind;
   }
   view.context_m = static_cast<float>(config.context_m);
   return view;
 }
 
-std::vector<TrainingSample> AllWithTurns(std::span<const TrainingSample> samples) {
-  std::vector<TrainingSample> turns;
-  turns.reserve(samples.size());
-  for (const TrainingSample& sample : samples) turns.push_back(internal::WithTurns(sample));
-  return turns;
+std::vector<TrainingSample> AllInHandFrame(std::span<const TrainingSample> samples,
+                                           NetworkFamily family) {
+  const auto convert =
+      family == NetworkFamily::kGrasp ? internal::AboutContact : internal::WithTurns;
+  std::vector<TrainingSample> converted;
+  converted.reserve(samples.size());
+  for (const TrainingSample& sample : samples) converted.push_back(convert(sample));
+  return converted;
 }
 
 // One of the two networks with what its training needs between steps.
@@ -156,13 +161,22 @@ class Trainer {
     TrainerState state;
     state.networks = hooks_.initial
                          ? *hooks_.initial
-                         : InitialNetworks(MeasureNormalisation(train_, ViewOf(config_)),
-                                           config_.linear_branches, config_.seed, config_.family);
+                         : InitialNetworks(MeasuredNormalisation(), config_.linear_branches,
+                                           config_.seed, config_.family);
     state.actor_first.resize(state.networks.actor.size());
     state.actor_second.resize(state.networks.actor.size());
     state.critic_first.resize(state.networks.critic.size());
     state.critic_second.resize(state.networks.critic.size());
     return state;
+  }
+
+  StageNormalisation MeasuredNormalisation() const {
+    const NetworkView view = ViewOf(config_);
+    StageNormalisation normalisation = MeasureNormalisation(train_, view);
+    // about the contact its own place is 0 always: the scale is that of the handle's other points
+    if (config_.family == NetworkFamily::kGrasp && view.frame == ViewFrame::kHand)
+      std::fill_n(normalisation.action.deviation.begin(), 3, kHandleScale);
+    return normalisation;
   }
 
   std::unique_ptr<StageTask> MakeTask() const {
@@ -476,16 +490,16 @@ TrainerState TrainStage(std::span<const TrainingSample> train,
                         const TrainHooks& hooks) {
   CheckTrainConfig(config);
   Require(!train.empty(), ErrorCode::kInvalidArgument, "no sample to train from");
-  const MotionView view = ViewOf(config);
+  const NetworkView view = ViewOf(config);
   Require(!hooks.initial || hooks.initial->normalisation.view == view, ErrorCode::kInvalidArgument,
           "the networks to begin with were trained with other settings of frame, state or "
           "context_m than \"" +
               config.frame + "\", \"" + config.state + "\", " + std::to_string(config.context_m));
   internal::UseOneTorchThread();
-  if (view.frame == MotionFrame::kWorld) return Trainer(train, validation, config, hooks).Run();
-  const std::vector<TrainingSample> turns = AllWithTurns(train);
-  const std::vector<TrainingSample> validation_turns = AllWithTurns(validation);
-  return Trainer(turns, validation_turns, config, hooks).Run();
+  if (view.frame == ViewFrame::kWorld) return Trainer(train, validation, config, hooks).Run();
+  const auto train_here = AllInHandFrame(train, config.family);
+  const auto validation_here = AllInHandFrame(validation, config.family);
+  return Trainer(train_here, validation_here, config, hooks).Run();
 }
 
 }  // namespace doorforge

@@ -32,12 +32,13 @@ struct Normaliser {
   }
 };
 
-/// How the motion networks are told where things are. kHand: clouds relative to the hand's position
-/// and the hand's turn from its present rotation, both along the world's axes, so that what was
-/// learned at one height and distance holds at others. kWorld: one centre for all clouds and
-/// absolute rotations, as UniDoorManip.
-enum class MotionFrame { kHand, kWorld };
-std::string_view NameOf(MotionFrame frame);  ///< "hand", "world".
+/// How the networks are told where things are. kHand: clouds relative to the hand's position and
+/// the hand's turn from its present rotation, both along the world's axes, so that what was learned
+/// at one height and distance holds at others; where a grasp is chosen, clouds and contact points
+/// relative to the cloud's point 0. kWorld: one centre for all clouds and absolute rotations, as
+/// UniDoorManip.
+enum class ViewFrame { kHand, kWorld };
+std::string_view NameOf(ViewFrame frame);  ///< "hand", "world".
 
 /// What the motion networks are told of the robot itself, 18 numbers. kHand: rows 1 and 2 of the
 /// hand's rotation and both finger openings, the rest 0; like the hand's frame it does not depend
@@ -47,19 +48,18 @@ enum class StateKind { kHand, kJoints, kNone };
 std::string_view NameOf(StateKind kind);  ///< "hand", "joints", "none".
 PolicyState StateOf(StateKind kind, const Proprioception& proprioception);
 
-/// How the motion networks are told of the scene. Default: what the grasp's networks are told, and
-/// UniDoorManip's.
-struct MotionView {
-  MotionFrame frame = MotionFrame::kWorld;
+/// How the networks are told of the scene. Default: as UniDoorManip. A grasp has no state.
+struct NetworkView {
+  ViewFrame frame = ViewFrame::kWorld;
   StateKind state = StateKind::kJoints;
   float context_m = 0;  ///< CloudWindow::radius_m of every cloud.
 
-  friend bool operator==(const MotionView&, const MotionView&) = default;
+  friend bool operator==(const NetworkView&, const NetworkView&) = default;
 };
 
 /// Constants between the world's numbers and the networks'. Part of a checkpoint.
 struct StageNormalisation {
-  MotionView view;
+  NetworkView view;
   /// Subtracted from every cloud, in the hand's frame after the hand's position; the scale stays
   /// metres.
   std::array<float, 3> cloud_centre_m{};
@@ -74,9 +74,10 @@ struct StageNormalisation {
 ///
 /// @throws Error(kInvalidArgument) if there is no sample.
 StageNormalisation MeasureNormalisation(std::span<const TrainingSample> samples,
-                                        const MotionView& view = {});
-/// Of a cloud that is seen at that moment.
-CloudWindow WindowOf(const StageNormalisation& normalisation, const Proprioception& proprioception);
+                                        const NetworkView& view = {});
+/// Of a cloud that is seen with the hand, or its own point 0, there.
+CloudWindow WindowOf(const StageNormalisation& normalisation,
+                     const std::array<float, 3>& hand_or_point_m);
 nlohmann::ordered_json NormalisationToJson(const StageNormalisation& normalisation);
 /// Throws Error(kFormat), naming `path`.
 StageNormalisation NormalisationFromJson(const nlohmann::ordered_json& json,

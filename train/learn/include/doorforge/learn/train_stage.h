@@ -38,7 +38,7 @@ struct TrainConfig {
   double prior_reconstruction = 1;
   /// True: no ReLU between the layers of the actor's branches and decoder, as released.
   bool linear_branches = false;
-  /// "hand" or "world" (UniDoorManip), see MotionFrame.
+  /// "hand" or "world" (UniDoorManip), see ViewFrame.
   std::string frame = "hand";
   /// "hand", "joints" (UniDoorManip) or "none", see StateKind.
   std::string state = "hand";
@@ -70,9 +70,7 @@ struct TrainConfig {
       visit("lambda_kl", self.lambda_kl);
       visit("prior_reconstruction", self.prior_reconstruction);
       visit("linear_branches", self.linear_branches);
-      visit("frame", self.frame);
       visit("state", self.state);
-      visit("context_m", self.context_m);
       visit("critic_interval", self.critic_interval);
     } else {
       visit("score_loss", self.score_loss);
@@ -81,6 +79,8 @@ struct TrainConfig {
       visit("best_orientations", self.best_orientations);
       visit("tilt_rad", self.tilt_rad);
     }
+    visit("frame", self.frame);
+    visit("context_m", self.context_m);
     visit("validation_share", self.validation_share);
     visit("seed", self.seed);
   }

@@ -1,0 +1,43 @@
+# SPDX-FileCopyrightText: 2026 The doorforge authors
+# SPDX-License-Identifier: Apache-2.0
+"""The policies in data/policies are whole, small, and open doors of every category that they never saw."""
+import hashlib
+import json
+import unittest
+
+from programs import SOURCE, ProgramTest, run
+
+POLICIES = SOURCE / "data/policies"
+STAGES = {"opener": "open", "handler": "handle", "grasper": "grasp"}
+# bodies and handles of the split full:test, and of the categories that are never trained on
+DOORS = {"interior_flush_01": "interior_lever_wave_02", "interior_louvred_02": "interior_round_egg_02",
+         "window_casement_03": "window_espagnolette_03", "car_sedan_01": "car_flap_03",
+         "safe_box_tall_02": "safe_wheel_three_01", "safe_wall_01": "safe_key_03",
+         "storage_arched_hutch_01": "storage_pull_bow_01",
+         "refrigerator_arched_01": "refrigerator_latch_01"}
+
+
+class ShippedPolicies(ProgramTest):
+    def test_they_are_what_their_records_say(self):
+        files = [path for path in POLICIES.rglob("*") if path.is_file()]
+        self.assertLess(sum(path.stat().st_size for path in files), 20e6)
+        for name, stage in STAGES.items():
+            record = json.loads((POLICIES / name / "policy.json").read_text())
+            self.assertEqual(record["stage"], stage)
+            weights = (POLICIES / name / record["weights"]).read_bytes()
+            self.assertEqual(hashlib.sha256(weights).hexdigest(), record["weights_sha256"], name)
+
+    def test_given_the_grasp_they_open_doors_that_they_never_saw(self):
+        for body, handle in DOORS.items():
+            self.assert_ends(run("compose", "--body", body, "--handle", handle, "--out", self.folder / "doors" / body), 0)
+        result = run("eval", "--policy", POLICIES / "opener", "--handler", POLICIES / "handler", "--doors",
+                     self.folder / "doors", "--seeds", 2, "--set", "expert_reference=false", "--out", self.folder / "report")
+        self.assert_ends(result, 0)
+        episodes = json.loads((self.folder / "report/report.json").read_text())["episodes"]
+        self.assertEqual(len(episodes), 2 * len(DOORS))
+        failed = [f'{episode["door_id"]}: {episode["detail"]}' for episode in episodes if episode["outcome"] != "opened"]
+        self.assertLessEqual(len(failed), 1, failed)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -12,6 +12,7 @@
 #include "doorforge/core/rng.h"
 #include "doorforge/learn/point_operators.h"
 
+#include "../../train/learn/src/device_encoder.h"
 #include "door_cloud.h"
 #include "reference_network.h"
 
@@ -152,6 +153,39 @@ TEST(PointEncoder, LeavesOutOnlyWhatPointZeroDoesNotDependOn) {
   const std::vector<float> of_all = encoder.Forward(all).features;
   EXPECT_EQ(encoder.Forward(one).features,
             std::vector<float>(of_all.begin(), of_all.begin() + kFeatureSize));
+}
+
+TEST(PointEncoder, AgreesWithTheSameNetworkInLibtorchsOperators) {
+  ParameterLayout layout;
+  AddEncoderLayers("encoder.", layout);
+  const std::vector<float> parameters = HeInitialisation(layout, 3, "");
+  internal::Geometries geometries;
+  for (const std::uint64_t seed : {3U, 4U, 5U}) {
+    const CloudWindow window{kCentre, seed == 4 ? 50.0F : 0.0F};
+    const std::vector<std::uint16_t> outputs = {0, static_cast<std::uint16_t>(seed)};
+    geometries.push_back(std::make_shared<const CloudGeometry>(
+        BuildGeometry(testing::DoorCloud(seed, 0.2), window, outputs, BestInstructionSet())));
+  }
+  const std::vector<float> wanted = RandomVector(std::size_t{6} * kFeatureSize, "device");
+  const PointEncoder own(layout, "encoder.", parameters, BestInstructionSet());
+  std::vector<float> features;
+  std::vector<float> gradient(parameters.size());
+  for (std::size_t i = 0; i < geometries.size(); ++i) {
+    const PointEncoder::Trace trace = own.Forward(*geometries[i]);
+    features.insert(features.end(), trace.features.begin(), trace.features.end());
+    own.AddGradient(*geometries[i], trace,
+                    std::span(wanted).subspan(2 * i * kFeatureSize, std::size_t{2} * kFeatureSize),
+                    gradient);
+  }
+  internal::DeviceEncoder device(layout, parameters, "libtorch");
+  const std::vector<float> device_features = device.Forward(geometries, true);
+  std::vector<float> device_gradient(parameters.size());
+  device.AddGradient(wanted, device_gradient);
+  ASSERT_EQ(device_features.size(), features.size());
+  for (std::size_t i = 0; i < features.size(); ++i)
+    ASSERT_NEAR(device_features[i], features[i], 1e-4) << i;
+  ExpectSameGradients(layout, gradient, device_gradient, 1e-4);
+  EXPECT_TRUE(device.Forward({}, true).empty());
 }
 
 // The cloud with all points farther than this from point 0 moved outward.

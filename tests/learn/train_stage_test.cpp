@@ -198,6 +198,27 @@ TEST(TrainStage, InTheHandsFrameItLearnsTurnsThatDoNotDependOnTheHandsRotation) 
   }
 }
 
+TEST(TrainStage, InLibtorchsOperatorsItLearnsTheSame) {
+  const auto train = testing::MakeSyntheticSamples(1, 16);
+  const auto validation = testing::MakeSyntheticSamples(2, 3);
+  TrainConfig config = SmallConfig();
+  config.epochs = 2;
+  config.context_m = 0.6;
+  const TrainerState own = TrainStage(train.samples, validation.samples, config, {});
+  config.device = "libtorch";
+  const TrainerState torch = TrainStage(train.samples, validation.samples, config, {});
+  ASSERT_EQ(torch.steps.size(), own.steps.size());
+  for (std::size_t i = 0; i < own.steps.size(); ++i) {
+    EXPECT_NEAR(torch.steps[i].rotation_rad, own.steps[i].rotation_rad, 1e-4);
+    EXPECT_NEAR(torch.steps[i].score_rad, own.steps[i].score_rad, 1e-4);
+  }
+  EXPECT_NEAR(torch.epochs[1].validation.rotation_rad, own.epochs[1].validation.rotation_rad, 1e-3);
+  for (const char* none : {"gpu", "", "cuda:99"}) {
+    config.device = none;
+    EXPECT_THROW(TrainStage(train.samples, {}, config, {}), Error) << none;
+  }
+}
+
 TEST(TrainStage, BeginsWithTheNetworksOfAnotherRun) {
   const auto train = testing::MakeSyntheticSamples(1, 8);
   const auto others = testing::MakeSyntheticSamples(2, 8);

@@ -40,6 +40,7 @@ struct Options {
   std::vector<std::string> settings;
   std::optional<int> epochs;
   std::optional<std::uint64_t> seed;
+  std::optional<std::string> device;
   double minutes = 0;
   int threads = 0;
   bool resume = false;
@@ -73,6 +74,9 @@ Options Parse(int argc, char** argv) {
   app.add_option("--threads", options.threads, "threads, 0: all; the result does not depend on it")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
+  app.add_option("--device", options.device,
+                 "cpu, cuda or cuda:N, where libtorch has CUDA, or libtorch: its operators on the\n"
+                 "processor (config: device)");
   app.add_flag("--resume", options.resume, "go on from the state in --out, if there is one");
   app.add_flag("--overwrite", options.overwrite, "start anew where --out holds a training");
   app.add_flag("--nodes", options.nodes,
@@ -103,6 +107,7 @@ TrainConfig ConfigOf(const Options& options) {
   auto config = LoadConfig<TrainConfig>(options.config, options.settings, defaults);
   if (options.epochs) config.epochs = *options.epochs;
   if (options.seed) config.seed = *options.seed;
+  if (options.device) config.device = *options.device;
   CheckTrainConfig(config);
   return config;
 }

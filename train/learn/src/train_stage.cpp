@@ -18,6 +18,7 @@
 #include "doorforge/learn/point_encoder.h"
 
 #include "adam.h"
+#include "device_encoder.h"
 #include "hand_frame.h"
 #include "head_networks.h"
 #include "network_batch.h"
@@ -114,6 +115,8 @@ struct Network {
   std::vector<float>* first;
   std::vector<float>* second;
   EncodedBatch encoded{};
+  std::optional<internal::DeviceEncoder> on_device{};  // in the place of `encoded`
+  std::vector<float> device_features{};
   std::array<std::vector<float>, kGradientParts> parts{};
   std::vector<float> gradient{};
   std::vector<float> feature_gradient{};
@@ -232,7 +235,7 @@ class Trainer {
         state_.step};
     const Geometries geometries = task_->GeometriesOf(lesson, OwnShare(batch));
     const std::vector<Network*> learning = Learning(lesson, lesson_step);
-    const std::vector<PointEncoder> encoders = Encode(learning, geometries);
+    const std::vector<PointEncoder> encoders = Encode(learning, geometries, true);
     StageLosses losses = UnknownLosses();
     for (Network* network : learning)
       losses = Updated(losses, Head(*network, batch, geometries.size()));
@@ -261,8 +264,27 @@ class Trainer {
     return {batch.set, {cut(FirstOwnPart()), cut(FirstOwnPart() + OwnParts())}, batch.step};
   }
 
+  bool OnDevice() const { return config_.device != "cpu"; }
+
+  void EncodeOnDevice(const std::vector<Network*>& networks, const Geometries& geometries,
+                      bool for_gradient) const {
+    for (Network* network : networks) {
+      network->on_device.emplace(*network->layout, *network->parameters, config_.device);
+      network->device_features = network->on_device->Forward(geometries, for_gradient);
+    }
+  }
+
+  std::vector<float> FeaturesOf(const Network& network, std::size_t clouds) const {
+    return OnDevice() ? network.device_features : network.encoded.Features(clouds);
+  }
+
+  // Of the processor's own kernels; on another device the networks keep what they need.
   std::vector<PointEncoder> Encode(const std::vector<Network*>& networks,
-                                   const Geometries& geometries) const {
+                                   const Geometries& geometries, bool for_gradient) const {
+    if (OnDevice()) {
+      EncodeOnDevice(networks, geometries, for_gradient);
+      return {};
+    }
     std::vector<std::optional<PointEncoder>> packed(networks.size());
     ParallelFor(networks.size(), threads_,
                 [&](std::size_t n) { packed[n].emplace(EncoderOf(*networks[n])); });
@@ -315,7 +337,7 @@ class Trainer {
   // The head is small: every process does the whole batch's.
   StageLosses Head(Network& network, const Minibatch& batch, std::size_t own_clouds) {
     network.gradient.assign(network.layout->size(), 0.0F);
-    BatchFeatures features = GatherFeatures(network.encoded.Features(own_clouds));
+    BatchFeatures features = GatherFeatures(FeaturesOf(network, own_clouds));
     HeadResult result =
         task_->Objective(network.role, batch, std::move(features.all), network.gradient);
     RequireFinite(result.objective, "a loss");
@@ -327,6 +349,10 @@ class Trainer {
 
   void Backward(const std::vector<Network*>& networks, const std::vector<PointEncoder>& encoders,
                 const Geometries& geometries, std::size_t batch_size) const {
+    if (OnDevice()) {
+      for (Network* network : networks) BackwardOnDevice(*network);
+      return;
+    }
     const std::vector<std::size_t> offsets = FeatureOffsets(geometries);
     const std::size_t first = FirstOwnPart() * batch_size / kGradientParts;
     ParallelFor(networks.size() * OwnParts(), threads_, [&](std::size_t task) {
@@ -342,6 +368,13 @@ class Trainer {
             std::span(network.feature_gradient).subspan(offsets[i], offsets[i + 1] - offsets[i]),
             part);
     });
+  }
+
+  // The gradient of the whole share; a device sums as it likes.
+  void BackwardOnDevice(Network& network) const {
+    for (std::size_t p = 0; p < OwnParts(); ++p)
+      network.parts[FirstOwnPart() + p].assign(network.layout->size(), 0.0F);
+    network.on_device->AddGradient(network.feature_gradient, network.parts[FirstOwnPart()]);
   }
 
   // Adds the encoder's gradient, of all processes, to that of what is behind it.
@@ -393,11 +426,10 @@ class Trainer {
       std::iota(batch.indices.begin(), batch.indices.end(), begin);
       const std::vector<Network*> taught = Taught(lesson);
       const Geometries geometries = task_->GeometriesOf(lesson, OwnShare(batch));
-      Encode(taught, geometries);
+      Encode(taught, geometries, false);
       StageLosses losses = UnknownLosses();
       for (Network* network : taught) {
-        std::vector<float> features =
-            GatherFeatures(network->encoded.Features(geometries.size())).all;
+        std::vector<float> features = GatherFeatures(FeaturesOf(*network, geometries.size())).all;
         const HeadResult result = task_->Objective(network->role, batch, std::move(features), {});
         RequireFinite(result.objective, "a validation loss");
         losses = Updated(losses, result.losses);
@@ -447,6 +479,7 @@ void CheckTrainConfig(const TrainConfig& config) {
   RequireConfig(config.state == "hand" || config.state == "joints" || config.state == "none",
                 "state", "hand, joints or none");
   RequireConfig(config.context_m >= 0 && config.context_m < 100, "context_m", "in [0, 100)");
+  internal::RequireDevice(config.device);
   RequireConfig(config.critic_interval >= 1, "critic_interval", "at least 1");
   RequireConfig(config.score_loss == "squared" || config.score_loss == "absolute", "score_loss",
                 "squared or absolute");

@@ -53,6 +53,10 @@ struct TrainConfig {
   int sampled_orientations = 50;  ///< Rated by the discriminator at each of them (UniDoorManip).
   int best_orientations = 10;     ///< Whose mean rating is the affordance's target (likewise).
   double tilt_rad = 0.1;          ///< Of sampled orientations, as OrientationSampling.
+  /// What computes the encoder. "cpu": this library's own kernels. "libtorch": the same network in
+  /// libtorch's operators, on the processor; "cuda", "cuda:N": there. Decides the last digits, and
+  /// on a GPU two equal runs may differ in them.
+  std::string device = "cpu";
   double validation_share = 0.1;  ///< Of the episodes, if the data set has no split "val".
   std::uint64_t seed = 1;
 
@@ -81,12 +85,13 @@ struct TrainConfig {
     }
     visit("frame", self.frame);
     visit("context_m", self.context_m);
+    visit("device", self.device);
     visit("validation_share", self.validation_share);
     visit("seed", self.seed);
   }
 };
 
-/// Throws Error(kInvalidConfig) on a value out of range, naming it.
+/// Throws Error(kInvalidConfig) on a value out of range, or a device that is not here, naming it.
 void CheckTrainConfig(const TrainConfig& config);
 
 /// Mean losses of a batch or of a set; NaN: not of this stage, or not measured. Position and
@@ -155,7 +160,8 @@ int EpochsOf(const TrainConfig& config);
 /// ratings.
 ///
 /// @returns The state at the end, or where `stop` ended it.
-/// @throws Error(kInvalidConfig), Error(kInvalidArgument) without samples or with a damaged cloud,
+/// @throws Error(kInvalidConfig), also if there is no such device, Error(kInvalidArgument) without
+/// samples or with a damaged cloud,
 ///     Error(kIncomplete) if a loss stops being finite.
 TrainerState TrainStage(std::span<const TrainingSample> train,
                         std::span<const TrainingSample> validation, const TrainConfig& config,

@@ -8,6 +8,7 @@
 
 #include "doorforge/core/error.h"
 
+#include "../../train/evaluate/src/html_text.h"
 #include "example_report.h"
 
 namespace doorforge {
@@ -39,6 +40,16 @@ TEST(Report, SuccessInTheFileIsCountedFromItsRows) {
   int failures = 0;
   for (const auto& [cause, count] : json.at("causes").items()) failures += count.get<int>();
   EXPECT_EQ(failures + opened, static_cast<int>(json.at("episodes").size()));
+}
+
+TEST(Report, NeverRoundsToAllOrNothing) {
+  const std::string space = "\u00a0";
+  EXPECT_EQ(internal::Percent(1), "100" + space + "%");
+  EXPECT_EQ(internal::Percent(917.0 / 921), "99.6" + space + "%");
+  EXPECT_EQ(internal::Percent(99999.0 / 100000), "99.9" + space + "%");
+  EXPECT_EQ(internal::Percent(0.943), "94" + space + "%");
+  EXPECT_EQ(internal::Percent(1e-5), "0.1" + space + "%");
+  EXPECT_EQ(internal::Percent(0), "0" + space + "%");
 }
 
 TEST(Report, ADoorIsSeenWhenItsBodyOrItsHandleWasTrainedOn) {

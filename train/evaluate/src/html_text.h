@@ -26,7 +26,7 @@ std::string PngUri(std::string_view png);
 
 std::string Fixed(double value, int digits);
 std::string Degrees(double angle_rad);  ///< "45.0°"
-std::string Percent(double share);      ///< "68 %", with a space that does not break
+std::string Percent(double share);      ///< "68 %", "99.6 %", with a space that does not break
 /// "56–79 %", which does not break
 std::string IntervalText(const SuccessRate& rate);
 std::string Plural(std::size_t count, const std::string& noun);  ///< "1 door", "3 doors"

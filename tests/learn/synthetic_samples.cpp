@@ -17,7 +17,10 @@ TrainingSample MakeSample(double hinge_rad, Rng& rng) {
   const double s = std::sin(hinge_rad);
   TrainingSample sample;
   Proprioception& proprioception = sample.proprioception;
-  for (std::size_t i = 0; i < 22; ++i) proprioception[i] = static_cast<float>(0.1 * rng.Normal());
+  for (const std::size_t first : {0U, 11U}) {  // positions and velocities of sliders and arm
+    for (std::size_t i = first; i < first + 9; ++i)
+      proprioception[i] = static_cast<float>(0.1 * rng.Normal());
+  }
   proprioception[0] = static_cast<float>(hinge_rad + 0.05 * rng.Normal());
   const std::array<double, 10> poses = {
       0.7 + 0.1 * rng.Normal(), 0, 0.1, 0.8 * s, 0.8 * c - 0.4, 1.0, 0, 0, 0, 1};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -155,39 +156,56 @@ TEST(PointEncoder, LeavesOutOnlyWhatPointZeroDoesNotDependOn) {
             std::vector<float>(of_all.begin(), of_all.begin() + kFeatureSize));
 }
 
-TEST(PointEncoder, AgreesWithTheSameNetworkInLibtorchsOperators) {
-  ParameterLayout layout;
+// Features and gradient of a batch, each cloud with its own share of `wanted`.
+std::pair<std::vector<float>, std::vector<float>> OnDevice(const Net& net,
+                                                           const internal::Geometries& geometries,
+                                                           std::span<const float> wanted) {
+  ParameterLayout layout;  // the same places in the flat vector
   AddEncoderLayers("encoder.", layout);
-  const std::vector<float> parameters = HeInitialisation(layout, 3, "");
-  internal::Geometries geometries;
-  for (const std::uint64_t seed : {3U, 4U, 5U}) {
-    const CloudWindow window{kCentre, seed == 4 ? 50.0F : 0.0F};
-    const std::vector<std::uint16_t> outputs = {0, static_cast<std::uint16_t>(seed)};
-    geometries.push_back(std::make_shared<const CloudGeometry>(
-        BuildGeometry(testing::DoorCloud(seed, 0.2), window, outputs, BestInstructionSet())));
-  }
-  std::vector<float> wanted = RandomVector(std::size_t{6} * kFeatureSize, "device");
-  // of one sign, as above: rounding switches a few ReLUs and maxima, and six points have few
+  internal::DeviceEncoder device(layout, net.parameters, "libtorch", /*in_double=*/true);
+  std::vector<float> features = device.Forward(geometries, true);
+  std::vector<float> gradient(net.parameters.size());
+  device.AddGradient(wanted, gradient);
+  return {std::move(features), std::move(gradient)};
+}
+
+TEST(PointEncoder, OnAnotherDeviceItIsTheSameNetwork) {
+  const Net net;
+  const std::vector<float> cloud = testing::DoorCloud(1, 0.3);
+  std::vector<float> wanted = RandomVector(std::size_t{kCloudPoints} * kFeatureSize, "all");
   for (float& w : wanted) w = std::abs(w);
-  const PointEncoder own(layout, "encoder.", parameters, BestInstructionSet());
-  std::vector<float> features;
-  std::vector<float> gradient(parameters.size());
-  for (std::size_t i = 0; i < geometries.size(); ++i) {
-    const PointEncoder::Trace trace = own.Forward(*geometries[i]);
-    features.insert(features.end(), trace.features.begin(), trace.features.end());
-    own.AddGradient(*geometries[i], trace,
-                    std::span(wanted).subspan(2 * i * kFeatureSize, std::size_t{2} * kFeatureSize),
-                    gradient);
-  }
-  internal::DeviceEncoder device(layout, parameters, "libtorch");
-  const std::vector<float> device_features = device.Forward(geometries, true);
-  std::vector<float> device_gradient(parameters.size());
-  device.AddGradient(wanted, device_gradient);
-  ASSERT_EQ(device_features.size(), features.size());
+  testing::ReferenceNetwork reference(net.layout, net.parameters, {cloud}, kCentre,
+                                      testing::Precision::kDouble);
+  const auto expected = reference.Run(wanted);
+  const auto geometry = std::make_shared<const CloudGeometry>(
+      BuildGeometry(cloud, {kCentre}, AllPoints(), BestInstructionSet()));
+  const auto [features, gradient] = OnDevice(net, {geometry}, wanted);
+  ASSERT_EQ(features.size(), expected.features.size());
   for (std::size_t i = 0; i < features.size(); ++i)
-    ASSERT_NEAR(device_features[i], features[i], 1e-4) << i;
-  ExpectSameGradients(layout, gradient, device_gradient, 5e-3);
-  EXPECT_TRUE(device.Forward({}, true).empty());
+    ASSERT_NEAR(features[i], expected.features[i], 1e-5) << i;
+  ExpectSameGradients(net.layout, expected.gradient, gradient, 1e-5);
+}
+
+TEST(PointEncoder, OnAnotherDeviceABatchIsTheSumOfItsClouds) {
+  const Net net;
+  internal::Geometries all;
+  for (const std::uint64_t seed : {3U, 4U, 5U}) {
+    const std::vector<std::uint16_t> outputs = {0, static_cast<std::uint16_t>(seed)};
+    all.push_back(std::make_shared<const CloudGeometry>(BuildGeometry(
+        testing::DoorCloud(seed, 0.2), {kCentre, 50}, outputs, BestInstructionSet())));
+  }
+  constexpr std::size_t kShare = std::size_t{2} * kFeatureSize;
+  const std::vector<float> wanted = RandomVector(3 * kShare, "device");
+  const auto [features, gradient] = OnDevice(net, all, wanted);
+  std::vector<float> sum(gradient.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto [own, part] = OnDevice(net, {all[i]}, std::span(wanted).subspan(i * kShare, kShare));
+    ASSERT_EQ(own.size(), kShare);
+    for (std::size_t k = 0; k < kShare; ++k) ASSERT_NEAR(features[i * kShare + k], own[k], 1e-5);
+    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += part[k];
+  }
+  ExpectSameGradients(net.layout, sum, gradient, 1e-5);
+  EXPECT_TRUE(OnDevice(net, {}, {}).first.empty());
 }
 
 // The cloud with all points farther than this from point 0 moved outward.

@@ -76,13 +76,22 @@ void Append(const CloudGeometry& geometry, JoinedGeometry& joined) {
   }
 }
 
+// Where and how precisely a network computes.
+struct Place {
+  torch::Device device;
+  torch::ScalarType real;
+};
+
 template <class T>
-Tensor Rows(const std::vector<T>& values, std::int64_t columns, const torch::Device& device) {
-  const auto type = std::is_same_v<T, float> ? torch::kFloat32 : torch::kInt64;
+Tensor Rows(const std::vector<T>& values, std::int64_t columns, const Place& place) {
+  constexpr bool kReal = std::is_same_v<T, float>;
   return torch::from_blob(const_cast<T*>(values.data()),
-                          {static_cast<std::int64_t>(values.size()) / columns, columns}, type)
-      .to(device, type, /*non_blocking=*/false, /*copy=*/true);
+                          {static_cast<std::int64_t>(values.size()) / columns, columns},
+                          kReal ? torch::kFloat32 : torch::kInt64)
+      .to(place.device, kReal ? place.real : torch::kInt64, /*non_blocking=*/false, /*copy=*/true);
 }
+
+Tensor Here(const Tensor& tensor) { return tensor.to(torch::kCPU, torch::kFloat32).contiguous(); }
 
 std::string LayerName(const char* kind, std::size_t level, int i) {
   return kind + std::to_string(level + 1) + "." + std::to_string(i);
@@ -107,7 +116,7 @@ void RequireDevice(const std::string& device) {
 
 struct DeviceEncoder::Network {
   const ParameterLayout* layout;
-  torch::Device device;
+  Place place;
   std::vector<Tensor> weights;  // of the encoder's layers, others undefined
   std::vector<Tensor> biases;
   Tensor features;
@@ -123,8 +132,8 @@ struct DeviceEncoder::Network {
 
   Tensor Abstract(const JoinedGeometry& joined, std::size_t l, const Tensor& xyz,
                   const Tensor& feature) const {
-    const Tensor ball = Rows(joined.ball[l], 1, device).view(-1);
-    const Tensor centre = Rows(joined.centre[l], 3, device).repeat_interleave(kBall, 0);
+    const Tensor ball = Rows(joined.ball[l], 1, place).view(-1);
+    const Tensor centre = Rows(joined.centre[l], 3, place).repeat_interleave(kBall, 0);
     Tensor rows =
         torch::cat({xyz.index_select(0, ball) - centre, feature.index_select(0, ball)}, 1);
     for (int i = 0; i < 3; ++i) rows = Dense(LayerName("sa", l, i), rows);
@@ -133,21 +142,21 @@ struct DeviceEncoder::Network {
 
   Tensor Propagate(const JoinedGeometry& joined, std::size_t l, const Tensor& coarse,
                    const Tensor& own) const {
-    const Tensor neighbour = Rows(joined.neighbour[l], 1, device).view(-1);
-    const Tensor weight = Rows(joined.weight[l], 3, device).view({-1, 3, 1});
+    const Tensor neighbour = Rows(joined.neighbour[l], 1, place).view(-1);
+    const Tensor weight = Rows(joined.weight[l], 3, place).view({-1, 3, 1});
     const Tensor near = coarse.index_select(0, neighbour).view({-1, 3, coarse.size(1)});
-    const Tensor skip = Rows(joined.skip[l], 1, device).view(-1);
+    const Tensor skip = Rows(joined.skip[l], 1, place).view(-1);
     Tensor rows = torch::cat({(near * weight).sum(1), own.index_select(0, skip)}, 1);
     for (int i = 0; i < (l == 0 ? 3 : 2); ++i) rows = Dense(LayerName("fp", l, i), rows);
     return rows;
   }
 
   Tensor Forward(const JoinedGeometry& joined) const {
-    Tensor xyz = Rows(joined.xyz, 3, device);
+    Tensor xyz = Rows(joined.xyz, 3, place);
     std::array<Tensor, 5> feature{xyz};
     for (std::size_t l = 0; l < 4; ++l) {
       feature[l + 1] = Abstract(joined, l, xyz, feature[l]);
-      xyz = Rows(joined.centre[l], 3, device);
+      xyz = Rows(joined.centre[l], 3, place);
     }
     Tensor up = feature[4];
     for (std::size_t l = 4; l-- > 0;) up = Propagate(joined, l, up, feature[l]);
@@ -156,19 +165,20 @@ struct DeviceEncoder::Network {
 };
 
 DeviceEncoder::DeviceEncoder(const ParameterLayout& layout, std::span<const float> parameters,
-                             const std::string& device) {
+                             const std::string& device, bool in_double) {
   RequireDevice(device);
-  network_ = std::make_unique<Network>(Network{&layout, *DeviceOf(device), {}, {}, {}});
+  network_ = std::make_unique<Network>(Network{
+      &layout, {*DeviceOf(device), in_double ? torch::kFloat64 : torch::kFloat32}, {}, {}, {}});
   for (const DenseLayer& layer : layout.layers()) {
     const bool ours = layer.name.starts_with("encoder.");
     const float* data = parameters.data();
     const std::vector<float> weight(data + layer.offset, data + layer.bias_offset());
     const std::vector<float> bias(data + layer.bias_offset(), data + layer.end());
     const auto leaf = [&](const Tensor& tensor) { return tensor.set_requires_grad(true); };
-    network_->weights.push_back(ours ? leaf(Rows(weight, layer.inputs, network_->device))
+    network_->weights.push_back(ours ? leaf(Rows(weight, layer.inputs, network_->place))
                                      : Tensor());
     network_->biases.push_back(
-        ours ? leaf(Rows(bias, layer.outputs, network_->device).view(-1).detach()) : Tensor());
+        ours ? leaf(Rows(bias, layer.outputs, network_->place).view(-1).detach()) : Tensor());
   }
 }
 
@@ -184,7 +194,7 @@ std::vector<float> DeviceEncoder::Forward(const Geometries& geometries, bool for
   const at::AutoGradMode mode(for_gradient);
   const Tensor features = network_->Forward(joined);
   if (for_gradient) network_->features = features;
-  const Tensor here = features.detach().to(torch::kCPU).contiguous();
+  const Tensor here = Here(features.detach());
   return {here.data_ptr<float>(), here.data_ptr<float>() + here.numel()};
 }
 
@@ -192,10 +202,10 @@ void DeviceEncoder::AddGradient(std::span<const float> feature_gradient,
                                 std::span<float> gradient) const {
   if (!network_->features.defined()) return;
   const std::vector<float> wanted(feature_gradient.begin(), feature_gradient.end());
-  network_->features.backward(Rows(wanted, kFeatureSize, network_->device));
+  network_->features.backward(Rows(wanted, kFeatureSize, network_->place));
   const auto add = [&](const Tensor& tensor, std::size_t offset) {
     if (!tensor.defined() || !tensor.grad().defined()) return;
-    const Tensor here = tensor.grad().to(torch::kCPU).contiguous();
+    const Tensor here = Here(tensor.grad());
     const float* from = here.data_ptr<float>();
     for (std::int64_t i = 0; i < here.numel(); ++i)
       gradient[offset + static_cast<std::size_t>(i)] += from[i];

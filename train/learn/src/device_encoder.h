@@ -18,9 +18,10 @@ namespace doorforge::internal {
 class DeviceEncoder {
  public:
   /// @param device "libtorch" for the processor, or a name that libtorch knows, such as "cuda:0".
+  /// @param in_double Computes in double precision: tells rounding from faults.
   /// @throws Error(kInvalidConfig) as RequireDevice().
   DeviceEncoder(const ParameterLayout& layout, std::span<const float> parameters,
-                const std::string& device);
+                const std::string& device, bool in_double = false);
   ~DeviceEncoder();
   DeviceEncoder(DeviceEncoder&&) noexcept;
   DeviceEncoder& operator=(DeviceEncoder&&) noexcept;

@@ -70,7 +70,7 @@ class TimedCamera : public Observer {
     Sight sight;
     look_s += SecondsOf([&] { sight = camera_.Look(snapshot); });
     sampling_s += SecondsOf([&] {
-      SampleCloud(sight.visible, snapshot.robot.world_from_tcp.translation(), point_count_);
+      SampleCloud(sight.visible, snapshot.robot.world_from_tcp.translation(), {point_count_});
     });
     return std::move(sight.sampled.cloud);
   }

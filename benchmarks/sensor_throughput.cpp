@@ -243,7 +243,7 @@ void MeasureCamera(const char* name, const std::vector<VisibleMesh>& meshes) {
   std::printf("  %.1f %% hits\n", 0.1 * static_cast<double>(hits) / rays);
   LabelledCloud cloud;
   const double crop = MedianMilliseconds(30, [&](int) { cloud = CropCloud(image, camera); });
-  const double sample = MedianMilliseconds(30, [&](int) { SampleCloud(cloud, {0, 0, 1}, 4096); });
+  const double sample = MedianMilliseconds(30, [&](int) { SampleCloud(cloud, {0, 0, 1}, {4096}); });
   std::printf("  crop %.2f ms to %zu points, sampling of 4096 %.2f ms\n", crop, cloud.label.size(),
               sample);
 }

@@ -14,6 +14,8 @@
 #include <unistd.h>
 
 #include "doorforge/core/config_file.h"
+#include "doorforge/core/error.h"
+#include "doorforge/core/free_space.h"
 #include "doorforge/core/program.h"
 #include "doorforge/datagen/describe_dataset.h"
 #include "doorforge/datagen/task_number.h"
@@ -179,39 +181,27 @@ int Finish(const CollectSummary& summary, const CollectionTask& task, const Opti
   return 1;
 }
 
-double BytesBelow(const fs::path& folder) {
-  double bytes = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file()) bytes += static_cast<double>(entry.file_size());
-  }
-  return bytes;
-}
-
 // Refuses what certainly has no room, and warns where there may be none: episodes have about 16
 // decisions where they open, 1 to 25 in general, and clouds are nearly all of their bytes.
-void RequireSpace(const Options& options, const StageRun& run, const CollectionTask& task) {
+void RequireSpaceForShards(const Options& options, const StageRun& run,
+                           const CollectionTask& task) {
   constexpr double kBytesAPoint = 13;
-  constexpr double kMiB = 1 << 20;
   const double decisions = run.config().stage == Stage::kGrasp ? 1 : 16;
   const double whole = static_cast<double>(run.config().episodes) * decisions * kBytesAPoint *
                        run.config().cloud.point_count / task.count;
   const double needed = whole - BytesBelow(options.out);
-  const auto available = static_cast<double>(fs::space(options.out).available);
-  if (available > needed) return;
-  char text[200];
-  std::snprintf(text, sizeof text,
-                ": about %.0f MiB are needed, %.0f MiB are free; make room, choose another --out, "
-                "or ask for fewer --episodes",
-                needed / kMiB, available / kMiB);
-  if (available < needed / 4) throw Error(ErrorCode::kIo, options.out + text);
-  std::fprintf(stderr, "doorforge: warning: %s%s\n", options.out.c_str(), text);
+  const std::string lack = LackOfSpace(options.out, needed);
+  if (lack.empty()) return;
+  const std::string text = lack + "; make room, choose another --out, or ask for fewer --episodes";
+  if (!LackOfSpace(options.out, needed / 4).empty()) throw Error(ErrorCode::kIo, text);
+  std::fprintf(stderr, "doorforge: warning: %s\n", text.c_str());
 }
 
 int CollectStage(const Options& options) {
   const CollectionTask task = TaskOf(options);
   StageRun run(RequestOf(options));
   PrepareFolder(options);
-  RequireSpace(options, run, task);
+  RequireSpaceForShards(options, run, task);
   CollectRequest request = run.Request();
   request.folder = options.out;
   request.threads = options.threads;

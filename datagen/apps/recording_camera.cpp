@@ -9,6 +9,11 @@
 #include "doorforge/sensor/picture.h"
 
 namespace doorforge {
+namespace {
+
+constexpr int kWidestPreview = 256;  // of each of its pictures
+
+}  // namespace
 
 RecordingCamera::RecordingCamera(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
                                  const CloudConfig& config, bool sees_robot)
@@ -57,8 +62,10 @@ std::string RecordingCamera::PreviewPng(std::size_t looks) const {
   if (count == 0) return {};
   const Picture pictures[] = {DepthPreview(depth_.front(), max_depth_m_),
                               DepthPreview(depth_[count - 1], max_depth_m_)};
-  return EncodePng(ContactSheet(
-      pictures, {}, {.columns = 2, .tile_width = model_.width, .tile_height = model_.height}));
+  const int width = std::min(model_.width, kWidestPreview);
+  const int height = model_.height * width / model_.width;
+  return EncodePng(
+      ContactSheet(pictures, {}, {.columns = 2, .tile_width = width, .tile_height = height}));
 }
 
 }  // namespace doorforge

@@ -11,6 +11,7 @@
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/error.h"
+#include "doorforge/core/free_space.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
@@ -94,6 +95,14 @@ class SourceDataset {
   const CollectionPlan& plan() const { return plan_; }
   const std::vector<ShardReader>& shards() const { return shards_; }
   const Source& SourceOf(const std::string& key) const { return sources_.at(key); }
+
+  std::uint64_t decisions() const {
+    std::uint64_t sum = 0;
+    for (const ShardReader& shard : shards_) {
+      for (const ShardEpisode& episode : shard.index().episodes) sum += episode.decisions;
+    }
+    return sum;
+  }
 
   /// Identity of what is looked at again.
   std::string ContentHash() const {
@@ -189,26 +198,29 @@ class Reobservation {
     Episode& episode = collected.episode;
     const RobotModel robot = RobotOf(episode.scene);
     const bool sees_robot = config_.robot && collected.meta.value("robot_seen", true);
-    RecordingCamera camera(episode.scene, door, robot, config_.cloud, sees_robot);
+    const bool at_grasp = source_.stage() == NameOf(Stage::kGrasp);
+    const Scene seen = at_grasp ? SceneOf(config_.grasp_look, episode.scene) : episode.scene;
+    const CloudExtent extent{config_.cloud.point_count, at_grasp ? config_.grasp_look.within_m : 0};
+    RecordingCamera camera(seen, door, robot, config_.cloud, sees_robot);
     for (std::size_t t = 0; t < arrays.decisions; ++t) {
       Decision decision = DecisionOf(arrays, t, episode.decisions.at(t).time_s);
       const SceneSnapshot snapshot = SnapshotOf(decision, episode.scene, door, robot);
       const Eigen::Vector3d start =
-          source_.stage() == NameOf(Stage::kGrasp)
-              ? Eigen::Vector3d(decision.action[0], decision.action[1], decision.action[2])
-              : snapshot.robot.world_from_tcp.translation();
-      decision.cloud =
-          SampleCloud(camera.LookAtAll(snapshot), start, config_.cloud.point_count).cloud;
+          at_grasp ? Eigen::Vector3d(decision.action[0], decision.action[1], decision.action[2])
+                   : snapshot.robot.world_from_tcp.translation();
+      decision.cloud = SampleCloud(camera.LookAtAll(snapshot), start, extent).cloud;
       episode.decisions[t] = std::move(decision);
     }
-    Describe(camera, collected);
+    if (at_grasp) collected.meta["cloud_within_m"] = extent.within_m;
+    Describe(camera, seen, collected);
   }
 
-  void Describe(const RecordingCamera& camera, CollectedEpisode& collected) const {
+  void Describe(const RecordingCamera& camera, const Scene& seen,
+                CollectedEpisode& collected) const {
     const std::size_t decisions = collected.episode.decisions.size();
     Json& meta = collected.meta;
     meta["scene"]["camera"] = CameraToJson(collected.episode.scene.camera);
-    meta["camera"] = CameraRecord(collected.episode.scene.camera);
+    meta["camera"] = CameraRecord(seen.camera);
     meta["visible_points"] = camera.Visible(decisions);
     meta["hidden"] = camera.OcclusionRecord(decisions);
     if (!config_.robot) meta["robot_seen"] = false;
@@ -239,6 +251,10 @@ SourceConfig ReadSourceConfig(const fs::path& folder) {
   const Json json = ParseYaml(ReadFile(path), path.string());
   SourceConfig source;
   if (json.contains("cloud")) Assign(json["cloud"], source.config.cloud, path.string() + ".cloud");
+  // a data set of an earlier build has none: its clouds were of the whole door
+  source.config.grasp_look = {.finer = 1, .within_m = 0};
+  if (json.contains("grasp_look"))
+    Assign(json["grasp_look"], source.config.grasp_look, path.string() + ".grasp_look");
   if (json.contains("preview"))
     source.config.preview = ValueOf<bool>(json, "preview", path.string());
   if (json.contains("robot") && json["robot"].is_boolean())
@@ -253,8 +269,18 @@ ReobserveConfig ConfigOf(const ReobserveRequest& request, const ReobserveConfig&
   if (request.without_robot) config.robot = false;
   config.own_camera = config.own_camera || ToJson(config.camera) != ToJson(CameraConfig{});
   CheckDepthNoise(config.cloud.noise);
+  CheckGraspLook(config.grasp_look);
   if (config.own_camera) CameraOf(config.camera);
   return config;
+}
+
+// The clouds alone, which nothing can make smaller.
+void RequireSpaceForClouds(const SourceDataset& source, const ReobserveConfig& config,
+                           const fs::path& out) {
+  constexpr double kBytesAPoint = 13;
+  const double needed =
+      static_cast<double>(source.decisions()) * config.cloud.point_count * kBytesAPoint;
+  RequireSpace(out, needed - BytesBelow(out), "make room, or choose another --out");
 }
 
 }  // namespace
@@ -263,6 +289,7 @@ CollectSummary ReobserveDataset(const ReobserveRequest& request) {
   const SourceDataset source(request.folder);
   const SourceConfig source_config = ReadSourceConfig(request.folder);
   const ReobserveConfig config = ConfigOf(request, source_config.config);
+  RequireSpaceForClouds(source, config, request.out);
   const DoorFolder doors =
       FindRecordedDoors(request.doors, source.provenance().doors, request.threads);
   Reobservation reobservation(source, config, source_config.robot_file, doors);

@@ -8,6 +8,7 @@
 
 #include "doorforge/datagen/collect.h"
 #include "doorforge/physics/scene_sampling.h"
+#include "doorforge/rollout/grasp_look.h"
 #include "doorforge/sensor/point_cloud.h"
 
 namespace doorforge {
@@ -19,6 +20,7 @@ struct ReobserveConfig {
   bool robot = true;
   bool own_camera = false;  ///< True: `camera` for all episodes; false: each episode's own.
   CameraConfig camera;
+  GraspLook grasp_look;  ///< At "grasp".
   CloudConfig cloud;
   bool preview = true;
 
@@ -27,6 +29,7 @@ struct ReobserveConfig {
     visit("robot", self.robot);
     visit("own_camera", self.own_camera);
     visit("camera", self.camera);
+    visit("grasp_look", self.grasp_look);
     visit("cloud", self.cloud);
     visit("preview", self.preview);
   }

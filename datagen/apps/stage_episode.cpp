@@ -96,6 +96,7 @@ void CheckStageConfig(const StageConfig& config) {
           ErrorCode::kInvalidConfig, "config.cloud.point_count: out of 1..1000000");
   CheckDepthNoise(config.cloud.noise);
   CheckRandomGrasp(config.grasp);
+  CheckGraspLook(config.grasp_look);
   Require(config.sampled_grasps >= 0 && config.sampled_grasps <= 1, ErrorCode::kInvalidConfig,
           "config.sampled_grasps: out of 0..1");
   Require(config.learner_decisions >= 1 && config.learner_decisions <= 1000,
@@ -113,15 +114,18 @@ CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const DoorAsset&
   Actors actors(config, trained);
   const bool at_grasp = config.stage == Stage::kGrasp;
   const bool samples_grasp = SamplesGrasp(config, planned);
+  const Scene recorded_scene = at_grasp ? SceneOf(config.grasp_look, scene) : scene;
+  const double within_m = at_grasp ? config.grasp_look.within_m : 0;
   // the grasp is chosen before the robot stands between camera and handle
   std::optional<RecordingCamera> before;
-  if (samples_grasp) before.emplace(scene, door, robot, config.cloud, /*sees_robot=*/false);
+  if (samples_grasp)
+    before.emplace(recorded_scene, door, robot, config.cloud, /*sees_robot=*/false);
   std::optional<RecordingCamera> later;
   if (!at_grasp) later.emplace(scene, door, robot, config.cloud, /*sees_robot=*/true);
   RecordingCamera& camera = at_grasp ? *before : *later;
   std::optional<CameraObserver> policies_camera;
   if (at_grasp) policies_camera.emplace(scene, door, robot, config.cloud);
-  RandomGrasp grasp(scene, door, robot, config.grasp, config.cloud.point_count,
+  RandomGrasp grasp(scene, door, robot, config.grasp, {config.cloud.point_count, within_m},
                     [&](const SceneSnapshot& snapshot) { return before->LookAtAll(snapshot); });
   EpisodeRoles roles{.recorded = config.stage, .open = actors.open()};
   if (config.stage != Stage::kOpen) roles.handle = actors.handle();
@@ -141,11 +145,14 @@ CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const DoorAsset&
   collected.meta["stage"] = NameOf(config.stage);
   collected.meta["door"] = DoorRecord(door);
   collected.meta["poses"] = PosesRecord(episode.scene);
-  collected.meta["camera"] = CameraRecord(scene.camera);
+  collected.meta["camera"] = CameraRecord(recorded_scene.camera);
   collected.meta["visible_points"] = camera.Visible(decisions);
   collected.meta["hidden"] = camera.OcclusionRecord(decisions);
   collected.meta["policies"] = PoliciesRecord(samples_grasp, trained);
-  if (at_grasp) collected.meta["robot_seen"] = false;
+  if (at_grasp) {
+    collected.meta["robot_seen"] = false;
+    collected.meta["cloud_within_m"] = within_m;
+  }
   collected.keep_failed = at_grasp;
   const bool is_kept = episode.outcome == EpisodeOutcome::kOpened || collected.keep_failed;
   if (config.preview && is_kept) collected.preview_png = camera.PreviewPng(decisions);

@@ -9,6 +9,7 @@
 #include "doorforge/datagen/collection_plan.h"
 #include "doorforge/physics/robot_model.h"
 #include "doorforge/physics/scene_sampling.h"
+#include "doorforge/rollout/grasp_look.h"
 #include "doorforge/rollout/handle_expert.h"
 #include "doorforge/rollout/opening_expert.h"
 #include "doorforge/rollout/random_grasp.h"
@@ -34,6 +35,7 @@ struct StageConfig {
   RandomGraspConfig grasp;  ///< How grasps are sampled.
   /// With a learner: it drives 1 to this many decisions, drawn for each episode, then the expert.
   int learner_decisions = 16;
+  GraspLook grasp_look;  ///< At "grasp": what the recorded cloud is seen with.
   CloudConfig cloud;
   /// Adds preview.png to each episode: depth at the first and at the last look.
   bool preview = true;
@@ -51,6 +53,7 @@ struct StageConfig {
       visit("learner_decisions", self.learner_decisions);
     }
     visit("grasp", self.grasp);
+    if (self.stage == Stage::kGrasp) visit("grasp_look", self.grasp_look);
     visit("cloud", self.cloud);
     visit("preview", self.preview);
   }

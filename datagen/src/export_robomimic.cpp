@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/free_space.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/schemas/dataset.h"
@@ -39,15 +40,11 @@ std::vector<DatasetPart> PartsOfStage(const fs::path& folder, const std::string&
   return parts;
 }
 
-void RequireSpace(const fs::path& out, const std::vector<DatasetPart>& parts) {
-  std::uint64_t wanted = 0;
-  for (const DatasetPart& part : parts) wanted += part.bytes + part.episodes * kOverheadPerEpisode;
-  const fs::path folder = out.has_parent_path() ? out.parent_path() : fs::path(".");
-  const std::uint64_t free = fs::space(folder).available;
-  if (free < wanted)
-    throw Error(ErrorCode::kIo, folder.string() + ": " + std::to_string(free >> 20) +
-                                    " MiB free, the file needs about " +
-                                    std::to_string(wanted >> 20) + " MiB");
+void RequireSpaceForFile(const fs::path& out, const std::vector<DatasetPart>& parts) {
+  double wanted = 0;
+  for (const DatasetPart& part : parts)
+    wanted += static_cast<double>(part.bytes + part.episodes * kOverheadPerEpisode);
+  RequireSpace(out.parent_path(), wanted, "make room, or choose another --out");
 }
 
 DatasetProvenance ProvenanceIn(const fs::path& folder) {
@@ -200,7 +197,7 @@ RobomimicSummary ExportRobomimic(const RobomimicRequest& request) {
                 request.out.string() + ": already exists; pass --overwrite to replace it");
   const std::vector<DatasetPart> parts = PartsOfStage(request.folder, request.stage);
   if (request.out.has_parent_path()) fs::create_directories(request.out.parent_path());
-  RequireSpace(request.out, parts);
+  RequireSpaceForFile(request.out, parts);
   PartialFile partial(request.out);
   Exporter exporter(request, partial.path());
   for (const DatasetPart& part : parts) {

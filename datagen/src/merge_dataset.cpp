@@ -5,8 +5,11 @@
 #include <fstream>
 #include <vector>
 
+#include <sys/stat.h>
+
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
+#include "doorforge/core/free_space.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
 
@@ -44,6 +47,14 @@ fs::path CopyPath(const fs::path& tar) {
   return tar.parent_path() / ("." + tar.filename().string() + ".copy");
 }
 
+// Files of two file systems are copied, those of one get a second name.
+bool OnOneFileSystem(const fs::path& a, const fs::path& b) {
+  struct stat first {};
+  struct stat second {};
+  return ::stat(a.c_str(), &first) == 0 && ::stat(b.c_str(), &second) == 0 &&
+         first.st_dev == second.st_dev;
+}
+
 class Merge {
  public:
   explicit Merge(const MergeRequest& request) : request_(request), files_(*request.files) {}
@@ -53,6 +64,7 @@ class Merge {
     const DatasetProvenance provenance = ReadProvenance(request_.folder);
     const std::vector<ExpectedShard> shards = ExpectedShards(provenance);
     summary_.shards = shards.size();
+    RequireSpaceForCopies(shards);
     for (const ExpectedShard& shard : shards) {
       for (const fs::path& part : request_.parts) {
         if (IsIndexed(part, shard)) Bring(part, shard);
@@ -84,6 +96,19 @@ class Merge {
                 folder.string() +
                     ": provenance.json names no plan; it was written by an earlier "
                     "build, whose datasets are not merged");
+  }
+
+  void RequireSpaceForCopies(const std::vector<ExpectedShard>& shards) const {
+    double needed = 0;
+    for (const fs::path& part : request_.parts) {
+      if (OnOneFileSystem(part, request_.folder)) continue;
+      for (const ExpectedShard& shard : shards) {
+        if (!IsIndexed(part, shard) || IsIndexed(request_.folder, shard)) continue;
+        needed +=
+            static_cast<double>(ReadShardIndex(part / (shard.Name() + ".index.json")).tar_bytes);
+      }
+    }
+    RequireSpace(request_.folder, needed, "make room, or choose another folder");
   }
 
   // The tar first: without its index a shard counts for nothing.

@@ -88,15 +88,16 @@ TEST(Checkpoint, APolicyComesBackAsItWasWritten) {
 
 TEST(Checkpoint, WhatTheNetworksAreToldComesBackAndIsWhatItWasInEarlierRecords) {
   const auto made = testing::MakeSyntheticSamples(1, 3);
-  const NetworkView view{ViewFrame::kHand, StateKind::kNone, 0.25F};
+  const NetworkView view{ViewFrame::kHand, StateKind::kNone, 0.25F, 4, 0.5F};
   auto json = NormalisationToJson(MeasureNormalisation(made.samples, view));
   EXPECT_EQ(NormalisationFromJson(json, "policy.json").view, view);
   json["state_of"] = "elsewhere";
   ExpectError(ErrorCode::kFormat, "policy.json.state_of",
               [&] { NormalisationFromJson(json, "policy.json"); });
-  for (const char* key : {"frame", "state_of", "context_m"}) json.erase(key);
+  for (const char* key : {"frame", "state_of", "context_m", "zoom", "cloud_within_m"})
+    json.erase(key);
   EXPECT_EQ(NormalisationFromJson(json, "policy.json").view,
-            (NetworkView{ViewFrame::kWorld, StateKind::kJoints, 0}));
+            (NetworkView{ViewFrame::kWorld, StateKind::kJoints, 0, 1, 0}));
 }
 
 TEST(Checkpoint, AGraspComesBackAsItWasWrittenAndIsNoOtherStagesPolicy) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -190,7 +191,7 @@ TEST(TrainGrasp, PrefersThePointsAndTheTurnsThatOpenDoorsItHasNotSeen) {
   for (std::uint64_t i = 0; i < kWorlds; ++i) {
     const GraspWorld world(900000 + i);
     const GraspView view{world.cloud, kApproach,
-                         [&](const Eigen::Vector3d& start) { return world.From(start); }};
+                         [&](const Eigen::Vector3d& start, double) { return world.From(start); }};
     const auto choice = policy->Choose(view);
     ASSERT_TRUE(choice.has_value());
     EXPECT_EQ(choice->affordance_rad.size(), std::size_t{kCloudPoints / 16});
@@ -225,8 +226,9 @@ TEST(GraspPolicy, InTheHandsFrameItChoosesAlikeWhereverTheDoorIsAndSeesNoFarther
     config.frame = frame;
     const auto policy = MakeGraspPolicy(TrainStage(train.samples, {}, config, {}).networks);
     const auto choose = [&](const GraspWorld& world) {
-      return *policy->Choose({world.cloud, kApproach,
-                              [&](const Eigen::Vector3d& start) { return world.From(start); }});
+      return *policy->Choose({world.cloud, kApproach, [&](const Eigen::Vector3d& start, double) {
+                                return world.From(start);
+                              }});
     };
     const GraspWorld here(17);
     const GraspChoice a = choose(here);
@@ -253,13 +255,31 @@ TEST(GraspPolicy, InTheHandsFrameItChoosesAlikeWhereverTheDoorIsAndSeesNoFarther
   }
 }
 
+TEST(GraspPolicy, AsksForCloudsOfTheExtentThatItLearnedFrom) {
+  GraspSamples train = MakeGraspSamples(6, 8);
+  for (TrainingSample& sample : train.samples) sample.cloud_within_m = 0.5F;
+  TrainConfig config = GraspConfig();
+  config.epochs = 1;
+  config.batch_size = 8;
+  const auto policy = MakeGraspPolicy(TrainStage(train.samples, {}, config, {}).networks);
+  const GraspWorld world(17);
+  std::set<double> asked;
+  policy->Choose({world.cloud, kApproach, [&](const Eigen::Vector3d& start, double within_m) {
+                    asked.insert(within_m);
+                    return world.From(start);
+                  }});
+  EXPECT_EQ(asked, std::set<double>{0.5});
+  train.samples[3].cloud_within_m = 0.25F;
+  EXPECT_THROW(TrainStage(train.samples, {}, config, {}), Error) << "two extents";
+}
+
 TEST(GraspPolicy, ChoosesNothingWithoutAHandleInView) {
   const GraspSamples train = MakeGraspSamples(5, 2);
   const auto policy = MakeGraspPolicy(
       InitialNetworks(MeasureNormalisation(train.samples), false, 1, NetworkFamily::kGrasp));
   GraspWorld world(1);
   std::fill(world.cloud.label.begin(), world.cloud.label.end(), std::uint8_t{0});
-  const auto sample = [&](const Eigen::Vector3d& start) { return world.From(start); };
+  const auto sample = [&](const Eigen::Vector3d& start, double) { return world.From(start); };
   EXPECT_FALSE(policy->Choose({world.cloud, kApproach, sample}).has_value());
   world.cloud.label.pop_back();
   EXPECT_THROW(policy->Choose({world.cloud, kApproach, sample}), Error);

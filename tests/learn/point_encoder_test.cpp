@@ -245,6 +245,20 @@ TEST(PointEncoder, SeesNothingBeyondTheWindow) {
   EXPECT_EQ(features(cloud, 50), features(cloud, 0)) << "all are inside";
 }
 
+TEST(PointEncoder, ZoomIsTheSameAsACloudOfALargerThing) {
+  const Net net;
+  const PointEncoder encoder(net.layout, "", net.parameters, BestInstructionSet());
+  const std::vector<float> cloud = testing::DoorCloud(7, 0.1);
+  std::vector<float> larger = cloud;  // by a power of two: not a bit is rounded
+  for (float& coordinate : larger) coordinate *= 4;
+  const auto features = [&](const std::vector<float>& xyz, const CloudWindow& window) {
+    return encoder.Forward(BuildGeometry(xyz, window)).features;
+  };
+  const std::vector<float> zoomed = features(cloud, {{}, 0.7F, 4});
+  EXPECT_EQ(zoomed, features(larger, {{}, 2.8F}));
+  EXPECT_NE(zoomed, features(cloud, {{}, 0.7F}));
+}
+
 TEST(PointEncoder, AWindowWithFewPointsHoldsTheNearest) {
   const std::vector<float> cloud = testing::DoorCloud(7, 0.1);
   const CloudGeometry geometry = BuildGeometry(cloud, {kCentre, 0.01F});

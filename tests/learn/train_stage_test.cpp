@@ -189,9 +189,12 @@ TEST(TrainStage, InTheHandsFrameItLearnsTurnsThatDoNotDependOnTheHandsRotation) 
   EXPECT_NO_THROW(TrainStage(train.samples, {}, config, hooks));
   config.context_m = 0.3;
   EXPECT_THROW(TrainStage(train.samples, {}, config, hooks), Error) << "another context";
+  config.context_m = 0;
+  config.zoom = 2;
+  EXPECT_THROW(TrainStage(train.samples, {}, config, hooks), Error) << "another zoom";
   for (const auto& change : std::initializer_list<std::function<void(TrainConfig&)>>{
            [](TrainConfig& c) { c.frame = "elsewhere"; }, [](TrainConfig& c) { c.state = "all"; },
-           [](TrainConfig& c) { c.context_m = -1; }}) {
+           [](TrainConfig& c) { c.context_m = -1; }, [](TrainConfig& c) { c.zoom = 0; }}) {
     TrainConfig bad = SmallConfig();
     change(bad);
     EXPECT_THROW(TrainStage(train.samples, {}, bad, {}), Error);

@@ -103,7 +103,7 @@ TEST(ObserveCloud, GivesExactly4096VisiblePointsStartingAtTheGripper) {
 }
 
 TEST(SampleCloud, RepeatsTheSequenceWhereFewerPointsAreVisible) {
-  const SampledCloud sampled = SampleCloud(Line(5), {3.1, 0, 1}, 12);
+  const SampledCloud sampled = SampleCloud(Line(5), {3.1, 0, 1}, {12});
   ASSERT_EQ(sampled.cloud.label.size(), 12U);
   EXPECT_EQ(sampled.visible_count, 5);
   const std::vector<Point> points = PointsOf(sampled.cloud);
@@ -113,21 +113,37 @@ TEST(SampleCloud, RepeatsTheSequenceWhereFewerPointsAreVisible) {
 }
 
 TEST(SampleCloud, GivesNoPointsWhereNothingIsVisible) {
-  const SampledCloud sampled = SampleCloud({}, {0, 0, 0}, 4096);
+  const SampledCloud sampled = SampleCloud({}, {0, 0, 0}, {4096});
   EXPECT_EQ(sampled.visible_count, 0);
   EXPECT_TRUE(sampled.cloud.xyz.empty());
   EXPECT_TRUE(sampled.cloud.label.empty());
 }
 
 TEST(SampleCloud, KeepsEachLabelWithItsPoint) {
-  for (const auto& [x, y, z, label] : PointsOf(SampleCloud(Line(50), {0, 0, 0}, 50).cloud))
+  for (const auto& [x, y, z, label] : PointsOf(SampleCloud(Line(50), {0, 0, 0}, {50}).cloud))
     EXPECT_EQ(label, static_cast<int>(x) % kPointLabelCount);
 }
 
+TEST(SampleCloud, SpendsItsPointsOnWhatIsWithinTheExtentOfPointZero) {
+  // the visible point nearest to the start is 10, not the start itself
+  const SampledCloud sampled = SampleCloud(Line(50), {10.4, 0, 1}, {8, 3.2});
+  EXPECT_EQ(sampled.visible_count, 7);
+  std::vector<float> x;
+  for (const auto& point : PointsOf(sampled.cloud)) x.push_back(std::get<0>(point));
+  EXPECT_EQ(x.front(), 10);
+  EXPECT_EQ(x.back(), 10) << "seven points, then the sequence again";
+  EXPECT_EQ(std::set<float>(x.begin(), x.end()), (std::set<float>{7, 8, 9, 10, 11, 12, 13}));
+  EXPECT_EQ(SampleCloud(Line(50), {10.4, 0, 1}, {8, 1000}).cloud.xyz,
+            SampleCloud(Line(50), {10.4, 0, 1}, {8}).cloud.xyz);
+  EXPECT_TRUE(SampleCloud({}, {0, 0, 0}, {8, 1}).cloud.xyz.empty());
+}
+
 TEST(SampleCloud, RefusesCountsAndStartsOutOfRange) {
-  EXPECT_THROW(SampleCloud(Line(5), {0, 0, 0}, 0), Error);
-  EXPECT_THROW(SampleCloud(Line(5), {0, 0, 0}, 1000001), Error);
-  EXPECT_THROW(SampleCloud(Line(5), {0, NAN, 0}, 5), Error);
+  EXPECT_THROW(SampleCloud(Line(5), {0, 0, 0}, {0}), Error);
+  EXPECT_THROW(SampleCloud(Line(5), {0, 0, 0}, {1000001}), Error);
+  EXPECT_THROW(SampleCloud(Line(5), {0, NAN, 0}, {5}), Error);
+  EXPECT_THROW(SampleCloud(Line(5), {0, 0, 0}, {5, -1}), Error);
+  EXPECT_THROW(SampleCloud(Line(5), {0, 0, 0}, {5, NAN}), Error);
 }
 
 }  // namespace

@@ -95,8 +95,8 @@ Sight CameraObserver::Look(const SceneSnapshot& snapshot) {
   sight.depth =
       WithDepthNoise(sight.ideal, model_, config_.noise, Stream(std::to_string(looks_++)));
   sight.visible = CropCloud(sight.depth, believed_, config_);
-  sight.sampled =
-      SampleCloud(sight.visible, snapshot.robot.world_from_tcp.translation(), config_.point_count);
+  sight.sampled = SampleCloud(sight.visible, snapshot.robot.world_from_tcp.translation(),
+                              {config_.point_count});
   return sight;
 }
 

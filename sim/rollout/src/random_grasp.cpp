@@ -9,7 +9,6 @@
 #include <Eigen/Geometry>
 
 #include "doorforge/core/error.h"
-#include "doorforge/sensor/point_cloud.h"
 
 namespace doorforge {
 namespace {
@@ -67,9 +66,9 @@ void CheckRandomGrasp(const RandomGraspConfig& config) {
 }
 
 RandomGrasp::RandomGrasp(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
-                         const RandomGraspConfig& config, int point_count, Look look)
+                         const RandomGraspConfig& config, const CloudExtent& extent, Look look)
     : config_(config),
-      point_count_(point_count),
+      extent_(extent),
       look_(std::move(look)),
       rng_(scene.seed, "grasp/" + scene.door_id + "/" + std::to_string(scene.episode)),
       handle_from_grasp_(door.handle_from_grasp.linear()),
@@ -87,7 +86,7 @@ std::optional<ChosenGrasp> RandomGrasp::Choose(const SceneSnapshot& snapshot) {
   ChosenGrasp chosen;
   chosen.contact_m = PointOf(visible, contact).cast<double>();
   chosen.world_from_hand_rotation = Orientation(snapshot.door[kHandleLink]);
-  chosen.cloud = SampleCloud(visible, chosen.contact_m, point_count_).cloud;
+  chosen.cloud = SampleCloud(visible, chosen.contact_m, extent_).cloud;
   return chosen;
 }
 

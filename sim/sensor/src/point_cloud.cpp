@@ -3,6 +3,7 @@
 #include "doorforge/sensor/point_cloud.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "doorforge/core/error.h"
@@ -30,6 +31,17 @@ void AppendPoint(const LabelledCloud& from, std::size_t index, LabelledCloud& to
   to.xyz.insert(to.xyz.end(), from.xyz.begin() + static_cast<std::ptrdiff_t>(3 * index),
                 from.xyz.begin() + static_cast<std::ptrdiff_t>(3 * index + 3));
   to.label.push_back(from.label[index]);
+}
+
+// The points near point `centre`, in their order.
+LabelledCloud PointsWithin(const LabelledCloud& cloud, std::size_t centre, double within_m) {
+  LabelledCloud near;
+  const Eigen::Map<const Eigen::Vector3f> middle(&cloud.xyz[3 * centre]);
+  for (std::size_t i = 0; i < cloud.label.size(); ++i) {
+    const Eigen::Map<const Eigen::Vector3f> point(&cloud.xyz[3 * i]);
+    if (static_cast<double>((point - middle).norm()) <= within_m) AppendPoint(cloud, i, near);
+  }
+  return near;
 }
 
 }  // namespace
@@ -67,17 +79,25 @@ LabelledCloud CropCloud(const DepthImage& image, const PinholeView& view,
 }
 
 SampledCloud SampleCloud(const LabelledCloud& visible, const Eigen::Vector3d& start_m,
-                         int point_count) {
-  Require(point_count >= 1 && point_count <= 1000000, ErrorCode::kInvalidArgument,
+                         const CloudExtent& extent) {
+  Require(extent.point_count >= 1 && extent.point_count <= 1000000, ErrorCode::kInvalidArgument,
           "point cloud: point_count out of 1..1000000");
+  Require(extent.within_m >= 0 && std::isfinite(extent.within_m), ErrorCode::kInvalidArgument,
+          "point cloud: within_m must be at least 0");
   Require(start_m.allFinite(), ErrorCode::kInvalidArgument,
           "point cloud: the start position is not finite");
+  if (extent.within_m > 0 && !visible.label.empty()) {
+    const auto nearest = static_cast<std::size_t>(NearestPoint(visible.xyz, start_m));
+    return SampleCloud(PointsWithin(visible, nearest, extent.within_m), start_m,
+                       {extent.point_count});
+  }
   SampledCloud result;
   result.visible_count = static_cast<int>(visible.label.size());
   if (result.visible_count == 0) return result;
-  const std::vector<std::int32_t> order = FarthestPoints(
-      visible.xyz, std::min(point_count, result.visible_count), NearestPoint(visible.xyz, start_m));
-  const std::size_t count = static_cast<std::size_t>(point_count);
+  const std::vector<std::int32_t> order =
+      FarthestPoints(visible.xyz, std::min(extent.point_count, result.visible_count),
+                     NearestPoint(visible.xyz, start_m));
+  const std::size_t count = static_cast<std::size_t>(extent.point_count);
   result.cloud.xyz.reserve(3 * count);
   result.cloud.label.reserve(count);
   for (std::size_t i = 0; i < count; ++i)
@@ -87,7 +107,7 @@ SampledCloud SampleCloud(const LabelledCloud& visible, const Eigen::Vector3d& st
 
 SampledCloud ObserveCloud(const DepthImage& image, const CameraModel& camera,
                           const Eigen::Vector3d& start_m, const CloudConfig& config) {
-  return SampleCloud(CropCloud(image, camera, config), start_m, config.point_count);
+  return SampleCloud(CropCloud(image, camera, config), start_m, {config.point_count});
 }
 
 }  // namespace doorforge

@@ -57,7 +57,7 @@ std::unique_ptr<GraspChooser> MakeRandomGrasp(const EvaluationConfig& config, co
   const auto camera = std::make_shared<CameraObserver>(scene, door, robot, config.cloud,
                                                        /*sees_robot=*/false);
   return std::make_unique<RandomGrasp>(
-      scene, door, robot, config.random_grasp, config.cloud.point_count,
+      scene, door, robot, config.random_grasp, CloudExtent{config.cloud.point_count},
       [camera](const SceneSnapshot& snapshot) { return camera->Look(snapshot).visible; });
 }
 
@@ -72,7 +72,8 @@ void AddGrasper(const EvaluationRequest& request, Players& players) {
     const auto make = [&config, policy = std::shared_ptr<GraspPolicy>(
                                     LoadGraspPolicy(request.grasper, config.grasp))](
                           const Scene& scene, const DoorAsset& door, const RobotModel& robot) {
-      return std::make_unique<TrainedGrasp>(scene, door, robot, config.cloud, policy);
+      return std::make_unique<TrainedGrasp>(SceneOf({.finer = config.grasp_look_finer}, scene),
+                                            door, robot, config.cloud, policy);
     };
     players.make_grasp = make;
     players.explain_grasp = [make](const Scene& scene, const DoorAsset& door,

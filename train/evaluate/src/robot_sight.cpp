@@ -198,7 +198,7 @@ RobotState ReadRobotState(const std::filesystem::path& path, const RobotModel& r
 RobotSight ObserveDepth(const DepthImage& depth, const CalibratedCamera& camera,
                         const RobotState& state, const CloudConfig& config) {
   const LabelledCloud visible = VisiblePoints(depth, camera, config);
-  SampledCloud sampled = SampleCloud(visible, state.tcp_in_world_m, config.point_count);
+  SampledCloud sampled = SampleCloud(visible, state.tcp_in_world_m, {config.point_count});
   RobotSight sight;
   sight.observation.cloud = std::move(sampled.cloud);
   sight.observation.proprioception = state.proprioception;
@@ -229,8 +229,9 @@ HandleSight ObserveHandle(DepthImage depth, const PixelMask& handle, const Calib
                     Format("(nearer than %.2f m, higher than %.2f m)", config.max_depth_m,
                            config.min_height_m));
   sight.view.approach = approach;
-  sight.view.sample = [visible, count = config.point_count](const Eigen::Vector3d& start) {
-    return SampleCloud(visible, start, count).cloud;
+  sight.view.sample = [visible, count = config.point_count](const Eigen::Vector3d& start,
+                                                            double within_m) {
+    return SampleCloud(visible, start, {count, within_m}).cloud;
   };
   return sight;
 }

@@ -66,7 +66,8 @@ std::string Line(const SvgPlot& plot, const PlotPoints& points, const std::strin
   bool pen_down = false;
   for (const auto& [x, y] : points) {
     if (std::isfinite(y)) {
-      path += (pen_down ? "L" : "M") + Fixed(plot.X(x), 1) + " " + Fixed(plot.Y(y), 1);
+      path += pen_down ? 'L' : 'M';
+      path += Fixed(plot.X(x), 1) + " " + Fixed(plot.Y(y), 1);
     }
     pen_down = std::isfinite(y);
   }

@@ -22,8 +22,8 @@ std::optional<GraspChoice> TrainedGrasp::Consider(const SceneSnapshot& snapshot)
   GraspView view;
   view.visible = camera_.Look(snapshot).visible;
   view.approach = -snapshot.door[kHandleLink].linear().col(0);
-  view.sample = [&](const Eigen::Vector3d& start) {
-    return SampleCloud(view.visible, start, point_count_).cloud;
+  view.sample = [&](const Eigen::Vector3d& start, double within_m) {
+    return SampleCloud(view.visible, start, {point_count_, within_m}).cloud;
   };
   return policy_->Choose(view);
 }

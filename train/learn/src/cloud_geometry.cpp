@@ -49,6 +49,13 @@ Indices InWindow(const PointColumns& points, float radius_m) {
   return inside;
 }
 
+void Magnify(PointColumns& points, float zoom) {
+  if (zoom == 1) return;
+  for (auto* coordinates : {&points.x, &points.y, &points.z}) {
+    for (float& coordinate : *coordinates) coordinate *= zoom;
+  }
+}
+
 // Where the outputs are among the points of the window.
 Indices OutputsInside(const Indices& inside, std::span<const std::uint16_t> outputs) {
   Indices rows;
@@ -116,6 +123,7 @@ CloudGeometry BuildGeometry(std::span<const float> xyz, const CloudWindow& windo
   points[0] = ToColumns(xyz, window.centre);
   const Indices inside = InWindow(points[0], window.radius_m);
   points[0] = points[0].Select(inside);
+  Magnify(points[0], window.zoom);
   for (std::size_t level = 0; level < 4; ++level) {
     points[level + 1] =
         points[level].Select(FarthestPoints(points[level], kSetAbstractions[level].points, set));

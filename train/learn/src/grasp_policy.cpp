@@ -41,12 +41,17 @@ class TrainedGraspPolicy : public GraspPolicy {
     const std::vector<std::size_t> handle = internal::HandlePointsOf(visible.label);
     if (handle.empty()) return std::nullopt;
     const std::size_t middle = internal::MiddlePoint(visible.xyz, handle);
-    GraspChoice choice = ScoredPoints(view.sample(PointOf(visible.xyz, middle)));
+    GraspChoice choice = ScoredPoints(Sample(view, PointOf(visible.xyz, middle)));
     TakeBest(view, choice);
     return choice;
   }
 
  private:
+  // As the clouds were sampled that the networks learned from.
+  LabelledCloud Sample(const GraspView& view, const Eigen::Vector3d& start) const {
+    return view.sample(start, static_cast<double>(networks_.normalisation.view.cloud_within_m));
+  }
+
   // The affordance of the cloud's handle points.
   GraspChoice ScoredPoints(const LabelledCloud& cloud) const {
     const StageNormalisation& normalisation = networks_.normalisation;
@@ -89,7 +94,7 @@ class TrainedGraspPolicy : public GraspPolicy {
       Rng rng(options_.seed, "grasp/orientations/" + std::to_string(i));
       const std::vector<Eigen::Matrix3d> orientations =
           SampleOrientations(view.approach, {options_.orientations, options_.tilt_rad}, rng);
-      LabelledCloud cloud = view.sample(PointOf(choice.point_xyz, order[i]));
+      LabelledCloud cloud = Sample(view, PointOf(choice.point_xyz, order[i]));
       const std::vector<float> ratings = rater_.Rate(cloud.xyz, orientations);
       const auto best = std::max_element(ratings.begin(), ratings.end());
       if (i > 0 && static_cast<double>(*best) <= choice.score_rad) continue;

@@ -103,7 +103,9 @@ std::vector<TrainingSample> SamplesOf(const DatasetReader& reader, const std::st
                                           std::to_string(kCloudPoints));
     RequireFinite(arrays, reader.entry(i).key);
     AppendEpisode(arrays, samples);
-    if (FamilyOf(stage) == NetworkFamily::kGrasp) samples.back().approach = ApproachOf(reader, i);
+    if (FamilyOf(stage) != NetworkFamily::kGrasp) continue;
+    samples.back().approach = ApproachOf(reader, i);
+    samples.back().cloud_within_m = reader.Meta(i).value("cloud_within_m", 0.0F);
   }
   return samples;
 }

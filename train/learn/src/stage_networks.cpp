@@ -173,6 +173,9 @@ NetworkView ViewFromJson(const Json& json, const std::string& path) {
         NamedKind(json, "state_of", {StateKind::kHand, StateKind::kJoints, StateKind::kNone}, path);
   if (json.contains("context_m"))
     view.context_m = static_cast<float>(ValueOf<double>(json, "context_m", path));
+  if (json.contains("zoom")) view.zoom = static_cast<float>(ValueOf<double>(json, "zoom", path));
+  if (json.contains("cloud_within_m"))
+    view.cloud_within_m = static_cast<float>(ValueOf<double>(json, "cloud_within_m", path));
   return view;
 }
 
@@ -206,7 +209,8 @@ PolicyState StateOf(StateKind kind, const Proprioception& proprioception) {
 
 CloudWindow WindowOf(const StageNormalisation& normalisation,
                      const std::array<float, 3>& hand_or_point_m) {
-  CloudWindow window{normalisation.cloud_centre_m, normalisation.view.context_m};
+  CloudWindow window{normalisation.cloud_centre_m, normalisation.view.context_m,
+                     normalisation.view.zoom};
   if (normalisation.view.frame == ViewFrame::kHand) {
     for (std::size_t k = 0; k < 3; ++k) window.centre[k] += hand_or_point_m[k];
   }
@@ -243,6 +247,8 @@ Json NormalisationToJson(const StageNormalisation& normalisation) {
   return {{"frame", NameOf(normalisation.view.frame)},
           {"state_of", NameOf(normalisation.view.state)},
           {"context_m", normalisation.view.context_m},
+          {"zoom", normalisation.view.zoom},
+          {"cloud_within_m", normalisation.view.cloud_within_m},
           {"cloud_centre_m", normalisation.cloud_centre_m},
           {"cloud_scale", 1},
           {"state", NormaliserToJson(normalisation.state)},

@@ -94,7 +94,17 @@ NetworkView ViewOf(const TrainConfig& config) {
     if (has_state && config.state == NameOf(kind)) view.state = kind;
   }
   view.context_m = static_cast<float>(config.context_m);
+  view.zoom = static_cast<float>(config.zoom);
   return view;
+}
+
+// The clouds' extent, which is one.
+float CloudWithin(std::span<const TrainingSample> samples) {
+  for (const TrainingSample& sample : samples)
+    Require(sample.cloud_within_m == samples.front().cloud_within_m, ErrorCode::kInvalidArgument,
+            "the data sets' clouds have different extents (cloud_within_m in meta.json); train "
+            "from those with the same");
+  return samples.front().cloud_within_m;
 }
 
 std::vector<TrainingSample> AllInHandFrame(std::span<const TrainingSample> samples,
@@ -478,6 +488,7 @@ void CheckTrainConfig(const TrainConfig& config) {
   RequireConfig(config.frame == "hand" || config.frame == "world", "frame", "hand or world");
   RequireConfig(config.state == "hand" || config.state == "joints" || config.state == "none",
                 "state", "hand, joints or none");
+  RequireConfig(config.zoom > 0 && config.zoom <= 100, "zoom", "in (0, 100]");
   RequireConfig(config.context_m >= 0 && config.context_m < 100, "context_m", "in [0, 100)");
   internal::RequireDevice(config.device);
   RequireConfig(config.critic_interval >= 1, "critic_interval", "at least 1");
@@ -523,10 +534,11 @@ TrainerState TrainStage(std::span<const TrainingSample> train,
                         const TrainHooks& hooks) {
   CheckTrainConfig(config);
   Require(!train.empty(), ErrorCode::kInvalidArgument, "no sample to train from");
-  const NetworkView view = ViewOf(config);
+  NetworkView view = ViewOf(config);
+  view.cloud_within_m = CloudWithin(train);
   Require(!hooks.initial || hooks.initial->normalisation.view == view, ErrorCode::kInvalidArgument,
-          "the networks to begin with were trained with other settings of frame, state or "
-          "context_m than \"" +
+          "the networks to begin with were trained with other settings of frame, state, "
+          "context_m or zoom, or from clouds of another extent, than \"" +
               config.frame + "\", \"" + config.state + "\", " + std::to_string(config.context_m));
   internal::UseOneTorchThread();
   if (view.frame == ViewFrame::kWorld) return Trainer(train, validation, config, hooks).Run();

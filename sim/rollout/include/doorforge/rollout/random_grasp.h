@@ -7,6 +7,7 @@
 
 #include "doorforge/core/rng.h"
 #include "doorforge/rollout/run_episode.h"
+#include "doorforge/sensor/point_cloud.h"
 
 namespace doorforge {
 
@@ -40,10 +41,10 @@ class RandomGrasp : public GraspChooser {
   /// All points that the camera sees at an instant; called once an episode.
   using Look = std::function<LabelledCloud(const SceneSnapshot&)>;
 
-  /// @param point_count Of the recorded cloud, farthest points from the contact on.
+  /// @param extent Of the recorded cloud, farthest points from the contact on.
   /// @throws Error(kInvalidConfig) on a share out of [0, 1] or a spread below 0.
   RandomGrasp(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
-              const RandomGraspConfig& config, int point_count, Look look);
+              const RandomGraspConfig& config, const CloudExtent& extent, Look look);
 
   std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override;
 
@@ -51,7 +52,7 @@ class RandomGrasp : public GraspChooser {
   Eigen::Matrix3d Orientation(const RigidTransform& world_from_handle);
 
   RandomGraspConfig config_;
-  int point_count_;
+  CloudExtent extent_;
   Look look_;
   Rng rng_;
   Eigen::Matrix3d handle_from_grasp_;

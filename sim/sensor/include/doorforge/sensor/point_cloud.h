@@ -39,10 +39,18 @@ LabelledCloud CropCloud(const DepthImage& image, const CameraModel& camera,
 LabelledCloud CropCloud(const DepthImage& image, const PinholeView& view,
                         const CloudConfig& config = {});
 
+/// How many points a cloud has, and from how far around its first.
+struct CloudExtent {
+  int point_count = 4096;  ///< In [1, 1000000].
+  /// Visible points farther than this from point 0 are left out [m], which spends all points on
+  /// what is near; 0: none is.
+  double within_m = 0;
+};
+
 struct SampledCloud {
   /// Exactly `point_count` points, or none at all if nothing is visible inside the crop.
   LabelledCloud cloud;
-  int visible_count = 0;  ///< Points inside the crop before sampling.
+  int visible_count = 0;  ///< Points to sample from: in the crop and within the extent.
 };
 
 /// Farthest point sampling of a cropped cloud.
@@ -55,9 +63,10 @@ struct SampledCloud {
 /// from its start until the cloud is full.
 ///
 /// @param start_m World position, in general the gripper's.
-/// @throws Error(kInvalidArgument) if point_count is out of range or start_m is not finite.
+/// @throws Error(kInvalidArgument) if point_count is out of range, start_m is not finite, or
+///     within_m is negative or not finite.
 SampledCloud SampleCloud(const LabelledCloud& visible, const Eigen::Vector3d& start_m,
-                         int point_count);
+                         const CloudExtent& extent);
 
 /// CropCloud() and SampleCloud() in one.
 SampledCloud ObserveCloud(const DepthImage& image, const CameraModel& camera,

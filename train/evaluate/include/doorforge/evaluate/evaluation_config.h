@@ -8,6 +8,7 @@
 #include "doorforge/learn/grasp_policy.h"
 #include "doorforge/learn/stage_policy.h"
 #include "doorforge/physics/scene_sampling.h"
+#include "doorforge/rollout/grasp_look.h"
 #include "doorforge/rollout/random_grasp.h"
 #include "doorforge/sensor/point_cloud.h"
 
@@ -23,8 +24,9 @@ struct EvaluationConfig {
   /// "privileged", the simulator, or "predicted", the policy itself, as on a robot.
   std::string unlock_switch = "privileged";
   PolicyOptions policy;
-  GraspOptions grasp;              ///< Of a trained grasper.
-  RandomGraspConfig random_grasp;  ///< Of the grasper "random".
+  GraspOptions grasp;                        ///< Of a trained grasper.
+  RandomGraspConfig random_grasp;            ///< Of the grasper "random".
+  int grasp_look_finer = GraspLook{}.finer;  ///< GraspLook::finer of a trained grasper.
   SceneConfig scene;
   CloudConfig cloud;  ///< As in the data set that the policy was trained from.
 
@@ -38,6 +40,7 @@ struct EvaluationConfig {
     visit("policy", self.policy);
     visit("grasp", self.grasp);
     visit("random_grasp", self.random_grasp);
+    visit("grasp_look_finer", self.grasp_look_finer);
     visit("scene", self.scene);
     visit("cloud", self.cloud);
   }

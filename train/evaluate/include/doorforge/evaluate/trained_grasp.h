@@ -16,6 +16,7 @@ namespace doorforge {
 /// picture and the direction into the leaf (the x of the handle's frame).
 class TrainedGrasp : public GraspChooser {
  public:
+  /// @param scene With the camera that the grasp is chosen by, see GraspLook.
   /// @throws as CameraObserver.
   TrainedGrasp(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
                const CloudConfig& config, std::shared_ptr<GraspPolicy> policy);

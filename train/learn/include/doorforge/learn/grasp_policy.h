@@ -42,8 +42,8 @@ struct GraspView {
   /// World: straight into the leaf, which for all handles but flaps is the handle's axis.
   Eigen::Vector3d approach = -Eigen::Vector3d::UnitX();
   /// The policy's cloud of 4096 points, beginning with the visible point nearest to a place in the
-  /// world (farthest point sampling).
-  std::function<LabelledCloud(const Eigen::Vector3d&)> sample;
+  /// world, of points within a distance of that one [m] (0: of all; farthest point sampling).
+  std::function<LabelledCloud(const Eigen::Vector3d&, double)> sample;
 };
 
 struct GraspChoice {

@@ -53,6 +53,9 @@ struct NetworkView {
   ViewFrame frame = ViewFrame::kWorld;
   StateKind state = StateKind::kJoints;
   float context_m = 0;  ///< CloudWindow::radius_m of every cloud.
+  float zoom = 1;       ///< CloudWindow::zoom of every cloud.
+  /// Where a grasp is chosen: TrainingSample::cloud_within_m of what was learned from.
+  float cloud_within_m = 0;
 
   friend bool operator==(const NetworkView&, const NetworkView&) = default;
 };

@@ -44,6 +44,8 @@ struct TrainConfig {
   std::string state = "hand";
   /// Points farther than this from point 0 are not seen [m]; 0: all are, see CloudWindow.
   double context_m = 0;
+  /// CloudWindow::zoom of every cloud.
+  double zoom = 1;
   /// The critic learns on every n-th step only; 1: on all.
   int critic_interval = 1;
   /// What the discriminator minimises: "squared" error, which makes its score the expected angle,
@@ -85,6 +87,7 @@ struct TrainConfig {
     }
     visit("frame", self.frame);
     visit("context_m", self.context_m);
+    visit("zoom", self.zoom);
     visit("device", self.device);
     visit("validation_share", self.validation_share);
     visit("seed", self.seed);

@@ -26,6 +26,8 @@ struct TrainingSample {
   float score_rad = 0;  ///< What was executed gained: the critic's target.
   /// Unit, world: straight into the closed leaf. Of the stage "grasp".
   std::array<float, 3> approach{};
+  /// How far from point 0 the cloud's points were taken [m]; 0: wherever any was visible.
+  float cloud_within_m = 0;
 };
 
 }  // namespace doorforge

@@ -57,8 +57,8 @@ class PartialFile {
  public:
   explicit PartialFile(const fs::path& target)
       : target_(target),
-        path_(target.parent_path() /
-              ("." + target.filename().string() + "." + std::to_string(::getpid()) + ".partial")) {}
+        path_(target.parent_path() / (std::string(1, '.') + target.filename().string() + "." +
+                                      std::to_string(::getpid()) + ".partial")) {}
   ~PartialFile() {
     std::error_code ignored;
     fs::remove(path_, ignored);

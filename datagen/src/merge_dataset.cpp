@@ -44,7 +44,7 @@ bool IsIndexed(const fs::path& folder, const ExpectedShard& shard) {
 }
 
 fs::path CopyPath(const fs::path& tar) {
-  return tar.parent_path() / ("." + tar.filename().string() + ".copy");
+  return tar.parent_path() / (std::string(1, '.') + tar.filename().string() + ".copy");
 }
 
 // Files of two file systems are copied, those of one get a second name.

@@ -150,6 +150,8 @@ TEST(TrainGrasp, GivesTheSameBitsForAnyNumberOfThreadsAndInterruptionsInBothLess
   TrainConfig config = GraspConfig();
   config.epochs = 2;
   config.batch_size = 8;
+  config.augment_roll_rad = 0.4;
+  config.augment_mirror = true;
   TrainHooks hooks;
   hooks.threads = 1;
   const TrainerState whole = TrainStage(train.samples, validation.samples, config, hooks);

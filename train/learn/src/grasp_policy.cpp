@@ -95,7 +95,8 @@ class TrainedGraspPolicy : public GraspPolicy {
       const std::vector<Eigen::Matrix3d> orientations =
           SampleOrientations(view.approach, {options_.orientations, options_.tilt_rad}, rng);
       LabelledCloud cloud = Sample(view, PointOf(choice.point_xyz, order[i]));
-      const std::vector<float> ratings = rater_.Rate(cloud.xyz, orientations);
+      const std::vector<float> ratings = internal::Smoothed(rater_.Rate(cloud.xyz, orientations),
+                                                            orientations, options_.smoothing_rad);
       const auto best = std::max_element(ratings.begin(), ratings.end());
       if (i > 0 && static_cast<double>(*best) <= choice.score_rad) continue;
       choice.score_rad = static_cast<double>(*best);
@@ -122,6 +123,8 @@ std::unique_ptr<GraspPolicy> MakeGraspPolicy(StageNetworks networks, const Grasp
   require(options.orientations >= 1 && options.orientations <= 10000,
           "orientations: must be 1 to 10000");
   require(options.tilt_rad >= 0 && options.tilt_rad < 1, "tilt_rad: must be in [0, 1)");
+  require(options.smoothing_rad >= 0 && options.smoothing_rad < 10,
+          "smoothing_rad: must be in [0, 10)");
   Require(networks.family == NetworkFamily::kGrasp, ErrorCode::kInvalidArgument,
           "grasp: the networks are those of another stage");
   return std::make_unique<TrainedGraspPolicy>(std::move(networks), options);

@@ -3,6 +3,7 @@
 #include "grasp_rating.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <numeric>
 
@@ -41,6 +42,28 @@ std::vector<float> GraspRater::Rate(std::span<const float> xyz,
   for (std::size_t i = 0; i < scores.size(); i += 2)
     ratings.push_back((scores[i] + scores[i + 1]) / 2);
   return ratings;
+}
+
+std::vector<float> Smoothed(std::span<const float> ratings,
+                            std::span<const Eigen::Matrix3d> orientations, double width_rad) {
+  std::vector<float> smoothed(ratings.begin(), ratings.end());
+  if (width_rad <= 0) return smoothed;
+  const Eigen::Matrix3d half_turn = Eigen::Vector3d(-1, -1, 1).asDiagonal();
+  for (std::size_t i = 0; i < ratings.size(); ++i) {
+    double sum = 0;
+    double weights = 0;
+    for (std::size_t j = 0; j < ratings.size(); ++j) {
+      const Eigen::Matrix3d turn = orientations[i].transpose() * orientations[j];
+      const double cosine =
+          (std::max(turn.trace(), (turn * half_turn).trace()) - 1) / 2;  // whichever way is nearer
+      const double angle = std::acos(std::clamp(cosine, -1.0, 1.0)) / width_rad;
+      const double weight = std::exp(-angle * angle);
+      sum += weight * static_cast<double>(ratings[j]);
+      weights += weight;
+    }
+    smoothed[i] = static_cast<float>(sum / weights);
+  }
+  return smoothed;
 }
 
 float MeanOfBest(std::vector<float> ratings, std::size_t best) {

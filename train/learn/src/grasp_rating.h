@@ -28,6 +28,11 @@ class GraspRater {
   PointEncoder encoder_;
 };
 
+/// Each rating as the mean of all, weighted by how near their orientations are, see
+/// GraspOptions::smoothing_rad.
+std::vector<float> Smoothed(std::span<const float> ratings,
+                            std::span<const Eigen::Matrix3d> orientations, double width_rad);
+
 /// Mean of the highest `best` of the ratings, which are at least one.
 float MeanOfBest(std::vector<float> ratings, std::size_t best);
 

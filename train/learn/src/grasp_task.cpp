@@ -9,6 +9,7 @@
 #include "doorforge/core/rng.h"
 #include "doorforge/learn/orientation_sampling.h"
 
+#include "grasp_augmentation.h"
 #include "grasp_rating.h"
 #include "handle_points.h"
 #include "stage_task.h"
@@ -54,7 +55,12 @@ class GraspTask : public StageTask {
 
   Geometries GeometriesOf(int lesson, const Minibatch& batch) override {
     auto& caches = lesson == kAffordanceLesson ? candidates_ : contacts_;
-    return caches.at(static_cast<std::size_t>(batch.set)).Get(batch.indices, input_.threads);
+    Geometries found =
+        caches.at(static_cast<std::size_t>(batch.set)).Get(batch.indices, input_.threads);
+    ParallelFor(found.size(), input_.threads, [&](std::size_t i) {
+      found[i] = Augmented(found[i], AugmentationOf(batch, batch.indices[i]));
+    });
+    return found;
   }
 
   HeadResult Objective(NetworkRole role, const Minibatch& batch, std::vector<float> features,
@@ -90,6 +96,15 @@ class GraspTask : public StageTask {
                          BestInstructionSet());
   }
 
+  // Of a sample on a step, whichever part of the batch a process has.
+  Eigen::Matrix3d AugmentationOf(const Minibatch& batch, std::size_t index) const {
+    if (batch.set != SampleSet::kTrain) return Eigen::Matrix3d::Identity();
+    Rng rng(input_.config->seed,
+            "train/augmentation/" + std::to_string(batch.step) + "/" + std::to_string(index));
+    const std::array<float, 3>& approach = input_.train[index].approach;
+    return DrawAugmentation(*input_.config, {approach[0], approach[1], approach[2]}, rng);
+  }
+
   // The grasps of the record. On every step each is held one way round or the other, by chance.
   HeadBatch TriedGrasps(const Minibatch& batch) const {
     const StageNormalisation& normalisation = input_.networks->normalisation;
@@ -97,10 +112,11 @@ class GraspTask : public StageTask {
     if (batch.set != SampleSet::kTrain) return head;
     Rng rng(input_.config->seed, "train/half_turns/" + std::to_string(batch.step));
     for (std::size_t i = 0; i < batch.indices.size(); ++i) {
-      if (rng.Uniform() < 0.5) continue;
-      const auto turned =
-          normalisation.action.Apply(HalfTurned(input_.train[batch.indices[i]].action));
-      std::copy(turned.begin(), turned.end(),
+      const std::size_t index = batch.indices[i];
+      ActionVector grasp = Augmented(input_.train[index].action, AugmentationOf(batch, index));
+      if (rng.Uniform() >= 0.5) grasp = HalfTurned(grasp);
+      const auto numbers = normalisation.action.Apply(grasp);
+      std::copy(numbers.begin(), numbers.end(),
                 head.actions.begin() + static_cast<std::ptrdiff_t>(9 * i));
     }
     return head;
@@ -111,7 +127,9 @@ class GraspTask : public StageTask {
     for (const std::size_t index : batch.indices) {
       const RatedPoints& rated = rated_.at(static_cast<std::size_t>(batch.set))[index];
       const std::vector<float> cloud = BeginningAt(SamplesOf(batch.set)[index].cloud, rated.first);
-      for (const std::uint16_t point : rated.points) AppendPoint(cloud, point, head.points);
+      const Eigen::Matrix3d augmentation = AugmentationOf(batch, index);
+      for (const std::uint16_t point : rated.points)
+        AppendPoint(cloud, point, augmentation, head.points);
       head.gains.insert(head.gains.end(), rated.targets.begin(), rated.targets.end());
     }
     head.size = static_cast<int>(head.gains.size());
@@ -119,12 +137,16 @@ class GraspTask : public StageTask {
   }
 
   void AppendPoint(const std::vector<float>& xyz, std::size_t point,
-                   std::vector<float>& points) const {
+                   const Eigen::Matrix3d& augmentation, std::vector<float>& points) const {
     const StageNormalisation& normalisation = input_.networks->normalisation;
     const std::array<float, 3> origin = GraspOrigin(normalisation, xyz);
     const Normaliser<9>& action = normalisation.action;
+    Eigen::Vector3f from_origin;
     for (std::size_t k = 0; k < 3; ++k)
-      points.push_back((xyz[3 * point + k] - origin.at(k) - action.mean.at(k)) /
+      from_origin[static_cast<Eigen::Index>(k)] = xyz[3 * point + k] - origin.at(k);
+    const Eigen::Vector3f shown = augmentation.cast<float>() * from_origin;
+    for (std::size_t k = 0; k < 3; ++k)
+      points.push_back((shown[static_cast<Eigen::Index>(k)] - action.mean.at(k)) /
                        action.deviation.at(k));
   }
 

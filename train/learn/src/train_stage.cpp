@@ -488,6 +488,11 @@ void CheckTrainConfig(const TrainConfig& config) {
   RequireConfig(config.frame == "hand" || config.frame == "world", "frame", "hand or world");
   RequireConfig(config.state == "hand" || config.state == "joints" || config.state == "none",
                 "state", "hand, joints or none");
+  RequireConfig(config.augment_roll_rad >= 0 && config.augment_roll_rad <= std::numbers::pi,
+                "augment_roll_rad", "in [0, pi]");
+  RequireConfig(config.frame == NameOf(ViewFrame::kHand) ||
+                    (config.augment_roll_rad == 0 && !config.augment_mirror),
+                "augment_roll_rad and augment_mirror", "0 and false in the frame \"world\"");
   RequireConfig(config.zoom > 0 && config.zoom <= 100, "zoom", "in (0, 100]");
   RequireConfig(config.context_m >= 0 && config.context_m < 100, "context_m", "in [0, 100)");
   internal::RequireDevice(config.device);

@@ -23,6 +23,10 @@ struct GraspOptions {
   int points = 1;
   int orientations = 100;  ///< Tried at each of them.
   double tilt_rad = 0.1;   ///< As in OrientationSampling.
+  /// A rotation's rating is the mean of those tried at the point, each weighted by
+  /// exp(-(angle between them / this)^2), alike fingers alike; 0: its own alone (UniDoorManip). The
+  /// best of many ratings is the luckiest one; among neighbours luck evens out.
+  double smoothing_rad = 0;
   std::uint64_t seed = 1;  ///< Of the sampled orientations.
 
   template <class Self, class Visitor>
@@ -30,6 +34,7 @@ struct GraspOptions {
     visit("points", self.points);
     visit("orientations", self.orientations);
     visit("tilt_rad", self.tilt_rad);
+    visit("smoothing_rad", self.smoothing_rad);
     visit("seed", self.seed);
   }
 };

@@ -55,6 +55,10 @@ struct TrainConfig {
   int sampled_orientations = 50;  ///< Rated by the discriminator at each of them (UniDoorManip).
   int best_orientations = 10;     ///< Whose mean rating is the affordance's target (likewise).
   double tilt_rad = 0.1;          ///< Of sampled orientations, as OrientationSampling.
+  /// On every step door and hand are turned together about the way into the leaf, by up to this
+  /// either way [rad], and mirrored sideways by a fair coin; in the frame "hand" only.
+  double augment_roll_rad = 0;
+  bool augment_mirror = false;
   /// What computes the encoder. "cpu": this library's own kernels. "libtorch": the same network in
   /// libtorch's operators, on the processor; "cuda", "cuda:N": there. Decides the last digits, and
   /// on a GPU two equal runs may differ in them.
@@ -84,6 +88,8 @@ struct TrainConfig {
       visit("sampled_orientations", self.sampled_orientations);
       visit("best_orientations", self.best_orientations);
       visit("tilt_rad", self.tilt_rad);
+      visit("augment_roll_rad", self.augment_roll_rad);
+      visit("augment_mirror", self.augment_mirror);
     }
     visit("frame", self.frame);
     visit("context_m", self.context_m);

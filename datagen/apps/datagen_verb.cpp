@@ -66,7 +66,7 @@ void AddOptions(CLI::App& app, Options& options) {
                  "trained policy that turns the handle, instead of the rule (grasp)");
   app.add_option("--learner", options.policies.learner,
                  "trained policy of this stage that drives and is corrected by the rule (open, "
-                 "handle); config: learner_decisions");
+                 "handle; config: learner_decisions), or whose grasps are tried (grasp)");
   app.add_option("--robot", options.robot, "URDF of the robot; the embedded one if left out");
   app.add_option("--config", options.config, "YAML file with settings");
   app.add_option("--set", options.settings, "a.b=c overrides one setting, e.g. cloud.point_count");

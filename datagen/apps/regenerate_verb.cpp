@@ -59,7 +59,7 @@ void AddRegenerateOptions(CLI::App& app, RegenerateOptions& options) {
   PolicyFolders& policies = options.policies;
   app.add_option("--handler", policies.handler, "the policy that turned the handle")->needs(share);
   app.add_option("--opener", policies.opener, "the policy that opened")->needs(share);
-  app.add_option("--learner", policies.learner, "the policy that was corrected")->needs(share);
+  app.add_option("--learner", policies.learner, "the policy that drove or took hold")->needs(share);
 }
 
 void PrepareRegenerate(const RegenerateOptions& options, int argc, char** argv) {

@@ -3,6 +3,7 @@
 #include "stage_episode.h"
 
 #include <optional>
+#include <utility>
 
 #include "doorforge/core/error.h"
 #include "doorforge/rollout/camera_observer.h"
@@ -17,11 +18,12 @@ namespace {
 
 // Who acted: "expert", "sampled", or the trained policy's hashes; who learned, where somebody did.
 nlohmann::ordered_json PoliciesRecord(bool sampled, const TrainedPolicies& trained) {
-  const auto actor = [](const PolicyPool* pool) {
-    return pool == nullptr ? nlohmann::ordered_json("expert")
+  const auto actor = [](const auto* pool, const char* untrained = "expert") {
+    return pool == nullptr ? nlohmann::ordered_json(untrained)
                            : DatasetPolicyToJson(pool->policy().identity);
   };
-  nlohmann::ordered_json record = {{"grasp", sampled ? "sampled" : "expert"},
+  nlohmann::ordered_json record = {
+      {"grasp", sampled ? actor(trained.grasp_learner, "sampled") : "expert"},
                                    {"unlock", actor(trained.handler)},
                                    {"open", actor(trained.opener)}};
   if (trained.learner != nullptr) record["learner"] = actor(trained.learner);
@@ -41,6 +43,22 @@ int LearnerDecisions(const StageConfig& config, const PlannedEpisode& planned) {
   return 1 + static_cast<int>(StreamOf(config, planned, "learner_decisions")
                                   .Index(static_cast<std::uint32_t>(config.learner_decisions)));
 }
+
+// The grasp of a trained policy, from the recorded look.
+class GraspOfLearner : public GraspChooser {
+ public:
+  GraspOfLearner(GraspPool& pool, const CloudExtent& extent, RandomGrasp::Look look)
+      : policy_(pool.Take()), extent_(extent), look_(std::move(look)) {}
+
+  std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override {
+    return policy_->Choose(look_(snapshot), -snapshot.door[kHandleLink].linear().col(0), extent_);
+  }
+
+ private:
+  GraspPool::Loan policy_;
+  CloudExtent extent_;
+  RandomGrasp::Look look_;
+};
 
 // The policies of one episode: lent ones where there are trained ones, rules elsewhere.
 class Actors {
@@ -125,11 +143,16 @@ CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const DoorAsset&
   RecordingCamera& camera = at_grasp ? *before : *later;
   std::optional<CameraObserver> policies_camera;
   if (at_grasp) policies_camera.emplace(scene, door, robot, config.cloud);
-  RandomGrasp grasp(scene, door, robot, config.grasp, {config.cloud.point_count, within_m},
-                    [&](const SceneSnapshot& snapshot) { return before->LookAtAll(snapshot); });
+  const CloudExtent extent{config.cloud.point_count, within_m};
+  const auto look = [&](const SceneSnapshot& snapshot) { return before->LookAtAll(snapshot); };
+  RandomGrasp by_chance(scene, door, robot, config.grasp, extent, look);
+  GraspChooser* grasp = &by_chance;
+  std::optional<GraspOfLearner> learnt;
+  if (trained.grasp_learner != nullptr)
+    grasp = &learnt.emplace(*trained.grasp_learner, extent, look);
   EpisodeRoles roles{.recorded = config.stage, .open = actors.open()};
   if (config.stage != Stage::kOpen) roles.handle = actors.handle();
-  if (samples_grasp) roles.grasp = &grasp;
+  if (samples_grasp) roles.grasp = grasp;
   if (trained.learner != nullptr) {
     roles.learner = actors.learner();
     roles.learner_decisions = LearnerDecisions(config, planned);

@@ -73,6 +73,7 @@ struct TrainedPolicies {
   PolicyPool* opener = nullptr;
   /// Of the stage that is recorded: drives, and is corrected by the rule. Null: the rule drives.
   PolicyPool* learner = nullptr;
+  GraspPool* grasp_learner = nullptr;  ///< Takes hold where grasps are sampled. Null: by chance.
 };
 
 /// Samples the scene of a planned episode, runs its three stages, records one of them, and

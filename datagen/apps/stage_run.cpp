@@ -23,15 +23,16 @@ RobotModel RobotFor(const StageConfig& config) {
   return robot;
 }
 
-std::unique_ptr<PolicyPool> PoolOf(const std::string& folder, Stage stage, const std::string& role,
-                                   const CloudConfig& cloud) {
+template <class Pool>
+std::unique_ptr<Pool> PoolOf(const std::string& folder, Stage stage, const std::string& role,
+                             const CloudConfig& cloud, typename Pool::Load load) {
   if (folder.empty()) return nullptr;
   const TrainedPolicy policy = ReadTrainedPolicy(folder, stage, role);
   Require(policy.cloud_points == 0 || policy.cloud_points == cloud.point_count,
           ErrorCode::kInvalidArgument,
           folder + ": --" + role + " takes clouds of " + std::to_string(policy.cloud_points) +
               " points; config.cloud.point_count is " + std::to_string(cloud.point_count));
-  auto pool = std::make_unique<PolicyPool>(policy);
+  auto pool = std::make_unique<Pool>(policy, load);
   pool->Take();  // weights of another network are refused here, not in the first episode
   return pool;
 }
@@ -48,10 +49,12 @@ StageConfig Checked(const StageRequest& request) {
       ErrorCode::kInvalidArgument,
       "--opener: belongs to `datagen handle` and `datagen grasp`, where the door is opened after "
       "the stage that is recorded");
-  Require(request.policies.learner.empty() || request.config.stage != Stage::kGrasp,
-          ErrorCode::kInvalidArgument,
-          "--learner: belongs to `datagen open` and `datagen handle`, where the rule corrects it");
   return request.config;
+}
+
+// The folder of the learner if it is one that grasps, or one that does not.
+std::string LearnerOf(const StageRequest& request, bool grasps) {
+  return (request.config.stage == Stage::kGrasp) == grasps ? request.policies.learner : "";
 }
 
 // There is no handle to turn where there is no latch.
@@ -78,12 +81,26 @@ DoorFolder DoorsFor(const StageRequest& request) {
 StageRun::StageRun(const StageRequest& request)
     : config_(Checked(request)),
       robot_(RobotFor(config_)),
-      handler_(PoolOf(request.policies.handler, Stage::kHandle, "handler", config_.cloud)),
-      opener_(PoolOf(request.policies.opener, Stage::kOpen, "opener", config_.cloud)),
-      learner_(PoolOf(request.policies.learner, config_.stage, "learner", config_.cloud)),
+      handler_(PoolOf<PolicyPool>(request.policies.handler, Stage::kHandle, "handler",
+                                  config_.cloud, LoadTrainedPolicy)),
+      opener_(PoolOf<PolicyPool>(request.policies.opener, Stage::kOpen, "opener", config_.cloud,
+                                 LoadTrainedPolicy)),
+      learner_(PoolOf<PolicyPool>(LearnerOf(request, false), config_.stage, "learner",
+                                  config_.cloud, LoadTrainedPolicy)),
+      grasp_learner_(PoolOf<GraspPool>(LearnerOf(request, true), config_.stage, "learner",
+                                       config_.cloud, LoadLearnedGrasp)),
       doors_(DoorsFor(request)),
       shelf_(doors_),
       plan_(MakePlan(PartsOf(doors_), config_.episodes, config_.seed, config_.collection)) {}
+
+std::vector<TrainedPolicy> StageRun::Trained() const {
+  std::vector<TrainedPolicy> trained;
+  for (const PolicyPool* pool : {handler_.get(), opener_.get(), learner_.get()}) {
+    if (pool != nullptr) trained.push_back(pool->policy());
+  }
+  if (grasp_learner_) trained.push_back(grasp_learner_->policy());
+  return trained;
+}
 
 // The effective config. A comment names what else decides the bytes, so that a run on other doors,
 // with another build or another policy is noticed when it is resumed.
@@ -93,10 +110,8 @@ std::string StageRun::ConfigText() const {
       std::to_string(doors_.doors.size()) + " doors, sha256 " + ContentHash(doors_) + "\n# robot " +
       (robot_.name().empty() ? "embedded" : robot_.name() + ", sha256 " + robot_.sha256()) +
       ", rays by " + RayCasterVersion() + "\n";
-  for (const PolicyPool* pool : {handler_.get(), opener_.get(), learner_.get()}) {
-    if (pool != nullptr)
-      text += "# " + TrainedPolicyText(pool->policy()) + ", loops for " + PolicyArithmetic() + "\n";
-  }
+  for (const TrainedPolicy& policy : Trained())
+    text += "# " + TrainedPolicyText(policy) + ", loops for " + PolicyArithmetic() + "\n";
   return text + ToJson(config_).dump(2) + "\n";
 }
 
@@ -107,9 +122,8 @@ CollectRequest StageRun::Request() const {
   request.provenance.code_version = CodeVersion();
   request.provenance.compiler = __VERSION__;
   request.provenance.libraries = {{"ray_caster", RayCasterVersion()}};
-  for (const PolicyPool* pool : {handler_.get(), opener_.get(), learner_.get()}) {
-    if (pool != nullptr) request.provenance.policies.push_back(pool->policy().identity);
-  }
+  for (const TrainedPolicy& policy : Trained())
+    request.provenance.policies.push_back(policy.identity);
   request.provenance.seed = config_.seed;
   request.provenance.doors = doors_.doors;
   return request;
@@ -117,7 +131,7 @@ CollectRequest StageRun::Request() const {
 
 CollectedEpisode StageRun::Run(const PlannedEpisode& planned) {
   return RunStageEpisode(planned, *shelf_.Take(planned.door), robot_, config_,
-                         {handler_.get(), opener_.get(), learner_.get()});
+                         {handler_.get(), opener_.get(), learner_.get(), grasp_learner_.get()});
 }
 
 }  // namespace doorforge

@@ -44,12 +44,15 @@ class StageRun {
 
  private:
   std::string ConfigText() const;
+  /// Those that act.
+  std::vector<TrainedPolicy> Trained() const;
 
   StageConfig config_;
   RobotModel robot_;
   std::unique_ptr<PolicyPool> handler_;
   std::unique_ptr<PolicyPool> opener_;
   std::unique_ptr<PolicyPool> learner_;
+  std::unique_ptr<GraspPool> grasp_learner_;
   DoorFolder doors_;
   DoorShelf shelf_;
   CollectionPlan plan_;

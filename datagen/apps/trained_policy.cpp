@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trained_policy.h"
 
-#include <utility>
-
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
@@ -57,23 +55,6 @@ TrainedPolicy ReadTrainedPolicy(const fs::path& folder, Stage stage, const std::
 
 std::string TrainedPolicyText(const TrainedPolicy& policy) {
   return policy.role + ": policy.json sha256 " + policy.identity.policy_sha256;
-}
-
-PolicyPool::Loan PolicyPool::Take() {
-  {
-    const std::scoped_lock lock(mutex_);
-    if (!idle_.empty()) {
-      std::unique_ptr<Policy> policy = std::move(idle_.back());
-      idle_.pop_back();
-      return {policy.release(), {this}};
-    }
-  }
-  return {LoadTrainedPolicy(policy_).release(), {this}};
-}
-
-void PolicyPool::Return(std::unique_ptr<Policy> policy) {
-  const std::scoped_lock lock(mutex_);
-  idle_.push_back(std::move(policy));
 }
 
 }  // namespace doorforge

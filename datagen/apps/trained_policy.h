@@ -5,13 +5,19 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <Eigen/Core>
+
+#include "doorforge/rollout/run_episode.h"
+#include "doorforge/schemas/cloud.h"
 #include "doorforge/schemas/dataset.h"
 #include "doorforge/schemas/episode.h"
 #include "doorforge/schemas/policy.h"
+#include "doorforge/sensor/point_cloud.h"
 
 namespace doorforge {
 
@@ -28,7 +34,7 @@ struct TrainedPolicy {
 struct PolicyFolders {
   std::string handler;
   std::string opener;
-  std::string learner;  ///< Of the stage that is recorded: drives, and is corrected by the rule.
+  std::string learner;  ///< Of the stage that is recorded: drives or, at "grasp", takes hold.
 
   bool Any() const { return !handler.empty() || !opener.empty() || !learner.empty(); }
 };
@@ -46,28 +52,61 @@ std::string TrainedPolicyText(const TrainedPolicy& policy);
 
 /// Lends instances of a trained policy, as many as are in use at once, each to one episode at a
 /// time. Safe to use from several threads.
-class PolicyPool {
+template <class Actor>
+class ActorPool {
  public:
-  explicit PolicyPool(TrainedPolicy policy) : policy_(std::move(policy)) {}
+  using Load = std::unique_ptr<Actor> (*)(const TrainedPolicy&);
+
+  ActorPool(TrainedPolicy policy, Load load) : policy_(std::move(policy)), load_(load) {}
 
   const TrainedPolicy& policy() const { return policy_; }
 
   struct GiveBack {
-    PolicyPool* pool = nullptr;
-    void operator()(Policy* policy) const { pool->Return(std::unique_ptr<Policy>(policy)); }
+    ActorPool* pool = nullptr;
+    void operator()(Actor* actor) const { pool->Return(std::unique_ptr<Actor>(actor)); }
   };
   /// An instance that goes back to the pool by itself; the pool must outlive it.
-  using Loan = std::unique_ptr<Policy, GiveBack>;
+  using Loan = std::unique_ptr<Actor, GiveBack>;
 
-  Loan Take();
+  Loan Take() {
+    {
+      const std::scoped_lock lock(mutex_);
+      if (!idle_.empty()) {
+        std::unique_ptr<Actor> actor = std::move(idle_.back());
+        idle_.pop_back();
+        return {actor.release(), {this}};
+      }
+    }
+    return {load_(policy_).release(), {this}};
+  }
 
  private:
-  void Return(std::unique_ptr<Policy> policy);
+  void Return(std::unique_ptr<Actor> actor) {
+    const std::scoped_lock lock(mutex_);
+    idle_.push_back(std::move(actor));
+  }
 
   TrainedPolicy policy_;
+  Load load_;
   std::mutex mutex_;
-  std::vector<std::unique_ptr<Policy>> idle_;
+  std::vector<std::unique_ptr<Actor>> idle_;
 };
+
+/// A trained policy of the stage "grasp". Keeps nothing between calls; one instance serves one
+/// thread at a time.
+class LearnedGrasp {
+ public:
+  virtual ~LearnedGrasp() = default;
+  /// @param visible Every point in view.
+  /// @param approach World: straight into the leaf.
+  /// @param extent Of the chosen grasp's cloud; the policy looks at clouds of its own extent.
+  virtual std::optional<ChosenGrasp> Choose(const LabelledCloud& visible,
+                                            const Eigen::Vector3d& approach,
+                                            const CloudExtent& extent) = 0;
+};
+
+using PolicyPool = ActorPool<Policy>;
+using GraspPool = ActorPool<LearnedGrasp>;
 
 /// Whether this program can run trained policies. The networks' library takes most of a second to
 /// load, so it is linked to a program of its own, `doorforge-datagen-trained`, from the same
@@ -76,6 +115,9 @@ bool RunsTrainedPolicies();
 
 /// A new instance that uses one thread. Throws as the loader of policies.
 std::unique_ptr<Policy> LoadTrainedPolicy(const TrainedPolicy& policy);
+/// The same at the stage "grasp": the best of the 8 points of highest affordance, ratings averaged
+/// over 0.25 rad, as the pipelines evaluate it.
+std::unique_ptr<LearnedGrasp> LoadLearnedGrasp(const TrainedPolicy& policy);
 
 /// What the policies' bytes depend on beside their folders: the instruction set of the networks'
 /// loops.

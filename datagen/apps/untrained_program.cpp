@@ -8,13 +8,20 @@
 #include "trained_policy.h"
 
 namespace doorforge {
+namespace {
 
-bool RunsTrainedPolicies() { return false; }
-
-std::unique_ptr<Policy> LoadTrainedPolicy(const TrainedPolicy& policy) {
+[[noreturn]] void Refuse(const TrainedPolicy& policy) {
   throw Error(ErrorCode::kInvalidArgument,
               policy.folder.string() + ": this program runs no trained policies");
 }
+
+}  // namespace
+
+bool RunsTrainedPolicies() { return false; }
+
+std::unique_ptr<Policy> LoadTrainedPolicy(const TrainedPolicy& policy) { Refuse(policy); }
+
+std::unique_ptr<LearnedGrasp> LoadLearnedGrasp(const TrainedPolicy& policy) { Refuse(policy); }
 
 std::string PolicyArithmetic() { return {}; }
 

@@ -168,9 +168,6 @@ TEST_F(StagesTest, AShareOfTheHandsTakesHoldAtASampledGrasp) {
 
   request.config.sampled_grasps = 1.5;
   EXPECT_NE(Refusal(request).find("sampled_grasps"), std::string::npos);
-  request = RequestFor(Stage::kGrasp, 2);
-  request.policies.learner = "somewhere";
-  EXPECT_NE(Refusal(request).find("--learner: belongs to"), std::string::npos);
 }
 
 TEST_F(StagesTest, GraspsGoodAndBadAreWrittenWithTheFinalAngle) {
@@ -288,6 +285,11 @@ TEST_F(StagesTest, RefusesAPolicyBeforeAnyWork) {
   StageRequest corrected = RequestFor(Stage::kHandle, 2);
   corrected.policies.learner = request.policies.opener;
   EXPECT_NE(Refusal(corrected).find("the stage \"open\"; --learner takes one of"),
+            std::string::npos)
+      << Refusal(corrected);
+  corrected = RequestFor(Stage::kGrasp, 2);
+  corrected.policies.learner = request.policies.opener;
+  EXPECT_NE(Refusal(corrected).find("--learner takes one of the stage \"grasp\""),
             std::string::npos)
       << Refusal(corrected);
   write("policy.json", R"({"schema": "doorforge.policy", "schema_version": 1, "stage": "open", )"

@@ -5,6 +5,7 @@ import hashlib
 import json
 import pathlib
 import shutil
+import tarfile
 import unittest
 
 from programs import ProgramTest, run
@@ -13,6 +14,18 @@ from programs import ProgramTest, run
 def digests(folder: pathlib.Path) -> dict[str, str]:
     return {str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
             for path in sorted(folder.rglob("*")) if path.is_file()}
+
+
+def members(dataset: pathlib.Path) -> list[tuple[str, bytes]]:
+    found = []
+    for path in sorted(dataset.rglob("*.tar")):
+        with tarfile.open(path) as shard:
+            found += [(entry.name, shard.extractfile(entry).read()) for entry in shard if entry.isfile()]
+    return found
+
+
+def actions(dataset: pathlib.Path) -> list[bytes]:
+    return [member for name, member in members(dataset) if name.endswith(".action.npy")]
 
 
 def sha256(path: pathlib.Path) -> str:
@@ -24,9 +37,9 @@ class TrainedCollection(ProgramTest):
         return run("datagen", stage, "--doors", self.folder / "door", "--out", self.folder / out, "--episodes", episodes,
                    "--seed", 3, "--set", "preview=false", "-j", threads, *options)
 
-    def train(self, stage: str, seed: int, out: str) -> pathlib.Path:
+    def train(self, stage: str, seed: int, out: str, data: str = "") -> pathlib.Path:
         """A policy that has seen a handful of samples once."""
-        self.assert_ends(run("train", stage, "--data", self.folder / f"data_{stage}", "--out", self.folder / out,
+        self.assert_ends(run("train", stage, "--data", self.folder / (data or f"data_{stage}"), "--out", self.folder / out,
                              "--epochs", 1, "--seed", seed, "--threads", 2), 0)
         return self.folder / out
 
@@ -63,6 +76,19 @@ class TrainedCollection(ProgramTest):
         tars = {name: digest for name, digest in digests(self.folder / "corrected").items() if name.endswith(".tar")}
         self.assertEqual(tars, {name: digest for name, digest in digests(self.folder / "again").items()
                                 if name.endswith(".tar")})
+
+        # a grasp policy's own grasps are tried: none of them is drawn by chance, and they can be made again
+        grasper = self.train("grasp", 1, "grasper", data="one")
+        self.assert_ends(self.collect("grasp", "own", 2, *policies, "--learner", grasper), 0)
+        recorded = json.loads((self.folder / "own/provenance.json").read_text())["policies"]
+        self.assertEqual([policy["stage"] for policy in recorded], ["handle", "open", "grasp"])
+        for name, member in members(self.folder / "own"):
+            if name.endswith(".meta.json"):
+                self.assertEqual(json.loads(member)["policies"]["grasp"]["policy_sha256"],
+                                 sha256(grasper / "policy.json"))
+        self.assertNotEqual(actions(self.folder / "one"), actions(self.folder / "own"))
+        self.assert_ends(run("dataset", "verify", self.folder / "own", "--regenerate", "100%", "--doors",
+                             self.folder / "door", *policies, "--learner", grasper), 0)
 
         # another opener is not the one that the data set was begun with
         other = self.train("open", 2, "other")

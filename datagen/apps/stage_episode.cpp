@@ -24,8 +24,8 @@ nlohmann::ordered_json PoliciesRecord(bool sampled, const TrainedPolicies& train
   };
   nlohmann::ordered_json record = {
       {"grasp", sampled ? actor(trained.grasp_learner, "sampled") : "expert"},
-                                   {"unlock", actor(trained.handler)},
-                                   {"open", actor(trained.opener)}};
+      {"unlock", actor(trained.handler)},
+      {"open", actor(trained.opener)}};
   if (trained.learner != nullptr) record["learner"] = actor(trained.learner);
   return record;
 }

@@ -26,7 +26,9 @@ TEST(EpisodeStrip, ShowsTheStagesInOrderAndEndsWithTheDoorOpen) {
   ASSERT_EQ(strip.frames.size(), stages.size());
   for (std::size_t i = 0; i < stages.size(); ++i) {
     EXPECT_EQ(strip.frames[i].stage, stages.at(i));
-    if (i > 0) EXPECT_GT(strip.frames[i].time_s, strip.frames[i - 1].time_s);
+    if (i > 0) {
+      EXPECT_GT(strip.frames[i].time_s, strip.frames[i - 1].time_s);
+    }
   }
   EXPECT_NEAR(strip.frames[0].hinge_rad, 0, 0.01);
   EXPECT_GE(strip.frames[2].handle_rad, door.latch.unlock_angle_rad);

@@ -252,7 +252,8 @@ TEST_F(RunStagesTest, SampledGraspsAreOnTheHandleAndTurnedAsAskedFor) {
   Sampled sampled;
   for (int i = 0; i < kCount; ++i) {
     scene.episode = static_cast<std::uint64_t>(i);
-    RandomGrasp random(scene, door, robot_, config, 64, [](const auto&) { return SmallCloud(); });
+    RandomGrasp random(scene, door, robot_, config, CloudExtent{64},
+                       [](const auto&) { return SmallCloud(); });
     const auto chosen = random.Choose(snapshot);
     ASSERT_TRUE(chosen.has_value());
     ASSERT_EQ(chosen->cloud.label.size(), 64U);
@@ -272,7 +273,7 @@ TEST_F(RunStagesTest, SampledGraspsAreOnTheHandleAndTurnedAsAskedFor) {
 TEST_F(RunStagesTest, NothingIsChosenWhereNoHandleIsInView) {
   const DoorAsset door = MakePrimitiveDoor({});
   const Scene scene = SampleScene(door, 1, 0);
-  RandomGrasp random(scene, door, robot_, {}, 64, [](const auto&) {
+  RandomGrasp random(scene, door, robot_, {}, CloudExtent{64}, [](const auto&) {
     LabelledCloud cloud = SmallCloud();
     std::fill(cloud.label.begin(), cloud.label.end(), std::uint8_t{0});
     return cloud;

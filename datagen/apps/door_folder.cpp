@@ -11,27 +11,13 @@
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
+#include "doorforge/schemas/find_doors.h"
 #include "doorforge/schemas/split.h"
 
 namespace doorforge {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::vector<fs::path> FindDoors(const fs::path& folder) {
-  if (!fs::is_directory(folder))
-    throw Error(ErrorCode::kMissing, folder.string() + ": no such folder of doors");
-  std::set<fs::path> found;
-  if (fs::exists(folder / "door.json")) found.insert(folder);
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.path().filename() == "door.json") found.insert(entry.path().parent_path());
-  }
-  if (found.empty())
-    throw Error(ErrorCode::kMissing, folder.string() +
-                                         ": no door.json at or below this folder; "
-                                         "`doorforge compose` makes doors");
-  return {found.begin(), found.end()};
-}
 
 struct ReadResult {
   std::optional<DatasetDoor> door;
@@ -128,11 +114,7 @@ std::vector<fs::path> OfSplit(const std::vector<fs::path>& doors, const std::str
 // Folders of all doors that are meant.
 std::vector<fs::path> PathsOf(const std::vector<std::string>& names, int threads) {
   const NamedDoors named = Divide(names);
-  std::set<fs::path> found;
-  for (const fs::path& folder : named.folders) {
-    const std::vector<fs::path> doors = FindDoors(folder);
-    found.insert(doors.begin(), doors.end());
-  }
+  const std::set<fs::path> found = FindDoors(named.folders);
   std::vector<fs::path> paths(found.begin(), found.end());
   return named.split ? OfSplit(paths, *named.split, threads) : paths;
 }

@@ -19,6 +19,7 @@
 #include "doorforge/core/progress.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/rollout/standing_place.h"
+#include "doorforge/schemas/find_doors.h"
 
 #include "film.h"
 #include "robot_meshes.h"
@@ -166,30 +167,9 @@ void PrintJson(const std::vector<Row>& rows, const std::vector<DoorAsset>& doors
 
 }  // namespace
 
-std::vector<fs::path> DoorFoldersIn(const std::vector<fs::path>& paths) {
-  std::vector<fs::path> folders;
-  for (const fs::path& path : paths) {
-    const std::size_t before = folders.size();
-    if (fs::is_regular_file(path / "door.json")) {
-      folders.push_back(path);
-    } else if (fs::is_directory(path)) {
-      for (const auto& entry : fs::recursive_directory_iterator(path)) {
-        if (entry.path().filename() == "door.json") folders.push_back(entry.path().parent_path());
-      }
-    }
-    if (folders.size() == before)
-      throw Error(
-          ErrorCode::kMissing,
-          path.string() + ": no door.json in it or below; make doors with `doorforge compose`");
-  }
-  std::sort(folders.begin(), folders.end());
-  folders.erase(std::unique(folders.begin(), folders.end()), folders.end());
-  return folders;
-}
-
 int Simulate(const SimulateOptions& options) {
   std::vector<DoorAsset> doors;
-  for (const fs::path& folder : DoorFoldersIn(options.doors)) doors.push_back(ReadDoor(folder));
+  for (const fs::path& folder : FindDoors(options.doors)) doors.push_back(ReadDoor(folder));
   const RobotModel robot = LoadRobot(
       options.config.scene.robot, RobotBaseNamed(options.config.scene.physics.base), RobotMeshes());
   std::vector<Row> rows = PlanRows(options, doors.size());

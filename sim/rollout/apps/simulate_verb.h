@@ -33,9 +33,6 @@ struct SimulateOptions {
   SimulateConfig config;
 };
 
-/// The folders below that hold a door.json, sorted. Throws Error(kMissing) if a path has none.
-std::vector<std::filesystem::path> DoorFoldersIn(const std::vector<std::filesystem::path>& paths);
-
 /// Lets the expert open every door and prints outcome and cause of each episode, then a summary.
 /// Returns 0 if all were opened, otherwise 1.
 int Simulate(const SimulateOptions& options);

@@ -11,30 +11,13 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
+#include "doorforge/schemas/find_doors.h"
 #include "doorforge/schemas/split.h"
 
 namespace doorforge {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::set<fs::path> DoorsBelow(const fs::path& folder) {
-  if (!fs::is_directory(folder))
-    throw Error(ErrorCode::kMissing,
-                folder.string() +
-                    ": no such folder; --doors takes folders of composed doors "
-                    "(`doorforge compose`)");
-  std::set<fs::path> found;
-  if (fs::exists(folder / "door.json")) found.insert(folder);
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.path().filename() == "door.json") found.insert(entry.path().parent_path());
-  }
-  if (found.empty())
-    throw Error(ErrorCode::kMissing, folder.string() +
-                                         ": no door.json in it; `doorforge compose` makes doors of "
-                                         "parts, `doorforge import` parts of foreign objects");
-  return found;
-}
 
 std::set<std::string> PartsOfSide(const std::string& split) {
   const std::size_t colon = split.rfind(':');
@@ -110,11 +93,8 @@ std::vector<DoorAsset> ReadDoors(const std::vector<std::string>& folders,
                                  const DoorSelection& selection) {
   Require(selection.per_category >= 0, ErrorCode::kInvalidArgument,
           "the number of doors of each category must be 0 or more");
-  std::vector<fs::path> paths;
-  for (const std::string& folder : folders) {
-    const std::set<fs::path> found = DoorsBelow(folder);
-    paths.insert(paths.end(), found.begin(), found.end());
-  }
+  const std::set<fs::path> found = FindDoors({folders.begin(), folders.end()});
+  std::vector<fs::path> paths(found.begin(), found.end());
   if (!selection.split.empty() || selection.per_category > 0) paths = Selected(paths, selection);
   std::vector<DoorAsset> doors;
   for (const fs::path& path : paths) doors.push_back(ReadDoor(path));

@@ -3,13 +3,12 @@
 #include "doorforge/evaluate/report.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <set>
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
+#include "doorforge/core/json_numbers.h"
 
 namespace doorforge {
 namespace {
@@ -98,26 +97,6 @@ ReportDoor DoorFromJson(const Json& json, const std::string& path) {
   door.sha256 = ValueOf<std::string>(json, "sha256", path);
   door.license = ValueOf<std::string>(json, "license", path);
   return door;
-}
-
-// JSON has no NaN: a number that was not measured is null
-Json NumbersToJson(const std::vector<double>& numbers) {
-  Json json = Json::array();
-  for (const double number : numbers)
-    json.push_back(std::isfinite(number) ? Json(number) : Json(nullptr));
-  return json;
-}
-
-std::vector<double> NumbersFromJson(const Json& json, const std::string& path) {
-  if (!json.is_array()) throw Error(ErrorCode::kFormat, path + ": expected an array of numbers");
-  std::vector<double> numbers;
-  for (const Json& number : json) {
-    if (!number.is_number() && !number.is_null())
-      throw Error(ErrorCode::kFormat, path + ": expected an array of numbers");
-    numbers.push_back(number.is_null() ? std::numeric_limits<double>::quiet_NaN()
-                                       : number.get<double>());
-  }
-  return numbers;
 }
 
 Json LossToJson(const LossCurve& loss) {

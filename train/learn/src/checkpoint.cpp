@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include <nlohmann/json.hpp>
 
@@ -13,6 +12,7 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
+#include "doorforge/core/json_numbers.h"
 #include "doorforge/learn/cloud_geometry.h"
 #include "doorforge/learn/event_log.h"
 #include "doorforge/learn/point_encoder.h"
@@ -189,25 +189,6 @@ PolicyProvenance ProvenanceFromJson(const Json& json, NetworkFamily family,
     provenance.trained_on =
         SeenPartsFromJson(MemberOf(json, "trained_on", path), path + ".trained_on");
   return provenance;
-}
-
-Json NumbersToJson(const std::vector<double>& numbers) {
-  Json json = Json::array();
-  for (const double number : numbers)
-    json.push_back(std::isfinite(number) ? Json(number) : Json(nullptr));
-  return json;
-}
-
-std::vector<double> NumbersFromJson(const Json& json, const std::string& path) {
-  if (!json.is_array()) throw Error(ErrorCode::kFormat, path + ": expected an array");
-  std::vector<double> numbers;
-  for (const Json& number : json) {
-    if (!number.is_number() && !number.is_null())
-      throw Error(ErrorCode::kFormat, path + ": expected numbers or null");
-    numbers.push_back(number.is_null() ? std::numeric_limits<double>::quiet_NaN()
-                                       : number.get<double>());
-  }
-  return numbers;
 }
 
 std::vector<TrainingCurve> CurvesOf(const TrainerState& state) {

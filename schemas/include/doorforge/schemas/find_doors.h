@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <vector>
+
+namespace doorforge {
+
+/// The folders of composed doors (with a door.json) at or below each of `folders`, any depth, each
+/// once, in the order of their paths.
+///
+/// @throws Error(kMissing) that names a folder which does not exist or holds no door.
+std::set<std::filesystem::path> FindDoors(const std::vector<std::filesystem::path>& folders);
+
+}  // namespace doorforge

@@ -83,7 +83,7 @@ TEST(GraspAugmentation, AHandStaysAHandThatHoldsTheSame) {
 }
 
 TEST(SmoothedRatings, AreMeansOfWhatIsNearWithEitherFingerFirst) {
-  const auto about_z = [](double angle) {
+  const auto about_z = [](double angle) -> Eigen::Matrix3d {
     return RotationAbout(Eigen::Vector3d::UnitZ(), angle).linear();
   };
   const std::vector<Eigen::Matrix3d> turns = {about_z(0), about_z(0.1), about_z(std::numbers::pi),

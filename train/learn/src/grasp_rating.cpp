@@ -12,6 +12,7 @@
 
 #include "handle_points.h"
 #include "head_networks.h"
+#include "near_points.h"
 
 namespace doorforge::internal {
 
@@ -27,6 +28,7 @@ std::vector<float> GraspRater::Rate(std::span<const float> xyz,
   const std::vector<float> feature = encoder_.Forward(geometry).features;
   const std::array<float, 3> origin = GraspOrigin(normalisation, xyz);
   const Eigen::Vector3d contact(xyz[0] - origin[0], xyz[1] - origin[1], xyz[2] - origin[2]);
+  const Eigen::Matrix3Xf near = NearestToFirst(xyz, normalisation.view.near_points);
   HeadBatch batch;
   batch.size = static_cast<int>(2 * orientations.size());
   for (const Eigen::Matrix3d& orientation : orientations) {
@@ -35,6 +37,7 @@ std::vector<float> GraspRater::Rate(std::span<const float> xyz,
       const ActionVector numbers = normalisation.action.Apply(way);
       batch.actions.insert(batch.actions.end(), numbers.begin(), numbers.end());
       batch.features.insert(batch.features.end(), feature.begin(), feature.end());
+      AppendInHandFrame(near, FromVector(way).world_from_hand_rotation, batch.near);
     }
   }
   const std::vector<float> scores = ScoreGrasps(*networks_, batch);

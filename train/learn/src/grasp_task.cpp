@@ -12,6 +12,7 @@
 #include "grasp_augmentation.h"
 #include "grasp_rating.h"
 #include "handle_points.h"
+#include "near_points.h"
 #include "stage_task.h"
 
 namespace doorforge::internal {
@@ -109,12 +110,17 @@ class GraspTask : public StageTask {
   HeadBatch TriedGrasps(const Minibatch& batch) const {
     const StageNormalisation& normalisation = input_.networks->normalisation;
     HeadBatch head = MakeHeadBatch(SamplesOf(batch.set), batch.indices, normalisation);
-    if (batch.set != SampleSet::kTrain) return head;
+    const bool training = batch.set == SampleSet::kTrain;
     Rng rng(input_.config->seed, "train/half_turns/" + std::to_string(batch.step));
     for (std::size_t i = 0; i < batch.indices.size(); ++i) {
       const std::size_t index = batch.indices[i];
-      ActionVector grasp = Augmented(input_.train[index].action, AugmentationOf(batch, index));
-      if (rng.Uniform() >= 0.5) grasp = HalfTurned(grasp);
+      const TrainingSample& sample = SamplesOf(batch.set)[index];
+      const Eigen::Matrix3d augmentation = AugmentationOf(batch, index);
+      ActionVector grasp = Augmented(sample.action, augmentation);
+      if (training && rng.Uniform() >= 0.5) grasp = HalfTurned(grasp);
+      AppendInHandFrame(
+          augmentation.cast<float>() * NearestToFirst(sample.cloud, normalisation.view.near_points),
+          FromVector(grasp).world_from_hand_rotation, head.near);
       const auto numbers = normalisation.action.Apply(grasp);
       std::copy(numbers.begin(), numbers.end(),
                 head.actions.begin() + static_cast<std::ptrdiff_t>(9 * i));

@@ -18,6 +18,7 @@ namespace {
 using torch::Tensor;
 
 constexpr double kLeakySlope = 0.01;
+constexpr std::int64_t kNearFeatures = 128;
 
 Tensor View(const std::vector<float>& values, std::int64_t columns) {
   return torch::from_blob(const_cast<float*>(values.data()),
@@ -169,24 +170,35 @@ Tensor CriticScore(const HeadParameters& parameters, const StageNetworks& networ
                      parameters.Branch("score", Activation::kRectified, joined));
 }
 
-// The two heads of the grasp: a branch, and two layers of score behind it and the feature.
+// The two heads of the grasp: two layers of score behind the feature and its branches.
 Tensor GraspScore(const HeadParameters& parameters, const StageNetworks& networks,
-                  const Tensor& features, const Tensor& branch) {
-  const Tensor hidden = parameters.Dense("score.0", torch::cat({features, branch}, 1));
+                  const std::vector<Tensor>& joined) {
+  const Tensor hidden = parameters.Dense("score.0", torch::cat(joined, 1));
   return Denormalise(networks.normalisation.score_rad,
                      parameters.Dense("score.1", torch::leaky_relu(hidden, kLeakySlope)));
 }
 
+// The maximum over the near points, feature by feature.
+Tensor NearFeatures(const HeadParameters& parameters, const HeadBatch& batch) {
+  if (batch.near.empty()) return torch::zeros({batch.size, kNearFeatures});
+  const Tensor each =
+      torch::relu(parameters.Branch("near", Activation::kRectified, View(batch.near, 3)));
+  return std::get<0>(each.view({batch.size, -1, kNearFeatures}).max(1));
+}
+
 Tensor DiscriminatorScore(const HeadParameters& parameters, const StageNetworks& networks,
                           const HeadBatch& batch, const Tensor& features) {
-  return GraspScore(parameters, networks, features,
-                    parameters.Branch("action", Activation::kRectified, View(batch.actions, 9)));
+  return GraspScore(
+      parameters, networks,
+      {features, parameters.Branch("action", Activation::kRectified, View(batch.actions, 9)),
+       NearFeatures(parameters, batch)});
 }
 
 Tensor AffordanceScore(const HeadParameters& parameters, const StageNetworks& networks,
                        const HeadBatch& batch, const Tensor& features) {
-  return GraspScore(parameters, networks, features,
-                    parameters.Branch("point", Activation::kRectified, View(batch.points, 3)));
+  return GraspScore(
+      parameters, networks,
+      {features, parameters.Branch("point", Activation::kRectified, View(batch.points, 3))});
 }
 
 std::vector<float> ToVector(const Tensor& tensor) {

@@ -21,9 +21,11 @@ struct HeadBatch {
   std::vector<float> actions;   ///< n x 9, normalised.
   std::vector<float> hands;     ///< n x 3, normalised.
   std::vector<float> bases;     ///< n x 3, normalised.
-  std::vector<float> points;    ///< n x 3, normalised as an action's position: the affordance's.
-  std::vector<float> gains;     ///< n, [rad].
-  std::vector<float> noise;     ///< n x 128, N(0, 1): the actor's latent draws.
+  /// n x k x 3, as InHandFrame(): the discriminator's; empty: it is told of none.
+  std::vector<float> near;
+  std::vector<float> points;  ///< n x 3, normalised as an action's position: the affordance's.
+  std::vector<float> gains;   ///< n, [rad].
+  std::vector<float> noise;   ///< n x 128, N(0, 1): the actor's latent draws.
 };
 
 struct HeadResult {

@@ -59,7 +59,8 @@ ParameterLayout MakeDiscriminatorLayout() {
   ParameterLayout layout;
   AddEncoderLayers("encoder.", layout);
   AddBranch("action", {9, 128, 128, 128}, layout);
-  AddBranch("score", {kFeatureSize + 128, 128, 1}, layout);
+  AddBranch("near", {3, 64, 64, 128}, layout);
+  AddBranch("score", {kFeatureSize + 128 + 128, 128, 1}, layout);
   return layout;
 }
 
@@ -176,6 +177,7 @@ NetworkView ViewFromJson(const Json& json, const std::string& path) {
   if (json.contains("zoom")) view.zoom = static_cast<float>(ValueOf<double>(json, "zoom", path));
   if (json.contains("cloud_within_m"))
     view.cloud_within_m = static_cast<float>(ValueOf<double>(json, "cloud_within_m", path));
+  if (json.contains("near_points")) view.near_points = ValueOf<int>(json, "near_points", path);
   return view;
 }
 
@@ -249,6 +251,7 @@ Json NormalisationToJson(const StageNormalisation& normalisation) {
           {"context_m", normalisation.view.context_m},
           {"zoom", normalisation.view.zoom},
           {"cloud_within_m", normalisation.view.cloud_within_m},
+          {"near_points", normalisation.view.near_points},
           {"cloud_centre_m", normalisation.cloud_centre_m},
           {"cloud_scale", 1},
           {"state", NormaliserToJson(normalisation.state)},

@@ -86,7 +86,16 @@ void AddScaled(const StageLosses& losses, double factor, StageLosses& sum) {
   for (const auto value : kLosses) sum.*value += factor * losses.*value;
 }
 
-NetworkView ViewOf(const TrainConfig& config) {
+// The clouds' extent, which is one.
+float CloudWithin(std::span<const TrainingSample> samples) {
+  for (const TrainingSample& sample : samples)
+    Require(sample.cloud_within_m == samples.front().cloud_within_m, ErrorCode::kInvalidArgument,
+            "the data sets' clouds have different extents (cloud_within_m in meta.json); train "
+            "from those with the same");
+  return samples.front().cloud_within_m;
+}
+
+NetworkView ViewOf(const TrainConfig& config, std::span<const TrainingSample> samples) {
   NetworkView view;
   if (config.frame == NameOf(ViewFrame::kHand)) view.frame = ViewFrame::kHand;
   for (const StateKind kind : {StateKind::kHand, StateKind::kNone}) {
@@ -95,16 +104,9 @@ NetworkView ViewOf(const TrainConfig& config) {
   }
   view.context_m = static_cast<float>(config.context_m);
   view.zoom = static_cast<float>(config.zoom);
+  view.cloud_within_m = CloudWithin(samples);
+  if (config.family == NetworkFamily::kGrasp) view.near_points = config.near_points;
   return view;
-}
-
-// The clouds' extent, which is one.
-float CloudWithin(std::span<const TrainingSample> samples) {
-  for (const TrainingSample& sample : samples)
-    Require(sample.cloud_within_m == samples.front().cloud_within_m, ErrorCode::kInvalidArgument,
-            "the data sets' clouds have different extents (cloud_within_m in meta.json); train "
-            "from those with the same");
-  return samples.front().cloud_within_m;
 }
 
 std::vector<TrainingSample> AllInHandFrame(std::span<const TrainingSample> samples,
@@ -184,7 +186,7 @@ class Trainer {
   }
 
   StageNormalisation MeasuredNormalisation() const {
-    const NetworkView view = ViewOf(config_);
+    const NetworkView view = ViewOf(config_, train_);
     StageNormalisation normalisation = MeasureNormalisation(train_, view);
     // about the contact its own place is 0 always: the scale is that of the handle's other points
     if (config_.family == NetworkFamily::kGrasp && view.frame == ViewFrame::kHand)
@@ -501,6 +503,8 @@ void CheckTrainConfig(const TrainConfig& config) {
                 "squared or absolute");
   RequireConfig(config.sampled_points >= 1 && config.sampled_points <= kCloudPoints,
                 "sampled_points", "1 to 4096");
+  RequireConfig(config.near_points >= 0 && config.near_points <= kCloudPoints, "near_points",
+                "0 to 4096");
   RequireConfig(config.sampled_orientations >= 1 && config.sampled_orientations <= 10000,
                 "sampled_orientations", "1 to 10000");
   RequireConfig(
@@ -539,11 +543,10 @@ TrainerState TrainStage(std::span<const TrainingSample> train,
                         const TrainHooks& hooks) {
   CheckTrainConfig(config);
   Require(!train.empty(), ErrorCode::kInvalidArgument, "no sample to train from");
-  NetworkView view = ViewOf(config);
-  view.cloud_within_m = CloudWithin(train);
+  const NetworkView view = ViewOf(config, train);
   Require(!hooks.initial || hooks.initial->normalisation.view == view, ErrorCode::kInvalidArgument,
           "the networks to begin with were trained with other settings of frame, state, "
-          "context_m or zoom, or from clouds of another extent, than \"" +
+          "context_m, zoom or near_points, or from clouds of another extent, than \"" +
               config.frame + "\", \"" + config.state + "\", " + std::to_string(config.context_m));
   internal::UseOneTorchThread();
   if (view.frame == ViewFrame::kWorld) return Trainer(train, validation, config, hooks).Run();

@@ -17,6 +17,9 @@
 namespace doorforge {
 
 inline constexpr int kLatentSize = 128;
+/// Points farther than this from the contact are not among the nearest, NetworkView::near_points:
+/// the hand's reach to either side.
+inline constexpr float kNearRadius = 0.12F;  // [m]
 
 /// Mean and standard deviation of the training set, component by component. Deviations have a lower
 /// bound, so that what hardly varied in training is not blown up later.
@@ -56,6 +59,9 @@ struct NetworkView {
   float zoom = 1;       ///< CloudWindow::zoom of every cloud.
   /// Where a grasp is chosen: TrainingSample::cloud_within_m of what was learned from.
   float cloud_within_m = 0;
+  /// Where a grasp is chosen: how many of the points nearest to the contact the discriminator is
+  /// told in the hand's own frame; 0: none, as UniDoorManip.
+  int near_points = 0;
 
   friend bool operator==(const NetworkView&, const NetworkView&) = default;
 };
@@ -106,8 +112,9 @@ NetworkNames NamesOf(NetworkFamily family);
 const ParameterLayout& ActorLayout(NetworkFamily family = NetworkFamily::kMotion);
 
 /// The critic: encoder of its own, state 18-128-128-64, action 9-128-128-64, hand and base position
-/// 3-128-128-64 each, score 384-256-128-1. The discriminator: encoder, action 9-128-128-128, score
-/// 256-128-1.
+/// 3-128-128-64 each, score 384-256-128-1. The discriminator: encoder, action 9-128-128-128, near
+/// points 3-64-64-128 and their maximum (Qi et al. 2017; all 0 without near points), score
+/// 384-128-1.
 const ParameterLayout& CriticLayout(NetworkFamily family = NetworkFamily::kMotion);
 
 /// The trained values of both networks, each a flat vector of its layout.

@@ -55,6 +55,9 @@ struct TrainConfig {
   int sampled_orientations = 50;  ///< Rated by the discriminator at each of them (UniDoorManip).
   int best_orientations = 10;     ///< Whose mean rating is the affordance's target (likewise).
   double tilt_rad = 0.1;          ///< Of sampled orientations, as OrientationSampling.
+  /// NetworkView::near_points: what lies around the fingers, told in the hand's own frame; 0: only
+  /// the cloud in the frame above and six numbers of the rotation (UniDoorManip).
+  int near_points = 256;
   /// On every step door and hand are turned together about the way into the leaf, by up to this
   /// either way [rad], and mirrored sideways by a fair coin; in the frame "hand" only.
   double augment_roll_rad = 0;
@@ -88,6 +91,7 @@ struct TrainConfig {
       visit("sampled_orientations", self.sampled_orientations);
       visit("best_orientations", self.best_orientations);
       visit("tilt_rad", self.tilt_rad);
+      visit("near_points", self.near_points);
       visit("augment_roll_rad", self.augment_roll_rad);
       visit("augment_mirror", self.augment_mirror);
     }

@@ -96,8 +96,13 @@ TEST(HeadNetworks, TheCriticsGradientIsThatOfFiniteDifferences) {
 
 // ---- grasp --------------------------------------------------------------------------------------
 
+constexpr std::size_t kNear = 5;
+
 struct GraspFixture : Fixture {
   GraspFixture() {
+    Rng rng(2, "test/near");
+    for (std::size_t i = 0; i < made.samples.size() * kNear * 3; ++i)
+      batch.near.push_back(static_cast<float>(rng.Normal()));
     networks = InitialNetworks(MeasureNormalisation(made.samples), false, 1, NetworkFamily::kGrasp);
     for (std::size_t i = 0; i < batch.actions.size(); i += 9)
       batch.points.insert(batch.points.end(), batch.actions.begin() + static_cast<long>(i),
@@ -157,28 +162,51 @@ std::vector<double> DenseByHand(const ParameterLayout& layout, const std::vector
   return {};
 }
 
-TEST(HeadNetworks, TheDiscriminatorIsThePapersTable) {
-  const GraspFixture f;
+std::vector<double> BranchByHand(const std::vector<float>& weights, const std::string& name,
+                                 std::vector<double> x) {
+  for (const char* layer : {".0", ".1", ".2"}) {
+    x = DenseByHand(CriticLayout(NetworkFamily::kGrasp), weights, name + layer, x);
+    if (std::string(layer) == ".2") break;
+    for (double& v : x) v = std::max(v, 0.0);
+  }
+  return x;
+}
+
+// Rows [begin, end) of a table with so many columns.
+std::vector<double> Numbers(const std::vector<float>& table, std::size_t begin, std::size_t end,
+                            std::size_t columns) {
+  return {table.begin() + static_cast<long>(begin * columns),
+          table.begin() + static_cast<long>(end * columns)};
+}
+
+void ExpectDiscriminatorByHand(const GraspFixture& f) {
   const ParameterLayout& layout = CriticLayout(NetworkFamily::kGrasp);
   const std::vector<float> scores = ScoreGrasps(f.networks, f.batch);
   for (std::size_t n = 0; n < scores.size(); ++n) {
-    std::vector<double> x(f.batch.actions.begin() + static_cast<long>(9 * n),
-                          f.batch.actions.begin() + static_cast<long>(9 * n + 9));
-    for (const char* name : {"action.0", "action.1", "action.2"}) {
-      x = DenseByHand(layout, f.networks.critic, name, x);
-      if (std::string(name) == "action.2") break;
-      for (double& v : x) v = std::max(v, 0.0);
+    const std::vector<double> x =
+        BranchByHand(f.networks.critic, "action", Numbers(f.batch.actions, n, n + 1, 9));
+    std::vector<double> near(128, 0.0);
+    for (std::size_t p = kNear * n; p < kNear * (n + 1) && !f.batch.near.empty(); ++p) {
+      const std::vector<double> each =
+          BranchByHand(f.networks.critic, "near", Numbers(f.batch.near, p, p + 1, 3));
+      for (std::size_t i = 0; i < near.size(); ++i) near[i] = std::max(near[i], each[i]);
     }
-    std::vector<double> joined(
-        f.batch.features.begin() + static_cast<long>(kFeatureSize * n),
-        f.batch.features.begin() + static_cast<long>(kFeatureSize * (n + 1)));
+    std::vector<double> joined = Numbers(f.batch.features, n, n + 1, kFeatureSize);
     joined.insert(joined.end(), x.begin(), x.end());
+    joined.insert(joined.end(), near.begin(), near.end());
     std::vector<double> hidden = DenseByHand(layout, f.networks.critic, "score.0", joined);
     for (double& v : hidden) v = v > 0 ? v : 0.01 * v;
     const double score = DenseByHand(layout, f.networks.critic, "score.1", hidden)[0];
     const auto& normaliser = f.networks.normalisation.score_rad;
     EXPECT_NEAR(scores[n], score * normaliser.deviation[0] + normaliser.mean[0], 1e-5);
   }
+}
+
+TEST(HeadNetworks, TheDiscriminatorIsThePapersTableAndTheMaximumOverNearPoints) {
+  GraspFixture f;
+  ExpectDiscriminatorByHand(f);
+  f.batch.near.clear();
+  ExpectDiscriminatorByHand(f);
 }
 
 // With a decoder of zeros the prediction is the training set's mean action.

@@ -111,9 +111,11 @@ struct GraspFixture : Fixture {
 };
 
 TEST(HeadNetworks, TheDiscriminatorsGradientIsThatOfFiniteDifferencesForBothLosses) {
-  for (const char* loss : {"squared", "absolute"}) {
+  for (const auto& [loss, by_near_points] :
+       {std::pair{"squared", true}, {"squared", false}, {"absolute", false}}) {
     GraspFixture f;
     f.config.score_loss = loss;
+    if (!by_near_points) f.batch.near.clear();
     std::vector<float> gradient(CriticLayout(NetworkFamily::kGrasp).size());
     // angles of doors, not of single actions, so that the loss has something to differ in
     for (std::size_t i = 0; i < f.batch.gains.size(); ++i) f.batch.gains[i] = i % 2 ? 0.8F : 0.0F;
@@ -124,6 +126,10 @@ TEST(HeadNetworks, TheDiscriminatorsGradientIsThatOfFiniteDifferencesForBothLoss
     const auto result = DiscriminatorObjective(f.networks, f.batch, f.config, gradient);
     EXPECT_EQ(result.objective, value());
     ExpectGradientOfLayers(CriticLayout(NetworkFamily::kGrasp), f.networks.critic, gradient, value);
+    if (by_near_points) {
+      EXPECT_TRUE(result.feature_gradient.empty());
+      continue;
+    }
     std::vector<float> direction = result.feature_gradient;
     const double norm = Norm(direction);
     for (float& d : direction) d = static_cast<float>(d / norm);
@@ -185,14 +191,16 @@ void ExpectDiscriminatorByHand(const GraspFixture& f) {
   for (std::size_t n = 0; n < scores.size(); ++n) {
     const std::vector<double> x =
         BranchByHand(f.networks.critic, "action", Numbers(f.batch.actions, n, n + 1, 9));
+    const bool by_near_points = !f.batch.near.empty();
     std::vector<double> near(128, 0.0);
-    for (std::size_t p = kNear * n; p < kNear * (n + 1) && !f.batch.near.empty(); ++p) {
+    for (std::size_t p = kNear * n; p < kNear * (n + 1) && by_near_points; ++p) {
       const std::vector<double> each =
           BranchByHand(f.networks.critic, "near", Numbers(f.batch.near, p, p + 1, 3));
       for (std::size_t i = 0; i < near.size(); ++i) near[i] = std::max(near[i], each[i]);
     }
     std::vector<double> joined = Numbers(f.batch.features, n, n + 1, kFeatureSize);
     joined.insert(joined.end(), x.begin(), x.end());
+    if (by_near_points) joined.assign(joined.size(), 0.0);
     joined.insert(joined.end(), near.begin(), near.end());
     std::vector<double> hidden = DenseByHand(layout, f.networks.critic, "score.0", joined);
     for (double& v : hidden) v = v > 0 ? v : 0.01 * v;

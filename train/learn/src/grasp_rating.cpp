@@ -24,8 +24,10 @@ GraspRater::GraspRater(const StageNetworks& networks)
 std::vector<float> GraspRater::Rate(std::span<const float> xyz,
                                     std::span<const Eigen::Matrix3d> orientations) const {
   const StageNormalisation& normalisation = networks_->normalisation;
-  const CloudGeometry geometry = BuildGeometry(xyz, GraspWindow(normalisation, xyz));
-  const std::vector<float> feature = encoder_.Forward(geometry).features;
+  const bool by_near_points = normalisation.view.near_points > 0;
+  std::vector<float> feature;
+  if (!by_near_points)
+    feature = encoder_.Forward(BuildGeometry(xyz, GraspWindow(normalisation, xyz))).features;
   const std::array<float, 3> origin = GraspOrigin(normalisation, xyz);
   const Eigen::Vector3d contact(xyz[0] - origin[0], xyz[1] - origin[1], xyz[2] - origin[2]);
   const Eigen::Matrix3Xf near = NearestToFirst(xyz, normalisation.view.near_points);

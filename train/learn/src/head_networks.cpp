@@ -180,7 +180,6 @@ Tensor GraspScore(const HeadParameters& parameters, const StageNetworks& network
 
 // The maximum over the near points, feature by feature.
 Tensor NearFeatures(const HeadParameters& parameters, const HeadBatch& batch) {
-  if (batch.near.empty()) return torch::zeros({batch.size, kNearFeatures});
   const Tensor each =
       torch::relu(parameters.Branch("near", Activation::kRectified, View(batch.near, 3)));
   return std::get<0>(each.view({batch.size, -1, kNearFeatures}).max(1));
@@ -188,10 +187,14 @@ Tensor NearFeatures(const HeadParameters& parameters, const HeadBatch& batch) {
 
 Tensor DiscriminatorScore(const HeadParameters& parameters, const StageNetworks& networks,
                           const HeadBatch& batch, const Tensor& features) {
+  const auto none = [&](std::int64_t columns) { return torch::zeros({batch.size, columns}); };
+  if (!batch.near.empty())
+    return GraspScore(parameters, networks,
+                      {none(kFeatureSize), none(128), NearFeatures(parameters, batch)});
   return GraspScore(
       parameters, networks,
       {features, parameters.Branch("action", Activation::kRectified, View(batch.actions, 9)),
-       NearFeatures(parameters, batch)});
+       none(kNearFeatures)});
 }
 
 Tensor AffordanceScore(const HeadParameters& parameters, const StageNetworks& networks,
@@ -237,7 +240,7 @@ HeadResult Evaluate(const Head& head, const HeadBatch& batch, const LossOf& loss
   if (!with_gradient) return result;
   loss.objective.backward();
   parameters.AddGradient(head.gradient);
-  result.feature_gradient = ToVector(features.grad());
+  if (features.grad().defined()) result.feature_gradient = ToVector(features.grad());
   return result;
 }
 

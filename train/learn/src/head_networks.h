@@ -21,7 +21,8 @@ struct HeadBatch {
   std::vector<float> actions;   ///< n x 9, normalised.
   std::vector<float> hands;     ///< n x 3, normalised.
   std::vector<float> bases;     ///< n x 3, normalised.
-  /// n x k x 3, as InHandFrame(): the discriminator's; empty: it is told of none.
+  /// n x k x 3, as AppendInHandFrame(): the discriminator's, which then reads no features and no
+  /// actions; empty: those.
   std::vector<float> near;
   std::vector<float> points;  ///< n x 3, normalised as an action's position: the affordance's.
   std::vector<float> gains;   ///< n, [rad].

@@ -17,6 +17,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr float kResultScale = 0.1F;
+constexpr float kNearScale =
+    0.4F;  // the largest of 256 points is several deviations above the mean
 
 void AddBranch(const std::string& name, std::initializer_list<int> sizes, ParameterLayout& layout) {
   std::size_t i = 0;
@@ -69,8 +71,10 @@ std::vector<float> Initial(const ParameterLayout& layout, std::uint64_t seed,
   std::vector<float> parameters = HeInitialisation(layout, seed, prefix);
   for (const DenseLayer& layer : layout.layers()) {
     const bool gives_result = &layer == &layout.layers().back();
-    if (layer.name != "mean" && layer.name != "log_variance" && !gives_result) continue;
-    for (std::size_t i = layer.offset; i < layer.bias_offset(); ++i) parameters[i] *= kResultScale;
+    const bool near = layer.name.starts_with("near.");
+    if (layer.name != "mean" && layer.name != "log_variance" && !gives_result && !near) continue;
+    const float scale = near ? kNearScale : kResultScale;
+    for (std::size_t i = layer.offset; i < layer.bias_offset(); ++i) parameters[i] *= scale;
   }
   return parameters;
 }

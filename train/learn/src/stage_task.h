@@ -28,7 +28,7 @@ struct Minibatch {
   std::uint64_t step = 0;  ///< Of the run: names the random draws. Validation draws nothing.
 };
 
-/// What a stage teaches its networks, in lessons of equal length one after the other. The loop of
+/// What a stage teaches its networks, in lessons one after the other. The loop of
 /// TrainStage() knows steps, gradients and checkpoints, and nothing of what is learnt; a task knows
 /// nothing of steps but the number that names a step's draws.
 class StageTask {
@@ -41,6 +41,7 @@ class StageTask {
   virtual int Interval(NetworkRole role) const = 0;
   /// Called before a lesson's first step in this process: once in a run, again when it is resumed.
   virtual void Begin(int lesson, const StageNetworks& networks) = 0;
+  /// Nothing where the lesson's networks do not read the clouds: features are empty then.
   virtual Geometries GeometriesOf(int lesson, const Minibatch& batch) = 0;
   /// Of one network; the gradient is added to `gradient` unless that is empty.
   virtual HeadResult Objective(NetworkRole role, const Minibatch& batch,
@@ -49,6 +50,8 @@ class StageTask {
 
 /// Lessons of a family: 1, or 2 where one network learns from the other's ratings.
 int LessonsOf(NetworkFamily family);
+/// Passes over the samples of one of them.
+int EpochsOfLesson(const TrainConfig& config, int lesson);
 
 /// What a task learns from.
 struct TaskInput {

@@ -155,23 +155,39 @@ class Trainer {
 
   TrainerState Run() {
     const std::uint64_t per_epoch = StepsPerEpoch(train_.size(), config_);
-    const std::uint64_t per_lesson = per_epoch * static_cast<std::uint64_t>(config_.epochs);
-    const std::uint64_t total = per_epoch * static_cast<std::uint64_t>(EpochsOf(config_));
-    int lesson = -1;
-    while (state_.step < total) {
-      const int now = static_cast<int>(state_.step / per_lesson);
-      if (now != lesson) task_->Begin(lesson = now, state_.networks);
-      const StageLosses losses = Step(lesson, per_epoch, per_lesson);
-      state_.steps.push_back(Updated(LastLosses(), losses));
-      ++state_.step;
-      if (state_.step % per_epoch == 0) EndEpoch(lesson, per_epoch);
-      if (hooks_.on_step) hooks_.on_step(state_);
-      if (StopsSomewhere()) break;
+    std::uint64_t end = 0;
+    for (int number = 0; number < internal::LessonsOf(config_.family); ++number) {
+      const std::uint64_t begin = end;
+      end += per_epoch * static_cast<std::uint64_t>(internal::EpochsOfLesson(config_, number));
+      if (state_.step >= end) continue;
+      task_->Begin(number, state_.networks);
+      if (!Teach({number, begin, end, per_epoch})) break;
     }
     return std::move(state_);
   }
 
  private:
+  // Steps [begin, end) of the run.
+  struct Lesson {
+    int number;
+    std::uint64_t begin;
+    std::uint64_t end;
+    std::uint64_t per_epoch;
+  };
+
+  // False if the run is to stop.
+  bool Teach(const Lesson& lesson) {
+    while (state_.step < lesson.end) {
+      const StageLosses losses = Step(lesson);
+      state_.steps.push_back(Updated(LastLosses(), losses));
+      ++state_.step;
+      if (state_.step % lesson.per_epoch == 0) EndEpoch(lesson.number, lesson.per_epoch);
+      if (hooks_.on_step) hooks_.on_step(state_);
+      if (StopsSomewhere()) return false;
+    }
+    return true;
+  }
+
   TrainerState InitialState() const {
     TrainerState state;
     state.networks = hooks_.initial
@@ -238,22 +254,24 @@ class Trainer {
     return {*network.layout, "encoder.", *network.parameters, instruction_set_};
   }
 
-  StageLosses Step(int lesson, std::uint64_t per_epoch, std::uint64_t per_lesson) {
-    const std::uint64_t lesson_step = state_.step % per_lesson;
-    const Minibatch batch{
-        SampleSet::kTrain,
-        internal::BatchOf(config_.seed, state_.step / per_epoch, state_.step % per_epoch,
-                          train_.size(), BatchSize(train_.size(), config_)),
-        state_.step};
-    const Geometries geometries = task_->GeometriesOf(lesson, OwnShare(batch));
-    const std::vector<Network*> learning = Learning(lesson, lesson_step);
+  StageLosses Step(const Lesson& lesson) {
+    const std::uint64_t lesson_step = state_.step - lesson.begin;
+    const Minibatch batch{SampleSet::kTrain,
+                          internal::BatchOf(config_.seed, state_.step / lesson.per_epoch,
+                                            state_.step % lesson.per_epoch, train_.size(),
+                                            BatchSize(train_.size(), config_)),
+                          state_.step};
+    const Geometries geometries = task_->GeometriesOf(lesson.number, OwnShare(batch));
+    const std::vector<Network*> learning = Learning(lesson.number, lesson_step);
     const std::vector<PointEncoder> encoders = Encode(learning, geometries, true);
     StageLosses losses = UnknownLosses();
     for (Network* network : learning)
       losses = Updated(losses, Head(*network, batch, geometries.size()));
-    Backward(learning, encoders, geometries, batch.indices.size());
-    for (Network* network : learning) AddPartsOfAll(*network);
-    const internal::AdamRates rates{LearningRate(config_, lesson_step, per_lesson),
+    if (!geometries.empty()) {
+      Backward(learning, encoders, geometries, batch.indices.size());
+      for (Network* network : learning) AddPartsOfAll(*network);
+    }
+    const internal::AdamRates rates{LearningRate(config_, lesson_step, lesson.end - lesson.begin),
                                     config_.weight_decay};
     ParallelFor(learning.size(), threads_, [&](std::size_t n) {
       Network& network = *learning[n];
@@ -287,12 +305,14 @@ class Trainer {
   }
 
   std::vector<float> FeaturesOf(const Network& network, std::size_t clouds) const {
+    if (clouds == 0) return {};
     return OnDevice() ? network.device_features : network.encoded.Features(clouds);
   }
 
   // Of the processor's own kernels; on another device the networks keep what they need.
   std::vector<PointEncoder> Encode(const std::vector<Network*>& networks,
                                    const Geometries& geometries, bool for_gradient) const {
+    if (geometries.empty()) return {};
     if (OnDevice()) {
       EncodeOnDevice(networks, geometries, for_gradient);
       return {};
@@ -321,7 +341,7 @@ class Trainer {
 
   BatchFeatures GatherFeatures(std::vector<float> own) {
     BatchFeatures features{{}, 0, own.size()};
-    if (group_.size() == 1) {
+    if (group_.size() == 1 || own.empty()) {
       features.all = std::move(own);
       return features;
     }
@@ -477,6 +497,7 @@ int internal::LessonsOf(NetworkFamily family) { return family == NetworkFamily::
 
 void CheckTrainConfig(const TrainConfig& config) {
   RequireConfig(config.epochs >= 1, "epochs", "at least 1");
+  RequireConfig(config.discriminator_epochs >= 0, "discriminator_epochs", "at least 0");
   RequireConfig(config.batch_size >= 1, "batch_size", "at least 1");
   RequireConfig(config.learning_rate > 0, "learning_rate", "positive");
   RequireConfig(config.weight_decay >= 0, "weight_decay", "at least 0");
@@ -519,8 +540,16 @@ std::uint64_t StepsPerEpoch(std::size_t samples, const TrainConfig& config) {
   return samples == 0 ? 0 : samples / BatchSize(samples, config);
 }
 
+int internal::EpochsOfLesson(const TrainConfig& config, int lesson) {
+  const bool judges = config.family == NetworkFamily::kGrasp && lesson == 0;
+  return judges && config.discriminator_epochs > 0 ? config.discriminator_epochs : config.epochs;
+}
+
 int EpochsOf(const TrainConfig& config) {
-  return config.epochs * internal::LessonsOf(config.family);
+  int epochs = 0;
+  for (int lesson = 0; lesson < internal::LessonsOf(config.family); ++lesson)
+    epochs += internal::EpochsOfLesson(config, lesson);
+  return epochs;
 }
 
 StageLosses UnknownLosses() {

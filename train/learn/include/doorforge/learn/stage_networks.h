@@ -59,8 +59,9 @@ struct NetworkView {
   float zoom = 1;       ///< CloudWindow::zoom of every cloud.
   /// Where a grasp is chosen: TrainingSample::cloud_within_m of what was learned from.
   float cloud_within_m = 0;
-  /// Where a grasp is chosen: how many of the points nearest to the contact the discriminator is
-  /// told in the hand's own frame; 0: none, as UniDoorManip.
+  /// Where a grasp is chosen: how many of the points nearest to the contact the discriminator
+  /// reads, in the hand's own frame, instead of the cloud and the rotation; 0: those, as
+  /// UniDoorManip.
   int near_points = 0;
 
   friend bool operator==(const NetworkView&, const NetworkView&) = default;
@@ -112,9 +113,8 @@ NetworkNames NamesOf(NetworkFamily family);
 const ParameterLayout& ActorLayout(NetworkFamily family = NetworkFamily::kMotion);
 
 /// The critic: encoder of its own, state 18-128-128-64, action 9-128-128-64, hand and base position
-/// 3-128-128-64 each, score 384-256-128-1. The discriminator: encoder, action 9-128-128-128, near
-/// points 3-64-64-128 and their maximum (Qi et al. 2017; all 0 without near points), score
-/// 384-128-1.
+/// 3-128-128-64 each, score 384-256-128-1. The discriminator: encoder and action 9-128-128-128, or
+/// near points 3-64-64-128 and their maximum (as Liang et al. 2019), the other 0; score 384-128-1.
 const ParameterLayout& CriticLayout(NetworkFamily family = NetworkFamily::kMotion);
 
 /// The trained values of both networks, each a flat vector of its layout.

@@ -23,6 +23,8 @@ struct TrainConfig {
   /// Of a stage's networks; at "grasp" of the discriminator, and as many of the affordance after
   /// it.
   int epochs = 10;
+  int discriminator_epochs = 0;  ///< In the place of `epochs`; 0: as many. With near points an
+                                 ///< epoch takes a tenth of the affordance's.
   int batch_size = 32;  ///< UniDoorManip 5.5; an epoch leaves out the last, incomplete batch.
   double learning_rate = 1e-3;
   double weight_decay = 1e-5;
@@ -55,8 +57,8 @@ struct TrainConfig {
   int sampled_orientations = 50;  ///< Rated by the discriminator at each of them (UniDoorManip).
   int best_orientations = 10;     ///< Whose mean rating is the affordance's target (likewise).
   double tilt_rad = 0.1;          ///< Of sampled orientations, as OrientationSampling.
-  /// NetworkView::near_points: what lies around the fingers, told in the hand's own frame; 0: only
-  /// the cloud in the frame above and six numbers of the rotation (UniDoorManip).
+  /// NetworkView::near_points: the discriminator reads what lies around the fingers, told in the
+  /// hand's own frame; 0: the cloud in the frame above and the grasp's numbers (UniDoorManip).
   int near_points = 256;
   /// On every step door and hand are turned together about the way into the leaf, by up to this
   /// either way [rad], and mirrored sideways by a fair coin; in the frame "hand" only.
@@ -86,6 +88,7 @@ struct TrainConfig {
       visit("state", self.state);
       visit("critic_interval", self.critic_interval);
     } else {
+      visit("discriminator_epochs", self.discriminator_epochs);
       visit("score_loss", self.score_loss);
       visit("sampled_points", self.sampled_points);
       visit("sampled_orientations", self.sampled_orientations);

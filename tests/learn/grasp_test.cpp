@@ -184,6 +184,7 @@ TEST(TrainGrasp, PrefersThePointsAndTheTurnsThatOpenDoorsItHasNotSeen) {
   config.sampled_points = 2;
   config.learning_rate = 2e-3;
   config.frame = "world";
+  config.near_points = 0;  // which half is the upper one, only the world's frame tells
   const StageNetworks networks = TrainStage(train.samples, {}, config, {}).networks;
   const auto policy = MakeGraspPolicy(networks, {.orientations = 32});
   int opened = 0;
@@ -208,6 +209,36 @@ TEST(TrainGrasp, PrefersThePointsAndTheTurnsThatOpenDoorsItHasNotSeen) {
   // by chance a quarter would open, and both halves of the handles would score alike
   EXPECT_GE(opened, 7);
   EXPECT_GT(upper, 2 * lower);
+}
+
+// What the near points tell: the door opens if the fingers close along the bar, near its middle.
+float AngleByNearPoints(const Eigen::Vector3d& contact, const Eigen::Matrix3d& rotation) {
+  return std::abs(contact.z() - 1) < 0.05 && std::abs(rotation(2, 1)) > 0.7 ? 0.8F : 0.0F;
+}
+
+TEST(TrainGrasp, LearnsFromNearPointsWhichPlacesAndTurnsOpenDoorsItHasNotSeen) {
+  GraspSamples train = MakeGraspSamples(3, 128);
+  for (TrainingSample& sample : train.samples) {
+    const Action tried = FromVector(sample.action);
+    sample.score_rad = AngleByNearPoints(tried.position_delta_m, tried.world_from_hand_rotation);
+  }
+  TrainConfig config = GraspConfig();
+  config.discriminator_epochs = 60;
+  config.epochs = 1;
+  config.batch_size = 8;
+  const TrainerState state = TrainStage(train.samples, {}, config, {});
+  EXPECT_EQ(state.epochs.size(), 61U);
+  const auto policy = MakeGraspPolicy(state.networks, {.points = 32, .orientations = 32});
+  int opened = 0;
+  for (std::uint64_t i = 0; i < 8; ++i) {
+    const GraspWorld world(900000 + i);
+    const auto choice =
+        policy->Choose({world.cloud, kApproach,
+                        [&](const Eigen::Vector3d& start, double) { return world.From(start); }});
+    ASSERT_TRUE(choice.has_value());
+    opened += AngleByNearPoints(choice->contact_m, choice->world_from_hand_rotation) > 0 ? 1 : 0;
+  }
+  EXPECT_GE(opened, 7) << "by chance a quarter";
 }
 
 // All of it moved.

@@ -115,8 +115,7 @@ bool RunsTrainedPolicies();
 
 /// A new instance that uses one thread. Throws as the loader of policies.
 std::unique_ptr<Policy> LoadTrainedPolicy(const TrainedPolicy& policy);
-/// The same at the stage "grasp": the best of the 8 points of highest affordance, ratings averaged
-/// over 0.25 rad, as the pipelines evaluate it.
+/// The same at the stage "grasp", with GraspOptions' defaults.
 std::unique_ptr<LearnedGrasp> LoadLearnedGrasp(const TrainedPolicy& policy);
 
 /// What the policies' bytes depend on beside their folders: the instruction set of the networks'

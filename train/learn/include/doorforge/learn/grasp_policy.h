@@ -20,13 +20,13 @@ namespace doorforge {
 struct GraspOptions {
   /// Points with the highest affordance at which orientations are tried; the best pair by the
   /// discriminator is taken. 1: the affordance alone decides about the point (UniDoorManip).
-  int points = 1;
+  int points = 8;
   int orientations = 100;  ///< Tried at each of them.
   double tilt_rad = 0.1;   ///< As in OrientationSampling.
   /// A rotation's rating is the mean of those tried at the point, each weighted by
   /// exp(-(angle between them / this)^2), alike fingers alike; 0: its own alone (UniDoorManip). The
   /// best of many ratings is the luckiest one; among neighbours luck evens out.
-  double smoothing_rad = 0;
+  double smoothing_rad = 0.25;
   std::uint64_t seed = 1;  ///< Of the sampled orientations.
 
   template <class Self, class Visitor>

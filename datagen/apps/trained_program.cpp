@@ -45,8 +45,7 @@ std::unique_ptr<Policy> LoadTrainedPolicy(const TrainedPolicy& policy) {
 }
 
 std::unique_ptr<LearnedGrasp> LoadLearnedGrasp(const TrainedPolicy& policy) {
-  return std::make_unique<TrainedLearnedGrasp>(
-      LoadGraspPolicy(policy.folder));
+  return std::make_unique<TrainedLearnedGrasp>(LoadGraspPolicy(policy.folder));
 }
 
 std::string PolicyArithmetic() { return std::string(NameOf(BestInstructionSet())); }

@@ -65,6 +65,24 @@ TEST_F(RealMeshes, DirtyOnesAreReadOrRefusedButNeverCrashTheReader) {
   EXPECT_GT(read, 60);
 }
 
+// Unions of boards and tubes in which triangles cross when all are thinned as far as was asked for.
+TEST_F(RealMeshes, UnionsStayWithinTheTriangleBudget) {
+  Unpack("unidoormanip");
+  if (IsSkipped()) return;
+  for (const char* name : {"Fridge/99614069961503/texture_dae/frame.dae",
+                           "Fridge/99614069961503/texture_dae/9961503.dae",
+                           "LeverDoor/99660099960019/texture_dae/frame.dae"}) {
+    const TriangleMesh mesh = MergedPieces(ImportMesh(folder_ / "unidoormanip_objects" / name));
+    const RepairResult result = RepairMesh(mesh, {});
+    ASSERT_TRUE(result.mesh) << name;
+    EXPECT_LE(result.mesh->mesh().triangles.size(), 3 * mesh.triangles.size() + 5000) << name;
+    EXPECT_FALSE(result.report.self_intersects) << name;
+    EXPECT_LT(result.report.output_to_input.max_m,
+              0.01 * MeasureTopology(mesh).bounds.diagonal().norm())
+        << name;
+  }
+}
+
 TEST_F(RealMeshes, KeepTheRawFrameInWhichTheirAuthorsMeasuredThem) {
   Unpack("unidoormanip");
   if (IsSkipped()) return;

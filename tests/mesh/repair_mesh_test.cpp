@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/mesh/repair_mesh.h"
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <numbers>
 
@@ -11,6 +13,7 @@
 #include "doorforge/core/error.h"
 
 #include "shapes.h"
+#include "surface_operations.h"
 
 namespace doorforge {
 namespace {
@@ -318,6 +321,35 @@ TEST(RepairMesh, KeepsToItsTriangleBudget) {
   EXPECT_NEAR(VolumeAfter(result), 2 * std::numbers::pi * std::numbers::pi * 0.09, 0.03);
   config.max_triangles = 0;
   EXPECT_EQ(Repaired(fine, config).mesh->mesh().triangles.size(), 14400U);
+}
+
+TEST(Simplified, LeavesTrianglesThatMeetAKeptBoxAsTheyWere) {
+  const TriangleMesh fine = Torus(1, 0.3, 60, 30);
+  const auto corners = [&](const TriangleMesh& mesh, std::size_t i) {
+    std::array<std::array<double, 3>, 3> points;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3d& p =
+          mesh.vertices[static_cast<std::size_t>(mesh.triangles[i][static_cast<int>(k)])];
+      points[k] = {p.x(), p.y(), p.z()};
+    }
+    std::rotate(points.begin(), std::min_element(points.begin(), points.end()), points.end());
+    return points;
+  };
+  // within one triangle, so that none of the mesh's vertices lies in the box
+  const auto kept = corners(fine, 1234);
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const auto& point : kept) middle += Eigen::Vector3d::Map(point.data()) / 3;
+  const Eigen::Vector3d half = Eigen::Vector3d::Constant(1e-3);
+  const auto has_it = [&](const TriangleMesh& mesh) {
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      if (corners(mesh, i) == kept) return true;
+    }
+    return false;
+  };
+  EXPECT_FALSE(has_it(Simplified(fine, 200, 0)));
+  const TriangleMesh simple = Simplified(fine, 200, 0, {{middle - half, middle + half}});
+  EXPECT_TRUE(has_it(simple));
+  EXPECT_LE(simple.triangles.size(), 250U);
 }
 
 TEST(RepairMesh, WrapsAndSimplifiesToTheSameBytesTwice) {

@@ -10,6 +10,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_policies.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 #include <CGAL/convex_hull_3.h>
+#include <CGAL/intersections.h>
 
 #include "doorforge/core/error.h"
 #include "doorforge/mesh/convex_parts.h"
@@ -41,7 +42,12 @@ class BudgetAndCost {
   double max_cost_;
 };
 
-// Edges that a collapse must leave alone: those with an end that lay in a box from the start.
+Point PointAt(const TriangleMesh& mesh, int index) {
+  const Eigen::Vector3d& v = mesh.vertices[static_cast<std::size_t>(index)];
+  return {v.x(), v.y(), v.z()};
+}
+
+// Edges that a collapse must leave alone: those with a kept end.
 struct KeptEdges {
   using key_type = SurfaceMesh::Edge_index;
   using value_type = bool;
@@ -58,26 +64,30 @@ struct KeptEdges {
   }
 };
 
-std::vector<char> VerticesIn(const std::vector<Eigen::AlignedBox3d>& boxes,
-                             const TriangleMesh& mesh) {
-  std::vector<char> is_in;
-  if (boxes.empty()) return is_in;
-  for (const Eigen::Vector3d& vertex : mesh.vertices) {
-    is_in.push_back(std::any_of(boxes.begin(), boxes.end(), [&](const Eigen::AlignedBox3d& box) {
-      return box.contains(vertex);
-    }));
+// Those of the triangles that meet a box.
+std::vector<char> VerticesAround(const std::vector<Eigen::AlignedBox3d>& boxes,
+                                 const TriangleMesh& mesh) {
+  std::vector<char> is_around;
+  if (boxes.empty()) return is_around;
+  is_around.resize(mesh.vertices.size(), 0);
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    const Kernel::Triangle_3 triangle(PointAt(mesh, t[0]), PointAt(mesh, t[1]),
+                                      PointAt(mesh, t[2]));
+    const CGAL::Bbox_3 bounds = triangle.bbox();
+    const bool meets = std::any_of(boxes.begin(), boxes.end(), [&](const Eigen::AlignedBox3d& b) {
+      const CGAL::Bbox_3 box(b.min().x(), b.min().y(), b.min().z(), b.max().x(), b.max().y(),
+                             b.max().z());
+      return CGAL::do_overlap(bounds, box) && CGAL::do_intersect(box, triangle);
+    });
+    if (!meets) continue;
+    for (const int corner : t) is_around[static_cast<std::size_t>(corner)] = 1;
   }
-  return is_in;
+  return is_around;
 }
 
 // ---- one triangulation for one hull -----------------------------------------------------------
 
 using Edge = std::pair<int, int>;
-
-Point PointAt(const TriangleMesh& mesh, int index) {
-  const Eigen::Vector3d& v = mesh.vertices[static_cast<std::size_t>(index)];
-  return {v.x(), v.y(), v.z()};
-}
 
 // For each triangle the first one of its facet: triangles in one plane, joined across edges.
 std::vector<std::size_t> FacetOfTriangles(const TriangleMesh& hull) {
@@ -177,7 +187,7 @@ TriangleMesh Simplified(const TriangleMesh& mesh, int max_triangles, double free
                            free_error_m * free_error_m);
   const sms::GarlandHeckbert_plane_policies<SurfaceMesh, Kernel> policies(surface);
   const sms::Bounded_normal_change_filter<> filter;
-  const std::vector<char> is_kept = VerticesIn(kept, mesh);
+  const std::vector<char> is_kept = VerticesAround(kept, mesh);
   sms::edge_collapse(surface, stop,
                      CGAL::parameters::get_cost(policies.get_cost())
                          .get_placement(policies.get_placement())

@@ -319,11 +319,16 @@ class Repair {
     const bool wrapped = report_.outcome == RepairOutcome::kWrapped;
     if (config_.max_triangles == 0 || (count <= config_.max_triangles && !wrapped)) return mesh;
     const auto of_input = static_cast<int>(kBudgetFactor * input_->triangles.size() + kBudget);
+    const int target = std::min(config_.max_triangles, of_input);
     const double free_error_m =
         wrapped ? kFreeErrorShare * config_.offset_fraction * diagonal_m_ : 0;
-    std::optional<TriangleMesh> simple =
-        SimplifiedWithoutCrossings(mesh, std::min(config_.max_triangles, of_input), free_error_m);
-    if (!simple) {
+    const auto fits = [&](const std::optional<TriangleMesh>& result) {
+      return result && result->triangles.size() <= static_cast<std::size_t>(of_input);
+    };
+    std::optional<TriangleMesh> simple = SimplifiedWithoutCrossings(mesh, target, free_error_m);
+    if (!fits(simple) && target < of_input)
+      simple = SimplifiedWithoutCrossings(mesh, of_input, free_error_m);
+    if (!simple || (!wrapped && !fits(simple))) {
       Did("kept " + Count(count, "triangle") + ": fewer would cross");
       return mesh;
     }
@@ -332,11 +337,11 @@ class Repair {
     return *std::move(simple);
   }
 
-  // Where triangles cross after the collapses, the next try leaves the surroundings as they were.
+  // Where triangles cross after the collapses, the next try leaves the place as it was.
   static std::optional<TriangleMesh> SimplifiedWithoutCrossings(const TriangleMesh& mesh,
                                                                 int max_triangles,
                                                                 double free_error_m) {
-    constexpr int kTries = 4;
+    constexpr int kTries = 8;
     std::vector<Eigen::AlignedBox3d> kept;
     for (int i = 0; i < kTries; ++i) {
       TriangleMesh simple = Simplified(mesh, max_triangles, free_error_m, kept);
@@ -344,8 +349,7 @@ class Repair {
       const std::vector<std::pair<int, int>> crossings = CrossingTriangles(simple);
       if (crossings.empty()) return simple;
       for (const auto& [a, b] : crossings) {
-        Eigen::AlignedBox3d box = BoxOf(simple, a);
-        box.extend(BoxOf(simple, b));
+        const Eigen::AlignedBox3d box = BoxOf(simple, a).intersection(BoxOf(simple, b));
         const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.1 * i * box.diagonal().norm());
         kept.emplace_back(box.min() - margin, box.max() + margin);
       }

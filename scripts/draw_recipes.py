@@ -31,7 +31,9 @@ chosen so that parts differ and keep to the measured sizes (benchmarks/choose_re
     scripts/draw_recipes.py --choose build/release/bin/choose_recipes --category window
 
 draws every recipe of a window several times (CANDIDATES below), lets the program choose, and writes
-draws.yaml and the recipes. --role bodies or handles takes only those.
+draws.yaml and the recipes. --role bodies or handles takes only those. --side test chooses only for the
+parts on that side of data/splits/full.yaml, so that what was trained on stays as it is; --rounds 3
+lets each recipe choose three times instead of twice.
 """
 import argparse
 import hashlib
@@ -51,8 +53,9 @@ DRAWS_HEADER = HEADER + """
 # scripts/draw_recipes.py.
 """
 # How many draws --choose makes of a recipe; 8 of all others.
-CANDIDATES = {"car_bodies": 10, "car_handles": 24, "interior_bodies": 6, "refrigerator_bodies": 60,
-              "storagefurniture_bodies": 7, "window_bodies": 30, "window_handles": 14}
+CANDIDATES = {"car_bodies": 10, "car_handles": 24, "interior_bodies": 6, "interior_handles": 40,
+              "refrigerator_bodies": 400,
+              "storagefurniture_bodies": 40, "window_bodies": 30, "window_handles": 14}
 ENTRY_KEYS = {"family", "stem", "count", "first", "kept", "parameters"}
 
 
@@ -106,13 +109,13 @@ def families_files(category, role):
     return sorted((ROOT / "data/families").glob(f"{category or '*'}_{role or '*'}.yaml"))
 
 
-def write_candidates(files, count, out):
-    """`count` draws of every recipe, and those written by hand as they are."""
+def write_candidates(files, count, out, only=None):
+    """`count` draws of every recipe (of those in `only`, if given), and all others as they are."""
     for families_file in files:
         for folder, recipe_id, entry in recipes(families_file):
             place = out / "catalog" / folder
             place.mkdir(parents=True, exist_ok=True)
-            if entry is None:
+            if entry is None or (only is not None and recipe_id not in only):
                 (place / f"{recipe_id}.yaml").write_text(
                     (ROOT / "data/catalog" / folder / f"{recipe_id}.yaml").read_text())
                 continue
@@ -121,12 +124,20 @@ def write_candidates(files, count, out):
                 (place / f"{name}.yaml").write_text(recipe_text(entry, recipe_id, number, name))
 
 
-def choose(program, files, draws):
+def parts_on(side):
+    split = yaml.safe_load((ROOT / "data/splits/full.yaml").read_text())
+    sides = {name: parts for name, parts in split.items() if isinstance(parts, list)}
+    if side not in sides:
+        sys.exit(f"--side: expected one of {', '.join(sides)}")
+    return set(sides[side])
+
+
+def choose(command, files, draws, only):
     """`draws` with what the program chooses for the recipes of these families."""
     for families_file in files:
         with tempfile.TemporaryDirectory() as out:
-            write_candidates([families_file], CANDIDATES.get(families_file.stem, 8), pathlib.Path(out))
-            chosen = subprocess.run([program, out], check=True, stdout=subprocess.PIPE, text=True).stdout
+            write_candidates([families_file], CANDIDATES.get(families_file.stem, 8), pathlib.Path(out), only)
+            chosen = subprocess.run([command[0], out, *command[1:]], check=True, stdout=subprocess.PIPE, text=True).stdout
         draws.update(yaml.safe_load(chosen) or {})
     draws = {recipe_id: number for recipe_id, number in sorted(draws.items()) if number}
     DRAWS.write_text(DRAWS_HEADER + "".join(f"{i}: {number}\n" for i, number in draws.items()))
@@ -142,6 +153,8 @@ def main():
     mode.add_argument("--choose", metavar="PROGRAM", help="choose_recipes, as built")
     parser.add_argument("--category", help="only this one, such as window")
     parser.add_argument("--role", choices=("bodies", "handles"))
+    parser.add_argument("--side", help="choose only for parts on this side of data/splits/full.yaml")
+    parser.add_argument("--rounds", default="2", help="of --choose")
     parser.add_argument("--out", type=pathlib.Path, help="folder for the candidates")
     args = parser.parse_args()
     files = families_files(args.category, args.role)
@@ -152,7 +165,7 @@ def main():
         return 0
     draws = yaml.safe_load(DRAWS.read_text()) or {}
     if args.choose:
-        draws = choose(args.choose, files, draws)
+        draws = choose((args.choose, args.rounds), files, draws, parts_on(args.side) if args.side else None)
     problems = written = total = 0
     for families_file in files:
         for folder, recipe_id, entry in recipes(families_file):

@@ -3,6 +3,8 @@
 
 // Safes, storage furniture and refrigerators of the catalogue.
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -132,7 +134,9 @@ TEST(FurnitureCatalogue, CollisionShapesLeaveTheRoomBehindTheLeafFree) {
     int free = 0;
     // shelves may be in the way of some
     for (const double up : {0.3, 0.42, 0.58, 0.7}) {
-      const Eigen::Vector3d inside(leaf.min().x() - 0.06, leaf.center().y(),
+      // no divider is at 0.61 of the width
+      const Eigen::Vector3d inside(leaf.min().x() - 0.06,
+                                   leaf.min().y() + 0.61 * leaf.sizes().y(),
                                    leaf.min().z() + up * leaf.sizes().z());
       free += DeepestIn(*FindPiece(part, "frame"), inside) < 0;
     }
@@ -194,37 +198,46 @@ TEST(FurnitureCatalogue, AParallelGripperHoldsEveryHandleAtItsGraspFrame) {
   }
 }
 
-// How often the line through (x, z) along y crosses the frame of a cabinet with this carcass, and
-// how often the line through (y, z) along x.
-std::pair<int, int> CrossingsOfFrame(const std::string& carcass) {
+// The frame of a cabinet with this carcass: 0.5 m deep, its leaf 0.6 m wide and 0.7 m high.
+TriangleMesh FrameWith(const std::string& carcass) {
   const std::filesystem::path data = ScratchFolder("furniture") / "data";
   std::filesystem::remove_all(data);
   CommitFile(data / "catalog/storagefurniture/bodies/a.yaml",
              "schema: doorforge.recipe\nschema_version: 1\nid: a\nfamily: storage_slab\n"
              "license: CC0-1.0\nparameters: {leaf_width_m: 0.6, leaf_height_m: 0.7, thickness_m: "
-             "0.03, mount_height_m: 0.35, carcass: {depth_m: 0.5, shelves: 0, " +
+             "0.03, mount_height_m: 0.35, carcass: {depth_m: 0.5, " +
                  carcass + "}}\n");
-  const Part part = BuildCataloguePart(data, "a");
-  const TriangleMesh& mesh = FindPiece(part, "frame")->mesh;
-  const auto crossings = [&](int along, const Eigen::Vector2d& at) {
-    const int u = (along + 1) % 3;
-    const int v = (along + 2) % 3;
-    int count = 0;
-    for (const Eigen::Vector3i& t : mesh.triangles) {
-      int left = 0;
-      int right = 0;
-      for (int k = 0; k < 3; ++k) {
-        const Eigen::Vector3d& a = mesh.vertices[static_cast<std::size_t>(t[k])];
-        const Eigen::Vector3d& b = mesh.vertices[static_cast<std::size_t>(t[(k + 1) % 3])];
-        const double area = (a[u] - at.x()) * (b[v] - at.y()) - (a[v] - at.y()) * (b[u] - at.x());
-        (area > 0 ? left : right) += 1;
-      }
-      count += left == 3 || right == 3;
+  return FindPiece(BuildCataloguePart(data, "a"), "frame")->mesh;
+}
+
+// Where the line along an axis crosses the mesh; `at`: its place on the next two axes.
+std::vector<double> Crossings(const TriangleMesh& mesh, int along, const Eigen::Vector2d& at) {
+  const int u = (along + 1) % 3;
+  const int v = (along + 2) % 3;
+  std::vector<double> places;
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    std::array<double, 3> areas{};  // each opposite to the corner before its edge
+    double place = 0;
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d& a = mesh.vertices[static_cast<std::size_t>(t[k])];
+      const Eigen::Vector3d& b = mesh.vertices[static_cast<std::size_t>(t[(k + 1) % 3])];
+      const double area = (a[u] - at.x()) * (b[v] - at.y()) - (a[v] - at.y()) * (b[u] - at.x());
+      areas.at(static_cast<std::size_t>(k)) = area;
+      place += area * mesh.vertices[static_cast<std::size_t>(t[(k + 2) % 3])][along];
     }
-    return count;
-  };
+    const auto [least, most] = std::ranges::minmax(areas);
+    if (least > 0 || most < 0) places.push_back(place / (areas[0] + areas[1] + areas[2]));
+  }
+  std::ranges::sort(places);
+  return places;
+}
+
+// How often the line through (x, z) along y crosses the frame, and that through (y, z) along x.
+std::pair<std::size_t, std::size_t> CrossingsOfFrame(const std::string& carcass) {
+  const TriangleMesh frame = FrameWith("shelves: 0, " + carcass);
   // off the middle, where no triangle has an edge
-  return {crossings(1, {0.4321, -0.2718}), crossings(0, {0.2917, 0.4321})};
+  return {Crossings(frame, 1, {0.4321, -0.2718}).size(),
+          Crossings(frame, 0, {0.2917, 0.4321}).size()};
 }
 
 TEST(FurnitureCatalogue, OpenSidesAndBacksOfCabinetsCanBeLookedThrough) {
@@ -233,6 +246,37 @@ TEST(FurnitureCatalogue, OpenSidesAndBacksOfCabinetsCanBeLookedThrough) {
   EXPECT_EQ(CrossingsOfFrame("sides: open"), std::pair(0, 2));
   EXPECT_EQ(CrossingsOfFrame("sides: open, back: false"), std::pair(0, 0));
   EXPECT_EQ(CrossingsOfFrame("sides: panel, back: false"), std::pair(4, 0));
+}
+
+TEST(FurnitureCatalogue, DrawersHaveBoxesAsDeepAsTheirRecipeSays) {
+  const std::string drawer = "right: {kind: drawers, size_m: 0.4, count: 1}";
+  // the cabinet's sides and the upright beside the leaf; a box has two sides more
+  EXPECT_EQ(CrossingsOfFrame(drawer), std::pair(6, 2));
+  EXPECT_EQ(CrossingsOfFrame(drawer + ", drawer_depth: 0.8"), std::pair(10, 2));
+  EXPECT_EQ(CrossingsOfFrame(drawer + ", drawer_depth: 0.4"), std::pair(6, 2)) << "not so deep";
+  EXPECT_EQ(CrossingsOfFrame(drawer + ", drawer_depth: 0.8, drawer_height: 0.3"), std::pair(6, 2))
+      << "not so high";
+}
+
+TEST(FurnitureCatalogue, ShelvesAndDividersStandWhereTheRecipeSays) {
+  const Eigen::Vector2d at_rear(-0.4321, 0.2917);  // x, y
+  const double low = 0.09 + 0.003;                 // the leaf, above the base
+  const auto heights = [](const TriangleMesh& frame, const Eigen::Vector2d& at) {
+    std::vector<double> inside;
+    for (const double z : Crossings(frame, 2, at)) {
+      if (z > 0.13 && z < 0.76) inside.push_back(z);  // not of bottom and top
+    }
+    return inside;
+  };
+  const TriangleMesh graded = FrameWith("shelves: 2, shelf_grading: 1.5, shelf_depth: 0.5");
+  const std::vector<double> faces = heights(graded, at_rear);
+  ASSERT_EQ(faces.size(), 4U);
+  EXPECT_NEAR((faces[0] + faces[1]) / 2, low + 0.7 * std::pow(1.0 / 3, 1.5), 1e-6);
+  EXPECT_NEAR((faces[2] + faces[3]) / 2, low + 0.7 * std::pow(2.0 / 3, 1.5), 1e-6);
+  EXPECT_TRUE(heights(graded, {-0.1234, 0.2917}).empty()) << "half as deep as the room";
+  const TriangleMesh divided = FrameWith("shelves: 1, dividers: 2");
+  EXPECT_EQ(Crossings(divided, 1, {0.2718, -0.4321}).size(), 8U) << "sides and dividers";
+  EXPECT_EQ(Crossings(divided, 1, {0.6543, -0.4321}).size(), 4U) << "above the shelf, sides alone";
 }
 
 TEST(FurnitureCatalogue, SafesAreUnlockedByAKeyOrAValveAndRefrigeratorsByALever) {

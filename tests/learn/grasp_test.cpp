@@ -237,6 +237,8 @@ TEST(TrainGrasp, LearnsFromNearPointsWhichPlacesAndTurnsOpenDoorsItHasNotSeen) {
                         [&](const Eigen::Vector3d& start, double) { return world.From(start); }});
     ASSERT_TRUE(choice.has_value());
     opened += AngleByNearPoints(choice->contact_m, choice->world_from_hand_rotation) > 0 ? 1 : 0;
+    EXPECT_LT((choice->world_from_hand_rotation.col(2) - kApproach).norm(), 1e-6)
+        << "no leaning hand where none is asked for";
   }
   EXPECT_GE(opened, 7) << "by chance a quarter";
 }

@@ -64,12 +64,15 @@ class Frame {
   void Add(Solid solid) { solids_.push_back(std::move(solid)); }
   void AddWalls();
   void AddOpenSide(double y0);
-  void AddLevel(double z, const Interval& y);
+  void AddLevel(double z, const Interval& y) { AddLevel(z, y, 1); }
+  void AddLevel(double z, const Interval& y, double depth);
   void AddUpright(double y, const Interval& z);
   void AddFront(const Interval& y, const Interval& z);
+  void AddDrawer(const Interval& y, const Interval& z);
   void AddSideBay(const Bay& bay, const Interval& y);
   void AddWideBay(const Bay& bay, const Interval& z);
   void AddLevels();
+  double ShelfHeight(int i) const;
   void AddBase();
   void AddLeg(const Eigen::Vector2d& at);
   void AddSled();
@@ -187,10 +190,13 @@ void Frame::AddWalls() {
   }
 }
 
-// A level board with its upper face at z + half its thickness.
-void Frame::AddLevel(double z, const Interval& y) {
+// A level board with its upper face at z + half its thickness, `depth` of the room deep.
+void Frame::AddLevel(double z, const Interval& y, double depth) {
   const double half = carcass_.board_m / 2 - kJointM;
-  const Polygon board = ClippedToBand(inner_, 1, y.low, y.high);
+  const auto back = std::ranges::min(inner_, {}, [](const auto& p) { return p.x(); }).x();
+  const Polygon deep =
+      depth < 1 ? ClippedToBand(inner_, 0, back, back + depth * (x1_ - back)) : inner_;
+  const Polygon board = ClippedToBand(deep, 1, y.low, y.high);
   if (board.size() >= 3)
     Add(ConvexPrism(Inset(board, kJointM), PrismAxis::kZ, {z - half, z + half}, kBoardEdgeM));
 }
@@ -214,6 +220,25 @@ void Frame::AddFront(const Interval& y, const Interval& z) {
   Add(Moved(ReliefSolid(slab, kHullToleranceM), {front_x_, 0, 0}));
 }
 
+// The box behind a drawer's front: bottom, sides and rear, within the room (y, z) that it has. A
+// very low one has none.
+void Frame::AddDrawer(const Interval& y, const Interval& z) {
+  if (carcass_.drawer_depth <= 0 || z.size() < 0.05) return;
+  const double side = 0.012;
+  const double clear = 0.004;  // to what the drawer runs in
+  const double front = x1_ - kJointM;
+  const double rear = x1_ - carcass_.drawer_depth * (carcass_.depth_m - kBackM - clear);
+  const double floor = z.low + clear;
+  const double top = floor + std::max(2 * side, carcass_.drawer_height * (z.size() - 2 * clear));
+  const auto board = [&](const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+    Add(ChamferedBox(low.array() + kJointM, high.array() - kJointM, kBoardEdgeM));
+  };
+  board({rear, y.low + clear, floor}, {front, y.high - clear, floor + side});
+  board({rear, y.low + clear, floor + side}, {front, y.low + clear + side, top});
+  board({rear, y.high - clear - side, floor + side}, {front, y.high - clear, top});
+  board({rear, y.low + clear + side, floor + side}, {rear + side, y.high - clear - side, top});
+}
+
 // Part i of n, `gap` between neighbours.
 Interval Share(const Interval& whole, int i, int n, double gap) {
   const double size = (whole.size() - gap * (n - 1)) / n;
@@ -232,6 +257,11 @@ void Frame::AddSideBay(const Bay& bay, const Interval& y) {
     const Interval z = Share(leaf_z_, i, bay.count, kBetweenFrontsM);
     const bool open = bay.kind == "niche" || bay.kind == "grid";
     if (!open) AddFront(y, z);
+    if (bay.kind == "drawers")
+      AddDrawer({at_left ? inside.low + carcass_.board_m : inside.low,
+                 at_left ? inside.high : inside.high - carcass_.board_m},
+                {i == 0 ? z.low + carcass_.board_m : z.low,
+                 i == bay.count - 1 ? z.high - carcass_.board_m : z.high});
     if (open && i > 0) AddLevel(z.low - kBetweenFrontsM / 2, inside);
     if (bay.kind == "grid") {
       const double clear = half + kJointM;
@@ -254,6 +284,9 @@ void Frame::AddWideBay(const Bay& bay, const Interval& z) {
         Share({y_.low + kMarginM, y_.high - kMarginM}, i, bay.count, kBetweenFrontsM);
     const bool open = bay.kind == "niche" || bay.kind == "grid";
     if (!open) AddFront(y, fronts);
+    if (bay.kind == "drawers")
+      AddDrawer({i == 0 ? y.low + board : y.low, i == bay.count - 1 ? y.high - board : y.high},
+                {fronts.low + board, fronts.high - board});
     if (!open || i == 0) continue;
     const double middle = (z.low + z.high) / 2;
     const double clear = bay.kind == "grid" ? board / 2 : 0;
@@ -274,11 +307,17 @@ void Frame::AddLevels() {
   const Interval inside{Has(carcass_.left) ? -kLeafToBayM / 2 + half : y_.low,
                         Has(carcass_.right) ? leaf_width_ + kLeafToBayM / 2 - half : y_.high};
   for (int i = 1; i <= carcass_.shelves; ++i)
-    AddLevel(leaf_z_.low + leaf_z_.size() * i / (carcass_.shelves + 1), inside);
+    AddLevel(ShelfHeight(i), inside, carcass_.shelf_depth);
   // a board's thickness below and above is taken by what closes the room
+  const double top =
+      carcass_.shelves > 0 ? ShelfHeight(1) - half : leaf_z_.high - carcass_.board_m;
   for (int i = 1; i <= carcass_.dividers; ++i)
-    AddUpright(leaf_width_ * i / (carcass_.dividers + 1),
-               {leaf_z_.low + carcass_.board_m, leaf_z_.high - carcass_.board_m});
+    AddUpright(leaf_width_ * i / (carcass_.dividers + 1), {leaf_z_.low + carcass_.board_m, top});
+}
+
+double Frame::ShelfHeight(int i) const {
+  const double share = static_cast<double>(i) / (carcass_.shelves + 1);
+  return leaf_z_.low + leaf_z_.size() * std::pow(share, carcass_.shelf_grading);
 }
 
 // Up to four corners of the plan that lie far apart.
@@ -567,8 +606,13 @@ void CheckCarcass(const Carcass& carcass, const std::string& path) {
   RequireRange(path, "depth_m", carcass.depth_m, 0.28, 0.9);
   RequireRange(path, "board_m", carcass.board_m, 0.012, 0.035);
   RequireRange(path, "shelves", carcass.shelves, 0, 4);
-  RequireRange(path, "dividers (without shelves)", carcass.dividers, 0,
-               carcass.shelves > 0 ? 0 : 3);
+  RequireRange(path, "shelf_depth", carcass.shelf_depth, 0.3, 1);
+  RequireRange(path, "shelf_grading", carcass.shelf_grading, 0.6, 1.6);
+  RequireRange(path, "dividers", carcass.dividers, 0, 3);
+  RequireRange(path, "drawer_depth", carcass.drawer_depth, 0, 1);
+  if (carcass.drawer_depth > 0)
+    RequireOneOf(path + ".form (of drawers with boxes)", carcass.form, {"box"});
+  RequireRange(path, "drawer_height", carcass.drawer_height, 0.3, 1);
   RequireOneOf(path + ".sides", carcass.sides, {"panel", "open", "slatted"});
   RequireRange(path, "base_height_m", carcass.base_height_m, 0.03, 0.55);
   RequireRange(path, "form_m", carcass.form_m, 0.02, 0.4);

@@ -22,7 +22,9 @@ struct GraspOptions {
   /// discriminator is taken. 1: the affordance alone decides about the point (UniDoorManip).
   int points = 8;
   int orientations = 100;  ///< Tried at each of them.
-  double tilt_rad = 0.1;   ///< As in OrientationSampling.
+  /// As in OrientationSampling; 0: all in the plane normal to the handle's axis (UniDoorManip). A
+  /// spread is there to learn from: the discriminator overrates the few that lean the most.
+  double tilt_rad = 0;
   /// A rotation's rating is the mean of those tried at the point, each weighted by
   /// exp(-(angle between them / this)^2), alike fingers alike; 0: its own alone (UniDoorManip). The
   /// best of many ratings is the luckiest one; among neighbours luck evens out.

@@ -135,8 +135,7 @@ TEST(FurnitureCatalogue, CollisionShapesLeaveTheRoomBehindTheLeafFree) {
     // shelves may be in the way of some
     for (const double up : {0.3, 0.42, 0.58, 0.7}) {
       // no divider is at 0.61 of the width
-      const Eigen::Vector3d inside(leaf.min().x() - 0.06,
-                                   leaf.min().y() + 0.61 * leaf.sizes().y(),
+      const Eigen::Vector3d inside(leaf.min().x() - 0.06, leaf.min().y() + 0.61 * leaf.sizes().y(),
                                    leaf.min().z() + up * leaf.sizes().z());
       free += DeepestIn(*FindPiece(part, "frame"), inside) < 0;
     }

@@ -309,8 +309,7 @@ void Frame::AddLevels() {
   for (int i = 1; i <= carcass_.shelves; ++i)
     AddLevel(ShelfHeight(i), inside, carcass_.shelf_depth);
   // a board's thickness below and above is taken by what closes the room
-  const double top =
-      carcass_.shelves > 0 ? ShelfHeight(1) - half : leaf_z_.high - carcass_.board_m;
+  const double top = carcass_.shelves > 0 ? ShelfHeight(1) - half : leaf_z_.high - carcass_.board_m;
   for (int i = 1; i <= carcass_.dividers; ++i)
     AddUpright(leaf_width_ * i / (carcass_.dividers + 1), {leaf_z_.low + carcass_.board_m, top});
 }

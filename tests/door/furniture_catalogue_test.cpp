@@ -232,11 +232,13 @@ std::vector<double> Crossings(const TriangleMesh& mesh, int along, const Eigen::
 }
 
 // How often the line through (x, z) along y crosses the frame, and that through (y, z) along x.
-std::pair<std::size_t, std::size_t> CrossingsOfFrame(const std::string& carcass) {
+std::pair<int, int> CrossingsOfFrame(const std::string& carcass) {
   const TriangleMesh frame = FrameWith("shelves: 0, " + carcass);
+  const auto count = [&](int along, const Eigen::Vector2d& at) {
+    return static_cast<int>(Crossings(frame, along, at).size());
+  };
   // off the middle, where no triangle has an edge
-  return {Crossings(frame, 1, {0.4321, -0.2718}).size(),
-          Crossings(frame, 0, {0.2917, 0.4321}).size()};
+  return {count(1, {0.4321, -0.2718}), count(0, {0.2917, 0.4321})};
 }
 
 TEST(FurnitureCatalogue, OpenSidesAndBacksOfCabinetsCanBeLookedThrough) {

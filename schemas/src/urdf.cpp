@@ -305,7 +305,8 @@ void AddOrigin(XMLElement& parent, const RigidTransform& transform) {
   XMLElement& origin = Add(parent, "origin");
   Set(origin, "xyz", Decimals(transform.translation()));
   // angles recovered from a matrix are off by some 1e-16; rounding writes 0.1 as 0.1 again
-  Set(origin, "rpy", Decimals((RpyOf(transform.linear()) * 1e14).array().round() / 1e14));
+  const Eigen::Vector3d rpy = (RpyOf(transform.linear()) * 1e14).array().round() / 1e14;
+  if (!rpy.isZero(0)) Set(origin, "rpy", Decimals(rpy));
 }
 
 void AddInertial(XMLElement& parent, const MassProperties& mass) {

@@ -249,16 +249,6 @@ TEST(FurnitureCatalogue, OpenSidesAndBacksOfCabinetsCanBeLookedThrough) {
   EXPECT_EQ(CrossingsOfFrame("sides: panel, back: false"), std::pair(4, 0));
 }
 
-TEST(FurnitureCatalogue, DrawersHaveBoxesAsDeepAsTheirRecipeSays) {
-  const std::string drawer = "right: {kind: drawers, size_m: 0.4, count: 1}";
-  // the cabinet's sides and the upright beside the leaf; a box has two sides more
-  EXPECT_EQ(CrossingsOfFrame(drawer), std::pair(6, 2));
-  EXPECT_EQ(CrossingsOfFrame(drawer + ", drawer_depth: 0.8"), std::pair(10, 2));
-  EXPECT_EQ(CrossingsOfFrame(drawer + ", drawer_depth: 0.4"), std::pair(6, 2)) << "not so deep";
-  EXPECT_EQ(CrossingsOfFrame(drawer + ", drawer_depth: 0.8, drawer_height: 0.3"), std::pair(6, 2))
-      << "not so high";
-}
-
 TEST(FurnitureCatalogue, ShelvesAndDividersStandWhereTheRecipeSays) {
   const Eigen::Vector2d at_rear(-0.4321, 0.2917);  // x, y
   const double low = 0.09 + 0.003;                 // the leaf, above the base

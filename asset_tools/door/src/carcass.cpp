@@ -68,7 +68,6 @@ class Frame {
   void AddLevel(double z, const Interval& y, double depth);
   void AddUpright(double y, const Interval& z);
   void AddFront(const Interval& y, const Interval& z);
-  void AddDrawer(const Interval& y, const Interval& z);
   void AddSideBay(const Bay& bay, const Interval& y);
   void AddWideBay(const Bay& bay, const Interval& z);
   void AddLevels();
@@ -220,25 +219,6 @@ void Frame::AddFront(const Interval& y, const Interval& z) {
   Add(Moved(ReliefSolid(slab, kHullToleranceM), {front_x_, 0, 0}));
 }
 
-// The box behind a drawer's front: bottom, sides and rear, within the room (y, z) that it has. A
-// very low one has none.
-void Frame::AddDrawer(const Interval& y, const Interval& z) {
-  if (carcass_.drawer_depth <= 0 || z.size() < 0.05) return;
-  const double side = 0.012;
-  const double clear = 0.004;  // to what the drawer runs in
-  const double front = x1_ - kJointM;
-  const double rear = x1_ - carcass_.drawer_depth * (carcass_.depth_m - kBackM - clear);
-  const double floor = z.low + clear;
-  const double top = floor + std::max(2 * side, carcass_.drawer_height * (z.size() - 2 * clear));
-  const auto board = [&](const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
-    Add(ChamferedBox(low.array() + kJointM, high.array() - kJointM, kBoardEdgeM));
-  };
-  board({rear, y.low + clear, floor}, {front, y.high - clear, floor + side});
-  board({rear, y.low + clear, floor + side}, {front, y.low + clear + side, top});
-  board({rear, y.high - clear - side, floor + side}, {front, y.high - clear, top});
-  board({rear, y.low + clear + side, floor + side}, {rear + side, y.high - clear - side, top});
-}
-
 // Part i of n, `gap` between neighbours.
 Interval Share(const Interval& whole, int i, int n, double gap) {
   const double size = (whole.size() - gap * (n - 1)) / n;
@@ -257,11 +237,6 @@ void Frame::AddSideBay(const Bay& bay, const Interval& y) {
     const Interval z = Share(leaf_z_, i, bay.count, kBetweenFrontsM);
     const bool open = bay.kind == "niche" || bay.kind == "grid";
     if (!open) AddFront(y, z);
-    if (bay.kind == "drawers")
-      AddDrawer({at_left ? inside.low + carcass_.board_m : inside.low,
-                 at_left ? inside.high : inside.high - carcass_.board_m},
-                {i == 0 ? z.low + carcass_.board_m : z.low,
-                 i == bay.count - 1 ? z.high - carcass_.board_m : z.high});
     if (open && i > 0) AddLevel(z.low - kBetweenFrontsM / 2, inside);
     if (bay.kind == "grid") {
       const double clear = half + kJointM;
@@ -284,9 +259,6 @@ void Frame::AddWideBay(const Bay& bay, const Interval& z) {
         Share({y_.low + kMarginM, y_.high - kMarginM}, i, bay.count, kBetweenFrontsM);
     const bool open = bay.kind == "niche" || bay.kind == "grid";
     if (!open) AddFront(y, fronts);
-    if (bay.kind == "drawers")
-      AddDrawer({i == 0 ? y.low + board : y.low, i == bay.count - 1 ? y.high - board : y.high},
-                {fronts.low + board, fronts.high - board});
     if (!open || i == 0) continue;
     const double middle = (z.low + z.high) / 2;
     const double clear = bay.kind == "grid" ? board / 2 : 0;
@@ -608,10 +580,6 @@ void CheckCarcass(const Carcass& carcass, const std::string& path) {
   RequireRange(path, "shelf_depth", carcass.shelf_depth, 0.3, 1);
   RequireRange(path, "shelf_grading", carcass.shelf_grading, 0.6, 1.6);
   RequireRange(path, "dividers", carcass.dividers, 0, 3);
-  RequireRange(path, "drawer_depth", carcass.drawer_depth, 0, 1);
-  if (carcass.drawer_depth > 0)
-    RequireOneOf(path + ".form (of drawers with boxes)", carcass.form, {"box"});
-  RequireRange(path, "drawer_height", carcass.drawer_height, 0.3, 1);
   RequireOneOf(path + ".sides", carcass.sides, {"panel", "open", "slatted"});
   RequireRange(path, "base_height_m", carcass.base_height_m, 0.03, 0.55);
   RequireRange(path, "form_m", carcass.form_m, 0.02, 0.4);

@@ -30,12 +30,10 @@ struct Bay {
 struct Carcass {
   double depth_m = 0.5;
   double board_m = 0.018;
-  int shelves = 1;             ///< Behind the leaf.
-  double shelf_depth = 1;      ///< Share of the room's depth, from the back.
-  double shelf_grading = 1;    ///< The i-th of n shelves is (i / (n + 1))^grading of the leaf high.
-  int dividers = 0;            ///< Upright boards behind the leaf, below the lowest shelf.
-  double drawer_depth = 0;     ///< Share of the depth that drawers' boxes reach; 0: fronts alone.
-  double drawer_height = 0.7;  ///< Of those boxes, as a share of their fronts'.
+  int shelves = 1;           ///< Behind the leaf.
+  double shelf_depth = 1;    ///< Share of the room's depth, from the back.
+  double shelf_grading = 1;  ///< The i-th of n shelves is (i / (n + 1))^grading of the leaf high.
+  int dividers = 0;          ///< Upright boards behind the leaf, below the lowest shelf.
   /// "panel", "open" (posts with rails), "slatted"; of a box only.
   std::string sides = "panel";
   bool back = true;  ///< Whether a board closes the back of a box.
@@ -64,8 +62,6 @@ struct Carcass {
     visit("shelf_depth", self.shelf_depth);
     visit("shelf_grading", self.shelf_grading);
     visit("dividers", self.dividers);
-    visit("drawer_depth", self.drawer_depth);
-    visit("drawer_height", self.drawer_height);
     visit("sides", self.sides);
     visit("back", self.back);
     visit("form", self.form);

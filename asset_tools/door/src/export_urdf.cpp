@@ -13,11 +13,10 @@ void AddShapes(const DoorGeometry& geometry, const GeometryFiles& files, UrdfLin
   // a material here would hide those that the mesh brings along
   if (!files.visual) visual.color_rgba = geometry.color_rgba;
   link.visuals.push_back(visual);
-  for (std::size_t i = 0; i < files.hulls.size(); ++i) {
-    UrdfShape collision;
-    collision.name = geometry.name + "_" + std::to_string(i);
+  for (const std::string& hull : files.hulls) {
+    UrdfShape collision;  // without a name, which would say no more than its place
     collision.link_from_shape = files.link_from_files;
-    collision.geometry = UrdfMeshFile{.filename = files.hulls[i]};
+    collision.geometry = UrdfMeshFile{.filename = hull};
     link.collisions.push_back(collision);
   }
 }

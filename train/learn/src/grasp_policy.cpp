@@ -12,6 +12,7 @@
 #include "doorforge/learn/checkpoint.h"
 #include "doorforge/learn/orientation_sampling.h"
 
+#include "centred_grasp.h"
 #include "grasp_rating.h"
 #include "handle_points.h"
 #include "head_networks.h"
@@ -43,6 +44,9 @@ class TrainedGraspPolicy : public GraspPolicy {
     const std::size_t middle = internal::MiddlePoint(visible.xyz, handle);
     GraspChoice choice = ScoredPoints(Sample(view, PointOf(visible.xyz, middle)));
     TakeBest(view, choice);
+    if (options_.centred)
+      choice.contact_m =
+          internal::CentredContact(visible, choice.contact_m, choice.world_from_hand_rotation);
     return choice;
   }
 

@@ -29,6 +29,9 @@ struct GraspOptions {
   /// exp(-(angle between them / this)^2), alike fingers alike; 0: its own alone (UniDoorManip). The
   /// best of many ratings is the luckiest one; among neighbours luck evens out.
   double smoothing_rad = 0.25;
+  /// The hand is moved across the way in, to the middle of what is seen of the handle between its
+  /// fingers. False: it closes about the contact (UniDoorManip).
+  bool centred = true;
   std::uint64_t seed = 1;  ///< Of the sampled orientations.
 
   template <class Self, class Visitor>
@@ -37,6 +40,7 @@ struct GraspOptions {
     visit("orientations", self.orientations);
     visit("tilt_rad", self.tilt_rad);
     visit("smoothing_rad", self.smoothing_rad);
+    visit("centred", self.centred);
     visit("seed", self.seed);
   }
 };
@@ -54,8 +58,9 @@ struct GraspView {
 };
 
 struct GraspChoice {
-  LabelledCloud cloud;                                  ///< 4096 points, point 0 is the contact.
-  Eigen::Vector3d contact_m = Eigen::Vector3d::Zero();  ///< World.
+  LabelledCloud cloud;  ///< 4096 points, point 0 is the one that was rated.
+  /// World: that point, moved as GraspOptions::centred says.
+  Eigen::Vector3d contact_m = Eigen::Vector3d::Zero();
   Eigen::Matrix3d world_from_hand_rotation = Eigen::Matrix3d::Identity();
   double score_rad = 0;  ///< Final door angle that the discriminator expects.
   /// The affordance of every handle point of the cloud that was looked at: a heat map.

@@ -65,9 +65,16 @@ TEST(CentredContact, StaysWhereItIsAlongABarAndGoesToItsMiddleAcross) {
   const Eigen::Vector3d contact(0.05, 0.036, 1.05);
   EXPECT_LT((CentredContact(bar, contact, kHand) - Eigen::Vector3d(0.05, 0.03, 1.05)).norm(),
             kGrid);
+  for (const double turn : {-0.25, 0.2}) {
+    const Eigen::Vector3d centred = CentredContact(bar, contact, Turned(turn));
+    EXPECT_NEAR(centred.y(), 0.03, 1.5 * kGrid) << "a hand that does not meet it squarely";
+    EXPECT_NEAR(centred.z(), 1.05, 0.006 * std::abs(turn) + kGrid);
+  }
   // fingers that close along it
   const Eigen::Vector3d along = CentredContact(bar, contact, Turned(std::numbers::pi / 2));
   EXPECT_NEAR(along.z(), 1.05, 1e-9);
+  const Eigen::Vector3d askew = CentredContact(bar, contact, Turned(1.4));
+  EXPECT_LT((askew - contact).norm(), 0.01) << "it stays on the bar";
 }
 
 TEST(CentredContact, LooksNeitherAtNeighboursNorAtWhatThePadsDoNotReach) {

@@ -187,6 +187,7 @@ TEST(TrainGrasp, PrefersThePointsAndTheTurnsThatOpenDoorsItHasNotSeen) {
   config.near_points = 0;  // which half is the upper one, only the world's frame tells
   const StageNetworks networks = TrainStage(train.samples, {}, config, {}).networks;
   const auto policy = MakeGraspPolicy(networks, {.orientations = 32});
+  const auto plain = MakeGraspPolicy(networks, {.orientations = 32, .centred = false});
   int opened = 0;
   double upper = 0;
   double lower = 0;
@@ -198,7 +199,9 @@ TEST(TrainGrasp, PrefersThePointsAndTheTurnsThatOpenDoorsItHasNotSeen) {
     const auto choice = policy->Choose(view);
     ASSERT_TRUE(choice.has_value());
     EXPECT_EQ(choice->affordance_rad.size(), std::size_t{kCloudPoints / 16});
-    EXPECT_EQ(choice->cloud.xyz[2], static_cast<float>(choice->contact_m.z()));
+    const Eigen::Map<const Eigen::Vector3f> rated(choice->cloud.xyz.data());
+    EXPECT_LT(std::abs(choice->contact_m.y() - world.handle_y), 0.012) << "it stays on the bar";
+    EXPECT_EQ(rated, plain->Choose(view)->contact_m.cast<float>()) << "where it is not centred";
     opened += world.Angle(choice->contact_m, choice->world_from_hand_rotation) > 0 ? 1 : 0;
     for (std::size_t k = 0; k < choice->affordance_rad.size(); ++k)
       (choice->point_xyz[3 * k + 2] > world.handle_z ? upper : lower) += choice->affordance_rad[k];

@@ -7,7 +7,8 @@
 //   policy_throughput steps [steps]             training in batches of 32, one thread, geometry
 //                                               found anew for every sample, and the memory it
 //                                               takes
-//   policy_throughput processes [steps]         two processes against one: needs two idle cores
+//   policy_throughput processes [steps]         two processes, a core each, against one: needs two
+//                                               idle cores
 //
 // Decisions and steps are processor time, which other programs on the machine hardly change;
 // processes are wall-clock time, and only mean something on a machine that does nothing else.
@@ -22,6 +23,7 @@
 #include <string_view>
 #include <vector>
 
+#include <sched.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <time.h>  // NOLINT: clock_gettime is POSIX
@@ -130,6 +132,17 @@ double WallRate(int steps, ProcessGroup* group) {
   return kBatch * (done - 1) / (end - start);
 }
 
+// The core of a rank. Each process has its own, as Slurm's --cpu-bind or numactl give it: left to
+// itself the scheduler puts the back end's threads where the other process is computing.
+int CoreOf(int rank) {
+  cpu_set_t allowed;
+  if (::sched_getaffinity(0, sizeof allowed, &allowed) != 0) return rank;
+  int before = rank % CPU_COUNT(&allowed);
+  int core = 0;
+  while (!CPU_ISSET(core, &allowed) || before-- > 0) ++core;
+  return core;
+}
+
 int RunMember(int steps) {
   const auto group = ProcessGroupFromEnvironment();
   const double rate = WallRate(steps, group.get());
@@ -143,8 +156,9 @@ double RateOf(const std::string& program, int processes, int steps) {
   std::string command;
   for (int rank = processes - 1; rank >= 0; --rank)
     command += "RANK=" + std::to_string(rank) + " WORLD_SIZE=" + std::to_string(processes) +
-               " MASTER_ADDR=127.0.0.1 MASTER_PORT=" + port + " '" + program + "' member " +
-               std::to_string(steps) + (rank > 0 ? " & " : "; code=$?; wait; exit $code");
+               " MASTER_ADDR=127.0.0.1 MASTER_PORT=" + port + " taskset -c " +
+               std::to_string(CoreOf(rank)) + " '" + program + "' member " + std::to_string(steps) +
+               (rank > 0 ? " & " : "; code=$?; wait; exit $code");
   FILE* pipe = ::popen(command.c_str(), "r");
   double rate = std::numeric_limits<double>::quiet_NaN();
   if (pipe != nullptr && std::fscanf(pipe, "%lf", &rate) != 1)

@@ -85,6 +85,16 @@ class Meeting {
       meeting_.barrier_.arrive_and_wait();
       return all;
     }
+    void Sum(std::span<float> mine) override {
+      const std::size_t length = mine.size();
+      std::vector<float> all = Gather(mine);
+      for (std::size_t stride = length; stride < all.size(); stride *= 2) {
+        for (std::size_t i = 0; i + stride < all.size(); i += 2 * stride) {
+          for (std::size_t k = 0; k < length; ++k) all[i + k] += all[i + stride + k];
+        }
+      }
+      std::copy_n(all.begin(), length, mine.begin());
+    }
 
    private:
     Meeting& meeting_;

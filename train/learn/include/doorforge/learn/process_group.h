@@ -18,6 +18,10 @@ class ProcessGroup {
   /// What each process gave, one after the other by rank; all give as much.
   /// @throws Error(kIncomplete) if another process is gone.
   virtual std::vector<float> Gather(std::span<const float> mine) = 0;
+  /// Sums in place what all processes give, in every one of them: neighbours in pairs, pairs of
+  /// pairs and so on, so the bits are those of a binary tree over the ranks. All give as much.
+  /// @throws Error(kIncomplete) if another process is gone.
+  virtual void Sum(std::span<float> mine) = 0;
 };
 
 /// The one process that trains alone.

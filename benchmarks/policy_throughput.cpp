@@ -132,8 +132,8 @@ double WallRate(int steps, ProcessGroup* group) {
   return kBatch * (done - 1) / (end - start);
 }
 
-// The core of a rank. Each process has its own, as Slurm's --cpu-bind or numactl give it: left to
-// itself the scheduler puts the back end's threads where the other process is computing.
+// The core of a rank. Each process has its own, as Slurm's --cpu-bind or numactl give it, so that
+// the scheduler moves nothing while it is timed.
 int CoreOf(int rank) {
   cpu_set_t allowed;
   if (::sched_getaffinity(0, sizeof allowed, &allowed) != 0) return rank;

@@ -117,7 +117,7 @@ class Repair {
     if (!result.mesh) return false;
     const bool in_budget =
         config_.max_triangles == 0 ||
-        result.mesh->mesh().triangles.size() <= kBudgetFactor * input_->triangles.size() + kBudget;
+        static_cast<int>(result.mesh->mesh().triangles.size()) <= BudgetOfInput();
     return in_budget && WorstOf(result.report) <= kGoodFraction * diagonal_m_;
   }
 
@@ -318,50 +318,19 @@ class Repair {
     const auto count = static_cast<int>(mesh.triangles.size());
     const bool wrapped = report_.outcome == RepairOutcome::kWrapped;
     if (config_.max_triangles == 0 || (count <= config_.max_triangles && !wrapped)) return mesh;
-    const auto of_input = static_cast<int>(kBudgetFactor * input_->triangles.size() + kBudget);
-    const int target = std::min(config_.max_triangles, of_input);
+    const int target = std::min(config_.max_triangles, BudgetOfInput());
     const double free_error_m =
         wrapped ? kFreeErrorShare * config_.offset_fraction * diagonal_m_ : 0;
-    const auto fits = [&](const std::optional<TriangleMesh>& result) {
-      return result && result->triangles.size() <= static_cast<std::size_t>(of_input);
-    };
-    std::optional<TriangleMesh> simple = SimplifiedWithoutCrossings(mesh, target, free_error_m);
-    if (!fits(simple) && target < of_input)
-      simple = SimplifiedWithoutCrossings(mesh, of_input, free_error_m);
-    if (!simple || (!wrapped && !fits(simple))) {
-      Did("kept " + Count(count, "triangle") + ": fewer would cross");
-      return mesh;
-    }
+    TriangleMesh simple = Simplified(mesh, target, free_error_m);
+    if (!ClosedMesh::From(simple) || SelfIntersects(simple))
+      simple = SimplifiedWithoutCrossings(mesh, target, free_error_m);
     Did("simplified " + std::to_string(count) + " triangles to " +
-        std::to_string(simple->triangles.size()));
-    return *std::move(simple);
+        std::to_string(simple.triangles.size()));
+    return simple;
   }
 
-  // Where triangles cross after the collapses, the next try leaves the place as it was.
-  static std::optional<TriangleMesh> SimplifiedWithoutCrossings(const TriangleMesh& mesh,
-                                                                int max_triangles,
-                                                                double free_error_m) {
-    constexpr int kTries = 8;
-    std::vector<Eigen::AlignedBox3d> kept;
-    for (int i = 0; i < kTries; ++i) {
-      TriangleMesh simple = Simplified(mesh, max_triangles, free_error_m, kept);
-      if (!ClosedMesh::From(simple)) return std::nullopt;
-      const std::vector<std::pair<int, int>> crossings = CrossingTriangles(simple);
-      if (crossings.empty()) return simple;
-      for (const auto& [a, b] : crossings) {
-        const Eigen::AlignedBox3d box = BoxOf(simple, a).intersection(BoxOf(simple, b));
-        const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.1 * i * box.diagonal().norm());
-        kept.emplace_back(box.min() - margin, box.max() + margin);
-      }
-    }
-    return std::nullopt;
-  }
-
-  static Eigen::AlignedBox3d BoxOf(const TriangleMesh& mesh, int triangle) {
-    Eigen::AlignedBox3d box;
-    for (const int index : mesh.triangles[static_cast<std::size_t>(triangle)])
-      box.extend(mesh.vertices[static_cast<std::size_t>(index)]);
-    return box;
+  int BudgetOfInput() const {
+    return static_cast<int>(kBudgetFactor * input_->triangles.size() + kBudget);
   }
 
   RepairResult Finished(TriangleMesh mesh) {

@@ -61,9 +61,12 @@ TriangleMesh AlphaWrap(const TriangleMesh& soup, double alpha_m, double offset_m
 
 /// Edge collapse by quadrics (Garland and Heckbert 1997) to at most `max_triangles`, or as near as
 /// the topology allows, and below that as long as it costs at most `free_error_m`. The mesh must be
-/// closed; the result is closed, but triangles may cross. Triangles that meet one of the
-/// boxes of `kept` are left alone, and all edges at their corners.
-TriangleMesh Simplified(const TriangleMesh& mesh, int max_triangles, double free_error_m,
-                        const std::vector<Eigen::AlignedBox3d>& kept = {});
+/// closed; the result is closed, but triangles may cross.
+TriangleMesh Simplified(const TriangleMesh& mesh, int max_triangles, double free_error_m);
+
+/// The same by collapses after which no triangles cross, if none do before; slower, and it stops
+/// above `max_triangles` where every collapse would make some cross.
+TriangleMesh SimplifiedWithoutCrossings(const TriangleMesh& mesh, int max_triangles,
+                                        double free_error_m);
 
 }  // namespace doorforge

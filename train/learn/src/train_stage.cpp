@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <future>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -24,6 +25,7 @@
 #include "hand_frame.h"
 #include "head_networks.h"
 #include "network_batch.h"
+#include "ordered_calls.h"
 #include "sampler.h"
 #include "stage_task.h"
 
@@ -130,7 +132,6 @@ struct Network {
   std::vector<float>* second;
   EncodedBatch encoded{};
   std::optional<internal::DeviceEncoder> on_device{};  // in the place of `encoded`
-  std::vector<float> device_features{};
   std::array<std::vector<float>, kGradientParts> parts{};
   std::vector<float> gradient{};
   std::vector<float> feature_gradient{};
@@ -146,6 +147,7 @@ class Trainer {
         hooks_(hooks),
         alone_(hooks.group == nullptr ? SoleProcess() : nullptr),
         group_(hooks.group == nullptr ? *alone_ : *hooks.group),
+        calls_(group_.size() > 1),
         threads_(ThreadCount(hooks.threads)),
         instruction_set_(BestInstructionSet()),
         state_(hooks.resume ? *hooks.resume : InitialState()),
@@ -265,13 +267,27 @@ class Trainer {
                           state_.step};
     const Geometries geometries = task_->GeometriesOf(lesson.number, OwnShare(batch));
     const std::vector<Network*> learning = Learning(lesson.number, lesson_step);
-    const std::vector<PointEncoder> encoders = Encode(learning, geometries, true);
+    const std::vector<PointEncoder> encoders = EncodersOf(learning, geometries);
+    // what one network sends travels while the other computes
+    std::vector<std::future<BatchFeatures>> features;
+    for (std::size_t n = 0; n < learning.size(); ++n)
+      features.push_back(
+          StartGathering(EncodedFeatures(*learning[n], At(encoders, n), geometries, true)));
     StageLosses losses = UnknownLosses();
-    for (Network* network : learning)
-      losses = Updated(losses, Head(*network, batch, geometries.size()));
-    if (!geometries.empty()) {
-      Backward(learning, encoders, geometries, batch.indices.size());
-      for (Network* network : learning) AddPartsOfAll(*network);
+    std::vector<std::future<void>> sums;
+    for (std::size_t n = 0; n < learning.size(); ++n) {
+      Network& network = *learning[n];
+      losses = Updated(losses, Head(network, batch, features[n].get()));
+      if (geometries.empty()) continue;
+      if (OnDevice())
+        BackwardOnDevice(network);
+      else
+        Backward(network, encoders[n], geometries, batch.indices.size());
+      sums.push_back(StartSumming(network));
+    }
+    for (std::size_t n = 0; n < sums.size(); ++n) {
+      sums[n].get();
+      AddEncoderGradient(*learning[n]);
     }
     const internal::AdamRates rates{LearningRate(config_, lesson_step, lesson.end - lesson.begin),
                                     config_.weight_decay};
@@ -298,40 +314,36 @@ class Trainer {
 
   bool OnDevice() const { return config_.device != "cpu"; }
 
-  void EncodeOnDevice(const std::vector<Network*>& networks, const Geometries& geometries,
-                      bool for_gradient) const {
-    for (Network* network : networks) {
-      network->on_device.emplace(*network->layout, *network->parameters, config_.device);
-      network->device_features = network->on_device->Forward(geometries, for_gradient);
-    }
-  }
-
-  std::vector<float> FeaturesOf(const Network& network, std::size_t clouds) const {
-    if (clouds == 0) return {};
-    return OnDevice() ? network.device_features : network.encoded.Features(clouds);
-  }
-
-  // Of the processor's own kernels; on another device the networks keep what they need.
-  std::vector<PointEncoder> Encode(const std::vector<Network*>& networks,
-                                   const Geometries& geometries, bool for_gradient) const {
-    if (geometries.empty()) return {};
-    if (OnDevice()) {
-      EncodeOnDevice(networks, geometries, for_gradient);
-      return {};
-    }
+  // Of the processor's own kernels, as packed for this step; on another device none.
+  std::vector<PointEncoder> EncodersOf(const std::vector<Network*>& networks,
+                                       const Geometries& geometries) const {
+    if (geometries.empty() || OnDevice()) return {};
     std::vector<std::optional<PointEncoder>> packed(networks.size());
     ParallelFor(networks.size(), threads_,
                 [&](std::size_t n) { packed[n].emplace(EncoderOf(*networks[n])); });
     std::vector<PointEncoder> encoders;
     encoders.reserve(packed.size());
     for (auto& encoder : packed) encoders.push_back(std::move(*encoder));
-    for (Network* network : networks) network->encoded.Resize(geometries.size());
-    ParallelFor(networks.size() * geometries.size(), threads_, [&](std::size_t task) {
-      const std::size_t n = task / geometries.size();
-      const std::size_t i = task % geometries.size();
-      networks[n]->encoded.Encode(encoders[n], *geometries[i], i);
-    });
     return encoders;
+  }
+
+  static const PointEncoder* At(const std::vector<PointEncoder>& encoders, std::size_t n) {
+    return encoders.empty() ? nullptr : &encoders[n];
+  }
+
+  // The network's features of these clouds, by `encoder`, or on another device where there is none;
+  // it keeps what the way back needs.
+  std::vector<float> EncodedFeatures(Network& network, const PointEncoder* encoder,
+                                     const Geometries& geometries, bool for_gradient) const {
+    if (geometries.empty()) return {};
+    if (encoder == nullptr) {
+      network.on_device.emplace(*network.layout, *network.parameters, config_.device);
+      return network.on_device->Forward(geometries, for_gradient);
+    }
+    network.encoded.Resize(geometries.size());
+    ParallelFor(geometries.size(), threads_,
+                [&](std::size_t i) { network.encoded.Encode(*encoder, *geometries[i], i); });
+    return network.encoded.Features(geometries.size());
   }
 
   // Features of the whole batch, of which each process has encoded its share.
@@ -341,7 +353,11 @@ class Trainer {
     std::size_t own_size = 0;
   };
 
-  BatchFeatures GatherFeatures(std::vector<float> own) {
+  std::future<BatchFeatures> StartGathering(std::vector<float> own) {
+    return calls_.Start([this, own = std::move(own)]() mutable { return Gather(std::move(own)); });
+  }
+
+  BatchFeatures Gather(std::vector<float> own) {
     BatchFeatures features{{}, 0, own.size()};
     if (group_.size() == 1 || own.empty()) {
       features.all = std::move(own);
@@ -369,9 +385,8 @@ class Trainer {
 
   // Fills the network's gradient behind the encoder, and that of its own share of the features.
   // The head is small: every process does the whole batch's.
-  StageLosses Head(Network& network, const Minibatch& batch, std::size_t own_clouds) {
+  StageLosses Head(Network& network, const Minibatch& batch, BatchFeatures features) {
     network.gradient.assign(network.layout->size(), 0.0F);
-    BatchFeatures features = GatherFeatures(FeaturesOf(network, own_clouds));
     HeadResult result =
         task_->Objective(network.role, batch, std::move(features.all), network.gradient);
     RequireFinite(result.objective, "a loss");
@@ -381,23 +396,18 @@ class Trainer {
     return result.losses;
   }
 
-  void Backward(const std::vector<Network*>& networks, const std::vector<PointEncoder>& encoders,
-                const Geometries& geometries, std::size_t batch_size) const {
-    if (OnDevice()) {
-      for (Network* network : networks) BackwardOnDevice(*network);
-      return;
-    }
+  void Backward(Network& network, const PointEncoder& encoder, const Geometries& geometries,
+                std::size_t batch_size) const {
     const std::vector<std::size_t> offsets = FeatureOffsets(geometries);
     const std::size_t first = FirstOwnPart() * batch_size / kGradientParts;
-    ParallelFor(networks.size() * OwnParts(), threads_, [&](std::size_t task) {
-      Network& network = *networks[task / OwnParts()];
-      const std::size_t p = FirstOwnPart() + task % OwnParts();
+    ParallelFor(OwnParts(), threads_, [&](std::size_t task) {
+      const std::size_t p = FirstOwnPart() + task;
       std::vector<float>& part = network.parts[p];
       part.assign(network.layout->size(), 0.0F);
       const std::size_t begin = p * batch_size / kGradientParts - first;
       const std::size_t end = (p + 1) * batch_size / kGradientParts - first;
       for (std::size_t i = begin; i < end; ++i)
-        encoders[task / OwnParts()].AddGradient(
+        encoder.AddGradient(
             *geometries[i], network.encoded.trace(i),
             std::span(network.feature_gradient).subspan(offsets[i], offsets[i + 1] - offsets[i]),
             part);
@@ -411,16 +421,19 @@ class Trainer {
     network.on_device->AddGradient(network.feature_gradient, network.parts[FirstOwnPart()]);
   }
 
-  // Adds the encoder's gradient, of all processes, to that of what is behind it.
-  void AddPartsOfAll(Network& network) {
-    std::vector<std::span<float>> own(
-        network.parts.begin() + static_cast<std::ptrdiff_t>(FirstOwnPart()),
-        network.parts.begin() + static_cast<std::ptrdiff_t>(FirstOwnPart() + OwnParts()));
+  // Leaves the encoder's gradient, of all processes, in the first of the network's own parts.
+  std::future<void> StartSumming(Network& network) {
+    const auto first = network.parts.begin() + static_cast<std::ptrdiff_t>(FirstOwnPart());
+    std::vector<std::span<float>> own(first, first + static_cast<std::ptrdiff_t>(OwnParts()));
     SumAsTree(own);
-    group_.Sum(own.front());
+    return calls_.Start([this, sum = own.front()] { group_.Sum(sum); });
+  }
+
+  void AddEncoderGradient(Network& network) const {
+    const std::vector<float>& sum = network.parts[FirstOwnPart()];
     std::uint32_t largest = 0;  // magnitude; as bits, which compilers compare many at a time
     for (std::size_t i = 0; i < network.gradient.size(); ++i) {
-      network.gradient[i] += own.front()[i];
+      network.gradient[i] += sum[i];
       const auto magnitude = std::bit_cast<std::uint32_t>(network.gradient[i]) & 0x7fffffffU;
       largest = std::max(largest, magnitude);
     }
@@ -457,10 +470,12 @@ class Trainer {
       std::iota(batch.indices.begin(), batch.indices.end(), begin);
       const std::vector<Network*> taught = Taught(lesson);
       const Geometries geometries = task_->GeometriesOf(lesson, OwnShare(batch));
-      Encode(taught, geometries, false);
+      const std::vector<PointEncoder> encoders = EncodersOf(taught, geometries);
       StageLosses losses = UnknownLosses();
-      for (Network* network : taught) {
-        std::vector<float> features = GatherFeatures(FeaturesOf(*network, geometries.size())).all;
+      for (std::size_t n = 0; n < taught.size(); ++n) {
+        Network* network = taught[n];
+        std::vector<float> features =
+            StartGathering(EncodedFeatures(*network, At(encoders, n), geometries, false)).get().all;
         const HeadResult result = task_->Objective(network->role, batch, std::move(features), {});
         RequireFinite(result.objective, "a validation loss");
         losses = Updated(losses, result.losses);
@@ -478,6 +493,7 @@ class Trainer {
   const TrainHooks& hooks_;
   std::unique_ptr<ProcessGroup> alone_;  // without a group
   ProcessGroup& group_;
+  internal::OrderedCalls calls_;  // to the group
   int threads_;
   InstructionSet instruction_set_;
   TrainerState state_;

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
+#include "../../train/learn/src/ordered_calls.h"
+
 #include <chrono>
 #include <future>
 #include <stdexcept>

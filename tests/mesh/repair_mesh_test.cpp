@@ -338,7 +338,7 @@ TriangleMesh ThinTorus(double wall, int around, int across) {
 TEST(SimplifiedWithoutCrossings, KeepsTheSidesOfAThinWallApart) {
   const TriangleMesh wall = ThinTorus(2e-3, 80, 40);
   ASSERT_FALSE(SelfIntersects(wall));
-  constexpr int kTarget = 2400;
+  constexpr int kTarget = 6000;
   ASSERT_TRUE(SelfIntersects(Simplified(wall, kTarget, 0)));  // else this shows nothing
   const TriangleMesh simple = SimplifiedWithoutCrossings(wall, kTarget, 0);
   EXPECT_TRUE(ClosedMesh::From(simple).has_value());
@@ -352,6 +352,21 @@ TEST(SimplifiedWithoutCrossings, StopsWhereEveryCollapseWouldCross) {
   const TriangleMesh simple = SimplifiedWithoutCrossings(wall, 16, 0);
   EXPECT_FALSE(SelfIntersects(simple));
   EXPECT_TRUE(ClosedMesh::From(simple).has_value());
+}
+
+// A wall that cannot be had with 100 triangles keeps its form, with more.
+TEST(RepairMesh, KeepsNearTheInputWhereFewerTrianglesWouldCross) {
+  const TriangleMesh wall = ThinTorus(1e-3, 60, 30);
+  RepairConfig config;
+  config.wrap = "never";
+  config.max_triangles = 100;
+  const RepairResult result = Repaired(wall, config);
+  ASSERT_TRUE(result.mesh);
+  EXPECT_FALSE(result.report.self_intersects);
+  EXPECT_LE(result.mesh->mesh().triangles.size(), 3 * wall.triangles.size() + 5000);
+  const double diagonal_m = MeasureTopology(wall).bounds.diagonal().norm();
+  EXPECT_LT(result.report.output_to_input.max_m, 0.01 * diagonal_m);
+  EXPECT_LT(result.report.visible_input_to_output.max_m, 0.01 * diagonal_m);
 }
 
 TEST(RepairMesh, WrapsAndSimplifiesToTheSameBytesTwice) {

@@ -324,6 +324,9 @@ class Repair {
     TriangleMesh simple = Simplified(mesh, target, free_error_m);
     if (!ClosedMesh::From(simple) || SelfIntersects(simple))
       simple = SimplifiedWithoutCrossings(mesh, target, free_error_m);
+    // where so few would cross, collapses go on elsewhere at any cost
+    if (static_cast<int>(simple.triangles.size()) > target && target < BudgetOfInput())
+      simple = SimplifiedWithoutCrossings(mesh, BudgetOfInput(), free_error_m);
     Did("simplified " + std::to_string(count) + " triangles to " +
         std::to_string(simple.triangles.size()));
     return simple;

@@ -14,6 +14,7 @@
 #include "doorforge/learn/point_operators.h"
 
 #include "../../train/learn/src/device_encoder.h"
+#include "../../train/learn/src/packed_encoder.h"
 #include "door_cloud.h"
 #include "reference_network.h"
 
@@ -152,8 +153,20 @@ TEST(PointEncoder, LeavesOutOnlyWhatPointZeroDoesNotDependOn) {
   EXPECT_LE(one.upsampling[2].size(), 9U);
   EXPECT_LT(one.levels[3].size(), all.levels[3].size());
   const std::vector<float> of_all = encoder.Forward(all).features;
-  EXPECT_EQ(encoder.Forward(one).features,
-            std::vector<float>(of_all.begin(), of_all.begin() + kFeatureSize));
+  const std::vector<float> of_one = encoder.Forward(one).features;
+  ASSERT_EQ(of_one.size(), std::size_t{kFeatureSize});
+  // rounded otherwise: for all points the first layers come before the interpolation
+  for (std::size_t i = 0; i < of_one.size(); ++i) EXPECT_NEAR(of_one[i], of_all[i], 2e-6) << i;
+}
+
+TEST(PointEncoder, ProjectsFirstWhereManyPointsAreInterpolatedFromFew) {
+  const std::vector<float> cloud = testing::DoorCloud(7, 0.1);
+  const CloudGeometry all = BuildGeometry(cloud, {kCentre}, AllPoints(), BestInstructionSet());
+  const CloudGeometry one = BuildGeometry(cloud, {kCentre});
+  for (std::size_t l = 0; l < 4; ++l) {
+    EXPECT_TRUE(internal::ProjectsFirst(all, l)) << l;
+    EXPECT_FALSE(internal::ProjectsFirst(one, l)) << l;
+  }
 }
 
 // Features and gradient of a batch, each cloud with its own share of `wanted`.

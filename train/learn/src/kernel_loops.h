@@ -59,7 +59,7 @@ struct Loops {
   static void Multiply(const Rows& a, const Panels& w, const float* bias, MutableRows out,
                        bool relu) {
     for (int column = 0; column < w.columns; column += kPanel) {
-      const float* panel = w.data + static_cast<std::ptrdiff_t>(column) * a.columns;
+      const float* panel = w.data + static_cast<std::ptrdiff_t>(column) * w.depth;
       const float* panel_bias = bias != nullptr ? bias + column : nullptr;
       const auto at = [&](int row) {
         return MutableRows{out.data + row * out.stride + column, out.stride};

@@ -24,10 +24,12 @@ struct MutableRows {
   std::ptrdiff_t stride;
 };
 
-/// A matrix K x N cut into panels of Kernels::panel columns, each panel K x panel contiguous.
+/// A matrix cut into panels of Kernels::panel columns, each panel row by row. Of its rows from
+/// `data` on, a product takes as many as the left matrix has columns.
 struct Panels {
   const float* data;
-  int columns;  ///< N, a multiple of Kernels::panel.
+  int columns;  ///< A multiple of Kernels::panel.
+  int depth;    ///< Rows of a whole panel: the next one begins depth x panel further on.
 };
 
 /// Points as three arrays of `count` floats.

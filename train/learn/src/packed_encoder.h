@@ -28,14 +28,20 @@ struct PackedLayer {
   std::vector<float> weight{};  ///< Outputs x inputs, as in the flat vector.
   std::vector<float> bias{};
   std::vector<float> forward{};   ///< Panels of inputs x outputs.
-  std::vector<float> position{};  ///< Panels of the first three inputs x outputs.
   std::vector<float> backward{};  ///< Panels of outputs x the inputs that pass a gradient on.
   int backward_begin = 0;         ///< First such input.
   int backward_count = 0;         ///< How many, a multiple of 32.
 
-  Panels ForwardPanels() const { return {forward.data(), outputs}; }
-  Panels PositionPanels() const { return {position.data(), outputs}; }
-  Panels BackwardPanels() const { return {backward.data(), backward_count}; }
+  Panels ForwardPanels() const { return {forward.data(), outputs, inputs}; }
+  /// From input `first` on; `panel` as in Kernels.
+  Panels ForwardPanels(int first, int panel) const {
+    return {forward.data() + static_cast<std::ptrdiff_t>(first) * panel, outputs, inputs};
+  }
+  Panels BackwardPanels() const { return BackwardPanels(0, backward_count); }
+  /// Of `count` of the inputs that pass a gradient on, from `first` on; both multiples of 32.
+  Panels BackwardPanels(int first, int count) const {
+    return {backward.data() + static_cast<std::ptrdiff_t>(first) * outputs, count, outputs};
+  }
 };
 
 struct PackedEncoder {
@@ -70,5 +76,16 @@ void ForRowBlocks(int rows, const Body& body) {
 
 /// Width of a level's point rows: position and feature.
 int LevelWidth(std::size_t level);
+
+/// How many coarser points propagation l interpolates between.
+std::size_t CoarsePoints(const CloudGeometry& geometry, std::size_t l);
+
+/// Their features.
+Rows CoarseFeatures(const CloudGeometry& geometry, const PointEncoder::Trace& trace, std::size_t l);
+
+/// Whether propagation l's first layer is computed for the coarser points and interpolated then,
+/// not the other way round: where there are far fewer of them. Its first rows in the trace are then
+/// the points' own features alone.
+bool ProjectsFirst(const CloudGeometry& geometry, std::size_t l);
 
 }  // namespace doorforge::internal

@@ -54,14 +54,14 @@ std::vector<float> ColumnPanels(const float* matrix, int rows, int columns, Grad
   return packed;
 }
 
-// The same of the transposed matrix, of which the first `depth` rows are taken.
-std::vector<float> RowPanels(const float* matrix, int rows, int columns, int depth, int panel) {
-  std::vector<float> packed(static_cast<std::size_t>(rows) * static_cast<std::size_t>(depth));
+// The same of the transposed matrix.
+std::vector<float> RowPanels(const float* matrix, int rows, int columns, int panel) {
+  std::vector<float> packed(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
   for (int row = 0; row < rows; ++row) {
     const std::ptrdiff_t first = row / panel * panel;
-    float* to = packed.data() + first * depth + row % panel;
+    float* to = packed.data() + first * columns + row % panel;
     const float* from = matrix + static_cast<std::ptrdiff_t>(row) * columns;
-    for (int k = 0; k < depth; ++k) to[static_cast<std::ptrdiff_t>(k) * panel] = from[k];
+    for (int k = 0; k < columns; ++k) to[static_cast<std::ptrdiff_t>(k) * panel] = from[k];
   }
   return packed;
 }
@@ -83,8 +83,7 @@ class Packer {
     const float* weight = parameters_.data() + dense.offset;
     layer.weight.assign(weight, weight + dense.weight_count());
     layer.bias.assign(weight + dense.weight_count(), parameters_.data() + dense.end());
-    layer.forward = RowPanels(weight, dense.outputs, dense.inputs, dense.inputs, panel_);
-    layer.position = RowPanels(weight, dense.outputs, dense.inputs, 3, panel_);
+    layer.forward = RowPanels(weight, dense.outputs, dense.inputs, panel_);
     layer.backward = ColumnPanels(weight, dense.outputs, dense.inputs, passed_on, panel_);
     return layer;
   }
@@ -138,7 +137,7 @@ void AbstractSet(const PackedEncoder& encoder, const CloudGeometry& geometry, st
         {trace.source[l].data() + row * width, width}, false);
   });
   trace.centre[l].resize(static_cast<std::size_t>(centres) * width);
-  kernels.multiply({level.centre_xyz.data(), 3, centres, 3}, layers[0].PositionPanels(), nullptr,
+  kernels.multiply({level.centre_xyz.data(), 3, centres, 3}, layers[0].ForwardPanels(), nullptr,
                    {trace.centre[l].data(), width}, false);
 
   trace.level[l + 1].resize(level.size() * LevelWidth(l + 1));
@@ -165,22 +164,29 @@ void AbstractSet(const PackedEncoder& encoder, const CloudGeometry& geometry, st
   }
 }
 
-// Inputs of feature propagation l: the three nearest coarser features, weighted, and the point's
-// own.
-std::vector<float> Upsample(const Kernels& kernels, const CloudGeometry& geometry, std::size_t l,
-                            const PointEncoder::Trace& trace, int width) {
+using Floats = std::vector<float>;
+
+// y += the weighted features of target t's three neighbours.
+void AddInterpolated(const Kernels& kernels, const CloudGeometry::Upsampling& upsampling,
+                     std::size_t t, const Rows& features, float* y) {
+  for (std::size_t j = 3 * t; j < 3 * t + 3; ++j)
+    kernels.add_scaled(upsampling.weight[j],
+                       features.data + upsampling.neighbour[j] * features.stride, features.columns,
+                       y);
+}
+
+// Inputs of propagation l: the interpolated features, unless those come later, and the point's own.
+Floats PropagationInputs(const Kernels& kernels, const CloudGeometry& geometry, std::size_t l,
+                         const PointEncoder::Trace& trace) {
   const CloudGeometry::Upsampling& upsampling = geometry.upsampling[l];
+  const Rows features = internal::CoarseFeatures(geometry, trace, l);
   const int own = LevelWidth(l) - 3;
-  const int coarse = width - own;
-  std::vector<float> input(upsampling.size() * width);
+  const bool interpolates = !internal::ProjectsFirst(geometry, l);
+  const int coarse = interpolates ? features.columns : 0;
+  Floats input(upsampling.size() * (coarse + own));
   for (std::size_t t = 0; t < upsampling.size(); ++t) {
-    float* row = input.data() + t * width;
-    for (std::size_t j = 3 * t; j < 3 * t + 3; ++j) {
-      const std::size_t n = upsampling.neighbour[j];
-      const float* feature = l == 3 ? trace.level[4].data() + n * LevelWidth(4) + 3
-                                    : trace.propagation[l + 1].back().data() + n * coarse;
-      kernels.add_scaled(upsampling.weight[j], feature, coarse, row);
-    }
+    float* row = input.data() + t * (coarse + own);
+    if (interpolates) AddInterpolated(kernels, upsampling, t, features, row);
     const float* skip =
         trace.level[l].data() + static_cast<std::size_t>(upsampling.skip[t]) * LevelWidth(l) + 3;
     std::copy_n(skip, own, row + coarse);
@@ -188,10 +194,41 @@ std::vector<float> Upsample(const Kernels& kernels, const CloudGeometry& geometr
   return input;
 }
 
-std::vector<float> Dense(const Kernels& kernels, const PackedLayer& layer,
-                         const std::vector<float>& input) {
+// The first layer of a propagation that projects first:
+// W [sum_j w_j f_j, s] + b = sum_j w_j (W_f f_j) + W_s s + b, the product once per coarser point.
+Floats ProjectedLayer(const PackedEncoder& encoder, const CloudGeometry& geometry, std::size_t l,
+                      const PointEncoder::Trace& trace, const Floats& own) {
+  const Kernels& kernels = *encoder.kernels;
+  const PackedLayer& layer = encoder.propagation[l][0];
+  const int width = layer.outputs;
+  const Rows features = internal::CoarseFeatures(geometry, trace, l);
+  Floats projected(static_cast<std::size_t>(features.rows) * width);
+  internal::ForRowBlocks(features.rows, [&](std::ptrdiff_t row, int count) {
+    kernels.multiply(
+        {features.data + row * features.stride, features.stride, count, features.columns},
+        layer.ForwardPanels(), nullptr, {projected.data() + row * width, width}, false);
+  });
+  const int targets = static_cast<int>(geometry.upsampling[l].size());
+  const int own_width = LevelWidth(l) - 3;
+  const Floats zero(static_cast<std::size_t>(width));
+  Floats output(static_cast<std::size_t>(targets) * width);
+  internal::ForRowBlocks(targets, [&](std::ptrdiff_t row, int count) {
+    float* out = output.data() + row * width;
+    kernels.multiply({own.data() + row * own_width, own_width, count, own_width},
+                     layer.ForwardPanels(features.columns, kernels.panel), layer.bias.data(),
+                     {out, width}, false);
+    for (int t = 0; t < count; ++t, out += width) {
+      AddInterpolated(kernels, geometry.upsampling[l], static_cast<std::size_t>(row + t),
+                      {projected.data(), width, features.rows, width}, out);
+      kernels.subtract_relu(out, zero.data(), width, out);
+    }
+  });
+  return output;
+}
+
+Floats Dense(const Kernels& kernels, const PackedLayer& layer, const Floats& input) {
   const int rows = static_cast<int>(input.size()) / layer.inputs;
-  std::vector<float> output(static_cast<std::size_t>(rows) * layer.outputs);
+  Floats output(static_cast<std::size_t>(rows) * layer.outputs);
   internal::ForRowBlocks(rows, [&](std::ptrdiff_t row, int count) {
     kernels.multiply({input.data() + row * layer.inputs, layer.inputs, count, layer.inputs},
                      layer.ForwardPanels(), layer.bias.data(),
@@ -206,6 +243,22 @@ namespace internal {
 
 int LevelWidth(std::size_t level) {
   return level == 0 ? 6 : 3 + kAbstractionSizes[level - 1].back();
+}
+
+std::size_t CoarsePoints(const CloudGeometry& geometry, std::size_t l) {
+  return l == 3 ? geometry.levels[3].size() : geometry.upsampling[l + 1].size();
+}
+
+Rows CoarseFeatures(const CloudGeometry& geometry, const PointEncoder::Trace& trace,
+                    std::size_t l) {
+  const int rows = static_cast<int>(CoarsePoints(geometry, l));
+  if (l == 3) return {trace.level[4].data() + 3, LevelWidth(4), rows, LevelWidth(4) - 3};
+  const int width = kPropagationSizes[l + 1].back();
+  return {trace.propagation[l + 1].back().data(), width, rows, width};
+}
+
+bool ProjectsFirst(const CloudGeometry& geometry, std::size_t l) {
+  return geometry.upsampling[l].size() >= 4 * CoarsePoints(geometry, l);
 }
 
 CentreBlock BlockFrom(const CloudGeometry::Level& level, std::size_t first) {
@@ -271,9 +324,12 @@ PointEncoder::Trace PointEncoder::Forward(const CloudGeometry& geometry, Trace s
     const auto& layers = packed_->propagation[level];
     auto& rows = trace.propagation[level];
     rows.clear();
-    rows.push_back(Upsample(*packed_->kernels, geometry, level, trace, layers[0].inputs));
-    for (const PackedLayer& layer : layers)
-      rows.push_back(Dense(*packed_->kernels, layer, rows.back()));
+    rows.push_back(PropagationInputs(*packed_->kernels, geometry, level, trace));
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+      const bool projects = i == 0 && internal::ProjectsFirst(geometry, level);
+      rows.push_back(projects ? ProjectedLayer(*packed_, geometry, level, trace, rows[0])
+                              : Dense(*packed_->kernels, layers[i], rows[i]));
+    }
   }
   trace.features = Dense(*packed_->kernels, packed_->head, trace.propagation[0].back());
   return trace;

@@ -45,12 +45,13 @@ void AddTransposed(const Floats& rows, const PackedLayer& layer, int column, flo
   }
 }
 
-// Adds the gradient of a layer's weight and bias, given that of its output before the ReLU.
+// Adds the gradient of a layer's bias and of the weights of its last inputs, as many as `input` has
+// columns, given that of its output before the ReLU.
 void AddLayerGradient(const Kernels& kernels, const PackedLayer& layer, const Matrix& input,
                       const Matrix& output_gradient, std::span<float> gradient) {
-  float* weight = gradient.data() + layer.weight_offset;
+  float* weight = gradient.data() + layer.weight_offset + layer.inputs - input.columns;
   float* bias = gradient.data() + layer.bias_offset;
-  const int tail = layer.inputs % 32;  // the position columns of the last propagation
+  const int tail = input.columns % 32;  // the position columns of the last propagation
   internal::ForRowBlocks(input.rows, [&](std::ptrdiff_t row, int count) {
     internal::Rows columns = input.Part(row, count).View();
     columns.columns -= tail;
@@ -64,15 +65,15 @@ void AddLayerGradient(const Kernels& kernels, const PackedLayer& layer, const Ma
     for (int i = 0; i < tail; ++i)
       kernels.add_scaled(values[i], from, layer.outputs, tail_weight.data() + i * layer.outputs);
   }
-  AddTransposed(tail_weight, layer, layer.inputs - tail, weight);
+  AddTransposed(tail_weight, layer, input.columns - tail, weight);
 }
 
-// Gradient of a layer's input, given that of its output before the ReLU.
-void PassBack(const Kernels& kernels, const PackedLayer& layer, const Matrix& output_gradient,
+// Gradient of a layer's inputs of these panels, given that of its output before the ReLU.
+void PassBack(const Kernels& kernels, const internal::Panels& panels, const Matrix& output_gradient,
               float* input_gradient) {
   internal::ForRowBlocks(output_gradient.rows, [&](std::ptrdiff_t row, int count) {
-    kernels.multiply(output_gradient.Part(row, count).View(), layer.BackwardPanels(), nullptr,
-                     {input_gradient + row * layer.backward_count, layer.backward_count}, false);
+    kernels.multiply(output_gradient.Part(row, count).View(), panels, nullptr,
+                     {input_gradient + row * panels.columns, panels.columns}, false);
   });
 }
 
@@ -187,7 +188,7 @@ class SetGradient {
     const Matrix output_gradient{second_gradient_.get(), row_count(), widths_[1]};
     AddLayerGradient(kernels_, layers_[1], {first_.get(), row_count(), widths_[0]}, output_gradient,
                      gradient);
-    PassBack(kernels_, layers_[1], output_gradient, first_gradient_.get());
+    PassBack(kernels_, layers_[1].BackwardPanels(), output_gradient, first_gradient_.get());
     kernels_.mask(first_.get(), row_count() * widths_[0], first_gradient_.get());
   }
 
@@ -224,7 +225,7 @@ class SetGradient {
     kernels_.add_outer(source_gradient.View(), {points + 3, row_width, below_, row_width - 3},
                        {weight + 3, layer.inputs});
     Floats below(static_cast<std::size_t>(below_) * layer.backward_count);
-    PassBack(kernels_, layer, source_gradient, below.data());
+    PassBack(kernels_, layer.BackwardPanels(), source_gradient, below.data());
     return below;
   }
 
@@ -259,23 +260,44 @@ struct FeatureGradients {
   std::array<Floats, 4> targets;  // of the propagations' outputs
 };
 
-// Through the weighted sum of three neighbours and the skip connection.
+// The features that propagation l interpolates.
+Floats& CoarseGradient(FeatureGradients& gradients, std::size_t l) {
+  return l == 3 ? gradients.level[4] : gradients.targets[l + 1];
+}
+
+// Sums over the targets, weighted as they were interpolated, what each passes on to a neighbour.
+void ScatterToNeighbours(const Kernels& kernels, const CloudGeometry::Upsampling& upsampling,
+                         const internal::Rows& rows, Floats& sums) {
+  for (std::size_t t = 0; t < upsampling.size(); ++t) {
+    const float* row = rows.data + static_cast<std::ptrdiff_t>(t) * rows.stride;
+    for (std::size_t j = 3 * t; j < 3 * t + 3; ++j)
+      kernels.add_scaled(
+          upsampling.weight[j], row, rows.columns,
+          sums.data() + static_cast<std::size_t>(upsampling.neighbour[j]) * rows.columns);
+  }
+}
+
+// The same over the skip connection, to the points' own features; at level 0 they are positions.
+void ScatterToOwn(const Kernels& kernels, const CloudGeometry& geometry, std::size_t l,
+                  const internal::Rows& rows, FeatureGradients& gradients) {
+  if (l == 0) return;
+  for (std::size_t t = 0; t < geometry.upsampling[l].size(); ++t)
+    kernels.add_scaled(
+        1.0F, rows.data + static_cast<std::ptrdiff_t>(t) * rows.stride, rows.columns,
+        gradients.level[l].data() + std::size_t{geometry.upsampling[l].skip[t]} * rows.columns);
+}
+
+// Through the inputs of a propagation.
 void ScatterUpsampling(const Kernels& kernels, const CloudGeometry& geometry, std::size_t l,
                        const Matrix& input_gradient, FeatureGradients& gradients) {
-  const CloudGeometry::Upsampling& upsampling = geometry.upsampling[l];
   const int own = l == 0 ? 0 : LevelWidth(l) - 3;
-  const int coarse = input_gradient.columns - own;
-  Floats& coarse_gradient = l == 3 ? gradients.level[4] : gradients.targets[l + 1];
-  for (std::size_t t = 0; t < upsampling.size(); ++t) {
-    const float* row = input_gradient.data + t * static_cast<std::size_t>(input_gradient.columns);
-    for (std::size_t j = 3 * t; j < 3 * t + 3; ++j) {
-      const std::size_t n = upsampling.neighbour[j];
-      kernels.add_scaled(upsampling.weight[j], row, coarse, coarse_gradient.data() + n * coarse);
-    }
-    if (own > 0)
-      kernels.add_scaled(1.0F, row + coarse, own,
-                         gradients.level[l].data() + std::size_t{upsampling.skip[t]} * own);
-  }
+  const int width = input_gradient.columns;
+  const int coarse = width - own;
+  ScatterToNeighbours(kernels, geometry.upsampling[l],
+                      {input_gradient.data, width, input_gradient.rows, coarse},
+                      CoarseGradient(gradients, l));
+  ScatterToOwn(kernels, geometry, l,
+               {input_gradient.data + coarse, width, input_gradient.rows, own}, gradients);
 }
 
 // Back through the dense layers of one propagation; `rows` are its inputs and its output.
@@ -289,11 +311,61 @@ Floats DenseGradient(const Kernels& kernels, std::span<const PackedLayer> layers
     const Matrix masked{output_gradient.data(), count, layer.outputs};
     AddLayerGradient(kernels, layer, {rows[i].data(), count, layer.inputs}, masked, gradient);
     Floats input_gradient(static_cast<std::size_t>(count) * layer.backward_count);
-    PassBack(kernels, layer, masked, input_gradient.data());
+    PassBack(kernels, layer.BackwardPanels(), masked, input_gradient.data());
     output_gradient = std::move(input_gradient);
   }
   return output_gradient;
 }
+
+// The way back through ProjectedLayer(), given the gradient of its output: summed for the coarser
+// points first, since then both products are of few rows.
+class ProjectedGradient {
+ public:
+  ProjectedGradient(const PackedEncoder& encoder, const CloudGeometry& geometry,
+                    const PointEncoder::Trace& trace, std::size_t l)
+      : kernels_(*encoder.kernels),
+        layer_(encoder.propagation[l][0]),
+        geometry_(geometry),
+        rows_(trace.propagation[l]),
+        features_(internal::CoarseFeatures(geometry, trace, l)),
+        l_(l) {}
+
+  // Adds to `gradient` and to those of the features.
+  void Run(Floats output_gradient, FeatureGradients& gradients, std::span<float> gradient) const {
+    const int targets = static_cast<int>(geometry_.upsampling[l_].size());
+    const int width = layer_.outputs;
+    kernels_.mask(rows_[1].data(), targets * width, output_gradient.data());
+    const Matrix masked{output_gradient.data(), targets, width};
+    Coarse(masked, CoarseGradient(gradients, l_), gradient);
+    const int own = LevelWidth(l_) - 3;
+    AddLayerGradient(kernels_, layer_, {rows_[0].data(), targets, own}, masked, gradient);
+    if (l_ == 0) return;
+    Floats own_gradient(static_cast<std::size_t>(targets) * own);
+    PassBack(kernels_, layer_.BackwardPanels(features_.columns, own), masked, own_gradient.data());
+    ScatterToOwn(kernels_, geometry_, l_, {own_gradient.data(), own, targets, own}, gradients);
+  }
+
+ private:
+  void Coarse(const Matrix& masked, Floats& coarse_gradient, std::span<float> gradient) const {
+    Floats sums(static_cast<std::size_t>(features_.rows) * masked.columns);
+    ScatterToNeighbours(kernels_, geometry_.upsampling[l_], masked.View(), sums);
+    const Matrix summed{sums.data(), features_.rows, masked.columns};
+    internal::ForRowBlocks(features_.rows, [&](std::ptrdiff_t row, int count) {
+      kernels_.add_outer(
+          summed.Part(row, count).View(),
+          {features_.data + row * features_.stride, features_.stride, count, features_.columns},
+          {gradient.data() + layer_.weight_offset, layer_.inputs});
+    });
+    PassBack(kernels_, layer_.BackwardPanels(0, features_.columns), summed, coarse_gradient.data());
+  }
+
+  const Kernels& kernels_;
+  const PackedLayer& layer_;
+  const CloudGeometry& geometry_;
+  const std::vector<Floats>& rows_;
+  internal::Rows features_;
+  std::size_t l_;
+};
 
 }  // namespace
 
@@ -314,14 +386,20 @@ void PointEncoder::AddGradient(const CloudGeometry& geometry, const Trace& trace
       DenseGradient(kernels, {&packed_->head, 1}, head_rows,
                     Floats(feature_gradient.begin(), feature_gradient.end()), gradient);
   for (std::size_t l = 0; l < 4; ++l) {
-    const Floats input_gradient =
-        DenseGradient(kernels, packed_->propagation[l], trace.propagation[l],
-                      std::move(gradients.targets[l]), gradient);
+    const std::span layers(packed_->propagation[l]);
+    const std::span rows(trace.propagation[l]);
+    const std::size_t dense = internal::ProjectsFirst(geometry, l) ? 1 : 0;
+    Floats input_gradient = DenseGradient(kernels, layers.subspan(dense), rows.subspan(dense),
+                                          std::move(gradients.targets[l]), gradient);
     const int targets = static_cast<int>(geometry.upsampling[l].size());
-    ScatterUpsampling(
-        kernels, geometry, l,
-        {input_gradient.data(), targets, static_cast<int>(input_gradient.size()) / targets},
-        gradients);
+    if (dense > 0)
+      ProjectedGradient(*packed_, geometry, trace, l)
+          .Run(std::move(input_gradient), gradients, gradient);
+    else
+      ScatterUpsampling(
+          kernels, geometry, l,
+          {input_gradient.data(), targets, static_cast<int>(input_gradient.size()) / targets},
+          gradients);
   }
   for (std::size_t l = 4; l-- > 0;) {
     const Floats below =

@@ -40,7 +40,9 @@ class PointEncoder {
     std::array<std::vector<float>, 4> source;  ///< First layer of each point, before the centre.
     std::array<std::vector<float>, 4> centre;  ///< First layer of each centre's position.
     std::array<std::vector<std::uint8_t>, 4> argmax;  ///< Ball member that gave each feature.
-    /// [l][i]: input of layer i of feature propagation l; the last entry is its output.
+    /// [l][i]: input of layer i of feature propagation l; the last entry is its output. Where far
+    /// more points are wanted than it interpolates between, the first are the points' own features
+    /// alone: the first layer is then computed before it is interpolated.
     std::array<std::vector<std::vector<float>>, 4> propagation;
     std::vector<float> features;  ///< Outputs x 128.
   };

@@ -258,14 +258,23 @@ class Trainer {
     return {*network.layout, "encoder.", *network.parameters, instruction_set_};
   }
 
+  Minibatch BatchAt(const Lesson& lesson, std::uint64_t step) const {
+    return {SampleSet::kTrain,
+            internal::BatchOf(config_.seed, step / lesson.per_epoch, step % lesson.per_epoch,
+                              train_.size(), BatchSize(train_.size(), config_)),
+            step};
+  }
+
+  // Of this process's share of the step's batch.
+  Geometries GeometriesAt(const Lesson& lesson, std::uint64_t step) {
+    if (next_step_ == step) return std::exchange(next_, {});
+    return task_->GeometriesOf(lesson.number, OwnShare(BatchAt(lesson, step)));
+  }
+
   StageLosses Step(const Lesson& lesson) {
     const std::uint64_t lesson_step = state_.step - lesson.begin;
-    const Minibatch batch{SampleSet::kTrain,
-                          internal::BatchOf(config_.seed, state_.step / lesson.per_epoch,
-                                            state_.step % lesson.per_epoch, train_.size(),
-                                            BatchSize(train_.size(), config_)),
-                          state_.step};
-    const Geometries geometries = task_->GeometriesOf(lesson.number, OwnShare(batch));
+    const Minibatch batch = BatchAt(lesson, state_.step);
+    const Geometries geometries = GeometriesAt(lesson, state_.step);
     const std::vector<Network*> learning = Learning(lesson.number, lesson_step);
     const std::vector<PointEncoder> encoders = EncodersOf(learning, geometries);
     // what one network sends travels while the other computes
@@ -284,6 +293,10 @@ class Trainer {
       else
         Backward(network, encoders[n], geometries, batch.indices.size());
       sums.push_back(StartSumming(network));
+    }
+    if (group_.size() > 1 && state_.step + 1 < lesson.end) {  // while the sums travel
+      next_ = GeometriesAt(lesson, state_.step + 1);
+      next_step_ = state_.step + 1;
     }
     for (std::size_t n = 0; n < sums.size(); ++n) {
       sums[n].get();
@@ -499,6 +512,8 @@ class Trainer {
   TrainerState state_;
   std::array<Network, 2> networks_;  // by NetworkRole
   std::unique_ptr<StageTask> task_;
+  Geometries next_;  // of `next_step_`, found ahead
+  std::optional<std::uint64_t> next_step_;
 };
 
 void RequireConfig(bool condition, const char* key, const char* allowed) {

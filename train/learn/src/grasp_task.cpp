@@ -54,9 +54,11 @@ class GraspTask : public StageTask {
     }
   }
 
+  bool ReadsClouds(int lesson) const override {
+    return lesson == kAffordanceLesson || input_.networks->normalisation.view.near_points == 0;
+  }
+
   Geometries GeometriesOf(int lesson, const Minibatch& batch) override {
-    if (lesson != kAffordanceLesson && input_.networks->normalisation.view.near_points > 0)
-      return {};
     auto& caches = lesson == kAffordanceLesson ? candidates_ : contacts_;
     Geometries found =
         caches.at(static_cast<std::size_t>(batch.set)).Get(batch.indices, input_.threads);

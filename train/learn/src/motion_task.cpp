@@ -30,6 +30,8 @@ class MotionTask : public StageTask {
 
   void Begin(int /*lesson*/, const StageNetworks& /*networks*/) override {}
 
+  bool ReadsClouds(int /*lesson*/) const override { return true; }
+
   Geometries GeometriesOf(int /*lesson*/, const Minibatch& batch) override {
     GeometryCache& cache = batch.set == SampleSet::kTrain ? train_ : validation_;
     return cache.Get(batch.indices, input_.threads);

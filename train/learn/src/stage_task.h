@@ -41,7 +41,9 @@ class StageTask {
   virtual int Interval(NetworkRole role) const = 0;
   /// Called before a lesson's first step in this process: once in a run, again when it is resumed.
   virtual void Begin(int lesson, const StageNetworks& networks) = 0;
-  /// Nothing where the lesson's networks do not read the clouds: features are empty then.
+  /// False: the lesson's networks need no clouds; features are empty then.
+  virtual bool ReadsClouds(int lesson) const = 0;
+  /// Of a lesson that reads clouds.
   virtual Geometries GeometriesOf(int lesson, const Minibatch& batch) = 0;
   /// Of one network; the gradient is added to `gradient` unless that is empty.
   virtual HeadResult Objective(NetworkRole role, const Minibatch& batch,

@@ -27,11 +27,13 @@
 #include "network_batch.h"
 #include "ordered_calls.h"
 #include "sampler.h"
+#include "shared_batch.h"
 #include "stage_task.h"
 
 namespace doorforge {
 namespace {
 
+using internal::BatchFeatures;
 using internal::EncodedBatch;
 using internal::Geometries;
 using internal::HeadResult;
@@ -123,6 +125,15 @@ std::vector<TrainingSample> AllInHandFrame(std::span<const TrainingSample> sampl
   return converted;
 }
 
+// Parameters of a layout that begins with an encoder's layers.
+std::size_t EncoderSize(const ParameterLayout& layout) {
+  std::size_t end = 0;
+  for (const DenseLayer& layer : layout.layers()) {
+    if (layer.name.starts_with("encoder.")) end = layer.end();
+  }
+  return end;
+}
+
 // One of the two networks with what its training needs between steps.
 struct Network {
   NetworkRole role;
@@ -131,8 +142,8 @@ struct Network {
   std::vector<float>* first;
   std::vector<float>* second;
   EncodedBatch encoded{};
-  std::optional<internal::DeviceEncoder> on_device{};  // in the place of `encoded`
-  std::array<std::vector<float>, kGradientParts> parts{};
+  std::optional<internal::DeviceEncoder> on_device{};      // in the place of `encoded`
+  std::array<std::vector<float>, kGradientParts> parts{};  // of the encoder's gradient
   std::vector<float> gradient{};
   std::vector<float> feature_gradient{};
 };
@@ -273,9 +284,37 @@ class Trainer {
 
   StageLosses Step(const Lesson& lesson) {
     const std::uint64_t lesson_step = state_.step - lesson.begin;
+    const std::vector<Network*> learning = Learning(lesson.number, lesson_step);
+    for (Network* network : learning) network->gradient.assign(network->layout->size(), 0.0F);
+    const StageLosses losses = task_->ReadsClouds(lesson.number) ? ThroughClouds(lesson, learning)
+                                                                 : HeadsAlone(lesson, learning);
+    const internal::AdamRates rates{LearningRate(config_, lesson_step, lesson.end - lesson.begin),
+                                    config_.weight_decay};
+    ParallelFor(learning.size(), threads_, [&](std::size_t n) {
+      Network& network = *learning[n];
+      RequireFiniteGradient(network);
+      AdamStep(rates, lesson_step / Interval(network) + 1, network.gradient,
+               {*network.parameters, *network.first, *network.second});
+    });
+    return losses;
+  }
+
+  // Leaves the gradients of networks that read no clouds, which every process finds by itself.
+  StageLosses HeadsAlone(const Lesson& lesson, const std::vector<Network*>& learning) {
+    StageLosses losses = UnknownLosses();
+    for (Network* network : learning) {
+      const HeadResult result =
+          task_->Objective(network->role, BatchAt(lesson, state_.step), {}, network->gradient);
+      RequireFinite(result.objective, "a loss");
+      losses = Updated(losses, result.losses);
+    }
+    return losses;
+  }
+
+  // Leaves the gradients of networks that read the clouds, of which each process encodes its share.
+  StageLosses ThroughClouds(const Lesson& lesson, const std::vector<Network*>& learning) {
     const Minibatch batch = BatchAt(lesson, state_.step);
     const Geometries geometries = GeometriesAt(lesson, state_.step);
-    const std::vector<Network*> learning = Learning(lesson.number, lesson_step);
     const std::vector<PointEncoder> encoders = EncodersOf(learning, geometries);
     // what one network sends travels while the other computes
     std::vector<std::future<BatchFeatures>> features;
@@ -287,11 +326,7 @@ class Trainer {
     for (std::size_t n = 0; n < learning.size(); ++n) {
       Network& network = *learning[n];
       losses = Updated(losses, Head(network, batch, features[n].get()));
-      if (geometries.empty()) continue;
-      if (OnDevice())
-        BackwardOnDevice(network);
-      else
-        Backward(network, encoders[n], geometries, batch.indices.size());
+      Backward(network, At(encoders, n), geometries, batch.indices.size());
       sums.push_back(StartSumming(network));
     }
     if (group_.size() > 1 && state_.step + 1 < lesson.end) {  // while the sums travel
@@ -302,13 +337,6 @@ class Trainer {
       sums[n].get();
       AddEncoderGradient(*learning[n]);
     }
-    const internal::AdamRates rates{LearningRate(config_, lesson_step, lesson.end - lesson.begin),
-                                    config_.weight_decay};
-    ParallelFor(learning.size(), threads_, [&](std::size_t n) {
-      Network& network = *learning[n];
-      AdamStep(rates, lesson_step / Interval(network) + 1, network.gradient,
-               {*network.parameters, *network.first, *network.second});
-    });
     return losses;
   }
 
@@ -359,35 +387,9 @@ class Trainer {
     return network.encoded.Features(geometries.size());
   }
 
-  // Features of the whole batch, of which each process has encoded its share.
-  struct BatchFeatures {
-    std::vector<float> all;
-    std::size_t own_begin = 0;
-    std::size_t own_size = 0;
-  };
-
   std::future<BatchFeatures> StartGathering(std::vector<float> own) {
-    return calls_.Start([this, own = std::move(own)]() mutable { return Gather(std::move(own)); });
-  }
-
-  BatchFeatures Gather(std::vector<float> own) {
-    BatchFeatures features{{}, 0, own.size()};
-    if (group_.size() == 1 || own.empty()) {
-      features.all = std::move(own);
-      return features;
-    }
-    const auto own_size = static_cast<float>(own.size());  // below 2^24: exact
-    const std::vector<float> sizes = group_.Gather(std::span(&own_size, 1));
-    const auto longest = static_cast<std::size_t>(*std::max_element(sizes.begin(), sizes.end()));
-    own.resize(longest);
-    const std::vector<float> padded = group_.Gather(own);
-    for (std::size_t rank = 0; rank < sizes.size(); ++rank) {
-      if (std::cmp_equal(rank, group_.rank())) features.own_begin = features.all.size();
-      const auto begin = padded.begin() + static_cast<std::ptrdiff_t>(rank * longest);
-      features.all.insert(features.all.end(), begin,
-                          begin + static_cast<std::ptrdiff_t>(sizes[rank]));
-    }
-    return features;
+    return calls_.Start(
+        [this, own = std::move(own)] { return internal::GatherFeatures(group_, own); });
   }
 
   void RequireFinite(double value, const char* name) const {
@@ -397,10 +399,10 @@ class Trainer {
   }
 
   // Fills the network's gradient behind the encoder, and that of its own share of the features.
-  // The head is small: every process does the whole batch's.
+  // The head is small: every process does the whole batch's, which takes less time than sending the
+  // gradient of its parameters.
   StageLosses Head(Network& network, const Minibatch& batch, BatchFeatures features) {
-    network.gradient.assign(network.layout->size(), 0.0F);
-    HeadResult result =
+    const HeadResult result =
         task_->Objective(network.role, batch, std::move(features.all), network.gradient);
     RequireFinite(result.objective, "a loss");
     const auto own =
@@ -409,29 +411,29 @@ class Trainer {
     return result.losses;
   }
 
-  void Backward(Network& network, const PointEncoder& encoder, const Geometries& geometries,
+  // Leaves the encoder's gradient of this process's share in the network's own parts.
+  void Backward(Network& network, const PointEncoder* encoder, const Geometries& geometries,
                 std::size_t batch_size) const {
+    for (std::size_t p = FirstOwnPart(); p < FirstOwnPart() + OwnParts(); ++p)
+      network.parts.at(p).assign(EncoderSize(*network.layout), 0.0F);
+    if (geometries.empty()) return;
+    if (encoder == nullptr) {  // a device sums the whole share as it likes
+      network.on_device->AddGradient(network.feature_gradient, network.parts[FirstOwnPart()]);
+      return;
+    }
     const std::vector<std::size_t> offsets = FeatureOffsets(geometries);
     const std::size_t first = FirstOwnPart() * batch_size / kGradientParts;
     ParallelFor(OwnParts(), threads_, [&](std::size_t task) {
       const std::size_t p = FirstOwnPart() + task;
       std::vector<float>& part = network.parts[p];
-      part.assign(network.layout->size(), 0.0F);
       const std::size_t begin = p * batch_size / kGradientParts - first;
       const std::size_t end = (p + 1) * batch_size / kGradientParts - first;
       for (std::size_t i = begin; i < end; ++i)
-        encoder.AddGradient(
+        encoder->AddGradient(
             *geometries[i], network.encoded.trace(i),
             std::span(network.feature_gradient).subspan(offsets[i], offsets[i + 1] - offsets[i]),
             part);
     });
-  }
-
-  // The gradient of the whole share; a device sums as it likes.
-  void BackwardOnDevice(Network& network) const {
-    for (std::size_t p = 0; p < OwnParts(); ++p)
-      network.parts[FirstOwnPart() + p].assign(network.layout->size(), 0.0F);
-    network.on_device->AddGradient(network.feature_gradient, network.parts[FirstOwnPart()]);
   }
 
   // Leaves the encoder's gradient, of all processes, in the first of the network's own parts.
@@ -443,13 +445,14 @@ class Trainer {
   }
 
   void AddEncoderGradient(Network& network) const {
-    const std::vector<float>& sum = network.parts[FirstOwnPart()];
+    const std::vector<float>& sum = network.parts.at(FirstOwnPart());
+    for (std::size_t i = 0; i < sum.size(); ++i) network.gradient[i] += sum[i];
+  }
+
+  void RequireFiniteGradient(const Network& network) const {
     std::uint32_t largest = 0;  // magnitude; as bits, which compilers compare many at a time
-    for (std::size_t i = 0; i < network.gradient.size(); ++i) {
-      network.gradient[i] += sum[i];
-      const auto magnitude = std::bit_cast<std::uint32_t>(network.gradient[i]) & 0x7fffffffU;
-      largest = std::max(largest, magnitude);
-    }
+    for (const float value : network.gradient)
+      largest = std::max(largest, std::bit_cast<std::uint32_t>(value) & 0x7fffffffU);
     RequireFinite(static_cast<double>(std::bit_cast<float>(largest)), "a gradient");
   }
 
@@ -482,13 +485,16 @@ class Trainer {
       batch.indices.resize(std::min(kChunk, validation_.size() - begin));
       std::iota(batch.indices.begin(), batch.indices.end(), begin);
       const std::vector<Network*> taught = Taught(lesson);
-      const Geometries geometries = task_->GeometriesOf(lesson, OwnShare(batch));
+      const bool reads = task_->ReadsClouds(lesson);
+      const Geometries geometries =
+          reads ? task_->GeometriesOf(lesson, OwnShare(batch)) : Geometries{};
       const std::vector<PointEncoder> encoders = EncodersOf(taught, geometries);
       StageLosses losses = UnknownLosses();
       for (std::size_t n = 0; n < taught.size(); ++n) {
         Network* network = taught[n];
-        std::vector<float> features =
-            StartGathering(EncodedFeatures(*network, At(encoders, n), geometries, false)).get().all;
+        std::vector<float> own = EncodedFeatures(*network, At(encoders, n), geometries, false);
+        std::vector<float> features;
+        if (reads) features = StartGathering(std::move(own)).get().all;
         const HeadResult result = task_->Objective(network->role, batch, std::move(features), {});
         RequireFinite(result.objective, "a validation loss");
         losses = Updated(losses, result.losses);

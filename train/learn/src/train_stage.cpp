@@ -399,8 +399,7 @@ class Trainer {
   }
 
   // Fills the network's gradient behind the encoder, and that of its own share of the features.
-  // The head is small: every process does the whole batch's, which takes less time than sending the
-  // gradient of its parameters.
+  // The head is small: every process does the whole batch's, so that its gradient need not travel.
   StageLosses Head(Network& network, const Minibatch& batch, BatchFeatures features) {
     const HeadResult result =
         task_->Objective(network.role, batch, std::move(features.all), network.gradient);

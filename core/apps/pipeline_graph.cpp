@@ -151,12 +151,32 @@ Json ParsePipeline(const fs::path& path) {
   return json;
 }
 
-// `like: quick` takes all of that preset but the settings that are named
+// Each of `changes` names one of the steps, to whose command it appends and whose other keys it
+// replaces.
+void ChangeSteps(const Json& changes, Json& steps, const std::string& where) {
+  if (!changes.is_array()) Fail(where, "steps: expected a list");
+  for (const Json& change : changes) {
+    const std::string name = Text(change, "name", where + ": steps");
+    const auto step = std::ranges::find_if(
+        steps, [&](const Json& candidate) { return candidate.value("name", "") == name; });
+    if (step == steps.end())
+      Fail(where, "steps: \"" + name + "\" is no step of the preset that this one is like");
+    for (const auto& [key, value] : change.items()) {
+      if (key != "append") {
+        (*step)[key] = value;
+        continue;
+      }
+      if (!value.is_array()) Fail(where, name + ": append: expected a list");
+      for (const Json& argument : value) (*step)["command"].push_back(argument);
+    }
+  }
+}
+
+// `like: quick` takes all of that preset but the settings and what is said of its steps
 Json ReadDeclaration(const fs::path& path) {
   Json json = ParsePipeline(path);
   if (!json.contains("like")) return json;
   const std::string where = path.string();
-  if (json.contains("steps")) Fail(where, "has both \"like\" and \"steps\"");
   Json base = ParsePipeline(FileOf(Text(json, "like", where)));
   if (json.contains("settings")) {
     for (const auto& [key, value] : json["settings"].items()) {
@@ -165,6 +185,7 @@ Json ReadDeclaration(const fs::path& path) {
       base["settings"][key] = value;
     }
   }
+  if (json.contains("steps")) ChangeSteps(json["steps"], base["steps"], where);
   base["about"] = Text(json, "about", where);
   return base;
 }

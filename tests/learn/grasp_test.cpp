@@ -176,6 +176,28 @@ TEST(TrainGrasp, GivesTheSameBitsForAnyNumberOfThreadsAndInterruptionsInBothLess
   }
 }
 
+TEST(TrainGrasp, GivesTheSameBitsWithNormalisedLayersInBothLessons) {
+  const GraspSamples train = MakeGraspSamples(1, 8);
+  const GraspSamples validation = MakeGraspSamples(2, 2);
+  TrainConfig config = GraspConfig();
+  config.epochs = 1;
+  config.batch_size = 4;
+  config.near_points = 0;
+  config.augment_mirror = true;
+  config.encoder_norm = "batch";
+  const TrainerState whole = TrainStage(train.samples, validation.samples, config, {});
+  EXPECT_EQ(whole.step, 4U);
+  EXPECT_NE(whole.actor_statistics.mean, whole.critic_statistics.mean);
+  TrainHooks hooks;
+  hooks.stop = [count = 0]() mutable { return ++count == 3; };
+  hooks.resume = TrainStage(train.samples, validation.samples, config, hooks);
+  hooks.stop = nullptr;
+  const TrainerState state = TrainStage(train.samples, validation.samples, config, hooks);
+  EXPECT_EQ(state.networks.actor, whole.networks.actor);
+  EXPECT_EQ(state.actor_statistics.variance, whole.actor_statistics.variance);
+  EXPECT_EQ(state.epochs[1].validation.affordance_rad, whole.epochs[1].validation.affordance_rad);
+}
+
 TEST(TrainGrasp, PrefersThePointsAndTheTurnsThatOpenDoorsItHasNotSeen) {
   const GraspSamples train = MakeGraspSamples(3, 64);
   TrainConfig config = GraspConfig();

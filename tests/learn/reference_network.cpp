@@ -3,6 +3,7 @@
 #include "reference_network.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 #include <ATen/Parallel.h>
@@ -74,11 +75,26 @@ struct ReferenceNetwork::Tensors {
   std::array<torch::Tensor, 4> relative;   // position in the ball
   std::array<torch::Tensor, 4> neighbour;  // rows of the coarser level
   std::array<torch::Tensor, 4> weight;
+  struct Normalised {
+    torch::Tensor mean, variance;
+    std::int64_t rows = 0;
+  };
+  std::map<std::size_t, Normalised> normalised;  // by the normalisation's layer
+
+  torch::Tensor Normalise(std::size_t layer, const torch::Tensor& product) {
+    const torch::Tensor mean = product.mean(0);
+    const torch::Tensor centred = product - mean;
+    const torch::Tensor variance = (centred * centred).mean(0);
+    normalised[layer] = {mean.detach(), variance.detach(), product.size(0)};
+    return centred / (variance + 1e-5).sqrt() * weights[layer].view({-1}) + biases[layer];
+  }
 
   torch::Tensor Dense(const std::string& name, const torch::Tensor& x) {
     for (std::size_t i = 0; i < weights.size(); ++i) {
-      if (layout.layers()[i].name == name)
-        return torch::relu(torch::addmm(biases[i], x, weights[i].t()));
+      if (layout.layers()[i].name != name) continue;
+      if (i + 1 < weights.size() && layout.layers()[i + 1].name == name + ".norm")
+        return torch::relu(Normalise(i + 1, x.matmul(weights[i].t())));
+      return torch::relu(torch::addmm(biases[i], x, weights[i].t()));
     }
     throw std::runtime_error("no layer " + name);
   }
@@ -182,9 +198,18 @@ ReferenceNetwork::Result ReferenceNetwork::Run(std::span<const float> feature_gr
     out.insert(out.end(), flat.data_ptr<float>(), flat.data_ptr<float>() + flat.numel());
   };
   append(features.detach(), result.features);
+  const auto append_gradient = [&](const torch::Tensor& tensor) {
+    append(tensor.grad().defined() ? tensor.grad() : torch::zeros_like(tensor), result.gradient);
+  };
   for (std::size_t i = 0; i < tensors_->weights.size(); ++i) {
-    append(tensors_->weights[i].grad(), result.gradient);
-    append(tensors_->biases[i].grad(), result.gradient);
+    append_gradient(tensors_->weights[i]);
+    append_gradient(tensors_->biases[i]);
+  }
+  for (const auto& [layer, normalised] : tensors_->normalised) {
+    append(normalised.mean, result.mean);
+    append(normalised.variance, result.variance);
+    result.rows.insert(result.rows.end(), static_cast<std::size_t>(normalised.mean.numel()),
+                       static_cast<double>(normalised.rows));
   }
   return result;
 }

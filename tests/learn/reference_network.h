@@ -15,7 +15,8 @@ namespace doorforge::testing {
 enum class Precision { kSingle, kDouble };
 
 /// The same PointNet++ in stock libtorch operators: padded balls, all centres, all points, its own
-/// textbook point operators. Shares nothing with the room's encoder but the parameter vector.
+/// textbook point operators, and batch normalisation by its formula behind the layers whose layout
+/// has one. Shares nothing with the room's encoder but the parameter vector.
 class ReferenceNetwork {
  public:
   /// `clouds`: each 4096 x 3; `centre` is subtracted.
@@ -27,6 +28,10 @@ class ReferenceNetwork {
   struct Result {
     std::vector<float> features;  ///< Clouds x 4096 x 128.
     std::vector<float> gradient;  ///< Of sum(feature_gradient * features), as the parameters.
+    /// Of the normalised layers, in the layout's order: means, biased variances, and the number of
+    /// rows that each is of.
+    std::vector<float> mean, variance;
+    std::vector<double> rows;
   };
   /// `feature_gradient`: clouds x 4096 x 128.
   Result Run(std::span<const float> feature_gradient);

@@ -199,6 +199,23 @@ class Graph(PipelineTest):
         self.pipeline("diamond.yaml", "--out", "out", "--doors", "mine", "--overwrite")
         self.assertEqual(self.ran(), ["check", "d"])
 
+    def test_a_preset_like_another_changes_its_sizes_and_its_steps(self):
+        mine = {"schema": "doorforge.pipeline", "schema_version": 1, "about": "another", "like": "diamond.yaml",
+                "settings": {"value_a": 30}, "steps": [{"name": "c", "append": ["{b}", 1], "needs": ["a", "b"],
+                                                        "core_seconds": {"fixed": 100}}]}
+        (self.folder / "mine.yaml").write_text(json.dumps(mine))
+        plan = {}
+        for name in ("diamond.yaml", "mine.yaml"):
+            steps = json.loads(self.pipeline("plan", name, "--out", "out", "--threads", 1, "--json").stdout)["steps"]
+            plan[name] = {step["step"]: step for step in steps}
+        self.assertEqual(plan["mine.yaml"]["c"]["expected_s"], 100)
+        self.assertEqual(plan["mine.yaml"]["b"]["expected_s"], 2 + 3 * 30)
+        self.assertEqual(plan["diamond.yaml"]["b"]["expected_s"], 2 + 3 * 100)
+        for change, word in (({"name": "nobody"}, "nobody"), ({"name": "c", "append": "x"}, "append"),
+                             ({"name": "c", "comand": []}, "comand"), ({"append": []}, "name")):
+            (self.folder / "mine.yaml").write_text(json.dumps({**mine, "steps": [change]}))
+            self.assertIn(word, self.pipeline("plan", "mine.yaml", "--out", "out", code=2).stderr)
+
     def test_wrong_declarations_and_folders_are_refused(self):
         good = json.loads(declaration(0))
         for change, word in ((lambda d: d["steps"][1].update(needs=["d"]), '"d"'),

@@ -73,33 +73,39 @@ std::string Prefix(const char* network) { return std::string(network) + "."; }
 TensorFile WeightsOf(const StageNetworks& networks, MakeFloats make) {
   TensorFile file;
   const NetworkNames names = NamesOf(networks.family);
-  AddParameters(ActorLayout(networks.family), Prefix(names.actor), networks.actor, make, file);
-  AddParameters(CriticLayout(networks.family), Prefix(names.critic), networks.critic, make, file);
+  AddParameters(ActorLayout(networks.family, networks.norm), Prefix(names.actor), networks.actor,
+                make, file);
+  AddParameters(CriticLayout(networks.family, networks.norm), Prefix(names.critic), networks.critic,
+                make, file);
   return file;
 }
 
 void ReadWeights(const TensorFile& file, const std::string& path, StageNetworks& networks) {
   const NetworkNames names = NamesOf(networks.family);
-  networks.actor = ReadParameters(ActorLayout(networks.family), Prefix(names.actor), file, path);
-  networks.critic = ReadParameters(CriticLayout(networks.family), Prefix(names.critic), file, path);
+  networks.actor =
+      ReadParameters(ActorLayout(networks.family, networks.norm), Prefix(names.actor), file, path);
+  networks.critic = ReadParameters(CriticLayout(networks.family, networks.norm),
+                                   Prefix(names.critic), file, path);
 }
 
-struct Moments {
-  std::string name;
-  std::vector<float> TrainerState::*values;
-  std::size_t size;
-};
-
-std::array<Moments, 4> MomentsOfState(NetworkFamily family) {
-  const NetworkNames names = NamesOf(family);
-  const std::string actor = "adam." + Prefix(names.actor);
-  const std::string critic = "adam." + Prefix(names.critic);
-  const std::size_t actor_size = ActorLayout(family).size();
-  const std::size_t critic_size = CriticLayout(family).size();
-  return {Moments{actor + "first", &TrainerState::actor_first, actor_size},
-          Moments{actor + "second", &TrainerState::actor_second, actor_size},
-          Moments{critic + "first", &TrainerState::critic_first, critic_size},
-          Moments{critic + "second", &TrainerState::critic_second, critic_size}};
+// Calls visit(name, vector, size) for all that training needs between steps besides the weights.
+template <class State, class Visit>
+void VisitVectors(State& state, const Visit& visit) {
+  const StageNetworks& networks = state.networks;
+  const NetworkNames names = NamesOf(networks.family);
+  const auto visit_network = [&](const std::string& name, const ParameterLayout& layout,
+                                 auto& first, auto& second, auto& statistics) {
+    visit("adam." + name + "first", first, layout.size());
+    visit("adam." + name + "second", second, layout.size());
+    const std::size_t outputs = InitialStatistics(layout).mean.size();
+    if (outputs == 0) return;
+    visit("norm." + name + "mean", statistics.mean, outputs);
+    visit("norm." + name + "variance", statistics.variance, outputs);
+  };
+  visit_network(Prefix(names.actor), ActorLayout(networks.family, networks.norm), state.actor_first,
+                state.actor_second, state.actor_statistics);
+  visit_network(Prefix(names.critic), CriticLayout(networks.family, networks.norm),
+                state.critic_first, state.critic_second, state.critic_statistics);
 }
 
 std::string ConfigText(const TrainConfig& config) { return ToJson(config).dump(); }
@@ -245,6 +251,8 @@ std::string ConfigHash(const TrainConfig& config) { return Sha256Hex(ConfigText(
 
 void WritePolicy(const fs::path& folder, const StageNetworks& networks,
                  const PolicyProvenance& provenance) {
+  Require(networks.norm == EncoderNorm::kNone, ErrorCode::kInvalidArgument,
+          "a policy's normalised layers must be folded, see PolicyOf()");
   const std::string weights = EncodeTensors(WeightsOf(networks, MakeHalfTensor));
   CommitFile(folder / kWeightsFile, weights);
   Json json = {{"schema", "doorforge.policy"},
@@ -295,8 +303,9 @@ PolicyRecord ReadPolicy(const fs::path& folder, std::string_view stage) {
 void WriteTrainerState(const fs::path& folder, const TrainerState& state,
                        const PolicyProvenance& provenance) {
   TensorFile file = WeightsOf(state.networks, MakeTensor<float>);
-  for (const Moments& moments : MomentsOfState(state.networks.family))
-    file.tensors[moments.name] = MakeTensor<float>(state.*(moments.values), {moments.size});
+  VisitVectors(state, [&](const std::string& name, const auto& values, std::size_t size) {
+    file.tensors[name] = MakeTensor<float>(values, {size});
+  });
   AddLosses(state, file);
   file.metadata = {{"config", ConfigText(provenance.config)},
                    {"dataset_sha256", provenance.dataset_sha256},
@@ -317,10 +326,11 @@ TrainerState ReadTrainerState(const fs::path& folder, const PolicyProvenance& ex
   TrainerState state;
   state.networks.family = FamilyOf(expected.stage);
   state.networks.linear_branches = expected.config.linear_branches;
+  state.networks.norm = NormOf(expected.config);
   ReadWeights(file, path, state.networks);
-  for (const Moments& moments : MomentsOfState(state.networks.family))
-    state.*(moments.values) =
-        ValuesOf<float>(TensorNamed(file, moments.name, path), {moments.size}, path);
+  VisitVectors(state, [&](const std::string& name, auto& values, std::size_t size) {
+    values = ValuesOf<float>(TensorNamed(file, name, path), {size}, path);
+  });
   ReadLosses(file, path, state);
   const Json normalisation =
       Json::parse(MetadataOf(file, "normalisation", path), nullptr, /*allow_exceptions=*/false);

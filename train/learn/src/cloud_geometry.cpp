@@ -111,24 +111,34 @@ CloudGeometry::Level BallsOf(const PointColumns& below, const PointColumns& cent
   return out;
 }
 
-}  // namespace
+// The window's points and, of each level above, all; the window's indices in the cloud.
+struct SampledLevels {
+  Indices inside;
+  std::array<PointColumns, 5> points;
+};
 
-CloudGeometry BuildGeometry(std::span<const float> xyz, const CloudWindow& window,
-                            std::span<const std::uint16_t> outputs, InstructionSet set) {
+SampledLevels SampleLevels(std::span<const float> xyz, const CloudWindow& window,
+                           InstructionSet set) {
   Require(xyz.size() == std::size_t{3} * kCloudPoints, ErrorCode::kInvalidArgument,
           "a cloud must hold 4096 points, found " + std::to_string(xyz.size() / 3));
   Require(std::all_of(xyz.begin(), xyz.end(), [](float v) { return std::isfinite(v); }),
           ErrorCode::kInvalidArgument, "a cloud must hold finite numbers");
-  std::array<PointColumns, 5> points;
+  SampledLevels levels;
+  std::array<PointColumns, 5>& points = levels.points;
   points[0] = ToColumns(xyz, window.centre);
-  const Indices inside = InWindow(points[0], window.radius_m);
-  points[0] = points[0].Select(inside);
+  levels.inside = InWindow(points[0], window.radius_m);
+  points[0] = points[0].Select(levels.inside);
   Magnify(points[0], window.zoom);
   for (std::size_t level = 0; level < 4; ++level) {
     points[level + 1] =
         points[level].Select(FarthestPoints(points[level], kSetAbstractions[level].points, set));
   }
+  return levels;
+}
 
+// What the features of the window's points `outputs` depend on.
+CloudGeometry GeometryOf(const std::array<PointColumns, 5>& points, const Indices& outputs,
+                         InstructionSet set) {
   CloudGeometry geometry;
   geometry.xyz.reserve(3 * points[0].size());
   for (std::size_t i = 0; i < points[0].size(); ++i) {
@@ -136,7 +146,7 @@ CloudGeometry BuildGeometry(std::span<const float> xyz, const CloudWindow& windo
     geometry.xyz.insert(geometry.xyz.end(), point.begin(), point.end());
   }
   // from the coarsest level down: a level keeps what the one above and the upsampling read
-  std::array<Indices, 5> kept = PlanUpsampling(points, OutputsInside(inside, outputs), geometry);
+  std::array<Indices, 5> kept = PlanUpsampling(points, outputs, geometry);
   for (std::size_t level = 4; level-- > 0;) {
     geometry.levels[level] =
         BallsOf(points[level], points[level + 1], kept[level + 1], kSetAbstractions[level], set);
@@ -147,6 +157,26 @@ CloudGeometry BuildGeometry(std::span<const float> xyz, const CloudWindow& windo
     ToRows(kept[level], members);
     ToRows(kept[level], geometry.upsampling[level].skip);
   }
+  return geometry;
+}
+
+}  // namespace
+
+CloudGeometry BuildGeometry(std::span<const float> xyz, const CloudWindow& window,
+                            std::span<const std::uint16_t> outputs, InstructionSet set) {
+  const SampledLevels levels = SampleLevels(xyz, window, set);
+  return GeometryOf(levels.points, OutputsInside(levels.inside, outputs), set);
+}
+
+CloudGeometry BuildWholeGeometry(std::span<const float> xyz, const CloudWindow& window,
+                                 std::span<const std::uint16_t> outputs, InstructionSet set) {
+  const SampledLevels levels = SampleLevels(xyz, window, set);
+  Indices all(levels.inside.size());
+  std::iota(all.begin(), all.end(), std::uint16_t{0});
+  // every centre of a level is a point of the level below, whose own nearest it is: none is left
+  // out
+  CloudGeometry geometry = GeometryOf(levels.points, all, set);
+  geometry.read = OutputsInside(levels.inside, outputs);
   return geometry;
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -39,6 +40,7 @@ struct JoinedGeometry {
   std::array<Indices, 4> skip;               // of each upsampling, rows of its level
   std::array<Indices, 4> neighbour;          // rows of the coarser upsampling or of level 4
   std::array<std::vector<float>, 4> weight;
+  Indices read;  // rows of the last upsampling
 };
 
 void AppendShifted(const std::vector<std::uint16_t>& from, std::size_t shift, Indices& to) {
@@ -74,6 +76,12 @@ void Append(const CloudGeometry& geometry, JoinedGeometry& joined) {
     joined.weight[l].insert(joined.weight[l].end(), upsampling.weight.begin(),
                             upsampling.weight.end());
   }
+  std::vector<std::uint16_t> read = geometry.read;
+  if (read.empty()) {
+    read.resize(geometry.upsampling[0].size());
+    std::iota(read.begin(), read.end(), std::uint16_t{0});
+  }
+  AppendShifted(read, targets[0], joined.read);
 }
 
 // Where and how precisely a network computes.
@@ -119,13 +127,21 @@ struct DeviceEncoder::Network {
   Place place;
   std::vector<Tensor> weights;  // of the encoder's layers, others undefined
   std::vector<Tensor> biases;
+  std::vector<Tensor> means;      // of the batch, of each normalised layer, others undefined
+  std::vector<Tensor> variances;  // unbiased
   Tensor features;
 
   Tensor Dense(const std::string& name, const Tensor& x) const {
     const std::vector<DenseLayer>& layers = layout->layers();
     for (std::size_t i = 0; i < layers.size(); ++i) {
-      if (layers[i].name == "encoder." + name)
+      if (layers[i].name != "encoder." + name) continue;
+      if (NormBehind(*layout, i) == nullptr)
         return torch::relu(torch::addmm(biases[i], x, weights[i].t()));
+      // with a momentum of 1 the running statistics are those of this batch
+      return torch::batch_norm(torch::mm(x, weights[i].t()), weights[i + 1].view(-1), biases[i + 1],
+                               means[i], variances[i], /*training=*/true, /*momentum=*/1.0,
+                               kNormEpsilon, /*cudnn_enabled=*/true)
+          .relu_();
     }
     throw Error(ErrorCode::kInvalidArgument, "no layer \"" + name + "\" in this network");
   }
@@ -137,7 +153,7 @@ struct DeviceEncoder::Network {
     Tensor rows =
         torch::cat({xyz.index_select(0, ball) - centre, feature.index_select(0, ball)}, 1);
     for (int i = 0; i < 3; ++i) rows = Dense(LayerName("sa", l, i), rows);
-    return std::get<0>(rows.view({-1, kBall, rows.size(1)}).max(1));
+    return rows.view({-1, kBall, rows.size(1)}).amax(1);
   }
 
   Tensor Propagate(const JoinedGeometry& joined, std::size_t l, const Tensor& coarse,
@@ -160,16 +176,24 @@ struct DeviceEncoder::Network {
     }
     Tensor up = feature[4];
     for (std::size_t l = 4; l-- > 0;) up = Propagate(joined, l, up, feature[l]);
-    return Dense("head", up);
+    const Tensor read = Rows(joined.read, 1, place).view(-1);
+    return Dense("head", up).index_select(0, read);
   }
 };
 
 DeviceEncoder::DeviceEncoder(const ParameterLayout& layout, std::span<const float> parameters,
                              const std::string& device, bool in_double) {
   RequireDevice(device);
-  network_ = std::make_unique<Network>(Network{
-      &layout, {*DeviceOf(device), in_double ? torch::kFloat64 : torch::kFloat32}, {}, {}, {}});
-  for (const DenseLayer& layer : layout.layers()) {
+  network_ = std::make_unique<Network>(
+      Network{&layout,
+              {*DeviceOf(device), in_double ? torch::kFloat64 : torch::kFloat32},
+              {},
+              {},
+              {},
+              {},
+              {}});
+  for (std::size_t i = 0; i < layout.layers().size(); ++i) {
+    const DenseLayer& layer = layout.layers()[i];
     const bool ours = layer.name.starts_with("encoder.");
     const float* data = parameters.data();
     const std::vector<float> weight(data + layer.offset, data + layer.bias_offset());
@@ -179,6 +203,13 @@ DeviceEncoder::DeviceEncoder(const ParameterLayout& layout, std::span<const floa
                                      : Tensor());
     network_->biases.push_back(
         ours ? leaf(Rows(bias, layer.outputs, network_->place).view(-1).detach()) : Tensor());
+    const auto statistic = [&] {
+      return NormBehind(layout, i) == nullptr
+                 ? Tensor()
+                 : Rows(std::vector<float>(bias.size()), layer.outputs, network_->place).view(-1);
+    };
+    network_->means.push_back(statistic());
+    network_->variances.push_back(statistic());
   }
 }
 
@@ -196,6 +227,18 @@ std::vector<float> DeviceEncoder::Forward(const Geometries& geometries, bool for
   if (for_gradient) network_->features = features;
   const Tensor here = Here(features.detach());
   return {here.data_ptr<float>(), here.data_ptr<float>() + here.numel()};
+}
+
+LayerStatistics DeviceEncoder::Statistics() const {
+  LayerStatistics statistics;
+  const auto append = [](const Tensor& tensor, std::vector<float>& out) {
+    if (!tensor.defined()) return;
+    const Tensor here = Here(tensor);
+    out.insert(out.end(), here.data_ptr<float>(), here.data_ptr<float>() + here.numel());
+  };
+  for (const Tensor& mean : network_->means) append(mean, statistics.mean);
+  for (const Tensor& variance : network_->variances) append(variance, statistics.variance);
+  return statistics;
 }
 
 void DeviceEncoder::AddGradient(std::span<const float> feature_gradient,

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "doorforge/learn/batch_norm.h"
 #include "doorforge/learn/parameters.h"
 
 #include "network_batch.h"
@@ -14,7 +15,8 @@
 namespace doorforge::internal {
 
 /// The encoder in libtorch's operators, where libtorch can compute: the network of PointEncoder on
-/// the same geometries, a whole batch at once. For devices that this library has no kernels for.
+/// the same geometries, a whole batch at once. For devices that this library has no kernels for,
+/// and for the training of layers that are normalised over the batch.
 class DeviceEncoder {
  public:
   /// @param device "libtorch" for the processor, or a name that libtorch knows, such as "cuda:0".
@@ -27,8 +29,12 @@ class DeviceEncoder {
   DeviceEncoder& operator=(DeviceEncoder&&) noexcept;
 
   /// Features of the geometries' output points, one geometry after the other, n x 128. With
-  /// `for_gradient` what AddGradient() needs is kept.
+  /// `for_gradient` what AddGradient() needs is kept. Normalised layers use the statistics of
+  /// all rows of the geometries, in balls their padding included, as UniDoorManip's.
   std::vector<float> Forward(const Geometries& geometries, bool for_gradient);
+
+  /// Of the last Forward(): means and unbiased variances.
+  LayerStatistics Statistics() const;
 
   /// Adds the gradient of sum(feature_gradient * features) of the last Forward() to `gradient`, a
   /// flat vector of the layout. Once after each.

@@ -94,11 +94,12 @@ class GraspTask : public StageTask {
   CloudGeometry GeometryOf(SampleSet set, int lesson, std::size_t i) const {
     const StageNormalisation& normalisation = input_.networks->normalisation;
     const std::span<const float> cloud = SamplesOf(set)[i].cloud;
-    if (lesson != kAffordanceLesson) return BuildGeometry(cloud, GraspWindow(normalisation, cloud));
+    if (lesson != kAffordanceLesson)
+      return GeometryFor(*input_.config, set, cloud, {GraspWindow(normalisation, cloud), {0}});
     const RatedPoints& rated = rated_.at(static_cast<std::size_t>(set))[i];
     const std::vector<float> begun = BeginningAt(cloud, rated.first);
-    return BuildGeometry(begun, GraspWindow(normalisation, begun), rated.points,
-                         BestInstructionSet());
+    return GeometryFor(*input_.config, set, begun,
+                       {GraspWindow(normalisation, begun), rated.points});
   }
 
   // Of a sample on a step, whichever part of the batch a process has.

@@ -273,12 +273,13 @@ HeadResult ActorObjective(const StageNetworks& networks, const HeadBatch& batch,
     loss.losses.divergence = divergence.item<double>();
     return loss;
   };
-  return Evaluate({ActorLayout(), networks.actor, gradient}, batch, loss_of);
+  return Evaluate({ActorLayout(networks.family, networks.norm), networks.actor, gradient}, batch,
+                  loss_of);
 }
 
 HeadResult CriticObjective(const StageNetworks& networks, const HeadBatch& batch,
                            std::span<float> gradient) {
-  return Evaluate({CriticLayout(), networks.critic, gradient}, batch,
+  return Evaluate({CriticLayout(networks.family, networks.norm), networks.critic, gradient}, batch,
                   [&](const HeadParameters& parameters, const Tensor& features) {
                     return MeanAbsolute(CriticScore(parameters, networks, batch, features), batch,
                                         &StageLosses::score_rad);
@@ -294,12 +295,13 @@ HeadResult DiscriminatorObjective(const StageNetworks& networks, const HeadBatch
       loss.objective = (score - View(batch.gains, 1)).square().mean();
     return loss;
   };
-  return Evaluate({CriticLayout(NetworkFamily::kGrasp), networks.critic, gradient}, batch, loss_of);
+  return Evaluate({CriticLayout(networks.family, networks.norm), networks.critic, gradient}, batch,
+                  loss_of);
 }
 
 HeadResult AffordanceObjective(const StageNetworks& networks, const HeadBatch& batch,
                                std::span<float> gradient) {
-  return Evaluate({ActorLayout(NetworkFamily::kGrasp), networks.actor, gradient}, batch,
+  return Evaluate({ActorLayout(networks.family, networks.norm), networks.actor, gradient}, batch,
                   [&](const HeadParameters& parameters, const Tensor& features) {
                     return MeanAbsolute(AffordanceScore(parameters, networks, batch, features),
                                         batch, &StageLosses::affordance_rad);
@@ -309,27 +311,31 @@ HeadResult AffordanceObjective(const StageNetworks& networks, const HeadBatch& b
 std::vector<float> DecodeActions(const StageNetworks& networks, const HeadBatch& batch,
                                  const std::vector<float>& latents) {
   const at::AutoGradMode mode(false);
-  const HeadParameters parameters(ActorLayout(), networks.actor, false);
+  const HeadParameters parameters(ActorLayout(networks.family, networks.norm), networks.actor,
+                                  false);
   const Actor actor(networks, parameters, batch, View(batch.features, kFeatureSize));
   return ToVector(actor.Decode(View(latents, kLatentSize)));
 }
 
 std::vector<float> ScoreActions(const StageNetworks& networks, const HeadBatch& batch) {
   const at::AutoGradMode mode(false);
-  const HeadParameters parameters(CriticLayout(), networks.critic, false);
+  const HeadParameters parameters(CriticLayout(networks.family, networks.norm), networks.critic,
+                                  false);
   return ToVector(CriticScore(parameters, networks, batch, View(batch.features, kFeatureSize)));
 }
 
 std::vector<float> ScoreGrasps(const StageNetworks& networks, const HeadBatch& batch) {
   const at::AutoGradMode mode(false);
-  const HeadParameters parameters(CriticLayout(NetworkFamily::kGrasp), networks.critic, false);
+  const HeadParameters parameters(CriticLayout(networks.family, networks.norm), networks.critic,
+                                  false);
   return ToVector(
       DiscriminatorScore(parameters, networks, batch, View(batch.features, kFeatureSize)));
 }
 
 std::vector<float> ScorePoints(const StageNetworks& networks, const HeadBatch& batch) {
   const at::AutoGradMode mode(false);
-  const HeadParameters parameters(ActorLayout(NetworkFamily::kGrasp), networks.actor, false);
+  const HeadParameters parameters(ActorLayout(networks.family, networks.norm), networks.actor,
+                                  false);
   return ToVector(AffordanceScore(parameters, networks, batch, View(batch.features, kFeatureSize)));
 }
 

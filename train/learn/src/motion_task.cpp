@@ -17,8 +17,8 @@ class MotionTask : public StageTask {
  public:
   explicit MotionTask(const TaskInput& input)
       : input_(input),
-        train_(CacheOf(input.train, input.cache_bytes)),
-        validation_(CacheOf(input.validation, input.cache_bytes / 4)) {}
+        train_(CacheOf(SampleSet::kTrain, input.cache_bytes)),
+        validation_(CacheOf(SampleSet::kValidation, input.cache_bytes / 4)) {}
 
   std::vector<NetworkRole> Taught(int /*lesson*/) const override {
     return {NetworkRole::kActor, NetworkRole::kCritic};
@@ -66,11 +66,12 @@ class MotionTask : public StageTask {
     return actions;
   }
 
-  GeometryCache CacheOf(std::span<const TrainingSample> samples, std::size_t bytes) const {
+  GeometryCache CacheOf(SampleSet set, std::size_t bytes) const {
+    const auto samples = set == SampleSet::kTrain ? input_.train : input_.validation;
     const StageNormalisation& normalisation = input_.networks->normalisation;
-    return {samples.size(), 1, bytes, [samples, &normalisation](std::size_t i) {
-              return BuildGeometry(samples[i].cloud,
-                                   WindowOf(normalisation, HandOf(samples[i].proprioception)));
+    return {samples.size(), 1, bytes, [this, set, samples, &normalisation](std::size_t i) {
+              return GeometryFor(*input_.config, set, samples[i].cloud,
+                                 {WindowOf(normalisation, HandOf(samples[i].proprioception)), {0}});
             }};
   }
 

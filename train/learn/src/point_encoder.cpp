@@ -274,18 +274,21 @@ CentreBlock BlockFrom(const CloudGeometry::Level& level, std::size_t first) {
 
 }  // namespace internal
 
-void AddEncoderLayers(const std::string& prefix, ParameterLayout& layout) {
+void AddEncoderLayers(const std::string& prefix, ParameterLayout& layout, EncoderNorm norm) {
+  const auto add = [&](const std::string& name, int inputs, int outputs) {
+    layout.Add(prefix + name, inputs, outputs);
+    if (norm == EncoderNorm::kBatch) layout.Add(prefix + name + ".norm", 1, outputs);
+  };
   for (std::size_t level = 0; level < 4; ++level) {
     const auto& sizes = kAbstractionSizes[level];
-    for (std::size_t i = 0; i < 3; ++i)
-      layout.Add(prefix + LayerName("sa", level, i), sizes[i], sizes[i + 1]);
+    for (std::size_t i = 0; i < 3; ++i) add(LayerName("sa", level, i), sizes[i], sizes[i + 1]);
   }
   for (std::size_t level = 4; level-- > 0;) {
     const auto& sizes = kPropagationSizes[level];
     for (std::size_t i = 0; i + 1 < sizes.size(); ++i)
-      layout.Add(prefix + LayerName("fp", level, i), sizes[i], sizes[i + 1]);
+      add(LayerName("fp", level, i), sizes[i], sizes[i + 1]);
   }
-  layout.Add(prefix + "head", kFeatureSize, kFeatureSize);
+  add("head", kFeatureSize, kFeatureSize);
 }
 
 PointEncoder::PointEncoder(const ParameterLayout& layout, const std::string& prefix,

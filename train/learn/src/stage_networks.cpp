@@ -26,9 +26,9 @@ void AddBranch(const std::string& name, std::initializer_list<int> sizes, Parame
     layout.Add(name + "." + std::to_string(i), size[0], size[1]);
 }
 
-ParameterLayout MakeActorLayout() {
+ParameterLayout MakeActorLayout(EncoderNorm norm) {
   ParameterLayout layout;
-  AddEncoderLayers("encoder.", layout);
+  AddEncoderLayers("encoder.", layout, norm);
   AddBranch("action", {9, 128, 128, 64}, layout);
   AddBranch("state", {18, 128, 128, 64}, layout);
   AddBranch("posterior", {kFeatureSize + 128, 128, 128}, layout);
@@ -38,9 +38,9 @@ ParameterLayout MakeActorLayout() {
   return layout;
 }
 
-ParameterLayout MakeCriticLayout() {
+ParameterLayout MakeCriticLayout(EncoderNorm norm) {
   ParameterLayout layout;
-  AddEncoderLayers("encoder.", layout);
+  AddEncoderLayers("encoder.", layout, norm);
   AddBranch("state", {18, 128, 128, 64}, layout);
   AddBranch("action", {9, 128, 128, 64}, layout);
   AddBranch("hand", {3, 128, 128, 64}, layout);
@@ -49,21 +49,27 @@ ParameterLayout MakeCriticLayout() {
   return layout;
 }
 
-ParameterLayout MakeAffordanceLayout() {
+ParameterLayout MakeAffordanceLayout(EncoderNorm norm) {
   ParameterLayout layout;
-  AddEncoderLayers("encoder.", layout);
+  AddEncoderLayers("encoder.", layout, norm);
   AddBranch("point", {3, 128, 128, 128}, layout);
   AddBranch("score", {kFeatureSize + 128, 128, 1}, layout);
   return layout;
 }
 
-ParameterLayout MakeDiscriminatorLayout() {
+ParameterLayout MakeDiscriminatorLayout(EncoderNorm norm) {
   ParameterLayout layout;
-  AddEncoderLayers("encoder.", layout);
+  AddEncoderLayers("encoder.", layout, norm);
   AddBranch("action", {9, 128, 128, 128}, layout);
   AddBranch("near", {3, 64, 64, 128}, layout);
   AddBranch("score", {kFeatureSize + 128 + 128, 128, 1}, layout);
   return layout;
+}
+
+using LayoutsByNorm = std::array<ParameterLayout, 2>;
+
+LayoutsByNorm OfBothNorms(ParameterLayout (*make)(EncoderNorm)) {
+  return {make(EncoderNorm::kNone), make(EncoderNorm::kBatch)};
 }
 
 std::vector<float> Initial(const ParameterLayout& layout, std::uint64_t seed,
@@ -75,6 +81,12 @@ std::vector<float> Initial(const ParameterLayout& layout, std::uint64_t seed,
     if (layer.name != "mean" && layer.name != "log_variance" && !gives_result && !near) continue;
     const float scale = near ? kNearScale : kResultScale;
     for (std::size_t i = layer.offset; i < layer.bias_offset(); ++i) parameters[i] *= scale;
+  }
+  for (std::size_t i = 0; i < layout.layers().size(); ++i) {
+    const DenseLayer* norm = NormBehind(layout, i);
+    if (norm != nullptr)
+      std::fill_n(parameters.begin() + static_cast<std::ptrdiff_t>(norm->offset),
+                  norm->weight_count(), 1.0F);
   }
   return parameters;
 }
@@ -287,24 +299,29 @@ NetworkNames NamesOf(NetworkFamily family) {
                                          : NetworkNames{"actor", "critic"};
 }
 
-const ParameterLayout& ActorLayout(NetworkFamily family) {
-  static const ParameterLayout kActor = MakeActorLayout();
-  static const ParameterLayout kAffordance = MakeAffordanceLayout();
-  return family == NetworkFamily::kGrasp ? kAffordance : kActor;
+const ParameterLayout& ActorLayout(NetworkFamily family, EncoderNorm norm) {
+  static const LayoutsByNorm kActor = OfBothNorms(MakeActorLayout);
+  static const LayoutsByNorm kAffordance = OfBothNorms(MakeAffordanceLayout);
+  const LayoutsByNorm& layouts = family == NetworkFamily::kGrasp ? kAffordance : kActor;
+  return layouts.at(static_cast<std::size_t>(norm));
 }
 
-const ParameterLayout& CriticLayout(NetworkFamily family) {
-  static const ParameterLayout kCritic = MakeCriticLayout();
-  static const ParameterLayout kDiscriminator = MakeDiscriminatorLayout();
-  return family == NetworkFamily::kGrasp ? kDiscriminator : kCritic;
+const ParameterLayout& CriticLayout(NetworkFamily family, EncoderNorm norm) {
+  static const LayoutsByNorm kCritic = OfBothNorms(MakeCriticLayout);
+  static const LayoutsByNorm kDiscriminator = OfBothNorms(MakeDiscriminatorLayout);
+  const LayoutsByNorm& layouts = family == NetworkFamily::kGrasp ? kDiscriminator : kCritic;
+  return layouts.at(static_cast<std::size_t>(norm));
 }
 
 StageNetworks InitialNetworks(const StageNormalisation& normalisation, bool linear_branches,
-                              std::uint64_t seed, NetworkFamily family) {
+                              std::uint64_t seed, NetworkFamily family, EncoderNorm norm) {
   const NetworkNames names = NamesOf(family);
-  return {normalisation, linear_branches,
-          Initial(ActorLayout(family), seed, std::string(names.actor) + "."),
-          Initial(CriticLayout(family), seed, std::string(names.critic) + "."), family};
+  return {normalisation,
+          linear_branches,
+          Initial(ActorLayout(family, norm), seed, std::string(names.actor) + "."),
+          Initial(CriticLayout(family, norm), seed, std::string(names.critic) + "."),
+          family,
+          norm};
 }
 
 }  // namespace doorforge

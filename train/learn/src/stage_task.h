@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "doorforge/learn/cloud_geometry.h"
 #include "doorforge/learn/stage_networks.h"
 #include "doorforge/learn/train_stage.h"
 #include "doorforge/learn/training_sample.h"
@@ -20,6 +21,17 @@ namespace doorforge::internal {
 enum class NetworkRole { kActor, kCritic };
 
 enum class SampleSet { kTrain, kValidation };
+
+/// Where of a cloud features are read.
+struct Reading {
+  CloudWindow window;
+  std::vector<std::uint16_t> points;
+};
+
+/// What the encoder needs to know of a cloud: no more than what is read depends on, but all of it
+/// where training reads statistics over all rows.
+CloudGeometry GeometryFor(const TrainConfig& config, SampleSet set, std::span<const float> cloud,
+                          const Reading& reading);
 
 /// Some samples on their way through a network.
 struct Minibatch {

@@ -138,14 +138,17 @@ std::size_t EncoderSize(const ParameterLayout& layout) {
 struct Network {
   NetworkRole role;
   const ParameterLayout* layout;
+  const ParameterLayout* plain;  // of the same network without normalised layers
   std::vector<float>* parameters;
   std::vector<float>* first;
   std::vector<float>* second;
+  LayerStatistics* statistics;
   EncodedBatch encoded{};
-  std::optional<internal::DeviceEncoder> on_device{};      // in the place of `encoded`
+  std::optional<internal::DeviceEncoder> in_operators{};   // in the place of `encoded`
   std::array<std::vector<float>, kGradientParts> parts{};  // of the encoder's gradient
   std::vector<float> gradient{};
   std::vector<float> feature_gradient{};
+  std::future<void> sum{};  // of the encoder's gradient over all processes
 };
 
 class Trainer {
@@ -162,10 +165,12 @@ class Trainer {
         threads_(ThreadCount(hooks.threads)),
         instruction_set_(BestInstructionSet()),
         state_(hooks.resume ? *hooks.resume : InitialState()),
-        networks_{Network{NetworkRole::kActor, &ActorLayout(config.family), &state_.networks.actor,
-                          &state_.actor_first, &state_.actor_second},
-                  Network{NetworkRole::kCritic, &CriticLayout(config.family),
-                          &state_.networks.critic, &state_.critic_first, &state_.critic_second}},
+        networks_{Network{NetworkRole::kActor, &ActorLayout(config.family, NormOf(config)),
+                          &ActorLayout(config.family), &state_.networks.actor, &state_.actor_first,
+                          &state_.actor_second, &state_.actor_statistics},
+                  Network{NetworkRole::kCritic, &CriticLayout(config.family, NormOf(config)),
+                          &CriticLayout(config.family), &state_.networks.critic,
+                          &state_.critic_first, &state_.critic_second, &state_.critic_statistics}},
         task_(MakeTask()) {}
 
   TrainerState Run() {
@@ -175,7 +180,7 @@ class Trainer {
       const std::uint64_t begin = end;
       end += per_epoch * static_cast<std::uint64_t>(internal::EpochsOfLesson(config_, number));
       if (state_.step >= end) continue;
-      task_->Begin(number, state_.networks);
+      task_->Begin(number, PolicyOf(state_));
       if (!Teach({number, begin, end, per_epoch})) break;
     }
     return std::move(state_);
@@ -208,7 +213,9 @@ class Trainer {
     state.networks = hooks_.initial
                          ? *hooks_.initial
                          : InitialNetworks(MeasuredNormalisation(), config_.linear_branches,
-                                           config_.seed, config_.family);
+                                           config_.seed, config_.family, NormOf(config_));
+    state.actor_statistics = InitialStatistics(ActorLayout(config_.family, NormOf(config_)));
+    state.critic_statistics = InitialStatistics(CriticLayout(config_.family, NormOf(config_)));
     state.actor_first.resize(state.networks.actor.size());
     state.actor_second.resize(state.networks.actor.size());
     state.critic_first.resize(state.networks.critic.size());
@@ -266,7 +273,8 @@ class Trainer {
   }
 
   PointEncoder EncoderOf(const Network& network) const {
-    return {*network.layout, "encoder.", *network.parameters, instruction_set_};
+    if (!Normalises()) return {*network.layout, "encoder.", *network.parameters, instruction_set_};
+    return {*network.plain, "encoder.", FoldedOf(network), instruction_set_};
   }
 
   Minibatch BatchAt(const Lesson& lesson, std::uint64_t step) const {
@@ -315,28 +323,61 @@ class Trainer {
   StageLosses ThroughClouds(const Lesson& lesson, const std::vector<Network*>& learning) {
     const Minibatch batch = BatchAt(lesson, state_.step);
     const Geometries geometries = GeometriesAt(lesson, state_.step);
-    const std::vector<PointEncoder> encoders = EncodersOf(learning, geometries);
-    // what one network sends travels while the other computes
-    std::vector<std::future<BatchFeatures>> features;
-    for (std::size_t n = 0; n < learning.size(); ++n)
-      features.push_back(
-          StartGathering(EncodedFeatures(*learning[n], At(encoders, n), geometries, true)));
-    StageLosses losses = UnknownLosses();
-    std::vector<std::future<void>> sums;
-    for (std::size_t n = 0; n < learning.size(); ++n) {
-      Network& network = *learning[n];
-      losses = Updated(losses, Head(network, batch, features[n].get()));
-      Backward(network, At(encoders, n), geometries, batch.indices.size());
-      sums.push_back(StartSumming(network));
-    }
+    const StageLosses losses = LearnsInOperators() ? InOperators(learning, batch, geometries)
+                                                   : InKernels(learning, batch, geometries);
     if (group_.size() > 1 && state_.step + 1 < lesson.end) {  // while the sums travel
       next_ = GeometriesAt(lesson, state_.step + 1);
       next_step_ = state_.step + 1;
     }
-    for (std::size_t n = 0; n < sums.size(); ++n) {
-      sums[n].get();
-      AddEncoderGradient(*learning[n]);
+    for (Network* network : learning) {
+      network->sum.get();
+      AddEncoderGradient(*network);
     }
+    return losses;
+  }
+
+  // Leaves the encoders' gradients on their way; what one network sends travels while the other
+  // computes.
+  StageLosses InKernels(const std::vector<Network*>& learning, const Minibatch& batch,
+                        const Geometries& geometries) {
+    const std::vector<PointEncoder> encoders = EncodersOf(learning, geometries);
+    std::vector<std::future<BatchFeatures>> features;
+    for (std::size_t n = 0; n < learning.size(); ++n)
+      features.push_back(
+          StartGathering(FeaturesInKernels(*learning[n], At(encoders, n), geometries)));
+    StageLosses losses = UnknownLosses();
+    for (std::size_t n = 0; n < learning.size(); ++n) {
+      Network& network = *learning[n];
+      losses = Updated(losses, Head(network, batch, features[n].get()));
+      ClearParts(network);
+      if (!geometries.empty())
+        BackInKernels(network, encoders[n], geometries, batch.indices.size());
+      network.sum = StartSumming(network);
+    }
+    return losses;
+  }
+
+  // The same, both networks side by side: libtorch has one thread for each.
+  StageLosses InOperators(const std::vector<Network*>& learning, const Minibatch& batch,
+                          const Geometries& geometries) {
+    std::vector<std::vector<float>> own(learning.size());
+    ParallelFor(learning.size(), threads_, [&](std::size_t n) {
+      internal::UseOneTorchThread();
+      Network& network = *learning[n];
+      network.in_operators.emplace(*network.layout, *network.parameters, OperatorDevice());
+      own[n] = network.in_operators->Forward(geometries, true);
+      MoveTowards(network.in_operators->Statistics(), *network.statistics);
+    });
+    StageLosses losses = UnknownLosses();
+    for (std::size_t n = 0; n < learning.size(); ++n)
+      losses = Updated(losses, Head(*learning[n], batch, StartGathering(std::move(own[n])).get()));
+    ParallelFor(learning.size(), threads_, [&](std::size_t n) {
+      internal::UseOneTorchThread();
+      Network& network = *learning[n];
+      ClearParts(network);  // the operators sum the whole share as they like
+      network.in_operators->AddGradient(network.feature_gradient, network.parts[FirstOwnPart()]);
+    });
+    for (Network* network : learning) network->sum = StartSumming(*network);
     return losses;
   }
 
@@ -354,11 +395,17 @@ class Trainer {
   }
 
   bool OnDevice() const { return config_.device != "cpu"; }
+  bool Normalises() const { return NormOf(config_) == EncoderNorm::kBatch; }
+  const char* OperatorDevice() const { return OnDevice() ? config_.device.c_str() : "libtorch"; }
+  std::vector<float> FoldedOf(const Network& network) const {
+    return FoldNorms(*network.layout, *network.parameters, *network.statistics);
+  }
+  bool LearnsInOperators() const { return OnDevice() || Normalises(); }
 
-  // Of the processor's own kernels, as packed for this step; on another device none.
+  // As packed for this step.
   std::vector<PointEncoder> EncodersOf(const std::vector<Network*>& networks,
                                        const Geometries& geometries) const {
-    if (geometries.empty() || OnDevice()) return {};
+    if (geometries.empty()) return {};
     std::vector<std::optional<PointEncoder>> packed(networks.size());
     ParallelFor(networks.size(), threads_,
                 [&](std::size_t n) { packed[n].emplace(EncoderOf(*networks[n])); });
@@ -372,15 +419,10 @@ class Trainer {
     return encoders.empty() ? nullptr : &encoders[n];
   }
 
-  // The network's features of these clouds, by `encoder`, or on another device where there is none;
-  // it keeps what the way back needs.
-  std::vector<float> EncodedFeatures(Network& network, const PointEncoder* encoder,
-                                     const Geometries& geometries, bool for_gradient) const {
+  // The network's features of these clouds; it keeps what the way back needs.
+  std::vector<float> FeaturesInKernels(Network& network, const PointEncoder* encoder,
+                                       const Geometries& geometries) const {
     if (geometries.empty()) return {};
-    if (encoder == nullptr) {
-      network.on_device.emplace(*network.layout, *network.parameters, config_.device);
-      return network.on_device->Forward(geometries, for_gradient);
-    }
     network.encoded.Resize(geometries.size());
     ParallelFor(geometries.size(), threads_,
                 [&](std::size_t i) { network.encoded.Encode(*encoder, *geometries[i], i); });
@@ -410,16 +452,14 @@ class Trainer {
     return result.losses;
   }
 
-  // Leaves the encoder's gradient of this process's share in the network's own parts.
-  void Backward(Network& network, const PointEncoder* encoder, const Geometries& geometries,
-                std::size_t batch_size) const {
+  void ClearParts(Network& network) const {
     for (std::size_t p = FirstOwnPart(); p < FirstOwnPart() + OwnParts(); ++p)
       network.parts.at(p).assign(EncoderSize(*network.layout), 0.0F);
-    if (geometries.empty()) return;
-    if (encoder == nullptr) {  // a device sums the whole share as it likes
-      network.on_device->AddGradient(network.feature_gradient, network.parts[FirstOwnPart()]);
-      return;
-    }
+  }
+
+  // Leaves the encoder's gradient of this process's share in the network's own parts.
+  void BackInKernels(Network& network, const PointEncoder& encoder, const Geometries& geometries,
+                     std::size_t batch_size) const {
     const std::vector<std::size_t> offsets = FeatureOffsets(geometries);
     const std::size_t first = FirstOwnPart() * batch_size / kGradientParts;
     ParallelFor(OwnParts(), threads_, [&](std::size_t task) {
@@ -428,7 +468,7 @@ class Trainer {
       const std::size_t begin = p * batch_size / kGradientParts - first;
       const std::size_t end = (p + 1) * batch_size / kGradientParts - first;
       for (std::size_t i = begin; i < end; ++i)
-        encoder->AddGradient(
+        encoder.AddGradient(
             *geometries[i], network.encoded.trace(i),
             std::span(network.feature_gradient).subspan(offsets[i], offsets[i + 1] - offsets[i]),
             part);
@@ -474,6 +514,15 @@ class Trainer {
     if (hooks_.on_epoch) hooks_.on_epoch(state_);
   }
 
+  std::vector<float> ValidationFeatures(Network& network, const Geometries& geometries) {
+    if (geometries.empty()) return {};
+    if (OnDevice())
+      return internal::DeviceEncoder(*network.plain, FoldedOf(network), config_.device)
+          .Forward(geometries, false);
+    const PointEncoder encoder = EncoderOf(network);
+    return FeaturesInKernels(network, &encoder, geometries);
+  }
+
   // Mean over the validation set of what the lesson teaches.
   StageLosses Validate(int lesson) {
     if (validation_.empty()) return UnknownLosses();
@@ -487,13 +536,10 @@ class Trainer {
       const bool reads = task_->ReadsClouds(lesson);
       const Geometries geometries =
           reads ? task_->GeometriesOf(lesson, OwnShare(batch)) : Geometries{};
-      const std::vector<PointEncoder> encoders = EncodersOf(taught, geometries);
       StageLosses losses = UnknownLosses();
-      for (std::size_t n = 0; n < taught.size(); ++n) {
-        Network* network = taught[n];
-        std::vector<float> own = EncodedFeatures(*network, At(encoders, n), geometries, false);
+      for (Network* network : taught) {
         std::vector<float> features;
-        if (reads) features = StartGathering(std::move(own)).get().all;
+        if (reads) features = StartGathering(ValidationFeatures(*network, geometries)).get().all;
         const HeadResult result = task_->Objective(network->role, batch, std::move(features), {});
         RequireFinite(result.objective, "a validation loss");
         losses = Updated(losses, result.losses);
@@ -528,7 +574,19 @@ void RequireConfig(bool condition, const char* key, const char* allowed) {
 
 }  // namespace
 
-int internal::LessonsOf(NetworkFamily family) { return family == NetworkFamily::kGrasp ? 2 : 1; }
+EncoderNorm NormOf(const TrainConfig& config) {
+  return config.encoder_norm == "batch" ? EncoderNorm::kBatch : EncoderNorm::kNone;
+}
+
+StageNetworks PolicyOf(const TrainerState& state) {
+  StageNetworks policy = state.networks;
+  policy.norm = EncoderNorm::kNone;
+  policy.actor = FoldNorms(ActorLayout(policy.family, state.networks.norm), state.networks.actor,
+                           state.actor_statistics);
+  policy.critic = FoldNorms(CriticLayout(policy.family, state.networks.norm), state.networks.critic,
+                            state.critic_statistics);
+  return policy;
+}
 
 void CheckTrainConfig(const TrainConfig& config) {
   RequireConfig(config.epochs >= 1, "epochs", "at least 1");
@@ -553,6 +611,8 @@ void CheckTrainConfig(const TrainConfig& config) {
                 "augment_roll_rad and augment_mirror", "0 and false in the frame \"world\"");
   RequireConfig(config.zoom > 0 && config.zoom <= 100, "zoom", "in (0, 100]");
   RequireConfig(config.context_m >= 0 && config.context_m < 100, "context_m", "in [0, 100)");
+  RequireConfig(config.encoder_norm == "none" || config.encoder_norm == "batch", "encoder_norm",
+                "none or batch");
   internal::RequireDevice(config.device);
   RequireConfig(config.critic_interval >= 1, "critic_interval", "at least 1");
   RequireConfig(config.score_loss == "squared" || config.score_loss == "absolute", "score_loss",
@@ -573,11 +633,6 @@ void CheckTrainConfig(const TrainConfig& config) {
 
 std::uint64_t StepsPerEpoch(std::size_t samples, const TrainConfig& config) {
   return samples == 0 ? 0 : samples / BatchSize(samples, config);
-}
-
-int internal::EpochsOfLesson(const TrainConfig& config, int lesson) {
-  const bool judges = config.family == NetworkFamily::kGrasp && lesson == 0;
-  return judges && config.discriminator_epochs > 0 ? config.discriminator_epochs : config.epochs;
 }
 
 int EpochsOf(const TrainConfig& config) {
@@ -612,6 +667,16 @@ TrainerState TrainStage(std::span<const TrainingSample> train,
           "the networks to begin with were trained with other settings of frame, state, "
           "context_m, zoom or near_points, or from clouds of another extent, than \"" +
               config.frame + "\", \"" + config.state + "\", " + std::to_string(config.context_m));
+  if (NormOf(config) == EncoderNorm::kBatch) {
+    Require(
+        !hooks.initial, ErrorCode::kInvalidArgument,
+        "a policy's batch statistics are folded into its weights, so that training cannot begin "
+        "with them; begin without, or with encoder_norm=none");
+    Require(
+        hooks.group == nullptr || hooks.group->size() == 1, ErrorCode::kInvalidArgument,
+        "encoder_norm=batch reads statistics of the whole batch, which several processes do not "
+        "share; train in one, or with encoder_norm=none");
+  }
   internal::UseOneTorchThread();
   if (view.frame == ViewFrame::kWorld) return Trainer(train, validation, config, hooks).Run();
   const auto train_here = AllInHandFrame(train, config.family);

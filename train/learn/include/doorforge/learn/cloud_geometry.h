@@ -48,6 +48,9 @@ struct CloudGeometry {
   std::vector<float> xyz;  ///< The window's points x 3, from its centre [m * zoom]: level 0.
   std::array<Level, 4> levels;
   std::array<Upsampling, 4> upsampling;  ///< [0] ends in the output points.
+  /// Which targets of upsampling[0] are read; empty: all. The others are there for the sake of
+  /// statistics.
+  std::vector<std::uint16_t> read;
 };
 
 /// From where a cloud is seen, and how much of it.
@@ -68,6 +71,11 @@ struct CloudWindow {
 ///     output outside of the window.
 CloudGeometry BuildGeometry(std::span<const float> xyz, const CloudWindow& window,
                             std::span<const std::uint16_t> outputs, InstructionSet set);
+
+/// All points and all balls of the window, as batch normalisation wants them in training; `outputs`
+/// are read, else as BuildGeometry().
+CloudGeometry BuildWholeGeometry(std::span<const float> xyz, const CloudWindow& window,
+                                 std::span<const std::uint16_t> outputs, InstructionSet set);
 
 /// BuildGeometry() for point 0 alone.
 CloudGeometry BuildGeometry(std::span<const float> xyz, const CloudWindow& window);

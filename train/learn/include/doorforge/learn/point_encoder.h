@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "doorforge/learn/batch_norm.h"
 #include "doorforge/learn/cloud_geometry.h"
 #include "doorforge/learn/instruction_set.h"
 #include "doorforge/learn/parameters.h"
@@ -23,12 +24,14 @@ struct PackedEncoder;
 inline constexpr int kFeatureSize = 128;
 
 /// PointNet++ for segmentation, single-scale (Qi et al. 2017; UniDoorManip's sizes): four set
-/// abstractions, four feature propagations, one dense layer, all with bias and ReLU and without
-/// batch normalisation. A point's input feature is its position; the first set abstraction reads
-/// the position relative to the centre as well.
+/// abstractions, four feature propagations, one dense layer, all with bias and ReLU. A point's
+/// input feature is its position; the first set abstraction reads the position relative to the
+/// centre as well.
 ///
-/// Adds the encoder's layers ("<prefix>sa1.0" ... "<prefix>fp1.2", "<prefix>head") to `layout`.
-void AddEncoderLayers(const std::string& prefix, ParameterLayout& layout);
+/// Adds the encoder's layers ("<prefix>sa1.0" ... "<prefix>fp1.2", "<prefix>head") to `layout`,
+/// with kBatch behind each its normalisation, see NormBehind().
+void AddEncoderLayers(const std::string& prefix, ParameterLayout& layout,
+                      EncoderNorm norm = EncoderNorm::kNone);
 
 /// The encoder's parameters in the order that the inner loops of one instruction set read them.
 class PointEncoder {
@@ -47,11 +50,13 @@ class PointEncoder {
     std::vector<float> features;  ///< Outputs x 128.
   };
 
-  /// `parameters` is a flat vector of `layout`, in which the encoder's layers have `prefix`.
+  /// `parameters` is a flat vector of `layout`, in which the encoder's layers have `prefix` and no
+  /// normalisation.
   PointEncoder(const ParameterLayout& layout, const std::string& prefix,
                std::span<const float> parameters, InstructionSet set);
 
-  /// Features of the geometry's output points. `storage` may be any former trace, to reuse memory.
+  /// Features of all rows of the geometry's last upsampling. `storage` may be any former trace, to
+  /// reuse memory.
   Trace Forward(const CloudGeometry& geometry, Trace storage = {}) const;
 
   /// Adds the gradient of sum(feature_gradient * features) to `gradient`, a flat vector of the

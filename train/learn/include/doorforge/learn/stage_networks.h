@@ -10,6 +10,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "doorforge/learn/batch_norm.h"
 #include "doorforge/learn/cloud_geometry.h"
 #include "doorforge/learn/parameters.h"
 #include "doorforge/learn/training_sample.h"
@@ -110,12 +111,14 @@ NetworkNames NamesOf(NetworkFamily family);
 /// 9-128-128-64, state 18-128-128-64, posterior 256-128-128 -> mean and log-variance of 128
 /// latents, decoder 320-512-256-9. The affordance: encoder, contact point 3-128-128-128, score
 /// 256-128-1.
-const ParameterLayout& ActorLayout(NetworkFamily family = NetworkFamily::kMotion);
+const ParameterLayout& ActorLayout(NetworkFamily family = NetworkFamily::kMotion,
+                                   EncoderNorm norm = EncoderNorm::kNone);
 
 /// The critic: encoder of its own, state 18-128-128-64, action 9-128-128-64, hand and base position
 /// 3-128-128-64 each, score 384-256-128-1. The discriminator: encoder and action 9-128-128-128, or
 /// near points 3-64-64-128 and their maximum (as Liang et al. 2019), the other 0; score 384-128-1.
-const ParameterLayout& CriticLayout(NetworkFamily family = NetworkFamily::kMotion);
+const ParameterLayout& CriticLayout(NetworkFamily family = NetworkFamily::kMotion,
+                                    EncoderNorm norm = EncoderNorm::kNone);
 
 /// The trained values of both networks, each a flat vector of its layout.
 struct StageNetworks {
@@ -124,11 +127,13 @@ struct StageNetworks {
   std::vector<float> actor;      ///< At "grasp" the affordance.
   std::vector<float> critic;     ///< At "grasp" the discriminator.
   NetworkFamily family = NetworkFamily::kMotion;
+  EncoderNorm norm = EncoderNorm::kNone;  ///< kBatch in training alone, see PolicyOf().
 };
 
 /// He initialisation; layers that give results start at a tenth of it, so training starts near the
-/// mean of the training set.
+/// mean of the training set; normalisations scale by 1 and shift by 0.
 StageNetworks InitialNetworks(const StageNormalisation& normalisation, bool linear_branches,
-                              std::uint64_t seed, NetworkFamily family = NetworkFamily::kMotion);
+                              std::uint64_t seed, NetworkFamily family = NetworkFamily::kMotion,
+                              EncoderNorm norm = EncoderNorm::kNone);
 
 }  // namespace doorforge

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "doorforge/learn/batch_norm.h"
 #include "doorforge/learn/process_group.h"
 #include "doorforge/learn/stage_networks.h"
 #include "doorforge/learn/training_sample.h"
@@ -64,6 +65,9 @@ struct TrainConfig {
   /// either way [rad], and mirrored sideways by a fair coin; in the frame "hand" only.
   double augment_roll_rad = 0;
   bool augment_mirror = false;
+  /// "none", or "batch" (UniDoorManip), see EncoderNorm: the encoder then learns in libtorch's
+  /// operators also on the device "cpu", from all points of every cloud, in one process.
+  std::string encoder_norm = "none";
   /// What computes the encoder. "cpu": this library's own kernels. "libtorch": the same network in
   /// libtorch's operators, on the processor; "cuda", "cuda:N": there. Decides the last digits, and
   /// on a GPU two equal runs may differ in them.
@@ -101,11 +105,14 @@ struct TrainConfig {
     visit("frame", self.frame);
     visit("context_m", self.context_m);
     visit("zoom", self.zoom);
+    visit("encoder_norm", self.encoder_norm);
     visit("device", self.device);
     visit("validation_share", self.validation_share);
     visit("seed", self.seed);
   }
 };
+
+EncoderNorm NormOf(const TrainConfig& config);
 
 /// Throws Error(kInvalidConfig) on a value out of range, or a device that is not here, naming it.
 void CheckTrainConfig(const TrainConfig& config);
@@ -140,9 +147,14 @@ struct TrainerState {
   StageNetworks networks;
   /// Adam's first and second moments, as the networks' flat vectors.
   std::vector<float> actor_first, actor_second, critic_first, critic_second;
+  /// Running, of the networks' normalised layers.
+  LayerStatistics actor_statistics, critic_statistics;
   std::vector<StageLosses> steps;   ///< One a step done.
   std::vector<EpochLosses> epochs;  ///< One an epoch done.
 };
+
+/// The networks as they act, with the present statistics folded in.
+StageNetworks PolicyOf(const TrainerState& state);
 
 /// How a run is carried out; none of it changes the result unless it says so.
 struct TrainHooks {
@@ -150,7 +162,7 @@ struct TrainHooks {
   /// Those who share the batches, each with the same arguments; null: this process alone.
   ProcessGroup* group = nullptr;
   /// The networks to begin with, normalisation included; nothing: drawn from the seed. Decides the
-  /// result.
+  /// result. Not with "batch": a policy's statistics are folded into its weights.
   std::optional<StageNetworks> initial;
   /// Goes on from here. Must come from a run of the same config and samples.
   std::optional<TrainerState> resume;

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "stage_task.h"
+
+namespace doorforge::internal {
+
+CloudGeometry GeometryFor(const TrainConfig& config, SampleSet set, std::span<const float> cloud,
+                          const Reading& reading) {
+  const bool whole = set == SampleSet::kTrain && NormOf(config) == EncoderNorm::kBatch;
+  const InstructionSet instructions = BestInstructionSet();
+  return whole ? BuildWholeGeometry(cloud, reading.window, reading.points, instructions)
+               : BuildGeometry(cloud, reading.window, reading.points, instructions);
+}
+
+int LessonsOf(NetworkFamily family) { return family == NetworkFamily::kGrasp ? 2 : 1; }
+
+int EpochsOfLesson(const TrainConfig& config, int lesson) {
+  const bool judges = config.family == NetworkFamily::kGrasp && lesson == 0;
+  return judges && config.discriminator_epochs > 0 ? config.discriminator_epochs : config.epochs;
+}
+
+}  // namespace doorforge::internal

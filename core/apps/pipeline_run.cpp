@@ -208,6 +208,7 @@ void PrintSuccess(const fs::path& report) {
 
 struct PlannedStep {
   const PipelineStep* step = nullptr;
+  std::vector<std::string> command;
   std::string action;
   std::string why;
   double seconds = 0;
@@ -219,7 +220,7 @@ std::vector<PlannedStep> Plan(const Pipeline& pipeline, const PipelineRun& run) 
   std::map<std::string, std::string> hashes;
   std::vector<PlannedStep> planned;
   for (const PipelineStep& step : pipeline.steps) {
-    PlannedStep row{&step, "", "", 0, 0};
+    PlannedStep row{&step, workshop.Command(step), "", "", 0, 0};
     const auto waits = std::ranges::find_if(
         step.needs, [&](const std::string& need) { return !hashes.contains(need); });
     if (!step.given.empty()) {
@@ -252,6 +253,7 @@ void PrintPlanJson(const Pipeline& pipeline, const std::vector<PlannedStep>& pla
     steps.push_back({{"step", row.step->name},
                      {"action", row.action},
                      {"why", row.why},
+                     {"command", row.command},
                      {"expected_s", row.seconds},
                      {"expected_mib", row.mebibytes}});
   const Json json = {{"schema", "doorforge.pipeline_plan"},

@@ -13,7 +13,7 @@ import sys
 import time
 import unittest
 
-from programs import BINARY_DIR, ProgramTest
+from programs import BINARY_DIR, ProgramTest, run
 
 # Stands for the programs of the rooms: makes a folder out of a number and of other such folders, piece by piece.
 TOOL = """#!{python}
@@ -236,6 +236,26 @@ class Graph(PipelineTest):
         (self.folder / "out").mkdir()
         (self.folder / "out/thesis.txt").touch()
         self.assertIn("no pipeline", self.pipeline("diamond.yaml", "--out", "out", code=2).stderr)
+
+
+class Presets(ProgramTest):
+    def test_every_setting_that_a_preset_names_is_one_of_its_program(self):
+        """Settings are checked before what is to be read, which is missing here: exit code 3 and not 2."""
+        for preset in ("quick", "paper", "unidoormanip"):
+            out = self.folder / preset
+            result = run("pipeline", "plan", preset, "--out", out, "--json")
+            self.assert_ends(result, 0)
+            steps = [step for step in json.loads(result.stdout)["steps"]
+                     if step["command"][0] in ("datagen", "train", "eval")]
+            self.assertEqual(len(steps), 10)
+            for step in steps:
+                for option, value in zip(step["command"], step["command"][1:]):
+                    if option != "--out" and value.startswith(str(out)):
+                        pathlib.Path(value).mkdir(parents=True, exist_ok=True)
+                self.assert_ends(run(*step["command"]), 3)
+        wrong = [argument.replace("encoder_norm", "encoder_form") for argument in steps[1]["command"]]
+        self.assertNotEqual(wrong, steps[1]["command"])
+        self.assert_refused(run(*wrong), 2)
 
 
 class Interruption(PipelineTest):

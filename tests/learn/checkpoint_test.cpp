@@ -37,6 +37,9 @@ TrainerState SomeState() {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   state.steps = {{0.1, 0.2, 0.3, 0.4}, {0.01, 1.0 / 3, 0.03, 0.04}};
   state.epochs = {{{0.055, 0.25, 0.165, 0.22}, {kNone, kNone, kNone, kNone}}};
+  state.best = {{0, 1}, state.networks};
+  state.best.networks.actor.clear();
+  state.best.networks.critic[3] = 0.125F;
   return state;
 }
 
@@ -167,6 +170,9 @@ TEST(Checkpoint, ATrainingStateComesBackExactly) {
   EXPECT_EQ(back.actor_second, state.actor_second);
   EXPECT_EQ(back.critic_first, state.critic_first);
   EXPECT_EQ(back.critic_second, state.critic_second);
+  EXPECT_EQ(back.best.epochs, (BestEpochs{0, 1}));
+  EXPECT_TRUE(back.best.networks.actor.empty());
+  EXPECT_EQ(back.best.networks.critic, state.best.networks.critic);
   EXPECT_EQ(back.steps[1].rotation_rad, 1.0 / 3);
   EXPECT_TRUE(std::isnan(back.epochs[0].validation.divergence));
 }

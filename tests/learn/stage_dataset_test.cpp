@@ -166,8 +166,37 @@ TEST(TrainProgram, ResumesToTheBytesOfAnUninterruptedRun) {
   ASSERT_EQ(RunTrain(common + cut + " --threads 2 --resume"), 0);
   for (const char* file :
        {"policy.safetensors", "policy.json", "training.safetensors", "losses.jsonl", "losses.json",
-        "config.yaml", "events.out.tfevents.doorforge"})
+        "config.yaml", "events.out.tfevents.doorforge", "best/policy.safetensors",
+        "best/policy.json"})
     EXPECT_EQ(ReadFile(fs::path(cut) / file), ReadFile(fs::path(whole) / file)) << file;
+}
+
+TEST(TrainProgram, KeepsTheBestBesideTheLast) {
+  const fs::path folder = EmptyFolder("best");
+  WriteDataset(folder / "data", "train", 6);
+  const std::string out = (folder / "out").string();
+  const std::string common = "--data " + (folder / "data").string() +
+                             " --set batch_size=4 --set warmup_steps=1 --threads 1 --out " + out;
+  ASSERT_EQ(RunTrain(common + " --epochs 3"), 0);
+  const std::vector<TrainingCurve> curves = ReadTrainingCurves(out);
+  const auto validation = [&](const char* name) {
+    return std::ranges::find(curves, name, &TrainingCurve::name)->validation;
+  };
+  const TrainConfig config;
+  std::vector<double> actor;
+  for (std::size_t e = 0; e < 3; ++e)
+    actor.push_back(config.lambda_position * validation("actor.position_m")[e] +
+                    config.lambda_rotation * validation("actor.rotation_rad")[e]);
+  const auto epoch_of_least = [](const std::vector<double>& errors) {
+    return static_cast<int>(std::ranges::min_element(errors) - errors.begin()) + 1;
+  };
+  const PolicyRecord best = ReadPolicy(folder / "out/best");
+  EXPECT_EQ(best.provenance.best.actor, epoch_of_least(actor));
+  EXPECT_EQ(best.provenance.best.critic, epoch_of_least(validation("critic.score_rad")));
+  EXPECT_EQ(ReadPolicy(out).provenance.best, BestEpochs{});
+  // nothing to choose by: nothing is called the best, also not what lay there
+  ASSERT_EQ(RunTrain(common + " --epochs 1 --overwrite --set validation_share=0"), 0);
+  EXPECT_FALSE(fs::exists(folder / "out/best"));
 }
 
 TEST(TrainProgram, TwoProcessesEndInTheBytesOfOne) {

@@ -15,6 +15,7 @@
 
 #include "doorforge/core/error.h"
 
+#include "../../train/learn/src/best_networks.h"
 #include "../../train/learn/src/sampler.h"
 #include "synthetic_samples.h"
 
@@ -231,6 +232,30 @@ TEST(TrainStage, InLibtorchsOperatorsItLearnsTheSame) {
     config.device = none;
     EXPECT_THROW(TrainStage(train.samples, {}, config, {}), Error) << none;
   }
+}
+
+TEST(BestNetworks, AreEachOfTheEpochInWhichTheyErredLeast) {
+  const auto made = testing::MakeSyntheticSamples(1, 3);
+  const TrainConfig config = SmallConfig();
+  TrainerState state;
+  state.networks = InitialNetworks(MeasureNormalisation(made.samples), false, 9);
+  const StageLosses unknown = UnknownLosses();
+  const auto end_epoch = [&](double position_m, double rotation_rad, double score_rad) {
+    const auto mark = static_cast<float>(state.epochs.size() + 1);
+    state.networks.actor[0] = mark;
+    state.networks.critic[0] = -mark;
+    state.epochs.push_back({unknown, {position_m, rotation_rad, 0, score_rad, unknown.score_rad}});
+    internal::UpdateBest(config, state);
+  };
+  end_epoch(unknown.position_m, unknown.rotation_rad, unknown.score_rad);
+  EXPECT_EQ(state.best.epochs, BestEpochs{});
+  end_epoch(0.02, 0.2, 0.3);   // 100 x 0.02 + 5 x 0.2 = 3
+  end_epoch(0.01, 0.5, 0.1);   // 3.5
+  end_epoch(0.01, 0.3, 0.2);   // 2.5
+  end_epoch(0.015, 0.2, 0.1);  // 2.5 again
+  EXPECT_EQ(state.best.epochs, (BestEpochs{4, 3}));
+  EXPECT_EQ(state.best.networks.actor[0], 4);
+  EXPECT_EQ(state.best.networks.critic[0], -3);
 }
 
 TEST(TrainStage, BeginsWithTheNetworksOfAnotherRun) {

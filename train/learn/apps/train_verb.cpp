@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "train_verb.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -27,6 +28,7 @@
 #include "doorforge/learn/linear_algebra.h"
 #include "doorforge/learn/stage_dataset.h"
 #include "doorforge/learn/train_stage.h"
+#include "doorforge/learn/turned_classifier.h"
 
 namespace doorforge {
 namespace {
@@ -86,7 +88,9 @@ Options Parse(int argc, char** argv) {
                "one of 2, 4 or 8 processes that share the batches: RANK, WORLD_SIZE, MASTER_ADDR\n"
                "and MASTER_PORT say which, as torchrun sets them; the result is that of one");
   app.footer(
-      "Writes policy.safetensors and policy.json (the policy), losses.jsonl, losses.json and an\n"
+      "Writes policy.safetensors and policy.json (the policy), best/ (the same as it was when it "
+      "erred\n"
+      "least on the validation set), losses.jsonl, losses.json and an\n"
       "event file for TensorBoard (the curves), config.yaml and training.safetensors (what\n"
       "--resume reads).\n\n"
       "examples:\n"
@@ -165,6 +169,26 @@ std::string Note(const TrainerState& state, std::uint64_t per_epoch, const Train
                 static_cast<double>(state.step) / static_cast<double>(per_epoch), EpochsOf(config),
                 static_cast<unsigned long long>(state.step));
   return text + LossText(state.steps.back(), config.family);
+}
+
+// What a training leaves for those who act by it.
+struct PolicyOutput {
+  fs::path folder;
+  PolicyProvenance provenance;
+  std::uint64_t steps_per_epoch;
+  std::optional<TurnedClassifier> turned;
+};
+
+// Where both networks have been validated, what they were at their best: a policy below the last.
+void WriteBest(const PolicyOutput& output, const BestNetworks& best) {
+  const BestEpochs& epochs = best.epochs;
+  if (epochs.actor == 0 || epochs.critic == 0) return;
+  PolicyProvenance provenance = output.provenance;
+  provenance.best = epochs;
+  provenance.step =
+      output.steps_per_epoch * static_cast<std::uint64_t>(std::max(epochs.actor, epochs.critic));
+  WriteTurnedClassifier(output.folder / "best", output.turned, provenance.dataset_sha256);
+  WritePolicy(output.folder / "best", best.networks, provenance);
 }
 
 // A folder that holds a training is only touched if the user said how.
@@ -246,12 +270,15 @@ int Train(const Options& options) {
   hooks.group = group.get();
   if (!options.from.empty()) BeginWith(options, provenance, hooks);
   if (options.resume && HasTrainerState(out)) hooks.resume = ReadTrainerState(out, provenance);
+  const std::uint64_t per_epoch = StepsPerEpoch(dataset.train.size(), config);
+  PolicyOutput output{out, provenance, per_epoch, {}};
   if (first) {
     CommitFile(out / "config.yaml", ToJson(config).dump(2) + "\n");
-    WriteTurnedClassifier(out, FitTurnedClassifier(dataset.turned_train), dataset.content_sha256);
+    output.turned = FitTurnedClassifier(dataset.turned_train);
+    WriteTurnedClassifier(out, output.turned, dataset.content_sha256);
+    if (!hooks.resume) fs::remove_all(out / "best");  // of an earlier training
   }
 
-  const std::uint64_t per_epoch = StepsPerEpoch(dataset.train.size(), config);
   const std::uint64_t total = per_epoch * static_cast<std::uint64_t>(EpochsOf(config));
   const std::uint64_t done = hooks.resume ? hooks.resume->step : 0;
   const std::size_t batch =
@@ -269,6 +296,7 @@ int Train(const Options& options) {
       hooks.on_epoch = [&](const TrainerState& now) {
         WriteTrainerState(out, now, provenance);
         WriteLosses(out, now);
+        WriteBest(output, now.best);
       };
     }
     hooks.stop = [&] {
@@ -286,6 +314,7 @@ int Train(const Options& options) {
   if (!first) return state.step < total && StopRequested() != 0 ? 128 + StopRequested() : 0;
   WriteTrainerState(out, state, provenance);
   WriteLosses(out, state);
+  WriteBest(output, state.best);
   const bool finished = state.step >= total;
   if (!finished)
     std::fprintf(stderr, "doorforge: stopped after %llu of %llu steps; --resume goes on\n",

@@ -108,6 +108,39 @@ void VisitVectors(State& state, const Visit& visit) {
                 state.critic_first, state.critic_second, state.critic_statistics);
 }
 
+// The best networks are those of a policy, none of them where none was validated.
+void AddBest(const BestNetworks& best, TensorFile& file) {
+  const NetworkFamily family = best.networks.family;
+  const NetworkNames names = NamesOf(family);
+  if (best.epochs.actor > 0)
+    AddParameters(ActorLayout(family), "best." + Prefix(names.actor), best.networks.actor,
+                  MakeTensor<float>, file);
+  if (best.epochs.critic > 0)
+    AddParameters(CriticLayout(family), "best." + Prefix(names.critic), best.networks.critic,
+                  MakeTensor<float>, file);
+  file.tensors["best.epochs"] =
+      MakeTensor<double>(std::vector<double>{static_cast<double>(best.epochs.actor),
+                                             static_cast<double>(best.epochs.critic)},
+                         {2});
+}
+
+BestNetworks ReadBest(const TensorFile& file, const std::string& path,
+                      const StageNetworks& networks) {
+  const NetworkNames names = NamesOf(networks.family);
+  const auto epochs = ValuesOf<double>(TensorNamed(file, "best.epochs", path), {2}, path);
+  BestNetworks best{{static_cast<int>(epochs[0]), static_cast<int>(epochs[1])}, networks};
+  best.networks.norm = EncoderNorm::kNone;
+  best.networks.actor.clear();
+  best.networks.critic.clear();
+  if (best.epochs.actor > 0)
+    best.networks.actor =
+        ReadParameters(ActorLayout(networks.family), "best." + Prefix(names.actor), file, path);
+  if (best.epochs.critic > 0)
+    best.networks.critic =
+        ReadParameters(CriticLayout(networks.family), "best." + Prefix(names.critic), file, path);
+  return best;
+}
+
 std::string ConfigText(const TrainConfig& config) { return ToJson(config).dump(); }
 
 void AddLosses(const TrainerState& state, TensorFile& file) {
@@ -173,6 +206,11 @@ Json ProvenanceToJson(const PolicyProvenance& provenance) {
                {"step", provenance.step}};
   if (!provenance.from_weights_sha256.empty())
     json["from_weights_sha256"] = provenance.from_weights_sha256;
+  if (provenance.best != BestEpochs{}) {
+    const NetworkNames names = NamesOf(provenance.config.family);
+    json["best_epoch"] = {{names.actor, provenance.best.actor},
+                          {names.critic, provenance.best.critic}};
+  }
   json["trained_on"] = SeenPartsToJson(provenance.trained_on);
   return json;
 }
@@ -191,6 +229,12 @@ PolicyProvenance ProvenanceFromJson(const Json& json, NetworkFamily family,
   provenance.step = ValueOf<std::uint64_t>(json, "step", path);
   if (json.contains("from_weights_sha256"))
     provenance.from_weights_sha256 = ValueOf<std::string>(json, "from_weights_sha256", path);
+  if (json.contains("best_epoch")) {
+    const NetworkNames names = NamesOf(family);
+    const Json& best = json["best_epoch"];
+    provenance.best = {ValueOf<int>(best, names.actor, path + ".best_epoch"),
+                       ValueOf<int>(best, names.critic, path + ".best_epoch")};
+  }
   if (json.contains("trained_on"))
     provenance.trained_on =
         SeenPartsFromJson(MemberOf(json, "trained_on", path), path + ".trained_on");
@@ -307,6 +351,7 @@ void WriteTrainerState(const fs::path& folder, const TrainerState& state,
     file.tensors[name] = MakeTensor<float>(values, {size});
   });
   AddLosses(state, file);
+  AddBest(state.best, file);
   file.metadata = {{"config", ConfigText(provenance.config)},
                    {"dataset_sha256", provenance.dataset_sha256},
                    {"from_weights_sha256", provenance.from_weights_sha256},
@@ -335,6 +380,7 @@ TrainerState ReadTrainerState(const fs::path& folder, const PolicyProvenance& ex
   const Json normalisation =
       Json::parse(MetadataOf(file, "normalisation", path), nullptr, /*allow_exceptions=*/false);
   state.networks.normalisation = NormalisationFromJson(normalisation, path + ": normalisation");
+  state.best = ReadBest(file, path, state.networks);
   state.step = state.steps.size();
   if (MetadataOf(file, "step", path) != std::to_string(state.step))
     throw Error(ErrorCode::kFormat, path + ": its losses and its step do not agree");

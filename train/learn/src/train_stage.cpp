@@ -21,6 +21,7 @@
 #include "doorforge/learn/point_encoder.h"
 
 #include "adam.h"
+#include "best_networks.h"
 #include "device_encoder.h"
 #include "hand_frame.h"
 #include "head_networks.h"
@@ -511,6 +512,7 @@ class Trainer {
         state_.epochs.empty() ? UnknownLosses() : state_.epochs.back().validation;
     epoch.validation = Updated(before, Validate(lesson));
     state_.epochs.push_back(epoch);
+    internal::UpdateBest(config_, state_);
     if (hooks_.on_epoch) hooks_.on_epoch(state_);
   }
 

@@ -24,6 +24,7 @@ struct PolicyProvenance {
   std::uint64_t step = 0;
   std::string from_weights_sha256 = {};  ///< Of the policy that it began with; empty: of none.
   SeenParts trained_on = {};             ///< Empty in records of earlier builds.
+  BestEpochs best = {};                  ///< Of which the networks are; all 0: of the last.
 };
 
 /// The record of a policy's folder, docs/format-policy.md.

@@ -141,6 +141,23 @@ struct EpochLosses {
   StageLosses validation;
 };
 
+/// Epochs, counted from 1; 0: none, as long as nothing was validated.
+struct BestEpochs {
+  int actor = 0;
+  int critic = 0;
+
+  friend bool operator==(const BestEpochs&, const BestEpochs&) = default;
+};
+
+/// The networks as they act, each as it was after the epoch in which it erred least on the
+/// validation set (the first of equals): the actor by lambda_position * position + lambda_rotation
+/// * rotation, the others by their score. They do not read each other, so that the epochs may
+/// differ.
+struct BestNetworks {
+  BestEpochs epochs;
+  StageNetworks networks;  ///< Of a network whose epoch is 0 nothing.
+};
+
 /// Everything that a run needs to go on as if it had never stopped.
 struct TrainerState {
   std::uint64_t step = 0;  ///< Steps done.
@@ -151,6 +168,7 @@ struct TrainerState {
   LayerStatistics actor_statistics, critic_statistics;
   std::vector<StageLosses> steps;   ///< One a step done.
   std::vector<EpochLosses> epochs;  ///< One an epoch done.
+  BestNetworks best;                ///< Of the epochs done.
 };
 
 /// The networks as they act, with the present statistics folded in.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stage_task.h"
 
+#include <algorithm>
+
 namespace doorforge::internal {
 
 CloudGeometry GeometryFor(const TrainConfig& config, SampleSet set, std::span<const float> cloud,
@@ -10,6 +12,10 @@ CloudGeometry GeometryFor(const TrainConfig& config, SampleSet set, std::span<co
   const InstructionSet instructions = BestInstructionSet();
   return whole ? BuildWholeGeometry(cloud, reading.window, reading.points, instructions)
                : BuildGeometry(cloud, reading.window, reading.points, instructions);
+}
+
+std::size_t BatchSize(std::size_t samples, const TrainConfig& config) {
+  return std::min(samples, static_cast<std::size_t>(config.batch_size));
 }
 
 int LessonsOf(NetworkFamily family) { return family == NetworkFamily::kGrasp ? 2 : 1; }

@@ -62,6 +62,8 @@ class StageTask {
                                std::vector<float> features, std::span<float> gradient) = 0;
 };
 
+/// Samples of a batch, of so many in all.
+std::size_t BatchSize(std::size_t samples, const TrainConfig& config);
 /// Lessons of a family: 1, or 2 where one network learns from the other's ratings.
 int LessonsOf(NetworkFamily family);
 /// Passes over the samples of one of them.

@@ -195,8 +195,11 @@ TEST(TrainProgram, KeepsTheBestBesideTheLast) {
   EXPECT_EQ(best.provenance.best.critic, epoch_of_least(validation("critic.score_rad")));
   EXPECT_EQ(ReadPolicy(out).provenance.best, BestEpochs{});
   // nothing to choose by: nothing is called the best, also not what lay there
+  CommitFile(folder / "out/best/notes.txt", "a user's");
   ASSERT_EQ(RunTrain(common + " --epochs 1 --overwrite --set validation_share=0"), 0);
-  EXPECT_FALSE(fs::exists(folder / "out/best"));
+  EXPECT_FALSE(fs::exists(folder / "out/best/policy.json"));
+  EXPECT_FALSE(fs::exists(folder / "out/best/policy.safetensors"));
+  EXPECT_EQ(ReadFile(folder / "out/best/notes.txt"), "a user's");
 }
 
 TEST(TrainProgram, TwoProcessesEndInTheBytesOfOne) {

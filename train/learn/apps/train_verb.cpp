@@ -88,9 +88,9 @@ Options Parse(int argc, char** argv) {
                "one of 2, 4 or 8 processes that share the batches: RANK, WORLD_SIZE, MASTER_ADDR\n"
                "and MASTER_PORT say which, as torchrun sets them; the result is that of one");
   app.footer(
-      "Writes policy.safetensors and policy.json (the policy), best/ (the same as it was when it "
-      "erred\n"
-      "least on the validation set), losses.jsonl, losses.json and an\n"
+      "Writes policy.safetensors and policy.json (the policy), best/ (as it was when it erred "
+      "least\n"
+      "on the validation set), losses.jsonl, losses.json and an\n"
       "event file for TensorBoard (the curves), config.yaml and training.safetensors (what\n"
       "--resume reads).\n\n"
       "examples:\n"
@@ -191,6 +191,13 @@ void WriteBest(const PolicyOutput& output, const BestNetworks& best) {
   WritePolicy(output.folder / "best", best.networks, provenance);
 }
 
+// Only what WriteBest() writes: whatever else lies there is the user's.
+void RemoveBest(const fs::path& out) {
+  for (const char* file : {"policy.json", "policy.safetensors", "turned.safetensors"})
+    fs::remove(out / "best" / file);
+  if (fs::is_directory(out / "best") && fs::is_empty(out / "best")) fs::remove(out / "best");
+}
+
 // A folder that holds a training is only touched if the user said how.
 void CheckFolder(const Options& options) {
   if (options.resume || options.overwrite) return;
@@ -276,7 +283,7 @@ int Train(const Options& options) {
     CommitFile(out / "config.yaml", ToJson(config).dump(2) + "\n");
     output.turned = FitTurnedClassifier(dataset.turned_train);
     WriteTurnedClassifier(out, output.turned, dataset.content_sha256);
-    if (!hooks.resume) fs::remove_all(out / "best");  // of an earlier training
+    if (!hooks.resume) RemoveBest(out);  // of an earlier training
   }
 
   const std::uint64_t total = per_epoch * static_cast<std::uint64_t>(EpochsOf(config));

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "best_networks.h"
 
-#include <cmath>
 #include <limits>
 
 namespace doorforge::internal {

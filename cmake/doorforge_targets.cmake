@@ -15,6 +15,14 @@ set(DOORFORGE_ALLOWED_evaluate core schemas physics sensor rollout learn)
 # a multiply with an add.
 set(DOORFORGE_COMPILE_OPTIONS -Wall -Wextra -Wshadow -Wconversion -ffp-contract=off)
 
+# What strangers' files reach is compiled with the checks that the library and the compiler offer: indices
+# of the standard library's containers, sizes of buffers, the stack. docs/performance.md has their cost.
+option(DOORFORGE_HARDENED "check indices, buffers and the stack at run time" ON)
+if(DOORFORGE_HARDENED AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+  list(APPEND DOORFORGE_COMPILE_OPTIONS -D_GLIBCXX_ASSERTIONS -fstack-protector-strong
+       "$<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=3>")
+endif()
+
 # For a build from nothing, as ./test.sh does: what nearly every source includes is parsed once, and
 # the sources of a test program are compiled together. Off by default: after an edit more is compiled
 # again, ccache keeps nothing that was made with precompiled headers, and a source is no longer seen

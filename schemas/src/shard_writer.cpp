@@ -86,7 +86,6 @@ struct ShardWriter::Output {
       files.SyncFolder(tar_path.parent_path());
     }
     size = found.tar_bytes;
-    hash = found.hash;
   }
 
   void Append(std::string_view bytes) {
@@ -142,6 +141,7 @@ ShardWriter::ShardWriter(fs::path folder, ShardHeader header, Unfinished unfinis
     found = internal::RecoverJournal(folder_, index_.header);
   }
   output_->Begin(index_.header, found);
+  output_->hash = std::move(found.hash);
   output_->keys.insert(found.keys.begin(), found.keys.end());
   keys_ = std::move(found.keys);
   index_.episodes = std::move(found.episodes);

@@ -2,17 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 
+struct evp_md_ctx_st;  // of libcrypto, known to hash.cpp alone
+
 namespace doorforge {
 
-/// Incremental SHA-256 (FIPS 180-4).
+/// Incremental SHA-256 (FIPS 180-4), computed by OpenSSL's libcrypto, which uses the processor's
+/// own instructions for it. Movable. Throws std::bad_alloc alone.
 class Sha256 {
  public:
   Sha256();
@@ -22,11 +25,10 @@ class Sha256 {
   std::string HexDigest();
 
  private:
-  void Compress(const std::byte* block);
-
-  std::array<std::uint32_t, 8> state_;
-  std::array<std::byte, 64> buffer_{};
-  std::uint64_t length_ = 0;
+  struct Delete {
+    void operator()(evp_md_ctx_st* context) const;
+  };
+  std::unique_ptr<evp_md_ctx_st, Delete> context_;
 };
 
 std::string Sha256Hex(std::string_view text);

@@ -11,6 +11,7 @@
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/nearest_name.h"
 #include "doorforge/core/program.h"
+#include "doorforge/core/record_id.h"
 
 namespace doorforge {
 namespace {
@@ -51,7 +52,7 @@ void RequireKnown(const Json& json, const std::vector<std::string>& known,
 
 // numbers become the texts that a user would type
 std::string TextOf(const Json& value) {
-  return value.is_string() ? value.get<std::string>() : value.dump();
+  return value.is_string() ? value.get<std::string>() : JsonText(value);
 }
 
 std::vector<std::string> Texts(const Json& step, const std::string& key, const std::string& where) {
@@ -103,6 +104,9 @@ PipelineStep StepOf(const Json& json, const Json& settings, const std::string& w
                where);
   PipelineStep step;
   step.name = Text(json, "name", where);
+  // its record is pipeline/<name>.json
+  if (const std::string problem = IdProblem(step.name); !problem.empty())
+    Fail(where, "name: " + problem);
   step.does = Text(json, "does", where);
   step.command = Texts(json, "command", where);
   if (json.contains("output")) step.output = Text(json, "output", where);
@@ -116,7 +120,11 @@ PipelineStep StepOf(const Json& json, const Json& settings, const std::string& w
   if (json.contains("resume")) step.resume = TextOf(json["resume"]);
   if (json.contains("fine_codes")) {
     step.fine_codes.clear();
-    for (const Json& code : json["fine_codes"]) step.fine_codes.push_back(code.get<int>());
+    for (const Json& code : json["fine_codes"]) {
+      if (!code.is_number_integer() || code < 0 || code > 255)
+        Fail(where, "fine_codes: expected exit codes, 0 to 255");
+      step.fine_codes.push_back(code.get<int>());
+    }
   }
   step.core_seconds = Cost(json, "core_seconds", settings, where);
   step.mebibytes = Cost(json, "mebibytes", settings, where);
@@ -138,7 +146,7 @@ void ChangeSettings(Json& settings, const std::vector<std::string>& changes,
                                                 : value.is_string() || value.is_number();
     if (!same || (settings[key].is_number_integer() && !value.is_number_integer()))
       Fail("--set " + key,
-           "found " + value.dump() + ", expected the like of " + settings[key].dump());
+           "found " + JsonText(value) + ", expected the like of " + JsonText(settings[key]));
     settings[key] = settings[key].is_string() ? Json(TextOf(value)) : value;
   }
 }
@@ -151,6 +159,11 @@ Json ParsePipeline(const fs::path& path) {
   return json;
 }
 
+std::string TextAt(const Json& json, const std::string& key) {
+  const bool is_text = json.is_object() && json.contains(key) && json[key].is_string();
+  return is_text ? json[key].get<std::string>() : std::string();
+}
+
 // Each of `changes` names one of the steps, to whose command it appends and whose other keys it
 // replaces.
 void ChangeSteps(const Json& changes, Json& steps, const std::string& where) {
@@ -158,7 +171,7 @@ void ChangeSteps(const Json& changes, Json& steps, const std::string& where) {
   for (const Json& change : changes) {
     const std::string name = Text(change, "name", where + ": steps");
     const auto step = std::ranges::find_if(
-        steps, [&](const Json& candidate) { return candidate.value("name", "") == name; });
+        steps, [&](const Json& candidate) { return TextAt(candidate, "name") == name; });
     if (step == steps.end())
       Fail(where, "steps: \"" + name + "\" is no step of the preset that this one is like");
     for (const auto& [key, value] : change.items()) {
@@ -167,6 +180,7 @@ void ChangeSteps(const Json& changes, Json& steps, const std::string& where) {
         continue;
       }
       if (!value.is_array()) Fail(where, name + ": append: expected a list");
+      if (!(*step)["command"].is_array()) Fail(where, name + ": command: expected a list");
       for (const Json& argument : value) (*step)["command"].push_back(argument);
     }
   }
@@ -179,6 +193,7 @@ Json ReadDeclaration(const fs::path& path) {
   const std::string where = path.string();
   Json base = ParsePipeline(FileOf(Text(json, "like", where)));
   if (json.contains("settings")) {
+    if (!json["settings"].is_object()) Fail(where, "settings: expected keys and values");
     for (const auto& [key, value] : json["settings"].items()) {
       if (!base["settings"].contains(key))
         Fail(where, "settings." + key + ": is no setting of " + Text(json, "like", where));
@@ -255,6 +270,7 @@ Pipeline ReadPipeline(const std::string& name, const std::vector<std::string>& c
   pipeline.name = path.stem().string();
   pipeline.about = Text(json, "about", where);
   pipeline.settings = json.contains("settings") ? json["settings"] : Json::object();
+  if (!pipeline.settings.is_object()) Fail(where, "settings: expected keys and values");
   ChangeSettings(pipeline.settings, changes, where);
   if (!json.contains("steps") || !json["steps"].is_array() || json["steps"].empty())
     Fail(where, "steps: expected a list");

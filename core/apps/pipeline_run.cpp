@@ -127,7 +127,7 @@ void PrepareFolder(const fs::path& out) {
   if (foreign)
     throw Error(ErrorCode::kInvalidArgument,
                 out.string() + ": exists and is no pipeline's folder; choose another");
-  fs::create_directories(out / "pipeline");
+  SystemFiles().CreateFolder(out / "pipeline");
 }
 
 // What a step made with other inputs is removed before the step begins, so that an interruption
@@ -261,7 +261,7 @@ void PrintPlanJson(const Pipeline& pipeline, const std::vector<PlannedStep>& pla
                      {"pipeline", pipeline.name},
                      {"settings", pipeline.settings},
                      {"steps", steps}};
-  std::cout << json.dump(2) << "\n";
+  std::cout << JsonText(json, 2) << "\n";
 }
 
 }  // namespace

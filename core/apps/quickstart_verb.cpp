@@ -9,10 +9,12 @@
 
 #include <CLI/CLI.hpp>
 
+#include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
+#include "doorforge/core/record_id.h"
 
 #include "pipeline_graph.h"
 #include "pipeline_run.h"
@@ -74,7 +76,7 @@ void ComposeDoors(const std::vector<DoorPair>& pairs, const fs::path& out, int t
   Progress progress("compose", pairs.size());
   ParallelFor(pairs.size(), threads, [&](std::size_t i) {
     const DoorPair& pair = pairs[i];
-    const fs::path door = out / pair.subset / (pair.body_id + "__" + pair.handle_id);
+    const fs::path door = OutputBelow(out / pair.subset, pair.body_id + "__" + pair.handle_id);
     if (!fs::exists(door / "door.json")) {
       const int code =
           RunChild({program, "compose", "--body", pair.body_folder.string(), "--handle",
@@ -87,13 +89,24 @@ void ComposeDoors(const std::vector<DoorPair>& pairs, const fs::path& out, int t
   });
 }
 
+// The record of the first step, which is there as soon as anything is.
+constexpr FolderKind kQuickstartFolder{"a quickstart", "pipeline/parts.json",
+                                       "doorforge.pipeline_step"};
+
+bool IsEmptyFolder(const fs::path& folder) {
+  return fs::is_directory(fs::symlink_status(folder)) && fs::is_empty(folder);
+}
+
 void PrepareFolder(const Options& options) {
   const fs::path out = options.out;
-  if (options.overwrite) fs::remove_all(out);
+  if (options.overwrite && fs::exists(fs::symlink_status(out)) && !IsEmptyFolder(out)) {
+    RequireKind(out, kQuickstartFolder);
+    fs::remove_all(out);
+  }
   if (!options.resume && fs::exists(out) && !fs::is_empty(out))
     throw Error(ErrorCode::kInvalidArgument,
                 options.out + ": already exists; pass --resume to go on there, or --overwrite");
-  fs::create_directories(out);
+  SystemFiles().CreateFolder(out);
 }
 
 // real objects in place of the catalogue

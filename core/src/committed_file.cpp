@@ -2,22 +2,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/core/committed_file.h"
 
-#include <array>
+#include <algorithm>
 #include <atomic>
+#include <cctype>
 #include <cerrno>
-#include <charconv>
-#include <cstdlib>
+#include <chrono>
 #include <cstring>
 #include <fstream>
+#include <mutex>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include <fcntl.h>
-#include <signal.h>
 #include <stdio.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
 
 namespace doorforge {
 namespace {
@@ -32,35 +36,6 @@ fs::path FolderOf(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-std::string HostName() {
-  std::array<char, 256> name{};
-  if (::gethostname(name.data(), name.size() - 1) != 0) return "unknown";
-  return name.data();
-}
-
-// unique among machines: the process id, a count within the process, the machine's name
-fs::path TemporaryBeside(const fs::path& path) {
-  static std::atomic<int> count{0};
-  return FolderOf(path) / ("." + path.filename().string() + ".tmp-" + std::to_string(::getpid()) +
-                           "-" + std::to_string(count++) + "-" + HostName());
-}
-
-// The process of this machine that made a name such as TemporaryBeside()'s, if it is one.
-std::optional<pid_t> WriterOf(const std::string& name) {
-  const std::size_t at = name.rfind(".tmp-");
-  if (!name.starts_with('.') || at == std::string::npos) return std::nullopt;
-  const char* const end = name.data() + name.size();
-  pid_t process = 0;
-  const auto [after_process, error] = std::from_chars(name.data() + at + 5, end, process);
-  if (error != std::errc{} || process <= 0 || after_process == end || *after_process != '-')
-    return std::nullopt;
-  int count = 0;
-  const auto [after_count, count_error] = std::from_chars(after_process + 1, end, count);
-  if (count_error != std::errc{} || std::string(after_count, end) != "-" + HostName())
-    return std::nullopt;
-  return process;
-}
-
 void SyncFolder(const fs::path& folder) {
   const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY);
   if (fd < 0) ThrowIo(folder, "cannot be opened");
@@ -73,6 +48,124 @@ void CreateFolder(const fs::path& folder) {
   fs::create_directories(folder, error);
   if (error)
     throw Error(ErrorCode::kIo, folder.string() + ": cannot be created: " + error.message());
+}
+
+// Twelve digits that no other run of an operating system has: what is locked in one is locked for
+// all of its processes, whatever container, host name or process number they have.
+std::string RunOfTheSystem() {
+  std::ifstream file("/proc/sys/kernel/random/boot_id");
+  std::string id;
+  for (char c = 0; id.size() < 12 && file.get(c);) {
+    if (std::isxdigit(static_cast<unsigned char>(c)) != 0) id += c;
+  }
+  return id.size() == 12 ? id : std::string(12, '0');
+}
+
+const std::string& ThisRun() {
+  static const std::string run = RunOfTheSystem();
+  return run;
+}
+
+constexpr std::string_view kTemporaryMark = ".tmp-";
+
+// ".NAME.tmp-RUN-PROCESS-COUNT": unique among machines. A long name is cut, so that whatever can be
+// the name of a file can be staged.
+std::string TemporaryName(const std::string& name) {
+  constexpr std::size_t kMostOfName = 100;
+  static std::atomic<int> count{0};
+  return "." + name.substr(0, kMostOfName) + std::string(kTemporaryMark) + ThisRun() + "-" +
+         std::to_string(::getpid()) + "-" + std::to_string(count++);
+}
+
+fs::path TemporaryBeside(const fs::path& path) {
+  return FolderOf(path) / TemporaryName(path.filename().string());
+}
+
+bool TakeNumber(std::string_view& text) {
+  const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
+  text.remove_prefix(digits);
+  return digits > 0;
+}
+
+// Which run of a system made a name such as TemporaryName()'s, if it is one.
+std::optional<std::string> WriterOf(std::string_view name) {
+  const std::size_t at = name.rfind(kTemporaryMark);
+  if (!name.starts_with('.') || at == std::string_view::npos) return std::nullopt;
+  std::string_view rest = name.substr(at + kTemporaryMark.size());
+  const std::string run(rest.substr(0, 12));
+  if (run.size() != 12 || run.find_first_not_of("0123456789abcdef") != std::string::npos)
+    return std::nullopt;
+  rest.remove_prefix(12);
+  for (int number = 0; number < 2; ++number) {
+    if (!rest.starts_with('-')) return std::nullopt;
+    rest.remove_prefix(1);
+    if (!TakeNumber(rest)) return std::nullopt;
+  }
+  return rest.empty() ? std::optional(run) : std::nullopt;
+}
+
+bool IsNamed(int file, const fs::path& path) {
+  struct stat opened {};
+  struct stat named {};
+  return ::fstat(file, &opened) == 0 && ::lstat(path.c_str(), &named) == 0 &&
+         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+}
+
+// The lock of something that is there, or -1 if it is held or gone. Where a file system knows no
+// locks nothing is ever taken for left behind.
+int TryLock(const fs::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) return -1;
+  if (::flock(file, LOCK_EX | LOCK_NB) == 0 && IsNamed(file, path)) return file;
+  ::close(file);
+  return -1;
+}
+
+bool IsUntouchedForADay(const fs::path& path) {
+  std::error_code error;
+  const auto written = fs::last_write_time(path, error);
+  return !error && fs::file_time_type::clock::now() - written > std::chrono::hours(24);
+}
+
+// Removes a temporary unless its writer may still live.
+void RemoveIfStale(FileSystem& files, const fs::path& path, const std::string& run) {
+  if (run != ThisRun() && !IsUntouchedForADay(path)) return;
+  const int lock = TryLock(path);
+  if (lock < 0) return;
+  std::error_code ignored;
+  if (fs::is_directory(fs::symlink_status(path, ignored)))
+    fs::remove_all(path, ignored);
+  else
+    files.Remove(path);
+  ::close(lock);
+}
+
+// Once for each folder in the life of a process: a program that stages ten thousand folders in one
+// does not look through it ten thousand times.
+void RemoveStaleBeside(const fs::path& path) {
+  static std::mutex mutex;
+  static std::set<std::string> seen;
+  const fs::path folder = FolderOf(path);
+  {
+    const std::scoped_lock lock(mutex);
+    if (!seen.insert(fs::absolute(folder).lexically_normal().string()).second) return;
+  }
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::optional<std::string> run = WriterOf(entry->path().filename().string());
+    if (run) RemoveIfStale(SystemFiles(), entry->path(), *run);
+  }
+}
+
+// A new folder with its lock, which whoever removes what was left behind respects.
+int CreateLocked(const fs::path& folder) {
+  CreateFolder(FolderOf(folder));
+  if (::mkdir(folder.c_str(), 0777) != 0) ThrowIo(folder, "cannot be created");
+  const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock < 0) ThrowIo(folder, "cannot be opened");
+  ::flock(lock, LOCK_EX | LOCK_NB);  // without effect where the file system has no locks
+  return lock;
 }
 
 [[noreturn]] void ThrowExists(const fs::path& path) {
@@ -93,11 +186,29 @@ void RemoveQuietly(FileSystem& files, const fs::path& path) {
   }
 }
 
-void RenameOnto(const fs::path& from, const fs::path& to, Existing existing) {
-  const unsigned flags = existing == Existing::kRefuse ? RENAME_NOREPLACE : 0U;
-  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), flags) == 0) return;
+void RenameToNew(const fs::path& from, const fs::path& to) {
+  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return;
   if (errno == EEXIST) RefuseExisting(to);
   ThrowIo(to, "cannot be put in place");
+}
+
+void Swap(const fs::path& one, const fs::path& other) {
+  if (::renameat2(AT_FDCWD, one.c_str(), AT_FDCWD, other.c_str(), RENAME_EXCHANGE) != 0)
+    ThrowIo(other, "cannot be put in place");
+}
+
+bool IsRecordOf(const fs::path& record, const FolderKind& kind) {
+  if (!kind.record.ends_with(".json")) {
+    std::string begin(kind.schema.size(), '\0');
+    std::ifstream(record, std::ios::binary)
+        .read(begin.data(), static_cast<std::streamsize>(begin.size()));
+    return begin == kind.schema;
+  }
+  try {
+    return ValueOf<std::string>(ReadJsonFile(record), "schema", record.string()) == kind.schema;
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 }  // namespace
@@ -127,6 +238,7 @@ void CommitFile(FileSystem& files, const fs::path& path, std::string_view conten
   if (existing == Existing::kRefuse) RefuseExisting(path);
   const fs::path temporary = TemporaryBeside(path);
   const int file = files.Create(temporary);
+  ::flock(file, LOCK_EX | LOCK_NB);  // see RemoveStaleFiles()
   bool is_open = true;
   try {
     WriteAll(files, file, content, temporary);
@@ -146,26 +258,70 @@ void CommitFile(FileSystem& files, const fs::path& path, std::string_view conten
 }
 
 void RemoveStaleFiles(FileSystem& files, const fs::path& folder) {
-  std::vector<fs::path> stale;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    const std::optional<pid_t> process = WriterOf(entry.path().filename().string());
-    if (process && entry.is_regular_file() && ::kill(*process, 0) != 0 && errno == ESRCH)
-      stale.push_back(entry.path());
+  std::error_code error;
+  fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied,
+                                         error);
+  std::vector<std::pair<fs::path, std::string>> temporaries;
+  for (const fs::recursive_directory_iterator end; !error && entry != end; entry.increment(error)) {
+    const std::optional<std::string> run = WriterOf(entry->path().filename().string());
+    if (!run) continue;
+    temporaries.emplace_back(entry->path(), *run);
+    entry.disable_recursion_pending();
   }
-  for (const fs::path& path : stale) files.Remove(path);
+  for (const auto& [path, run] : temporaries) RemoveIfStale(files, path, run);
 }
 
-StagedFolder::StagedFolder(fs::path target, Existing existing)
-    : target_(std::move(target)), existing_(existing) {
+void RequireWritable(const fs::path& folder) {
+  const fs::path target = fs::absolute(folder).lexically_normal();
+  std::vector<fs::path> made;
+  for (fs::path missing = target; !fs::exists(missing) && missing.has_relative_path();
+       missing = missing.parent_path())
+    made.push_back(missing);
+  CreateFolder(target);
+  const fs::path probe = target / TemporaryName("probe");
+  const int file = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  const int reason = errno;
+  if (file >= 0) {
+    ::close(file);
+    ::unlink(probe.c_str());
+  }
+  for (const fs::path& empty : made) ::rmdir(empty.c_str());
+  errno = reason;
+  if (file < 0) ThrowIo(folder, "nothing can be written there");
+}
+
+void RequireKind(const fs::path& folder, const FolderKind& kind) {
+  const auto refuse = [&](const std::string& found) {
+    throw Error(ErrorCode::kInvalidArgument,
+                folder.string() + ": " + found + "; only " + std::string(kind.name) +
+                    " that doorforge wrote is replaced: move it away or choose another folder");
+  };
+  std::error_code error;
+  const fs::file_status status = fs::symlink_status(folder, error);
+  if (fs::is_symlink(status)) refuse("is a link");
+  if (!fs::is_directory(status)) refuse("is a file");
+  const fs::path record = folder / kind.record;
+  if (!fs::is_regular_file(fs::symlink_status(record, error)))
+    refuse("holds no " + std::string(kind.record));
+  if (!IsRecordOf(record, kind)) refuse("its " + std::string(kind.record) + " is another's");
+}
+
+StagedFolder::StagedFolder(fs::path target, const FolderKind& kind, Existing existing)
+    : target_(std::move(target)), kind_(kind), existing_(existing) {
   if (!target_.has_filename()) target_ = target_.parent_path();
-  if (existing_ == Existing::kRefuse) RefuseExisting(target_);
+  if (existing_ == Existing::kRefuse)
+    RefuseExisting(target_);
+  else if (fs::exists(fs::symlink_status(target_)))
+    RequireKind(target_, kind_);
+  RemoveStaleBeside(target_);
   staging_ = TemporaryBeside(target_);
-  CreateFolder(staging_);
+  lock_ = CreateLocked(staging_);
 }
 
 StagedFolder::~StagedFolder() {
   std::error_code ignored;
   if (!committed_) fs::remove_all(staging_, ignored);
+  ::close(lock_);
 }
 
 void StagedFolder::Commit() {
@@ -173,64 +329,47 @@ void StagedFolder::Commit() {
     if (entry.is_directory()) SyncFolder(entry.path());
   }
   SyncFolder(staging_);
-  if (existing_ == Existing::kReplace && fs::exists(target_)) {
-    // a folder cannot be renamed onto a full one: swap, then drop the old content
-    if (::renameat2(AT_FDCWD, staging_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) != 0)
-      ThrowIo(target_, "cannot be put in place");
-    fs::remove_all(staging_);
-  } else {
-    RenameOnto(staging_, target_, Existing::kRefuse);
-  }
+  if (existing_ == Existing::kReplace && fs::exists(fs::symlink_status(target_)))
+    Replace();
+  else
+    RenameToNew(staging_, target_);
   committed_ = true;
   SyncFolder(FolderOf(target_));
 }
 
-namespace {
-
-constexpr const char* kBatchPrefix = ".batch.tmp-";
-
-// Batches of processes that are gone: what they left was never committed.
-void RemoveDeadBatches(const fs::path& folder) {
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    if (!name.starts_with(kBatchPrefix)) continue;
-    const int process = std::atoi(name.c_str() + std::strlen(kBatchPrefix));
-    std::error_code ignored;
-    if (process > 0 && ::kill(process, 0) != 0 && errno == ESRCH)
-      fs::remove_all(entry.path(), ignored);
-  }
+// A folder cannot be renamed onto a full one: the two are swapped, then the old content is dropped.
+void StagedFolder::Replace() {
+  RequireKind(target_, kind_);  // once more: much may have happened since the beginning
+  Swap(staging_, target_);
+  fs::remove_all(staging_);
 }
 
-void RenameInto(const fs::path& from, const fs::path& to) {
-  if (::rename(from.c_str(), to.c_str()) == 0) return;
-  // a folder cannot be renamed onto a full one: swap, and let the batch drop the old content
-  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_EXCHANGE) != 0)
-    ThrowIo(to, "cannot be put in place");
-}
-
-}  // namespace
-
-StagedBatch::StagedBatch(fs::path folder) : folder_(std::move(folder)) {
-  static std::atomic<int> count{0};
+StagedBatch::StagedBatch(fs::path folder, const FolderKind& kind)
+    : folder_(std::move(folder)), kind_(kind) {
   CreateFolder(folder_);
-  RemoveDeadBatches(folder_);
-  staging_ = folder_ / (kBatchPrefix + std::to_string(::getpid()) + "-" + std::to_string(count++));
-  CreateFolder(staging_);
+  staging_ = folder_ / TemporaryName("batch");
+  RemoveStaleBeside(staging_);
+  lock_ = CreateLocked(staging_);
 }
 
 StagedBatch::~StagedBatch() {
   std::error_code ignored;
   fs::remove_all(staging_, ignored);
+  ::close(lock_);
 }
 
 void StagedBatch::Commit() {
-  const int fd = ::open(staging_.c_str(), O_RDONLY | O_DIRECTORY);
-  if (fd < 0) ThrowIo(staging_, "cannot be opened");
-  const int flushed = ::syncfs(fd);
-  ::close(fd);
-  if (flushed != 0) ThrowIo(staging_, "cannot be flushed");
-  for (const auto& entry : fs::directory_iterator(staging_))
-    RenameInto(entry.path(), folder_ / entry.path().filename());
+  if (::syncfs(lock_) != 0) ThrowIo(staging_, "cannot be flushed");
+  std::vector<fs::path> names;
+  for (const auto& entry : fs::directory_iterator(staging_)) {
+    names.push_back(entry.path().filename());
+    const fs::path target = folder_ / names.back();
+    if (entry.is_directory() && fs::exists(fs::symlink_status(target))) RequireKind(target, kind_);
+  }
+  for (const fs::path& name : names) {
+    if (::rename((staging_ / name).c_str(), (folder_ / name).c_str()) == 0) continue;
+    Swap(staging_ / name, folder_ / name);  // the batch drops the old content
+  }
   SyncFolder(folder_);
 }
 

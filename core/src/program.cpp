@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <new>
 
 #include <spawn.h>
 #include <sys/wait.h>
@@ -57,10 +58,15 @@ int RunProgram(const std::function<int()>& body) {
   } catch (const Error& error) {
     std::fprintf(stderr, "doorforge: %s\n", error.what());
     return ExitCodeOf(error.code());
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "doorforge: not enough memory; give less at a time, or fewer --threads\n");
+  } catch (const fs::filesystem_error& error) {
+    std::fprintf(stderr, "doorforge: %s: %s\n", error.path1().c_str(),
+                 error.code().message().c_str());
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "doorforge: %s\n", error.what());
-    return 3;
+    std::fprintf(stderr, "doorforge: unexpected, please report it: %s\n", error.what());
   }
+  return 3;
 }
 
 int StopRequested() { return stop_signal; }

@@ -2,7 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/core/committed_file.h"
 
+#include <chrono>
+#include <fstream>
+
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "doorforge/core/error.h"
 
@@ -10,6 +15,8 @@ namespace doorforge {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr FolderKind kNote{"a note", "note.json", "a.note"};
 
 class CommittedFile : public testing::Test {
  protected:
@@ -51,12 +58,12 @@ TEST_F(CommittedFile, ReadingAFolderOrAFileTooLargeIsAnError) {
 
 TEST_F(CommittedFile, AFolderAppearsOnlyWhenCommitted) {
   {
-    StagedFolder staged(folder_ / "part");
+    StagedFolder staged(folder_ / "part", kNote);
     CommitFile(staged.path() / "x", "1");
     EXPECT_FALSE(fs::exists(folder_ / "part"));
   }
   EXPECT_EQ(EntryCount(), 0U) << "an uncommitted folder leaves nothing behind";
-  StagedFolder staged(folder_ / "part");
+  StagedFolder staged(folder_ / "part", kNote);
   CommitFile(staged.path() / "x", "1");
   staged.Commit();
   EXPECT_EQ(ReadFile(folder_ / "part/x"), "1");
@@ -65,13 +72,126 @@ TEST_F(CommittedFile, AFolderAppearsOnlyWhenCommitted) {
 
 TEST_F(CommittedFile, AFolderIsReplacedAsAWhole) {
   CommitFile(folder_ / "part/old", "1");
-  EXPECT_THROW(StagedFolder(folder_ / "part", Existing::kRefuse), Error);
-  StagedFolder staged(folder_ / "part", Existing::kReplace);
+  CommitFile(folder_ / "part/note.json", R"({"schema": "a.note"})");
+  EXPECT_THROW(StagedFolder(folder_ / "part", kNote, Existing::kRefuse), Error);
+  StagedFolder staged(folder_ / "part", kNote, Existing::kReplace);
   CommitFile(staged.path() / "new", "2");
   staged.Commit();
   EXPECT_FALSE(fs::exists(folder_ / "part/old"));
   EXPECT_EQ(ReadFile(folder_ / "part/new"), "2");
   EXPECT_EQ(EntryCount(), 1U);
+}
+
+std::string WhyNotReplaced(const fs::path& folder) {
+  try {
+    StagedFolder(folder, kNote, Existing::kReplace);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kInvalidArgument);
+    return error.what();
+  }
+  return {};
+}
+
+TEST_F(CommittedFile, OnlyAFolderOfOurOwnKindIsReplaced) {
+  const fs::path folder = folder_ / "x";
+  CommitFile(folder / "precious", "1");
+  EXPECT_NE(WhyNotReplaced(folder).find("holds no note.json"), std::string::npos);
+  for (const char* other : {R"({"schema": "another.note"})", "{", "", "[]", R"({"schema": 1})"}) {
+    CommitFile(folder / "note.json", other);
+    EXPECT_NE(WhyNotReplaced(folder).find("another's"), std::string::npos) << other;
+  }
+  CommitFile(folder_ / "file", "1");
+  EXPECT_NE(WhyNotReplaced(folder_ / "file").find("is a file"), std::string::npos);
+  fs::create_directory_symlink(folder, folder_ / "link");
+  EXPECT_NE(WhyNotReplaced(folder_ / "link").find("is a link"), std::string::npos);
+  fs::create_directories(folder_ / "empty");
+  EXPECT_NE(WhyNotReplaced(folder_ / "empty").find("holds no note.json"), std::string::npos);
+  EXPECT_EQ(ReadFile(folder / "precious"), "1");
+  CommitFile(folder / "note.json", R"({"schema": "a.note"})");
+  EXPECT_EQ(WhyNotReplaced(folder), "");
+}
+
+TEST_F(CommittedFile, AFolderThatBecameAnothersMeanwhileIsNotReplaced) {
+  CommitFile(folder_ / "part/note.json", R"({"schema": "a.note"})");
+  StagedFolder staged(folder_ / "part", kNote, Existing::kReplace);
+  fs::remove(folder_ / "part/note.json");
+  CommitFile(folder_ / "part/precious", "1");
+  EXPECT_THROW(staged.Commit(), Error);
+  EXPECT_EQ(ReadFile(folder_ / "part/precious"), "1");
+}
+
+TEST_F(CommittedFile, ABatchReplacesOnlyFoldersOfItsKind) {
+  CommitFile(folder_ / "mine/note.json", R"({"schema": "a.note"})");
+  CommitFile(folder_ / "other/precious", "1");
+  StagedBatch batch(folder_, kNote);
+  for (const char* name : {"mine", "new", "other"}) WriteStaged(batch.path() / name / "x", "2");
+  EXPECT_THROW(batch.Commit(), Error);
+  EXPECT_FALSE(fs::exists(folder_ / "new")) << "refused before anything is put in place";
+  fs::remove_all(batch.path() / "other");
+  batch.Commit();
+  EXPECT_EQ(ReadFile(folder_ / "mine/x"), "2");
+  EXPECT_EQ(ReadFile(folder_ / "new/x"), "2");
+  EXPECT_EQ(ReadFile(folder_ / "other/precious"), "1");
+}
+
+// What a process leaves that is killed while it stages.
+void DieStaging(const fs::path& folder) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    new StagedFolder(folder / "part", kNote);
+    new StagedBatch(folder, kNote);
+    ::_exit(0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ASSERT_EQ(status, 0);
+}
+
+TEST_F(CommittedFile, WhatAKilledWriterLeftIsGoneWhenTheNextOneBegins) {
+  DieStaging(folder_);
+  ASSERT_EQ(EntryCount(), 2U);
+  const StagedBatch batch(folder_, kNote);
+  EXPECT_EQ(EntryCount(), 1U) << "its own alone";
+}
+
+TEST_F(CommittedFile, WhatIsBeingWrittenIsNotTakenForLeftBehind) {
+  const StagedFolder folder(folder_ / "part", kNote);
+  const StagedBatch batch(folder_, kNote);
+  DieStaging(folder_ / "deeper");
+  RemoveStaleFiles(SystemFiles(), folder_);
+  EXPECT_TRUE(fs::exists(folder.path()));
+  EXPECT_TRUE(fs::exists(batch.path()));
+  EXPECT_TRUE(fs::is_empty(folder_ / "deeper"));
+}
+
+TEST_F(CommittedFile, AnothersTemporariesStayForADay) {
+  const fs::path fresh = folder_ / ".a.tmp-0123456789ab-1-0";
+  const fs::path old = folder_ / ".b.tmp-0123456789ab-1-0";
+  const fs::path user = folder_ / ".notes.tmp-x-0";
+  for (const fs::path& path : {fresh, old, user}) std::ofstream(path) << "x";
+  fs::last_write_time(old, fs::file_time_type::clock::now() - std::chrono::hours(25));
+  fs::last_write_time(user, fs::file_time_type::clock::now() - std::chrono::hours(25));
+  RemoveStaleFiles(SystemFiles(), folder_);
+  EXPECT_TRUE(fs::exists(fresh));
+  EXPECT_FALSE(fs::exists(old));
+  EXPECT_TRUE(fs::exists(user));
+}
+
+TEST_F(CommittedFile, ANameAsLongAsTheSystemAllowsIsWritten) {
+  const std::string name(255, 'n');
+  CommitFile(folder_ / name, "1");
+  EXPECT_EQ(ReadFile(folder_ / name), "1");
+  StagedFolder staged(folder_ / std::string(255, 'f'), kNote);
+  staged.Commit();
+  EXPECT_TRUE(fs::is_directory(folder_ / std::string(255, 'f')));
+}
+
+TEST_F(CommittedFile, APlaceWhereNothingCanBeWrittenIsToldBeforehand) {
+  RequireWritable(folder_ / "a/b");
+  EXPECT_EQ(EntryCount(), 0U) << "trying leaves nothing behind";
+  EXPECT_THROW(RequireWritable("/proc/nothing/here"), Error);
+  CommitFile(folder_ / "file", "1");
+  EXPECT_THROW(RequireWritable(folder_ / "file"), Error);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 
 namespace doorforge {
@@ -53,6 +54,71 @@ TEST(ConfigFile, RefusesWhatIsNoFiniteNumberAndSaysWhere) {
     EXPECT_THROW(ParseSettings({"width=" + text}), Error);
   }
   EXPECT_EQ(ParseYaml("name: \"nan\"", "my.yaml").at("name"), "nan");
+}
+
+std::string WhyRefused(const std::string& yaml) {
+  try {
+    ParseYaml(yaml, "my.yaml");
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kInvalidConfig);
+    return error.what();
+  }
+  return {};
+}
+
+TEST(ConfigFile, ATextThatNamesItselfIsRefused) {
+  EXPECT_NE(WhyRefused("a: &a [*a]").find("my.yaml: line 1"), std::string::npos);
+  EXPECT_NE(WhyRefused("&a {b: *a}").find("levels"), std::string::npos);
+}
+
+TEST(ConfigFile, AShortTextThatMeansBillionsOfValuesIsRefused) {
+  std::string yaml = "a0: &a0 [1,1,1,1,1,1,1,1,1]\n";
+  for (int level = 1; level < 10; ++level) {
+    const std::string name = "a" + std::to_string(level);
+    const std::string below = "*a" + std::to_string(level - 1);
+    yaml += name + ": &" + name + " [";
+    for (int i = 0; i < 9; ++i) yaml += (i > 0 ? "," : "") + below;
+    yaml += "]\n";
+  }
+  EXPECT_NE(WhyRefused(yaml).find("100000 values"), std::string::npos);
+}
+
+TEST(ConfigFile, DeepTextIsRefusedAndNamesUsedAgainAreFine) {
+  EXPECT_NE(WhyRefused(std::string(100, '[') + std::string(100, ']')), "");
+  EXPECT_NE(WhyRefused(std::string(100000, '[')), "");
+  EXPECT_NE(WhyRefused("? [a, b]\n: 1"), "") << "a key that is no name";
+  EXPECT_EQ(ParseYaml("{a: &x [1, 2], b: *x}", "t").dump(), R"({"a":[1,2],"b":[1,2]})");
+}
+
+TEST(ConfigFile, MessagesNameTheFileAndNoLibrary) {
+  const auto folder = std::filesystem::path(testing::TempDir());
+  const auto path = (folder / "bad_config.yaml").string();
+  for (const char* text : {"widht: 1", "width: x", "width: [", "width: 99999999999"}) {
+    CommitFile(path, text);
+    try {
+      LoadConfig<Camera>(path, {});
+      ADD_FAILURE() << text;
+    } catch (const Error& error) {
+      const std::string what = error.what();
+      EXPECT_TRUE(what.starts_with(path + ": ")) << what;
+      EXPECT_EQ(what.find("yaml-cpp"), std::string::npos) << what;
+    }
+  }
+  try {
+    LoadConfig<Camera>("", {"width=x"});
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("--set: ")) << error.what();
+  }
+}
+
+TEST(ConfigFile, ASettingBelowAValueIsRefusedByName) {
+  try {
+    ParseSettings({"scene=1", "scene.seed=2"});
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("--set scene.seed=2"), std::string::npos);
+  }
 }
 
 TEST(ConfigFile, SettingsNestAndTheLastOneWins) {

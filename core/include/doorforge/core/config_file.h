@@ -15,13 +15,16 @@
 namespace doorforge {
 
 /// Parses YAML (and so JSON). Scalars become booleans, integers, numbers or strings by the YAML 1.2
-/// core rules; quoted scalars stay strings. Throws Error(kInvalidConfig) with line and column.
+/// core rules; quoted scalars stay strings; an alias stands for a copy of what it names. Throws
+/// Error(kInvalidConfig) with line and column, also where the text means more than 100,000 values
+/// or nests deeper than 64 levels: a few aliases can name billions.
 nlohmann::ordered_json ParseYaml(std::string_view text, const std::string& name);
 
 /// One nested object from "a.b=c" settings, in order. The value after `=` is YAML.
 nlohmann::ordered_json ParseSettings(const std::vector<std::string>& settings);
 
-/// The effective config: defaults <- file (if `path` is not empty) <- `--set a.b=c`.
+/// The effective config: defaults <- file (if `path` is not empty) <- `--set a.b=c`. Messages begin
+/// with the file, or with "--set".
 template <class T>
 T LoadConfig(const std::string& path, const std::vector<std::string>& settings, T defaults = {});
 
@@ -32,8 +35,8 @@ nlohmann::ordered_json ReadConfigFile(const std::filesystem::path& path);
 template <class T>
 T LoadConfig(const std::string& path, const std::vector<std::string>& settings, T defaults) {
   T config = std::move(defaults);
-  if (!path.empty()) Assign(internal::ReadConfigFile(path), config, "config");
-  Assign(ParseSettings(settings), config, "config");
+  if (!path.empty()) Assign(internal::ReadConfigFile(path), config, path + ": config");
+  Assign(ParseSettings(settings), config, "--set: config");
   return config;
 }
 

@@ -4,14 +4,29 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 
 namespace doorforge {
 
-/// Parses a JSON file of at most 64 MiB. Throws Error(kMissing, kIo or kFormat); the message names
-/// the file and, for a syntax error, the byte.
+/// The deepest nesting of arrays and objects that is read: a record has five levels. A deeper text
+/// would end the process where it is copied or destroyed, level by level, on the stack.
+inline constexpr int kMaxJsonDepth = 64;
+
+/// The only reader of JSON from outside. Throws Error(kFormat) "<name>: not JSON: line 3, column 7"
+/// on a syntax error, on text that is no UTF-8, on a number that no double holds, and, with the
+/// line, where it is nested deeper than kMaxJsonDepth.
+nlohmann::ordered_json ParseJson(std::string_view text, const std::string& name);
+
+/// Parses a JSON file of at most 64 MiB. Throws Error(kMissing or kIo), and as ParseJson() with the
+/// file's path.
 nlohmann::ordered_json ReadJsonFile(const std::filesystem::path& path);
+
+/// The only writer of JSON: the text of `json`, on one line or with `indent` spaces a level. Bytes
+/// of strings that are no UTF-8, as names of files may hold, become U+FFFD, so that a document is
+/// always JSON; valid text is kept byte for byte. Does not throw.
+std::string JsonText(const nlohmann::ordered_json& json, int indent = -1);
 
 /// Commits `json` with two spaces of indentation and a final newline; key order is kept.
 void WriteJsonFile(const std::filesystem::path& path, const nlohmann::ordered_json& json);
@@ -25,7 +40,8 @@ void RequireSchema(const nlohmann::ordered_json& json, const std::string& schema
 const nlohmann::ordered_json& MemberOf(const nlohmann::ordered_json& json, const std::string& key,
                                        const std::string& path);
 
-/// MemberOf() converted to T; throws Error(kFormat) on the wrong type.
+/// MemberOf() converted to T; throws Error(kFormat) on the wrong type, and on an integer that T
+/// does not hold.
 template <class T>
 T ValueOf(const nlohmann::ordered_json& json, const std::string& key, const std::string& path);
 

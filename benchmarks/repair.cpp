@@ -45,6 +45,7 @@
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/mesh/import_mesh.h"
 #include "doorforge/mesh/repair_mesh.h"
@@ -390,7 +391,7 @@ class Run {
 
  private:
   void Note(const Json& note) {
-    if (details_.is_open()) details_ << note.dump() << std::endl;
+    if (details_.is_open()) details_ << JsonText(note) << std::endl;
   }
 
   RepairConfig config_;

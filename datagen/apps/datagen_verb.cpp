@@ -16,6 +16,7 @@
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/free_space.h"
+#include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/datagen/describe_dataset.h"
 #include "doorforge/datagen/task_number.h"
@@ -116,7 +117,7 @@ void PrepareFolder(const Options& options) {
   Require(!fs::exists(out) || fs::is_directory(out), ErrorCode::kInvalidArgument,
           options.out + ": is a file; --out takes a folder");
   if (!fs::exists(out) || HoldsNothing(out)) {
-    fs::create_directories(out);
+    SystemFiles().CreateFolder(out);
     return;
   }
   if (!fs::exists(out / "config.yaml"))
@@ -125,8 +126,9 @@ void PrepareFolder(const Options& options) {
                     ": exists and holds no dataset (no config.yaml); choose another "
                     "folder");
   if (!options.overwrite) return;
+  RequireKind(out, kDatasetFolder);
   fs::remove_all(out);
-  fs::create_directories(out);
+  SystemFiles().CreateFolder(out);
 }
 
 CollectionTask TaskOf(const Options& options) {
@@ -154,7 +156,7 @@ nlohmann::ordered_json TaskToJson(const CollectSummary& summary, const Collectio
 
 int FinishTask(const CollectSummary& summary, const CollectionTask& task, const Options& options) {
   if (options.json) {
-    std::cout << TaskToJson(summary, task).dump(2) << '\n';
+    std::cout << JsonText(TaskToJson(summary, task), 2) << '\n';
   } else {
     std::printf("task %d/%d: %llu shards, %llu of %llu episodes succeeded, %.1f MiB in %s\n",
                 task.number, task.count, static_cast<unsigned long long>(summary.shards),
@@ -174,7 +176,7 @@ int Finish(const CollectSummary& summary, const CollectionTask& task, const Opti
   }
   if (task.count > 1) return FinishTask(summary, task, options);
   const nlohmann::ordered_json description = DescribeDataset(options.out);
-  std::cout << (options.json ? description.dump(2) + "\n" : DescriptionText(description));
+  std::cout << (options.json ? JsonText(description, 2) + "\n" : DescriptionText(description));
   if (summary.written > 0) return 0;
   std::fprintf(stderr, "doorforge: no episode succeeded; %s lists the causes\n",
                (fs::path(options.out) / "failures.jsonl").c_str());
@@ -224,7 +226,8 @@ int GiveToSlurm(const Options& options, std::vector<std::string> arguments) {
 int PrintPlan(const Options& options) {
   StageRun run(RequestOf(options));
   const CollectionForecast forecast = Forecast(run, options.probe, options.threads);
-  std::cout << (options.json ? ForecastToJson(forecast).dump(2) + "\n" : ForecastText(forecast));
+  std::cout << (options.json ? JsonText(ForecastToJson(forecast), 2) + "\n"
+                             : ForecastText(forecast));
   return 0;
 }
 

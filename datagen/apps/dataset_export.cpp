@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "doorforge/core/json_file.h"
 #include "doorforge/core/progress.h"
 #include "doorforge/datagen/export_robomimic.h"
 
@@ -34,7 +35,7 @@ void Print(const RobomimicSummary& summary, const Options& options) {
                                          {"demos", summary.demos},
                                          {"samples", summary.samples},
                                          {"bytes", summary.bytes}};
-    std::cout << json.dump(2) << '\n';
+    std::cout << JsonText(json, 2) << '\n';
     return;
   }
   std::printf("%s: %llu demos, %llu samples, %.1f MiB\n", options.out.c_str(),

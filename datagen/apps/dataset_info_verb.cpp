@@ -9,6 +9,7 @@
 
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
 #include "doorforge/datagen/describe_dataset.h"
 #include "doorforge/datagen/describe_episodes.h"
 #include "doorforge/sensor/picture.h"
@@ -102,7 +103,7 @@ int Info(const Options& options) {
   if (!options.html.empty()) CommitFile(options.html, DatasetPage(dataset, episodes));
   if (options.json) {
     dataset["stages"] = StagesToJson(episodes);
-    std::cout << dataset.dump(2) << '\n';
+    std::cout << JsonText(dataset, 2) << '\n';
   } else {
     std::cout << DescriptionText(dataset) << StagesText(episodes);
   }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "doorforge/core/json_file.h"
 #include "doorforge/core/progress.h"
 #include "doorforge/datagen/describe_dataset.h"
 #include "doorforge/datagen/merge_dataset.h"
@@ -49,7 +50,7 @@ std::vector<DatasetFinding> VerifyWithProgress(const Options& options) {
 
 int Info(const Options& options) {
   const nlohmann::ordered_json description = DescribeDataset(options.folder);
-  std::cout << (options.json ? description.dump(2) + "\n" : DescriptionText(description));
+  std::cout << (options.json ? JsonText(description, 2) + "\n" : DescriptionText(description));
   return 0;
 }
 
@@ -68,7 +69,7 @@ int Verify(const Options& options) {
   if (findings.empty() && !options.regenerate.share.empty())
     findings = Regenerate(options.folder, options.threads, options.regenerate);
   if (options.json) {
-    std::cout << FindingsToJson(findings).dump(2) << '\n';
+    std::cout << JsonText(FindingsToJson(findings), 2) << '\n';
   } else {
     for (const DatasetFinding& finding : findings)
       std::printf("%s  %s\n        found   %s\n        allowed %s\n        fix     %s\n",

@@ -305,8 +305,8 @@ CollectSummary ReobserveDataset(const ReobserveRequest& request) {
   collect.config_text = "# doorforge dataset re-observe, " + CodeVersion() +
                         "\n# of shards sha256 " + source.ContentHash() + ", config sha256 " +
                         source.provenance().config_sha256 + "\n# rays by " + RayCasterVersion() +
-                        "\n" + ToJson(config).dump(2) + "\n";
-  fs::create_directories(request.out);
+                        "\n" + JsonText(ToJson(config), 2) + "\n";
+  SystemFiles().CreateFolder(request.out);
   return Collect(
       source.plan(), [&](const PlannedEpisode& planned) { return reobservation.Look(planned); },
       collect);

@@ -6,6 +6,7 @@
 
 #include "doorforge/core/config_io.h"
 #include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/rollout/run_episode.h"
 
@@ -112,7 +113,7 @@ std::string StageRun::ConfigText() const {
       ", rays by " + RayCasterVersion() + "\n";
   for (const TrainedPolicy& policy : Trained())
     text += "# " + TrainedPolicyText(policy) + ", loops for " + PolicyArithmetic() + "\n";
-  return text + ToJson(config_).dump(2) + "\n";
+  return text + JsonText(ToJson(config_), 2) + "\n";
 }
 
 CollectRequest StageRun::Request() const {

@@ -126,7 +126,7 @@ std::string ShapeText(const Json& shape) {
   std::string text;
   for (const Json& length : shape)
     text += (text.empty() ? "" : " x ") +
-            (length.is_string() ? length.get<std::string>() : length.dump());
+            (length.is_string() ? length.get<std::string>() : JsonText(length));
   return text;
 }
 

@@ -103,7 +103,7 @@ std::string FailureLines(const fs::path& folder, const std::vector<ExpectedShard
   return lines;
 }
 
-std::string JsonText(const nlohmann::ordered_json& json) { return json.dump(2) + "\n"; }
+std::string RecordText(const nlohmann::ordered_json& json) { return JsonText(json, 2) + "\n"; }
 
 }  // namespace
 
@@ -142,7 +142,7 @@ void BeginDataset(FileSystem& files, const fs::path& folder, const std::string& 
                   const DatasetProvenance& provenance) {
   files.CreateFolder(folder);
   CommitConfig(files, folder / "config.yaml", config_text);
-  CommitUnlessSame(files, folder / "provenance.json", JsonText(ProvenanceToJson(provenance)));
+  CommitUnlessSame(files, folder / "provenance.json", RecordText(ProvenanceToJson(provenance)));
   for (const char* split : {"train", "val"})
     CommitUnlessSame(files, folder / "splits" / (std::string(split) + ".txt"),
                      SplitLines(provenance, split));
@@ -155,7 +155,7 @@ void FinishDataset(FileSystem& files, const fs::path& folder) {
   const DatasetRecord record = SummarizeShards(folder);
   CommitUnlessSame(files, folder / "failures.jsonl", FailureLines(folder, shards));
   CommitUnlessSame(files, folder / "README.md", DatasetCard(record, provenance));
-  CommitUnlessSame(files, folder / "dataset.json", JsonText(DatasetToJson(record)));
+  CommitUnlessSame(files, folder / "dataset.json", RecordText(DatasetToJson(record)));
 }
 
 }  // namespace doorforge

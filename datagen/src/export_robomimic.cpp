@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/file_system.h"
 #include "doorforge/core/free_space.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
@@ -117,7 +118,7 @@ class Exporter {
                       {"env_version", provenance_.code_version},
                       {"env_kwargs", {{"stage", request_.stage}, {"seed", provenance_.seed}}}};
     file_.SetAttribute("data", "total", static_cast<std::int64_t>(summary_.samples));
-    file_.SetAttribute("data", "env_args", env.dump());
+    file_.SetAttribute("data", "env_args", JsonText(env));
     file_.SetAttribute("data", "schema", "doorforge.robomimic 1");
     file_.SetAttribute("data", "config_sha256", provenance_.config_sha256);
     file_.Close();
@@ -163,7 +164,7 @@ class Exporter {
   void DescribeEpisode(const ShardReader& shard, std::size_t episode, const std::string& group) {
     const Json meta = ReadEpisodeMeta(shard, episode);
     const std::string where = shard.Describe(episode, "meta.json");
-    file_.WriteText(group + "/meta", meta.dump());
+    file_.WriteText(group + "/meta", JsonText(meta));
     file_.SetAttribute(group, "success", ValueOf<bool>(meta, "success", where) ? 1 : 0);
     file_.SetAttribute(group, "key", shard.index().episodes[episode].key);
     const std::string id = ValueOf<std::string>(MemberOf(meta, "scene", where), "door_id", where);
@@ -196,7 +197,7 @@ RobomimicSummary ExportRobomimic(const RobomimicRequest& request) {
     throw Error(ErrorCode::kInvalidArgument,
                 request.out.string() + ": already exists; pass --overwrite to replace it");
   const std::vector<DatasetPart> parts = PartsOfStage(request.folder, request.stage);
-  if (request.out.has_parent_path()) fs::create_directories(request.out.parent_path());
+  if (request.out.has_parent_path()) SystemFiles().CreateFolder(request.out.parent_path());
   RequireSpaceForFile(request.out, parts);
   PartialFile partial(request.out);
   Exporter exporter(request, partial.path());

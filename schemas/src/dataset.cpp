@@ -354,7 +354,7 @@ std::string FailureLine(const FailedEpisode& failure, const DatasetPart& part) {
                      {"detail", failure.detail},
                      {"peak_hinge_rad", failure.peak_hinge_rad},
                      {"peak_handle_rad", failure.peak_handle_rad}};
-  return json.dump();
+  return JsonText(json);
 }
 
 std::string DatasetCard(const DatasetRecord& record, const DatasetProvenance& provenance) {

@@ -10,6 +10,7 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
+#include "doorforge/core/record_id.h"
 #include "doorforge/schemas/mesh_file.h"
 #include "doorforge/schemas/mesh_pool.h"
 
@@ -128,7 +129,7 @@ struct Readers {
 DoorGeometry GeometryFromJson(const Json& json, const DoorSource& source, const Readers& readers,
                               const std::string& path) {
   DoorGeometry geometry;
-  geometry.name = ValueOf<std::string>(json, "name", path);
+  geometry.name = IdOf(json, "name", path);
   geometry.label = LabelNamed(ValueOf<std::string>(json, "label", path), path);
   geometry.color_rgba = internal::ColorFromJson(MemberOf(json, "color_rgba", path), path);
   const DoorSource::Names names = source.NamesOf(json, path);
@@ -145,7 +146,7 @@ DoorGeometry GeometryFromJson(const Json& json, const DoorSource& source, const 
 DoorLink LinkFromJson(const Json& json, const DoorSource& source, const Readers& readers,
                       const std::string& path) {
   DoorLink link;
-  link.name = ValueOf<std::string>(json, "name", path);
+  link.name = IdOf(json, "name", path);
   link.mass = internal::MassFromJson(MemberOf(json, "mass", path), path);
   for (const Json& piece : MemberOf(json, "geometry", path))
     link.geometry.push_back(GeometryFromJson(piece, source, readers, path));
@@ -220,7 +221,7 @@ Enum NamedOr(std::optional<Enum> (*find)(std::string_view), const Json& json, co
 }
 
 void ReadIdentity(const Json& json, const std::string& path, DoorAsset& door) {
-  door.id = ValueOf<std::string>(json, "id", path);
+  door.id = IdOf(json, "id", path);
   const auto category = CategoryNamed(ValueOf<std::string>(json, "category", path));
   const auto mechanism = MechanismNamed(ValueOf<std::string>(json, "mechanism", path));
   if (!category || !mechanism)
@@ -371,7 +372,7 @@ std::string PooledDoorText(const DoorAsset& door, const DoorFiles& files,
           PooledGeometryToJson(door.links[i].geometry[k], files[i].at(k), shapes[i].at(k)));
     json["links"].push_back(LinkToJson(door.links[i], geometry));
   }
-  return json.dump() + "\n";
+  return JsonText(json) + "\n";
 }
 
 void RequireSimulatable(const DoorAsset& door, std::string_view user) {
@@ -403,6 +404,6 @@ void RequireSimulatable(const DoorAsset& door, std::string_view user) {
           "compose it with latch: effort");
 }
 
-std::string ContentHash(const DoorAsset& door) { return Sha256Hex(DoorToJson(door).dump()); }
+std::string ContentHash(const DoorAsset& door) { return Sha256Hex(JsonText(DoorToJson(door))); }
 
 }  // namespace doorforge

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
 #include "doorforge/schemas/npy.h"
 
 namespace doorforge {
@@ -152,7 +153,7 @@ std::vector<MemberBytes> EncodeEpisode(const Episode& episode, const nlohmann::o
       {"executed.npy", npy(columns.executed, {count, 9})},
       {"joints.npy", npy(columns.joints, {count, 2})},
       {"label.npy", MakeNpy<std::uint8_t>(columns.label, {count, points})},
-      {"meta.json", meta.dump(1) + "\n"},
+      {"meta.json", JsonText(meta, 1) + "\n"},
       {"proprio.npy", npy(columns.proprio, {count, 32})},
       {"score.npy", npy(columns.score, {count, 1})},
       {"state.npy", MakeNpy<double>(columns.state, {count, std::tuple_size_v<JointState>})}};
@@ -185,13 +186,8 @@ EpisodeArrays ViewEpisode(const ShardReader& reader, std::size_t episode) {
 
 nlohmann::ordered_json ReadEpisodeMeta(const ShardReader& reader, std::size_t episode) {
   const std::span<const std::byte> bytes = reader.Read(episode, "meta.json");
-  try {
-    const auto* text = reinterpret_cast<const char*>(bytes.data());
-    return nlohmann::ordered_json::parse(text, text + bytes.size());
-  } catch (const nlohmann::json::exception& error) {
-    throw Error(ErrorCode::kFormat,
-                reader.Describe(episode, "meta.json") + ": not JSON: " + error.what());
-  }
+  return ParseJson({reinterpret_cast<const char*>(bytes.data()), bytes.size()},
+                   reader.Describe(episode, "meta.json"));
 }
 
 }  // namespace doorforge

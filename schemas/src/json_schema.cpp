@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
 #include "doorforge/schemas/dataset.h"
 #include "doorforge/schemas/episode.h"
 #include "doorforge/schemas/names.h"
@@ -221,7 +222,7 @@ RecordSchema ShardIndexSchema() {
   index.tar = "shard-000000.tar";
   index.episodes.push_back({"ep000000", 1, {{"meta.json", 512, 1, 0}}});
   index.failures.push_back(ExampleFailure());
-  return SchemaBuilder("shard_index", Json::parse(ShardIndexText(index)))
+  return SchemaBuilder("shard_index", ParseJson(ShardIndexText(index), "example"))
       .OneOf("stage", kStageNames)
       .Optional("", "index_crc32c")
       .Finish("Index of a shard, beside its tar");
@@ -237,7 +238,7 @@ RecordSchema EpisodeSchema() {
 
 RecordSchema FailureSchema() {
   DatasetPart part;
-  return SchemaBuilder("failure", Json::parse(FailureLine(ExampleFailure(), part)))
+  return SchemaBuilder("failure", ParseJson(FailureLine(ExampleFailure(), part), "example"))
       .OneOf("stage", kStageNames)
       .Finish("A line of failures.jsonl");
 }

@@ -85,11 +85,11 @@ std::string ShapeText(const PooledShape& shape) {
                {"mesh", shape.mesh},
                {"hulls", shape.hulls}};
   if (shape.visual) json["visual"] = VisualToJson(*shape.visual);
-  return json.dump() + "\n";
+  return JsonText(json) + "\n";
 }
 
 std::string MeshPoolText() {
-  return Json{{"schema", kPoolSchema}, {"schema_version", kMeshPoolSchemaVersion}}.dump() + "\n";
+  return JsonText(Json{{"schema", kPoolSchema}, {"schema_version", kMeshPoolSchemaVersion}}) + "\n";
 }
 
 MeshPool::MeshPool(const fs::path& door_folder, std::string record) : record_(std::move(record)) {
@@ -130,8 +130,7 @@ std::string MeshPool::Read(const std::string& sha256, const std::string& extensi
 PooledShape MeshPool::ReadShape(const std::string& sha256) const {
   const std::string text = Read(sha256, ".json");
   const std::string path = (pool_ / PooledFileName(sha256, ".json")).string();
-  const Json json = Json::parse(text, nullptr, false);
-  if (json.is_discarded()) throw Error(ErrorCode::kFormat, path + ": is not JSON");
+  const Json json = ParseJson(text, path);
   RequireSchema(json, kShapeSchema, kMeshPoolSchemaVersion, path);
   PooledShape shape{ValueOf<std::string>(json, "mesh", path), {}};
   for (const Json& hull : MemberOf(json, "hulls", path)) {

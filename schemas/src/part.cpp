@@ -6,6 +6,7 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
+#include "doorforge/core/record_id.h"
 #include "doorforge/schemas/mesh_file.h"
 
 #include "record_json.h"
@@ -39,7 +40,7 @@ Json PieceToJson(const PartPiece& piece) {
 PartPiece PieceFromJson(const Json& json, const MeshReader& read_mesh,
                         const VisualReader& read_visual, const std::string& path) {
   PartPiece piece;
-  piece.name = ValueOf<std::string>(json, "name", path);
+  piece.name = IdOf(json, "name", path);
   piece.mesh = internal::ReadReferencedMesh(MemberOf(json, "mesh", path), read_mesh, path);
   for (const Json& hull : MemberOf(json, "hulls", path))
     piece.hulls.push_back(internal::ReadReferencedMesh(hull, read_mesh, path));
@@ -134,7 +135,7 @@ Part ReadPart(const std::filesystem::path& folder, const MeshReader& read_mesh,
   const Json json = ReadJsonFile(path);
   RequireSchema(json, "doorforge.part", kPartSchemaVersion, path);
   Part part;
-  part.id = ValueOf<std::string>(json, "id", path);
+  part.id = IdOf(json, "id", path);
   part.role = Named(PartRoleNamed, json, "role", path);
   part.category = Named(CategoryNamed, json, "category", path);
   part.mechanism = Named(MechanismNamed, json, "mechanism", path);
@@ -156,7 +157,7 @@ Part ReadPart(const std::filesystem::path& folder, const MeshReader& read_mesh,
   return part;
 }
 
-std::string ContentHash(const Part& part) { return Sha256Hex(PartToJson(part).dump()); }
+std::string ContentHash(const Part& part) { return Sha256Hex(JsonText(PartToJson(part))); }
 
 const PartPiece* FindPiece(const Part& part, std::string_view name) {
   for (const PartPiece& piece : part.pieces) {

@@ -3,6 +3,7 @@
 #include "doorforge/schemas/part_identity.h"
 
 #include "doorforge/core/json_file.h"
+#include "doorforge/core/record_id.h"
 
 namespace doorforge {
 
@@ -19,7 +20,7 @@ nlohmann::ordered_json IdentityToJson(const PartIdentity& identity) {
 }
 
 PartIdentity IdentityFromJson(const nlohmann::ordered_json& json, const std::string& path) {
-  return {ValueOf<std::string>(json, "id", path), ValueOf<std::string>(json, "sha256", path),
+  return {IdOf(json, "id", path), ValueOf<std::string>(json, "sha256", path),
           ShapeOfRecord(json, path)};
 }
 

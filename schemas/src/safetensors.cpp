@@ -14,6 +14,7 @@
 
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
 
 namespace doorforge {
 namespace {
@@ -68,8 +69,8 @@ Json ParseHeader(std::string_view text, const std::string& path) {
   Json header;
   try {
     header = Json::parse(text.begin(), text.end(), check);
-  } catch (const nlohmann::json::exception& error) {
-    Refuse(path, error.what());
+  } catch (const nlohmann::json::exception&) {
+    Refuse(path, "the header is not JSON");
   }
   if (!problem.empty()) Refuse(path, problem);
   if (!header.is_object()) Refuse(path, "the header is not an object");
@@ -167,7 +168,7 @@ std::string EncodeTensors(const TensorFile& file) {
     json["data_offsets"] = {offset, offset + tensor.bytes.size()};
     offset += tensor.bytes.size();
   }
-  std::string text = header.dump();
+  std::string text = JsonText(header);
   text.resize(
       (kLengthBytes + text.size() + kAlignment - 1) / kAlignment * kAlignment - kLengthBytes, ' ');
 

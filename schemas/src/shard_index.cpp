@@ -90,9 +90,9 @@ void CheckNames(const ShardIndex& index, const std::string& path) {
 constexpr const char* kChecksum = "index_crc32c";
 
 std::string WithChecksum(Json json) {
-  const std::string text = json.dump(2) + "\n";
+  const std::string text = JsonText(json, 2) + "\n";
   json[kChecksum] = Crc32c(std::as_bytes(std::span(text)));
-  return json.dump(2) + "\n";
+  return JsonText(json, 2) + "\n";
 }
 
 // The file's text is the one that a writer of this JSON writes. One without checksum is of an

@@ -34,9 +34,13 @@ std::optional<Json> EntryAt(std::string_view journal, std::uint64_t at) {
   if (end == std::string_view::npos || end < at + kCrcDigits + 1) return std::nullopt;
   const std::string_view text = journal.substr(at + kCrcDigits + 1, end - at - kCrcDigits - 1);
   if (journal.substr(at, kCrcDigits + 1) != CrcText(text) + " ") return std::nullopt;
-  Json entry = Json::parse(text, nullptr, false);
-  if (!entry.is_object()) return std::nullopt;
-  return entry;
+  try {
+    Json entry = ParseJson(text, "journal");
+    if (entry.is_object()) return entry;
+  } catch (const Error&) {
+    // a damaged end of a journal is what it is read for
+  }
+  return std::nullopt;
 }
 
 // Whether the tar has this episode at `at`, whole; `at` moves behind it.
@@ -122,7 +126,7 @@ fs::path JournalPath(const fs::path& folder, int number) {
 }
 
 std::string JournalLine(const Json& entry) {
-  const std::string text = entry.dump();
+  const std::string text = JsonText(entry);
   return CrcText(text) + " " + text + "\n";
 }
 

@@ -144,27 +144,6 @@ TEST_F(CollectionTest, EndsWithTheErrorOfABrokenRunner) {
   EXPECT_FALSE(fs::exists(folder_ / "dataset.json"));
 }
 
-TEST_F(CollectionTest, RemovesOnlyTheTemporaryFilesOfDeadWriters) {
-  fs::create_directories(folder_ / "open");
-  const pid_t child = ::fork();
-  if (child == 0) ::_exit(0);
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  char host[256] = {};
-  ::gethostname(host, sizeof host - 1);
-  const std::string here = std::string("-0-") + host;
-  const fs::path dead = folder_ / "open" / (".a.tmp-" + std::to_string(child) + here);
-  const fs::path alive = folder_ / (".a.tmp-" + std::to_string(::getpid()) + here);
-  const fs::path elsewhere = folder_ / (".a.tmp-" + std::to_string(child) + "-0-other");
-  const fs::path other = folder_ / ".notes.tmp-x-0";
-  for (const fs::path& path : {dead, alive, elsewhere, other}) std::ofstream(path) << "x";
-  RemoveStaleFiles(SystemFiles(), folder_);
-  EXPECT_FALSE(fs::exists(dead));
-  EXPECT_TRUE(fs::exists(alive));
-  EXPECT_TRUE(fs::exists(elsewhere));
-  EXPECT_TRUE(fs::exists(other));
-}
-
 TEST_F(CollectionTest, PutsTheDoorsOfEachSplitIntoAFile) {
   CollectInto(folder_);
   std::set<std::string> ids;

@@ -79,6 +79,18 @@ void AddMutationsOfFiles(std::vector<BrokenDoor>& all) {
                    })(f);
                  },
                  "2 times"});
+  const auto named = [](const std::function<Json&(Json&)>& id, const char* name) {
+    return InJson([=](Json& j) { id(j) = name; });
+  };
+  all.push_back({"REC004", {}, named([](Json& j) -> Json& { return j["id"]; }, "/etc"), "/etc"});
+  all.push_back({"REC004", {}, named([](Json& j) -> Json& { return j["id"]; }, ""), "the id \"\""});
+  all.push_back(
+      {"REC004", {}, named([](Json& j) -> Json& { return j["body"]["id"]; }, "../x"), "../x"});
+  all.push_back(
+      {"REC004",
+       {},
+       named([](Json& j) -> Json& { return j["links"][1]["geometry"][0]["name"]; }, "-rf"),
+       "-rf"});
   all.push_back({"MSH001", {}, [](const fs::path& f) { fs::remove(f / kLeafMesh); }, "missing"});
   all.push_back({"MSH002",
                  {},

@@ -117,7 +117,7 @@ TEST(Catalogue, BuildsTheSameBytesTwiceAndInAnyNumberOfThreads) {
 TEST(Catalogue, PartsReadBackEqualAndBreakNoRule) {
   for (const Part& part : AllParts()) {
     const fs::path folder = ScratchFolder("catalogue") / part.id;
-    StagedFolder staged(folder, Existing::kReplace);
+    StagedFolder staged(folder, kPartFolder, Existing::kReplace);
     WritePart(part, staged.path());
     staged.Commit();
     EXPECT_EQ(ContentHash(ReadPart(folder)), ContentHash(part)) << part.id;

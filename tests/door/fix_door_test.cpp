@@ -163,7 +163,7 @@ TEST(FixFolder, MendsAPart) {
   for (Eigen::Vector3i& t : part.pieces[0].mesh.triangles) std::swap(t[0], t[1]);
   part.pieces[0].mass.inertia_kg_m2.setZero();
   const fs::path folder = ValidationFolder("fix_part");
-  StagedFolder staged(folder, Existing::kReplace);
+  StagedFolder staged(folder, kPartFolder, Existing::kReplace);
   WritePart(part, staged.path());
   staged.Commit();
   CommitFile(folder / "notes.txt", "the author's own");

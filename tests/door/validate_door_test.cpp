@@ -180,7 +180,7 @@ TEST(ValidatePart, FindsAGraspBesideTheHandleAndAnOpenMesh) {
   part.joint = {{0, 0, 0}, {1, 0, 0}, 0, 0.78};
   part.part_from_grasp = door.handle_from_grasp;
   const auto validate = [&](const std::string& name) {
-    StagedFolder staged(ValidationFolder(name), Existing::kReplace);
+    StagedFolder staged(ValidationFolder(name), kPartFolder, Existing::kReplace);
     WritePart(part, staged.path());
     staged.Commit();
     return ValidatePart(ValidationFolder(name));

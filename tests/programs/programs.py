@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the tests of the programs share: running a verb, and real assets where they are at hand."""
 import pathlib
+import resource
 import subprocess
 import sys
 import tempfile
@@ -12,10 +13,11 @@ BINARY_DIR = pathlib.Path(sys.argv.pop(1)) if len(sys.argv) > 1 else SOURCE / "b
 SHARED_ASSETS = SOURCE.parent / "shared/assets"
 
 
-def run(*arguments: object, timeout: float = 300) -> subprocess.CompletedProcess:
-    """Runs `doorforge ARGUMENTS`. A hang ends in TimeoutExpired."""
+def run(*arguments: object, timeout: float = 300, memory_gib: int | None = None) -> subprocess.CompletedProcess:
+    """Runs `doorforge ARGUMENTS`. A hang ends in TimeoutExpired; more memory than allowed is not to be had."""
     command = [str(BINARY_DIR / "bin/doorforge"), *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, timeout=timeout, errors="replace")
+    limit = None if memory_gib is None else lambda: resource.setrlimit(resource.RLIMIT_AS, (memory_gib << 30,) * 2)
+    return subprocess.run(command, capture_output=True, text=True, timeout=timeout, errors="replace", preexec_fn=limit)
 
 
 def real_assets(group: str) -> pathlib.Path:

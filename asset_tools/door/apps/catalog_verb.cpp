@@ -11,9 +11,11 @@
 #include <nlohmann/json.hpp>
 
 #include "doorforge/core/committed_file.h"
+#include "doorforge/core/json_file.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
+#include "doorforge/core/record_id.h"
 #include "doorforge/core/rigid_transform.h"
 #include "doorforge/door/catalogue.h"
 #include "doorforge/schemas/split.h"
@@ -73,9 +75,10 @@ int List(const Options& options) {
   if (options.json) {
     Json parts = Json::array();
     for (const CatalogueEntry& entry : entries) parts.push_back(ToJson(entry));
-    std::cout
-        << Json{{"schema", "doorforge.catalog"}, {"schema_version", 1}, {"parts", parts}}.dump(2)
-        << '\n';
+    std::cout << JsonText(
+                     Json{{"schema", "doorforge.catalog"}, {"schema_version", 1}, {"parts", parts}},
+                     2)
+              << '\n';
     return 0;
   }
   for (const CatalogueEntry& entry : entries)
@@ -110,7 +113,7 @@ int Show(const Options& options) {
   json["pieces"] = Json::array();
   for (const PartPiece& piece : part.pieces) json["pieces"].push_back(PieceToJson(piece));
   if (options.json) {
-    std::cout << json.dump(2) << '\n';
+    std::cout << JsonText(json, 2) << '\n';
     return 0;
   }
   std::printf("%s: %s of category %s, mechanism %s, family %s\n%s\n", part.id.c_str(),
@@ -130,7 +133,7 @@ int Build(const Options& options) {
   ParallelFor(entries.size(), options.threads, [&](std::size_t i) {
     try {
       if (StopRequested() != 0) throw Error(ErrorCode::kIncomplete, "stopped before its turn");
-      StagedFolder staged(fs::path(options.out) / entries[i].id, existing);
+      StagedFolder staged(OutputBelow(options.out, entries[i].id), kPartFolder, existing);
       WritePart(BuildCataloguePart(entries[i]), staged.path());
       staged.Commit();
     } catch (const Error& error) {
@@ -150,10 +153,10 @@ int Build(const Options& options) {
     std::fprintf(stderr, "doorforge: %s: %s\n", entries[i].id.c_str(), problems[i].c_str());
   }
   if (options.json)
-    std::cout << Json{{"schema", "doorforge.catalog_build"},
-                      {"schema_version", 1},
-                      {"parts", parts}}
-                     .dump(2)
+    std::cout << JsonText(Json{{"schema", "doorforge.catalog_build"},
+                               {"schema_version", 1},
+                               {"parts", parts}},
+                          2)
               << '\n';
   else
     std::printf("%zu parts built in %s\n", entries.size() - failed, options.out.c_str());

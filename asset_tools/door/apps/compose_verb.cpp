@@ -21,6 +21,7 @@
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
+#include "doorforge/core/record_id.h"
 #include "doorforge/door/author_place.h"
 #include "doorforge/door/catalogue.h"
 #include "doorforge/door/compose.h"
@@ -291,7 +292,7 @@ int Finish(const std::vector<Door>& doors, const Options& options) {
     std::fprintf(stderr, "doorforge: %s: %s\n", door.id.c_str(), door.problem.c_str());
   }
   if (options.json)
-    std::cout << ReportOf(doors).dump(2) << '\n';
+    std::cout << JsonText(ReportOf(doors), 2) << '\n';
   else if (!options.quiet)
     std::printf("%zu doors composed in %s%s%s\n", doors.size() - failed, options.out.c_str(),
                 kept == 0 ? "" : (", " + std::to_string(kept) + " of them there already").c_str(),
@@ -421,7 +422,7 @@ std::vector<Door> WriteStandalone(const SharedDoorPlan& plan, const PartStore& s
       if (StopRequested() != 0) throw Error(ErrorCode::kIncomplete, "stopped before its turn");
       const DoorAsset door = ComposeDoor(body, handle, plan.config, plan.pairs[i].body_from_handle);
       doors[i].id = door.id;
-      WriteDoorFolder(door, out / door.id, plan.existing);
+      WriteDoorFolder(door, OutputBelow(out, door.id), plan.existing);
     } catch (const Error& error) {
       doors[i].problem = error.what();
     }
@@ -485,7 +486,7 @@ class OneDoor {
 
   int Run() {
     // refuses what is there already before anything is imported
-    { const StagedFolder probe(options_.out, OnExisting(options_)); }
+    { const StagedFolder probe(options_.out, kDoorFolder, OnExisting(options_)); }
     LoadParts();
     const fs::path body_folder = store_.FolderOf(request_.body);
     const std::optional<RigidTransform> authored =

@@ -10,9 +10,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "doorforge/core/json_file.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
+#include "doorforge/core/record_id.h"
 #include "doorforge/door/export_door.h"
 #include "doorforge/door/validate_door.h"
 
@@ -77,7 +79,7 @@ void Export(const Options& options, const std::vector<DoorFormat>& formats, Expo
     if (StopRequested() != 0) throw Error(ErrorCode::kIncomplete, "stopped before its turn");
     const DoorAsset door = ReadDoor(exported.folder);
     exported.id = door.id;
-    WriteExportedDoor(door, formats, fs::path(options.out) / door.id,
+    WriteExportedDoor(door, formats, OutputBelow(options.out, door.id),
                       options.overwrite ? Existing::kReplace : Existing::kRefuse);
   } catch (const Error& error) {
     exported.problem = error.what();
@@ -97,10 +99,10 @@ int Finish(const std::vector<Exported>& doors, const Options& options) {
     std::fprintf(stderr, "doorforge: %s: %s\n", door.folder.c_str(), door.problem.c_str());
   }
   if (options.json)
-    std::cout << nlohmann::ordered_json{{"schema", "doorforge.export"},
-                                        {"schema_version", 1},
-                                        {"doors", list}}
-                     .dump(2)
+    std::cout << JsonText(
+                     nlohmann::ordered_json{
+                         {"schema", "doorforge.export"}, {"schema_version", 1}, {"doors", list}},
+                     2)
               << '\n';
   else
     std::printf("%zu doors exported to %s\n", doors.size() - failed, options.out.c_str());

@@ -152,7 +152,7 @@ int RunImportVerb(int argc, char** argv) {
       ImportObjects(FindObjects(options.sources, options.format), options.out, config,
                     options.overwrite ? Existing::kReplace : Existing::kRefuse);
   if (options.json)
-    std::cout << ToJson(report).dump(2) << '\n';
+    std::cout << JsonText(ToJson(report), 2) << '\n';
   else
     PrintTable(report);
   return ExitCodeFor(report);

@@ -82,25 +82,9 @@ std::string SizeNote(const Part& part) {
 
 }  // namespace
 
-OwnPart::OwnPart(const OwnPartRequest& request, const fs::path& beside) {
-  const fs::path parent = fs::absolute(beside).lexically_normal().parent_path();
-  fs::create_directories(parent);
-  std::string name = (parent / ".own-part-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr)
-    throw Error(ErrorCode::kIo, parent.string() + ": no folder can be made in it");
-  scratch_ = name;
-  try {
-    Import(request);
-  } catch (...) {
-    std::error_code ignored;
-    fs::remove_all(scratch_, ignored);
-    throw;
-  }
-}
-
-OwnPart::~OwnPart() {
-  std::error_code ignored;
-  fs::remove_all(scratch_, ignored);
+OwnPart::OwnPart(const OwnPartRequest& request, const fs::path& beside)
+    : scratch_(fs::absolute(beside).lexically_normal().parent_path(), kPartFolder) {
+  Import(request);
 }
 
 void OwnPart::Import(const OwnPartRequest& request) {
@@ -109,9 +93,9 @@ void OwnPart::Import(const OwnPartRequest& request) {
   config.read.mesh = request.mesh;
   config.read.mesh.role = NameOf(request.role);
   const ImportReport report =
-      ImportObjects(FindObjects(request.source), scratch_, config, Existing::kRefuse);
+      ImportObjects(FindObjects(request.source), scratch_.path(), config, Existing::kRefuse);
   const ImportedObject& object = OnlyObject(report, request);
-  folder_ = scratch_ / PartOf(object, request.role);
+  folder_ = scratch_.path() / PartOf(object, request.role);
   part_ = ReadPart(folder_);
   notes_ = {SizeNote(part_)};
   for (const std::string& note : object.notes) notes_.push_back(WithFlags(note, request.role));

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "doorforge/core/committed_file.h"
 #include "doorforge/door/foreign_object.h"
 #include "doorforge/schemas/part.h"
 
@@ -27,7 +28,6 @@ class OwnPart {
   ///     Error(kInvalidArgument or kFormat) with import's message, or if it holds none or several
   ///     of the role, or a handle that is not as long as handles are.
   OwnPart(const OwnPartRequest& request, const std::filesystem::path& beside);
-  ~OwnPart();
   OwnPart(const OwnPart&) = delete;
   OwnPart& operator=(const OwnPart&) = delete;
 
@@ -41,7 +41,7 @@ class OwnPart {
   void Import(const OwnPartRequest& request);
   void CheckLength() const;
 
-  std::filesystem::path scratch_;
+  StagedBatch scratch_;  // never committed
   std::filesystem::path folder_;
   Part part_;
   std::vector<std::string> notes_;

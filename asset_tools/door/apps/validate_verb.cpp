@@ -12,6 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "doorforge/core/json_file.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
@@ -153,7 +154,7 @@ void PrintReports(const Options& options, const Results& results,
     nlohmann::ordered_json json = ToJson(reports);
     json["complete"] = reports.size() == results.reports.size();
     if (options.fix) json["fixes"] = FixesToJson(results);
-    std::cout << json.dump(2) << '\n';
+    std::cout << JsonText(json, 2) << '\n';
     return;
   }
   int errors = 0;

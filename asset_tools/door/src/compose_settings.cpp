@@ -10,7 +10,9 @@
 
 #include "doorforge/core/closed_mesh.h"
 #include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
 #include "doorforge/core/nearest_name.h"
+#include "doorforge/core/record_id.h"
 #include "doorforge/core/rng.h"
 
 namespace doorforge {
@@ -73,7 +75,7 @@ constexpr std::array kJointRanges = {
     JointRanges{{0.1, 0.2}, {1, 1.5}, {1, 2}, {1, 2}},
 };
 
-std::string Text(double value) { return nlohmann::json(value).dump(); }
+std::string Text(double value) { return JsonText(value); }
 
 [[noreturn]] void Fail(const std::string& name, const std::string& found,
                        const std::string& allowed) {
@@ -219,13 +221,20 @@ std::string PhysicsSourceOf(const ComposeConfig& config) {
 
 std::string DoorIdOf(const std::string& body, const std::string& handle,
                      const ComposeConfig& config) {
-  if (!config.id.empty()) return config.id;
+  if (!config.id.empty()) {
+    const std::string problem = IdProblem(config.id);
+    Require(problem.empty(), ErrorCode::kInvalidConfig, "config.id: " + problem);
+    return config.id;
+  }
   std::string id = body + "__" + handle;
   if (config.hinge_side == "right") id += "__right";
   if (config.opening == "push") id += "__push";
   if (config.handle_mirrored) id += "__mirrored";
   if (config.handle_turn_deg != 0) id += "__turned" + std::to_string(config.handle_turn_deg);
   if (config.seed != 0) id += "__s" + std::to_string(config.seed);
+  const std::string problem = IdProblem(id);
+  Require(problem.empty(), ErrorCode::kInvalidConfig,
+          "config.id: is made of the parts' names, and these are long: " + problem + "; give one");
   return id;
 }
 

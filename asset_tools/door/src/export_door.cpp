@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "doorforge/core/json_file.h"
 #include "doorforge/door/export_urdf.h"
 
 namespace doorforge {
@@ -62,9 +63,18 @@ std::optional<DoorFormat> DoorFormatNamed(std::string_view name) {
 
 void WriteExportedDoor(const DoorAsset& door, std::span<const DoorFormat> formats,
                        const fs::path& folder, Existing existing) {
-  StagedFolder staged(folder, existing);
+  StagedFolder staged(folder, kExportFolder, existing);
   if (std::any_of(formats.begin(), formats.end(), NamesMeshes)) WriteMeshFiles(door, staged.path());
-  for (const DoorFormat format : formats) WriteFormat(door, format, staged.path());
+  nlohmann::ordered_json names = nlohmann::ordered_json::array();
+  for (const DoorFormat format : formats) {
+    WriteFormat(door, format, staged.path());
+    names.push_back(NameOf(format));
+  }
+  WriteJsonFile(staged.path() / kExportFolder.record, {{"schema", kExportFolder.schema},
+                                                       {"schema_version", 1},
+                                                       {"door", door.id},
+                                                       {"door_sha256", ContentHash(door)},
+                                                       {"formats", names}});
   staged.Commit();
 }
 

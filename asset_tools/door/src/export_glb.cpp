@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "doorforge/core/json_file.h"
 #include "doorforge/door/export_door.h"
 
 #include "export_text.h"
@@ -239,7 +240,7 @@ class GlbWriter {
   }
 
   std::string Packed() const {
-    std::string json = gltf_.dump();
+    std::string json = JsonText(gltf_);
     json.resize((json.size() + 3) / 4 * 4, ' ');
     std::string glb;
     Append(kMagic, glb);

@@ -63,7 +63,7 @@ UrdfModel ToUrdfModel(const DoorAsset& door, const DoorFiles& files) {
 
 void WriteDoorFolder(const DoorAsset& door, const std::filesystem::path& folder,
                      Existing existing) {
-  StagedFolder staged(folder, existing);
+  StagedFolder staged(folder, kDoorFolder, existing);
   WriteDoor(door, staged.path());
   CommitFile(staged.path() / "model.urdf", ToUrdf(ToUrdfModel(door)));
   staged.Commit();

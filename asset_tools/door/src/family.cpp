@@ -7,6 +7,7 @@
 
 #include "doorforge/core/closed_mesh.h"
 #include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
 #include "doorforge/core/nearest_name.h"
 #include "doorforge/mesh/convex_parts.h"
 
@@ -35,7 +36,7 @@ const Family& FamilyNamed(std::string_view name, const std::string& path) {
 void RequireRange(const std::string& path, const char* name, double value, double low,
                   double high) {
   if (value >= low && value <= high) return;
-  const auto text = [](double number) { return nlohmann::json(number).dump(); };
+  const auto text = [](double number) { return JsonText(number); };
   throw Error(ErrorCode::kInvalidConfig, path + "." + name + ": found " + text(value) +
                                              ", allowed " + text(low) + " to " + text(high));
 }

@@ -68,7 +68,8 @@ FixReport FixFolder(const fs::path& folder, FixMode mode) {
   FixReport report{folder, {}, before};
   if (!AnyFixable(before)) return report;
   // a link to the folder stays one
-  StagedFolder staged(fs::canonical(folder), Existing::kReplace);
+  const FolderKind& kind = fs::exists(folder / kDoorFolder.record) ? kDoorFolder : kPartFolder;
+  StagedFolder staged(fs::canonical(folder), kind, Existing::kReplace);
   CopyInto(folder, staged.path());
   try {
     report.fixes = Mend(staged.path(), before);

@@ -14,6 +14,7 @@
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
+#include "doorforge/core/record_id.h"
 #include "doorforge/door/author_place.h"
 
 #include "placed_mesh.h"
@@ -266,7 +267,7 @@ class Import {
 
   void Write(PartJob& job) const {
     if (job.present || job.written) return;
-    StagedFolder staged(out_ / job.id, existing_);
+    StagedFolder staged(OutputBelow(out_, job.id), kPartFolder, existing_);
     WritePart(*job.made.part, staged.path());
     Json json = doorforge::ToJson(job.made);
     json["settings"] = settings_;

@@ -208,7 +208,7 @@ std::string HashOf(const std::vector<UniDoorManipObject::Mesh>& meshes, const Pa
     add("place", mesh.object_from_raw.translation() - origin);
     for (int axis = 0; axis < 3; ++axis) add("place", mesh.object_from_raw.linear().col(axis));
   }
-  return Sha256Hex(json.dump());
+  return Sha256Hex(JsonText(json));
 }
 
 std::vector<internal::SourceMesh> SourcesOf(const std::vector<UniDoorManipObject::Mesh>& meshes,

@@ -297,7 +297,7 @@ class DoorRecord {
   // doors of a pool have their record on one line
   void Write() const {
     const bool one_line = text_.find('\n') + 1 >= text_.size();
-    CommitFile(folder_ / "door.json", json_.dump(one_line ? -1 : 2) + "\n");
+    CommitFile(folder_ / "door.json", JsonText(json_, one_line ? -1 : 2) + "\n");
   }
 
   const fs::path& folder_;

@@ -9,6 +9,7 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
+#include "doorforge/core/record_id.h"
 #include "doorforge/schemas/mesh_file.h"
 #include "doorforge/schemas/mesh_pool.h"
 
@@ -86,7 +87,7 @@ SharedDoorOutcome WriteDoorOf(const SharedDoorPlan& plan, const PartPair& pair,
   try {
     const SharedDoor door = ComposeSharedDoor(body, handle, plan.config, pair.body_from_handle);
     outcome.id = door.id;
-    const fs::path folder = doors / door.id;
+    const fs::path folder = OutputBelow(doors, door.id);
     if (fs::exists(fs::symlink_status(folder))) {
       outcome.kept =
           Holds(folder / "door.json", door.door_json) && Holds(folder / "model.urdf", door.urdf);
@@ -94,6 +95,8 @@ SharedDoorOutcome WriteDoorOf(const SharedDoorPlan& plan, const PartPair& pair,
       if (plan.existing == Existing::kRefuse)
         throw Error(ErrorCode::kInvalidArgument,
                     folder.string() + ": holds another door; pass --overwrite to replace it");
+      RequireKind(folder,
+                  kDoorFolder);  // one that is no door does not cost the others of its batch
     }
     WriteStaged(staging / door.id / "door.json", door.door_json);
     WriteStaged(staging / door.id / "model.urdf", door.urdf);
@@ -110,7 +113,7 @@ void WriteMeshPool(std::span<const PreparedPart> parts, const fs::path& doors, i
   RequireRealFolder(pool);
   const PoolFiles files = FilesOf(parts);
   std::vector<std::pair<std::string, PoolFile>> list(files.begin(), files.end());
-  StagedBatch batch(pool);
+  StagedBatch batch(pool, kDoorFolder);
   ParallelFor(list.size(), threads, [&](std::size_t i) {
     const auto& [name, file] = list[i];
     const std::string text = TextOf(file);
@@ -127,7 +130,7 @@ std::vector<SharedDoorOutcome> WriteSharedDoors(const SharedDoorPlan& plan, cons
   for (std::size_t first = 0; first < plan.pairs.size(); first += kPairsInBatch) {
     const std::size_t count = std::min(kPairsInBatch, plan.pairs.size() - first);
     const bool stopped = StopRequested() != 0;
-    StagedBatch batch(doors);
+    StagedBatch batch(doors, kDoorFolder);
     ParallelFor(stopped ? 0 : count, plan.threads, [&](std::size_t i) {
       outcomes[first + i] = WriteDoorOf(plan, plan.pairs[first + i], doors, batch.path());
     });

@@ -9,6 +9,8 @@
 
 #include "doorforge/core/closed_mesh.h"
 #include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
+#include "doorforge/core/record_id.h"
 
 #include "findings.h"
 #include "placed_mesh.h"
@@ -49,6 +51,49 @@ Findings CheckNames(const DoorAsset& door) {
                                std::to_string(count) + " times"));
   }
   return findings;
+}
+
+// Every id in a record, with where it stands. A record that does not follow its schema has none
+// where it does not: REC001 says so.
+class IdCheck {
+ public:
+  explicit IdCheck(std::string record) : record_(std::move(record)) {}
+
+  void Id(const nlohmann::ordered_json& json, const std::string& key, const std::string& where) {
+    const auto id = json.find(key);
+    if (!json.is_object() || id == json.end() || !id->is_string()) return;
+    const std::string problem = IdProblem(id->get_ref<const std::string&>());
+    if (!problem.empty())
+      findings_.push_back(Found("REC004", record_ + ": " + where + key, problem));
+  }
+
+  void Names(const nlohmann::ordered_json& json, const std::string& key) {
+    if (!json.is_object() || !json.contains(key) || !json[key].is_array()) return;
+    for (std::size_t i = 0; i < json[key].size(); ++i) {
+      const std::string where = key + "[" + std::to_string(i) + "].";
+      Id(json[key][i], "name", where);
+      Names(json[key][i], "geometry");
+    }
+  }
+
+  Findings Take() { return std::move(findings_); }
+
+ private:
+  std::string record_;
+  Findings findings_;
+};
+
+Findings CheckIds(const fs::path& folder, const std::string& record) {
+  const nlohmann::ordered_json json = ReadJsonFile(folder / record);
+  IdCheck check(record);
+  check.Id(json, "id", "");
+  for (const char* part : {"body", "handle"}) {
+    if (json.is_object() && json.contains(part))
+      check.Id(json[part], "id", part + std::string("."));
+  }
+  check.Names(json, "links");
+  check.Names(json, "pieces");
+  return check.Take();
 }
 
 /// A geometry of a door or a piece of a part, as its files hold it.
@@ -156,7 +201,7 @@ std::shared_ptr<const LeafLines> LinesOf(const DoorOnDisk& on_disk, ValidationMe
     if (geometry[i].label == PointLabel::kHandle) continue;
     leaf.push_back(geometry[i].mesh);
     const RigidTransform& placed = on_disk.files[kLeafLink].at(i).link_from_files;
-    key += on_disk.pieces[kLeafLink][i].mesh->sha256 + TransformToJson(placed).dump();
+    key += on_disk.pieces[kLeafLink][i].mesh->sha256 + JsonText(TransformToJson(placed));
   }
   return memory.leaves.Get(
       key, [&] { return LeafLines(internal::JoinedMeshes(leaf)); },
@@ -205,6 +250,7 @@ Findings CheckOpening(const DoorAsset& door, const Findings& others, const Openi
 Findings DoorFindings(const fs::path& folder, const OpeningCheck& check, ValidationMemory& memory) {
   RecordMeshes meshes(folder, "door.json", memory);
   try {
+    if (Findings ids = CheckIds(folder, "door.json"); !ids.empty()) return ids;
     const DoorOnDisk on_disk = ReadDoorOnDisk(folder, meshes);
     const DoorAsset& door = on_disk.door;
     Findings findings = meshes.FindingsOfFiles();
@@ -229,6 +275,7 @@ Findings DoorFindings(const fs::path& folder, const OpeningCheck& check, Validat
 Findings PartFindings(const fs::path& folder, ValidationMemory& memory) {
   RecordMeshes meshes(folder, "part.json", memory);
   try {
+    if (Findings ids = CheckIds(folder, "part.json"); !ids.empty()) return ids;
     const Part part = ReadPart(folder, meshes.Reader(), meshes.Visuals());
     Findings findings = meshes.FindingsOfFiles();
     ReadPieces read(meshes);

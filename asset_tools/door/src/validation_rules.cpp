@@ -17,6 +17,9 @@ constexpr ValidationRule kRules[] = {
      "a record of this version", "write it again with `doorforge compose` or `doorforge import`"},
     {"REC002", kError, "Links and their geometry have different names", 0, "each name once",
      "rename one of them"},
+    {"REC004", kError, "Ids and names can name a file", 120,
+     "1 to {} letters, digits, '.', '_' and '-', the first a letter, a digit or '_'",
+     "give it such a name; do not use a record whose author tried another"},
 
     {"MSH001", kError, "Mesh files exist", 0, "a file", "compose the door again"},
     {"MSH002", kError, "Mesh files are canonical", 0, "only v and f lines with finite numbers",

@@ -98,7 +98,7 @@ Json RecordOf(const Options& options, const RepairConfig& config, const RepairRe
   Json record = ToJson(report);
   record["input"] = {{"path", options.input}, {"sha256", Sha256OfFile(options.input)}};
   record["config"] = ToJson(config);
-  record["config_sha256"] = Sha256Hex(record["config"].dump());
+  record["config_sha256"] = Sha256Hex(JsonText(record["config"]));
   record["code_version"] = CodeVersion();
   return record;
 }
@@ -131,10 +131,10 @@ int RunRepairVerb(int argc, char** argv) {
   if (result.mesh) {
     const Existing existing = options.overwrite ? Existing::kReplace : Existing::kRefuse;
     CommitFile(options.output, WriterFor(options.output)(result.mesh->mesh()), existing);
-    CommitFile(options.report, record.dump(2) + "\n", existing);
+    CommitFile(options.report, JsonText(record, 2) + "\n", existing);
   }
   if (options.json)
-    std::cout << record.dump(2) << '\n';
+    std::cout << JsonText(record, 2) << '\n';
   else
     Print(options, result.report);
   return result.mesh ? 0 : 1;

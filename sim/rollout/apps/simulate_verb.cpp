@@ -14,9 +14,11 @@
 #include <nlohmann/json.hpp>
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
+#include "doorforge/core/record_id.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/rollout/standing_place.h"
 #include "doorforge/schemas/find_doors.h"
@@ -80,7 +82,7 @@ void RunRow(const SimulateOptions& options, const DoorAsset& door, const RobotMo
   if (!options.film.empty()) film = std::make_unique<Film>(scene, door, robot);
   OpeningExpert expert(options.config.expert);
   Episode episode = RunEpisode(scene, door, robot, expert, film.get());
-  if (film) film->Write(options.film / (NameOf(row, door) + ".png"));
+  if (film) film->Write(OutputBelow(options.film, NameOf(row, door) + ".png"));
   for (Decision& decision : episode.decisions) decision.cloud = {};
   row.result = std::move(episode);
 }
@@ -162,7 +164,7 @@ void PrintJson(const std::vector<Row>& rows, const std::vector<DoorAsset>& doors
   for (const Row& row : rows) {
     if (row.result) json["episodes"].push_back(RowToJson(row, doors[row.door]));
   }
-  std::cout << json.dump(2) << "\n";
+  std::cout << JsonText(json, 2) << "\n";
 }
 
 }  // namespace

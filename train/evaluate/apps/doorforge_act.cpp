@@ -292,7 +292,7 @@ class Decider {
 };
 
 Json DecideLine(Decider& decider, const std::string& line) {
-  Json request = Json::parse(line, nullptr, false);
+  const Json request = ParseJson(line, "line");
   if (!request.is_object())
     throw Error(ErrorCode::kFormat, "expected a line {\"depth\": FILE, \"state\": FILE}");
   if (request.contains("handle"))
@@ -316,7 +316,7 @@ int Stream(Decider& decider) {
                 {"schema_version", kDecisionSchemaVersion},
                 {"error", error.what()}};
     }
-    std::cout << answer.dump() << std::endl;  // flushed: a robot waits for it
+    std::cout << JsonText(answer) << std::endl;  // flushed: a robot waits for it
   }
   if (StopRequested() != 0) return 128 + StopRequested();
   return failures == 0 ? 0 : 1;
@@ -333,7 +333,7 @@ int Run(int argc, char** argv) {
   if (options.stream) return Stream(decider);
   const Json decision = options.handle.empty() ? decider.Decide(options.depth, options.state)
                                                : decider.DecideGrasp(options.depth, options.handle);
-  std::cout << decision.dump(2) << "\n";
+  std::cout << JsonText(decision, 2) << "\n";
   return 0;
 }
 

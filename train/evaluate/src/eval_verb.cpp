@@ -141,7 +141,8 @@ std::string CommandLine(int argc, char** argv, const OwnPolicies& own) {
 void WriteReport(const Evaluation& evaluation, const fs::path& out, StagedFolder& staged) {
   WriteJsonFile(staged.path() / "report.json", ReportToJson(evaluation.report));
   CommitFile(staged.path() / "report.html", ReportPage(evaluation.report, evaluation.pictures));
-  CommitFile(staged.path() / "config.yaml", evaluation.report.provenance.config.dump(2) + "\n");
+  CommitFile(staged.path() / "config.yaml",
+             JsonText(evaluation.report.provenance.config, 2) + "\n");
   for (const ReportGrasp& grasp : evaluation.pictures.grasps)
     CommitFile(
         staged.path() / "heat_maps" /
@@ -156,7 +157,8 @@ int Evaluate(Options& options) {
   // refused before hours of work, not after
   std::optional<StagedFolder> staged;
   if (!options.out.empty())
-    staged.emplace(options.out, options.overwrite ? Existing::kReplace : Existing::kRefuse);
+    staged.emplace(options.out, kReportFolder,
+                   options.overwrite ? Existing::kReplace : Existing::kRefuse);
   Evaluation evaluation;
   try {
     evaluation = EvaluateOpener(options.request);
@@ -166,7 +168,7 @@ int Evaluate(Options& options) {
     return 128 + StopRequested();
   }
   if (staged) WriteReport(evaluation, options.out, *staged);
-  const std::string text = options.json ? ReportToJson(evaluation.report).dump(2) + "\n"
+  const std::string text = options.json ? JsonText(ReportToJson(evaluation.report), 2) + "\n"
                                         : ReportTable(evaluation.report);
   std::fwrite(text.data(), 1, text.size(), stdout);
   return 0;

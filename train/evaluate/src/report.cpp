@@ -125,7 +125,7 @@ Json ProvenanceToJson(const ReportProvenance& provenance) {
                {"dataset_sha256", provenance.dataset_sha256},
                {"code_version", provenance.code_version},
                {"command", provenance.command},
-               {"config_sha256", Sha256Hex(provenance.config.dump())},
+               {"config_sha256", Sha256Hex(JsonText(provenance.config))},
                {"config", provenance.config}};
   if (!provenance.handler_sha256.empty()) json["handler_sha256"] = provenance.handler_sha256;
   if (!provenance.grasper_sha256.empty()) json["grasper_sha256"] = provenance.grasper_sha256;

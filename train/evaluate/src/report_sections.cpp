@@ -7,6 +7,7 @@
 #include <map>
 
 #include "doorforge/core/hash.h"
+#include "doorforge/core/json_file.h"
 
 #include "html_text.h"
 #include "outcome_text.h"
@@ -472,9 +473,9 @@ std::string ProvenanceSection(const EvaluationReport& report) {
                      Term("grasp policy SHA-256", provenance.grasper_sha256.empty()
                                                       ? std::string("none: the expert takes hold")
                                                       : Code(provenance.grasper_sha256)) +
-                     Term("configuration SHA-256", Code(Sha256Hex(provenance.config.dump()))) +
+                     Term("configuration SHA-256", Code(Sha256Hex(JsonText(provenance.config)))) +
                      Term("seeds", SeedList(report.episodes))},
-       {"config", Escape(provenance.config.dump(2))}});
+       {"config", Escape(JsonText(provenance.config, 2))}});
 }
 
 }  // namespace doorforge::internal

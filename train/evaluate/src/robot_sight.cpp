@@ -13,6 +13,7 @@
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
 #include "doorforge/core/nearest_name.h"
 #include "doorforge/physics/door_world.h"
 #include "doorforge/rollout/run_episode.h"
@@ -56,7 +57,7 @@ class NamedNumbers {
     if (!(number >= low && number <= high)) {
       char range[80];
       std::snprintf(range, sizeof range, ", expected a number in [%g, %g]", low, high);
-      Fail(key + ": found " + value.dump() + range);
+      Fail(key + ": found " + JsonText(value) + range);
     }
     return number;
   }

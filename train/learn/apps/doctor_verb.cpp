@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/learn/instruction_set.h"
 #include "doorforge/learn/linear_algebra.h"
@@ -91,7 +92,7 @@ int RunDoctorVerb(int argc, char** argv) {
   const bool as_json = ParseJsonFlag(argc, argv);
   const Json json = Examine();
   if (as_json)
-    std::cout << json.dump(2) << "\n";
+    std::cout << JsonText(json, 2) << "\n";
   else
     Print(json);
   return json["healthy"].get<bool>() ? 0 : 1;

@@ -22,6 +22,7 @@
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/config_io.h"
 #include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
 #include "doorforge/learn/checkpoint.h"
@@ -280,7 +281,7 @@ int Train(const Options& options) {
   const std::uint64_t per_epoch = StepsPerEpoch(dataset.train.size(), config);
   PolicyOutput output{out, provenance, per_epoch, {}};
   if (first) {
-    CommitFile(out / "config.yaml", ToJson(config).dump(2) + "\n");
+    CommitFile(out / "config.yaml", JsonText(ToJson(config), 2) + "\n");
     output.turned = FitTurnedClassifier(dataset.turned_train);
     WriteTurnedClassifier(out, output.turned, dataset.content_sha256);
     if (!hooks.resume) RemoveBest(out);  // of an earlier training

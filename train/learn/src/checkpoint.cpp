@@ -141,7 +141,7 @@ BestNetworks ReadBest(const TensorFile& file, const std::string& path,
   return best;
 }
 
-std::string ConfigText(const TrainConfig& config) { return ToJson(config).dump(); }
+std::string ConfigText(const TrainConfig& config) { return JsonText(ToJson(config)); }
 
 void AddLosses(const TrainerState& state, TensorFile& file) {
   const std::vector<LossColumn> columns = LossColumnsOf(state.networks.family);
@@ -355,7 +355,7 @@ void WriteTrainerState(const fs::path& folder, const TrainerState& state,
   file.metadata = {{"config", ConfigText(provenance.config)},
                    {"dataset_sha256", provenance.dataset_sha256},
                    {"from_weights_sha256", provenance.from_weights_sha256},
-                   {"normalisation", NormalisationToJson(state.networks.normalisation).dump()},
+                   {"normalisation", JsonText(NormalisationToJson(state.networks.normalisation))},
                    {"step", std::to_string(state.step)}};
   CommitFile(folder / kStateFile, EncodeTensors(file));
 }
@@ -378,7 +378,7 @@ TrainerState ReadTrainerState(const fs::path& folder, const PolicyProvenance& ex
   });
   ReadLosses(file, path, state);
   const Json normalisation =
-      Json::parse(MetadataOf(file, "normalisation", path), nullptr, /*allow_exceptions=*/false);
+      ParseJson(MetadataOf(file, "normalisation", path), path + ": normalisation");
   state.networks.normalisation = NormalisationFromJson(normalisation, path + ": normalisation");
   state.best = ReadBest(file, path, state.networks);
   state.step = state.steps.size();

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/hash.h"
 #include "doorforge/core/nearest_name.h"
 #include "doorforge/door/foreign_object.h"
 
@@ -135,6 +136,8 @@ std::vector<ForeignObject> ReadObjects(const ForeignSource& source, const ReadCo
 namespace internal {
 
 std::string PartIdFrom(const std::string& text) {
+  constexpr std::size_t kMostOfPartId = 50;
+  constexpr std::size_t kDigits = 8;
   std::string id = text;
   for (char& c : id) {
     const bool kept =
@@ -142,7 +145,10 @@ std::string PartIdFrom(const std::string& text) {
     if (!kept) c = '-';
   }
   while (!id.empty() && (id.front() == '.' || id.front() == '-')) id.erase(0, 1);
-  return id.empty() ? "part" : id;
+  if (id.empty()) return "part";
+  if (id.size() <= kMostOfPartId) return id;
+  // two of them and what stands between make a door's id
+  return id.substr(0, kMostOfPartId - kDigits - 1) + "-" + Sha256Hex(text).substr(0, kDigits);
 }
 
 Category CategoryOr(const ReadConfig& config, Category otherwise) {

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "doorforge/core/hash.h"
+#include "doorforge/core/json_file.h"
 #include "doorforge/mesh/import_mesh.h"
 
 #include "import/authored_mesh.h"
@@ -162,7 +163,7 @@ std::string SourceHashOf(const std::vector<SourceMesh>& meshes, const Part& part
     for (int axis = 0; axis < 3; ++axis) Add(place, mesh.part_from_raw.linear().col(axis));
     json["meshes"].push_back(place);
   }
-  return Sha256Hex(json.dump());
+  return Sha256Hex(JsonText(json));
 }
 
 std::string FileNamesOf(const std::vector<SourceMesh>& meshes) {

@@ -12,6 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "doorforge/core/committed_file.h"
 #include "doorforge/schemas/episode_arrays.h"
 #include "doorforge/schemas/part_identity.h"
 #include "doorforge/schemas/shard.h"
@@ -31,6 +32,7 @@ inline constexpr int kDatasetSchemaVersion = 1;
 ///     <stage>/<split>/shard-*.tar     and .index.json
 ///
 /// Everything but the shards is written last and can be rebuilt from them and the plan.
+inline constexpr FolderKind kDatasetFolder{"a data set", "config.yaml", "# doorforge "};
 
 /// Episodes of one stage and split.
 struct DatasetPart {

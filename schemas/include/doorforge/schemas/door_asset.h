@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "doorforge/core/committed_file.h"
 #include "doorforge/core/mass_properties.h"
 #include "doorforge/core/rigid_transform.h"
 #include "doorforge/core/triangle_mesh.h"
@@ -21,6 +22,9 @@
 namespace doorforge {
 
 inline constexpr int kDoorSchemaVersion = 2;
+
+/// The folder of a door, for StagedFolder.
+inline constexpr FolderKind kDoorFolder{"a door", "door.json", "doorforge.door"};
 
 /// A mesh fixed to a link, in the link's frame.
 struct DoorGeometry {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "doorforge/core/committed_file.h"
 #include "doorforge/core/mass_properties.h"
 #include "doorforge/core/rigid_transform.h"
 #include "doorforge/core/shape_descriptor.h"
@@ -17,6 +18,9 @@
 namespace doorforge {
 
 inline constexpr int kPartSchemaVersion = 1;
+
+/// The folder of a part, for StagedFolder.
+inline constexpr FolderKind kPartFolder{"a part", "part.json", "doorforge.part"};
 
 /// One rigid piece of a part. Meshes are in the part's frame.
 struct PartPiece {

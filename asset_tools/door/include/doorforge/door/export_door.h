@@ -44,9 +44,14 @@ std::string ToGlb(const DoorAsset& door);
 /// AuthoredTexturePath(). Not checked by USD's own tools.
 std::string ToUsda(const DoorAsset& door);
 
+/// The folder of an exported door, for StagedFolder.
+inline constexpr FolderKind kExportFolder{"an exported door", "export.json",
+                                          "doorforge.exported_door"};
+
 /// Commits `folder` with the files of these formats and, for those that name them, `meshes/`:
-/// model.urdf, model.xml (MJCF), model.sdf and model.config, model.glb, model.usda. Throws
-/// Error(kInvalidArgument) if the folder exists and may not be replaced. Deterministic.
+/// model.urdf, model.xml (MJCF), model.sdf and model.config, model.glb, model.usda; and
+/// export.json, which says of which door and by whom. Throws Error(kInvalidArgument) if the folder
+/// exists and may not be replaced: only what holds an export.json of ours is. Deterministic.
 void WriteExportedDoor(const DoorAsset& door, std::span<const DoorFormat> formats,
                        const std::filesystem::path& folder, Existing existing);
 

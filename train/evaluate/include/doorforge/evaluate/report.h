@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "doorforge/core/committed_file.h"
 #include "doorforge/evaluate/evaluated_episode.h"
 #include "doorforge/evaluate/success_statistics.h"
 #include "doorforge/schemas/seen_parts.h"
@@ -15,6 +16,9 @@
 namespace doorforge {
 
 inline constexpr int kReportSchemaVersion = 4;
+
+/// The folder of a report, for StagedFolder.
+inline constexpr FolderKind kReportFolder{"a report", "report.json", "doorforge.report"};
 
 /// What a report says of a door.
 struct ReportDoor {

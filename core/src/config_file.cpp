@@ -126,6 +126,13 @@ Json ParseSettings(const std::vector<std::string>& settings) {
   return root;
 }
 
+std::string internal::WithConfigName(const std::string& path, const Error& error) {
+  const std::string what = error.what();
+  const bool is_of_config =
+      error.code() == ErrorCode::kInvalidConfig && what.starts_with("config.");
+  return is_of_config ? (path.empty() ? "--set" : path) + ": " + what : what;
+}
+
 Json internal::ReadConfigFile(const std::filesystem::path& path) {
   Json json = ParseYaml(ReadFile(path, 1ULL << 20), path.string());
   return json.is_null() ? Json::object() : json;

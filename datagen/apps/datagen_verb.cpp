@@ -296,7 +296,8 @@ int RunDatagenVerb(int argc, char** argv) {
   ParseVerb(app, argc, argv);
   if (options.policies.Any() && !RunsTrainedPolicies()) BecomeTrainedProgram(argc, argv);
   if (!options.slurm.file.empty()) return GiveToSlurm(options, {argv, argv + argc});
-  return plan->parsed() ? PrintPlan(options) : CollectStage(options);
+  return NamingConfig(options.config,
+                      [&] { return plan->parsed() ? PrintPlan(options) : CollectStage(options); });
 }
 
 }  // namespace doorforge

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/core/config_file.h"
 
+#include <functional>
+
 #include <gtest/gtest.h>
 
 #include "doorforge/core/committed_file.h"
@@ -110,6 +112,24 @@ TEST(ConfigFile, MessagesNameTheFileAndNoLibrary) {
   } catch (const Error& error) {
     EXPECT_TRUE(std::string(error.what()).starts_with("--set: ")) << error.what();
   }
+}
+
+TEST(ConfigFile, WhatIsRefusedLaterStillNamesTheFile) {
+  const auto use = [](const std::string& message) {
+    return [message]() -> int { throw Error(ErrorCode::kInvalidConfig, message); };
+  };
+  const auto what = [](const std::string& path, const std::function<int()>& used) {
+    try {
+      NamingConfig(path, used);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(what("my.yaml", use("config.width: is 0")), "my.yaml: config.width: is 0");
+  EXPECT_EQ(what("", use("config.width: is 0")), "--set: config.width: is 0");
+  EXPECT_EQ(what("my.yaml", use("doors: none")), "doors: none");
+  EXPECT_EQ(NamingConfig("my.yaml", [] { return 7; }), 7);
 }
 
 TEST(ConfigFile, ASettingBelowAValueIsRefusedByName) {

@@ -55,7 +55,7 @@ class HostileRecords(ProgramTest):
                 validated = run("validate", door)
                 self.assert_ends(validated, 1)
                 self.assertIn("REC004", validated.stdout)
-                film = run("simulate", door, "--episodes", 1, "--film", self.folder / "out")
+                film = run("simulate", "--door", door, "--episodes", 1, "--film", self.folder / "out")
                 self.assert_refused(film, 1, 3)
                 self.assertFalse((self.folder / "out").exists() and any((self.folder / "out").iterdir()))
                 shutil.rmtree(self.folder / "out", ignore_errors=True)
@@ -116,7 +116,7 @@ class HostileRecords(ProgramTest):
         for text in (CYCLE, BILLIONS, "[" * 100_000):
             settings = self.folder / "x.yaml"
             settings.write_text(text)
-            for command in (["simulate", door], ["datagen", "open", "--doors", door, "--out", self.folder / "d"],
+            for command in (["simulate", "--door", door], ["datagen", "open", "--doors", door, "--out", self.folder / "d"],
                             ["eval", "--policy", "expert", "--doors", door], ["compose", "--out", self.folder / "d"],
                             ["train", "open", "--data", self.folder, "--out", self.folder / "d"],
                             ["repair", self.folder / "a.obj", self.folder / "b.obj"],
@@ -142,7 +142,7 @@ class HostileRecords(ProgramTest):
     def test_names_that_are_no_utf8_are_reported_as_json(self):
         doors = self.folder / "doors"
         self.make_door()
-        bad = os.fsencode(doors) + b"/b\xffd"
+        bad = os.fsdecode(os.fsencode(doors) + b"/b\xffd")
         shutil.copytree(doors / "mine", bad)
         for command in (["validate", "--json", doors],
                         ["export", "--json", doors, "--to", "urdf", "--out", self.folder / "out", "--overwrite"]):
@@ -160,6 +160,12 @@ class HostileRecords(ProgramTest):
             self.assert_refused(result, 2)
             self.assertIn("mine.yaml", result.stderr)
             self.assertNotIn("yaml-cpp", result.stderr)
+        settings.write_text("scene: {randomisation: wild}\n")
+        for command in (["datagen", "open", "--doors", door, "--episodes", 1, "--out", self.folder / "d"],
+                        ["simulate", "--door", door, "--episodes", 1]):
+            result = run(*command, "--config", settings)
+            self.assert_refused(result, 2)
+            self.assertIn("mine.yaml", result.stderr)
         result = run("datagen", "open", "--doors", door, "--out", self.folder / "d", "--set", "scene=1", "--set",
                      "scene.seed=2")
         self.assert_refused(result, 2)

@@ -148,9 +148,10 @@ int RunImportVerb(int argc, char** argv) {
   if (!options.only.empty()) config.only = options.only;
   if (!config.read.category.empty()) CheckCategory("--category", config.read.category);
   for (const std::string& category : config.only) CheckCategory("--only", category);
-  const ImportReport report =
-      ImportObjects(FindObjects(options.sources, options.format), options.out, config,
-                    options.overwrite ? Existing::kReplace : Existing::kRefuse);
+  const ImportReport report = NamingConfig(options.config, [&] {
+    return ImportObjects(FindObjects(options.sources, options.format), options.out, config,
+                         options.overwrite ? Existing::kReplace : Existing::kRefuse);
+  });
   if (options.json)
     std::cout << JsonText(ToJson(report), 2) << '\n';
   else

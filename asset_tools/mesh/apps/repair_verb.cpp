@@ -126,7 +126,8 @@ int RunRepairVerb(int argc, char** argv) {
   const Options options = OptionsOf(argc, argv);
   const RepairConfig config = ConfigOf(options);
   CheckOutputs(options);
-  const RepairResult result = RepairMesh(MergedPieces(ImportMesh(options.input)), config);
+  const RepairResult result = NamingConfig(
+      options.config, [&] { return RepairMesh(MergedPieces(ImportMesh(options.input)), config); });
   const Json record = RecordOf(options, config, result.report);
   if (result.mesh) {
     const Existing existing = options.overwrite ? Existing::kReplace : Existing::kRefuse;

@@ -47,7 +47,7 @@ int Main(int argc, char** argv) {
   }
   options.config = LoadConfig<SimulateConfig>(config, settings);
   if (!robot.empty()) options.config.scene.robot = robot;
-  return Simulate(options);
+  return NamingConfig(config, [&] { return Simulate(options); });
 }
 
 }  // namespace

@@ -322,6 +322,15 @@ int Stream(Decider& decider) {
   return failures == 0 ? 0 : 1;
 }
 
+int Act(const Options& options) {
+  Decider decider(options);
+  if (options.stream) return Stream(decider);
+  const Json decision = options.handle.empty() ? decider.Decide(options.depth, options.state)
+                                               : decider.DecideGrasp(options.depth, options.handle);
+  std::cout << JsonText(decision, 2) << "\n";
+  return 0;
+}
+
 // `doorforge act ...` starts this program with the verb as first argument
 int Run(int argc, char** argv) {
   if (argc > 1 && std::string_view(argv[1]) == "act") {
@@ -329,12 +338,7 @@ int Run(int argc, char** argv) {
     ++argv;
   }
   const Options options = Parse(argc, argv);
-  Decider decider(options);
-  if (options.stream) return Stream(decider);
-  const Json decision = options.handle.empty() ? decider.Decide(options.depth, options.state)
-                                               : decider.DecideGrasp(options.depth, options.handle);
-  std::cout << JsonText(decision, 2) << "\n";
-  return 0;
+  return NamingConfig(options.config, [&] { return Act(options); });
 }
 
 }  // namespace

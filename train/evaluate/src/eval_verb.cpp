@@ -181,7 +181,7 @@ int RunEvalVerb(int argc, char** argv, const OwnPolicies& own) {
     Options options = Parse(argc, argv, own);
     options.request.config = ConfigOf(options);
     options.request.command = CommandLine(argc, argv, own);
-    return Evaluate(options);
+    return NamingConfig(options.config, [&] { return Evaluate(options); });
   });
 }
 

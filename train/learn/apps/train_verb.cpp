@@ -337,6 +337,9 @@ int Train(const Options& options) {
 
 }  // namespace
 
-int RunTrainVerb(int argc, char** argv) { return Train(Parse(argc, argv)); }
+int RunTrainVerb(int argc, char** argv) {
+  const Options options = Parse(argc, argv);
+  return NamingConfig(options.config, [&] { return Train(options); });
+}
 
 }  // namespace doorforge

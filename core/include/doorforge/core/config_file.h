@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "doorforge/core/config_io.h"
+#include "doorforge/core/error.h"
 
 namespace doorforge {
 
@@ -28,9 +29,16 @@ nlohmann::ordered_json ParseSettings(const std::vector<std::string>& settings);
 template <class T>
 T LoadConfig(const std::string& path, const std::vector<std::string>& settings, T defaults = {});
 
+/// Gives what `use` gives. Settings are looked at where they are used, far from their file; what is
+/// refused there as "config.<key>: ..." is refused here with the file's name in front, or with
+/// "--set" where `path` is empty.
+template <class Use>
+auto NamingConfig(const std::string& path, Use&& use);
+
 namespace internal {
+std::string WithConfigName(const std::string& path, const Error& error);
 nlohmann::ordered_json ReadConfigFile(const std::filesystem::path& path);
-}
+}  // namespace internal
 
 template <class T>
 T LoadConfig(const std::string& path, const std::vector<std::string>& settings, T defaults) {
@@ -38,6 +46,15 @@ T LoadConfig(const std::string& path, const std::vector<std::string>& settings, 
   if (!path.empty()) Assign(internal::ReadConfigFile(path), config, path + ": config");
   Assign(ParseSettings(settings), config, "--set: config");
   return config;
+}
+
+template <class Use>
+auto NamingConfig(const std::string& path, Use&& use) {
+  try {
+    return use();
+  } catch (const Error& error) {
+    throw Error(error.code(), internal::WithConfigName(path, error));
+  }
 }
 
 }  // namespace doorforge

@@ -27,9 +27,18 @@ fs::path PathInside(const std::string& relative, const fs::path& folder, const s
   return full;
 }
 
-}  // namespace
-
-namespace {
+// The bytes of a file that a record names, which must be those that were recorded.
+std::string ReadRecorded(const RecordedFile& file, const fs::path& folder,
+                         const std::string& path) {
+  std::string bytes = ReadFile(PathInside(file.path, folder, path), kMaxFileBytes);
+  const std::string found = Sha256Hex(bytes);
+  if (found != file.sha256)
+    throw Error(ErrorCode::kFormat, (folder / file.path).string() + ": SHA-256 " +
+                                        found.substr(0, 12) + "..., recorded " +
+                                        file.sha256.substr(0, 12) +
+                                        "...; the file was changed; make the part or door again");
+  return bytes;
+}
 
 Json FileToJson(const RecordedFile& file) { return {{"path", file.path}, {"sha256", file.sha256}}; }
 
@@ -87,8 +96,8 @@ TriangleMesh ReadReferencedMesh(const Json& reference, const MeshReader& read_me
 }
 
 MeshReader ReaderBelow(const fs::path& folder, const std::string& path) {
-  return [folder, path](const std::string& relative, const std::string&) {
-    return ReadObj(PathInside(relative, folder, path));
+  return [folder, path](const std::string& relative, const std::string& sha256) {
+    return ParseObj(ReadRecorded({relative, sha256}, folder, path), (folder / relative).string());
   };
 }
 
@@ -121,16 +130,8 @@ void WriteVisual(const VisualMesh& mesh, const std::string& name, const fs::path
 
 VisualReader VisualReaderBelow(const fs::path& folder, const std::string& path) {
   return [folder, path](const VisualFiles& files) {
-    return ReadVisualMesh(files, [&](const RecordedFile& file) {
-      std::string bytes = ReadFile(PathInside(file.path, folder, path), kMaxFileBytes);
-      const std::string found = Sha256Hex(bytes);
-      if (found != file.sha256)
-        throw Error(ErrorCode::kFormat, (folder / file.path).string() + ": SHA-256 " +
-                                            found.substr(0, 12) + "..., recorded " +
-                                            file.sha256.substr(0, 12) +
-                                            "...; make the part or door again");
-      return bytes;
-    });
+    return ReadVisualMesh(
+        files, [&](const RecordedFile& file) { return ReadRecorded(file, folder, path); });
   };
 }
 

@@ -31,7 +31,8 @@ Json MeshReference(const std::string& relative_path, const TriangleMesh& mesh);
 TriangleMesh ReadReferencedMesh(const Json& reference, const MeshReader& read_mesh,
                                 const std::string& path);
 
-/// Reads canonical files below `folder`. Refuses absolute paths, "..", and links out of the folder.
+/// Reads canonical files below `folder`. Refuses absolute paths, "..", links out of the folder, and
+/// a file whose SHA-256 is not the recorded one.
 MeshReader ReaderBelow(const std::filesystem::path& folder, const std::string& path);
 
 /// {"path", "sha256", "materials": {...}, "textures": [{...}]}
@@ -43,7 +44,7 @@ inline constexpr const char* kAuthoredFolder = "meshes/authored";
 void WriteVisual(const VisualMesh& mesh, const std::string& name,
                  const std::filesystem::path& folder);
 
-/// Reads visual meshes below `folder`. Refuses what ReaderBelow() refuses, and changed files.
+/// Reads visual meshes below `folder`. Refuses what ReaderBelow() refuses.
 VisualReader VisualReaderBelow(const std::filesystem::path& folder, const std::string& path);
 
 }  // namespace doorforge::internal

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
 #include <fstream>
+#include <functional>
 
 #include <gtest/gtest.h>
 
@@ -128,6 +129,43 @@ TEST_F(Records, AMeshPathThatLeavesTheFolderIsRefused) {
       EXPECT_NE(std::string(error.what()).find("leaves the folder"), std::string::npos);
     }
   }
+}
+
+// Every mesh below `folder`, with one digit of its first coordinate another one: still a mesh, and
+// not the recorded one.
+void ExpectEveryChangedMeshIsRefused(const fs::path& folder, const std::function<void()>& read) {
+  std::vector<fs::path> meshes;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() == ".obj") meshes.push_back(entry.path());
+  }
+  ASSERT_GE(meshes.size(), 2U);
+  for (const fs::path& mesh : meshes) {
+    const std::string text = ReadFile(mesh);
+    std::string changed = text;
+    changed.at(text.find_first_of("0123456789")) ^= 1;
+    CommitFile(mesh, changed);
+    EXPECT_NO_THROW(ReadObj(mesh));
+    try {
+      read();
+      ADD_FAILURE() << mesh << " was read";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kFormat);
+      EXPECT_NE(std::string(error.what()).find(mesh.string() + ": SHA-256 "), std::string::npos)
+          << error.what();
+    }
+    CommitFile(mesh, text);
+  }
+  EXPECT_NO_THROW(read());
+}
+
+TEST_F(Records, AChangedMeshOfADoorIsRefusedByName) {
+  WriteDoor(TestDoor(), folder_);
+  ExpectEveryChangedMeshIsRefused(folder_, [&] { ReadDoor(folder_); });
+}
+
+TEST_F(Records, AChangedMeshOfAPartIsRefusedByName) {
+  WritePart(LeverPart(), folder_);
+  ExpectEveryChangedMeshIsRefused(folder_, [&] { ReadPart(folder_); });
 }
 
 TEST_F(Records, ANewerSchemaVersionIsRefused) {

@@ -84,7 +84,9 @@ std::vector<EpisodeFacts> FactsOfShard(const fs::path& index) {
 std::string PreviewOf(const fs::path& index, std::size_t episode) {
   const ShardReader shard(index);
   const std::span<const std::byte> png = shard.Read(episode, "preview.png");
-  return {reinterpret_cast<const char*>(png.data()), png.size()};
+  std::string copy(reinterpret_cast<const char*>(png.data()), png.size());
+  shard.RequireWhole();
+  return copy;
 }
 
 void Count(EpisodeGroup& group, const EpisodeFacts& facts) {

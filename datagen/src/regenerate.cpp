@@ -128,6 +128,7 @@ RegenerateResult RegenerateEpisodes(const CollectionPlan& plan, const EpisodeRun
                              (ShardStem(shard->number) + ".index.json"));
     const EncodedEpisode made = RunAndEncode(*episode, DatasetDoor{}, runner);
     found[i] = Comparison(reader).Compare(episode->key, made);
+    reader.RequireWhole();
     progress.Advance();
   });
   RegenerateResult result;

@@ -184,6 +184,7 @@ DatasetPart SummarizePart(const fs::path& folder, const std::string& stage,
       part.decisions += reader.index().episodes[i].decisions;
       if (split == kTrain) statistics.Add(ViewEpisode(reader, i));
     }
+    reader.RequireWhole();
   }
   return part;
 }
@@ -455,6 +456,10 @@ EpisodeArrays DatasetReader::Arrays(std::size_t episode) const {
 Json DatasetReader::Meta(std::size_t episode) const {
   const Place& place = places_.at(episode);
   return ReadEpisodeMeta(shards_[place.shard], place.episode);
+}
+
+void DatasetReader::RequireWhole() const {
+  for (const ShardReader& shard : shards_) shard.RequireWhole();
 }
 
 std::string DatasetReader::ContentHash() const {

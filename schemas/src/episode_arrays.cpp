@@ -185,9 +185,16 @@ EpisodeArrays ViewEpisode(const ShardReader& reader, std::size_t episode) {
 }
 
 nlohmann::ordered_json ReadEpisodeMeta(const ShardReader& reader, std::size_t episode) {
+  // A copy, whole as it is taken: what is parsed can no longer be cut by another program.
   const std::span<const std::byte> bytes = reader.Read(episode, "meta.json");
-  return ParseJson({reinterpret_cast<const char*>(bytes.data()), bytes.size()},
-                   reader.Describe(episode, "meta.json"));
+  const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  reader.RequireWhole();
+  try {
+    return nlohmann::ordered_json::parse(text);
+  } catch (const nlohmann::json::exception& error) {
+    throw Error(ErrorCode::kFormat,
+                reader.Describe(episode, "meta.json") + ": not JSON: " + error.what());
+  }
 }
 
 }  // namespace doorforge

@@ -153,7 +153,9 @@ RecoveredJournal RecoverJournal(const fs::path& folder, const ShardHeader& heade
   const std::string journal = fs::exists(path) ? ReadFile(path) : std::string();
   if (!fs::exists(tar)) return Recover(journal, {}, header, path.string());
   const MappedFile mapped(tar);
-  return Recover(journal, mapped.bytes(), header, path.string());
+  RecoveredJournal recovered = Recover(journal, mapped.bytes(), header, path.string());
+  mapped.RequireWhole();
+  return recovered;
 }
 
 }  // namespace doorforge::internal

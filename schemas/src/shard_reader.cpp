@@ -97,11 +97,14 @@ std::span<const std::byte> ShardReader::Read(std::size_t episode, std::string_vi
       (mapping_->check == CrcCheck::kOnFirstRead && checked.load(std::memory_order_relaxed)))
     return bytes;
   const std::uint32_t crc32c = Crc32c(bytes);
+  if (crc32c != found->crc32c) RequireWhole();
   if (crc32c != found->crc32c)
     throw Error(ErrorCode::kFormat, CrcFault(Describe(episode, member), *found, crc32c));
   checked.store(true, std::memory_order_relaxed);
   return bytes;
 }
+
+void ShardReader::RequireWhole() const { mapping_->file.RequireWhole(); }
 
 std::optional<std::string> ShardReader::FindFrameFault() const {
   const std::span<const std::byte> bytes = mapping_->file.bytes();
@@ -151,6 +154,7 @@ std::vector<std::string> ShardReader::FindFaults() const {
   hash.Update(bytes);
   if (hash.HexDigest() != index_.tar_sha256)
     faults.push_back(tar_path_.string() + ": its SHA-256 is not the one in the index");
+  RequireWhole();
   return faults;
 }
 
@@ -213,6 +217,7 @@ RecoveredShard RecoverShard(const fs::path& tar_path) {
       recovered.incomplete_keys.push_back(episode.key);
     }
   }
+  file.RequireWhole();
   return recovered;
 }
 

@@ -66,6 +66,7 @@ void CollectPreviews(const ShardReader& shard, std::set<std::string>& wanted,
     if (wanted.erase(door) == 0) continue;
     const auto bytes = shard.Read(i, "preview.png");
     previews[door].assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    shard.RequireWhole();
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
+#include "doorforge/core/json_file.h"
 #include "doorforge/learn/cloud_geometry.h"
 #include "doorforge/learn/stage_networks.h"
 #include "doorforge/schemas/dataset.h"
@@ -33,6 +34,14 @@ std::array<float, 3> ApproachOf(const DatasetReader& reader, std::size_t episode
   const std::string path = "episode " + reader.entry(episode).key + ": meta.json";
   const Scene scene = EpisodeFromMeta(reader.Meta(episode), path).scene;
   return ToArray(-scene.world_from_door.linear().col(0).cast<float>());
+}
+
+// 0 in data sets of earlier builds, whose clouds were of the whole door.
+float CloudWithinOf(const DatasetReader& reader, std::size_t episode) {
+  const std::string path = "episode " + reader.entry(episode).key + ": meta.json";
+  const nlohmann::ordered_json meta = reader.Meta(episode);
+  if (!meta.contains("cloud_within_m")) return 0;
+  return static_cast<float>(ValueOf<double>(meta, "cloud_within_m", path));
 }
 
 void RequireFinite(std::span<const float> values, const char* name, const std::string& key) {
@@ -105,7 +114,7 @@ std::vector<TrainingSample> SamplesOf(const DatasetReader& reader, const std::st
     AppendEpisode(arrays, samples);
     if (FamilyOf(stage) != NetworkFamily::kGrasp) continue;
     samples.back().approach = ApproachOf(reader, i);
-    samples.back().cloud_within_m = reader.Meta(i).value("cloud_within_m", 0.0F);
+    samples.back().cloud_within_m = CloudWithinOf(reader, i);
   }
   return samples;
 }
@@ -160,6 +169,10 @@ StageDataset::~StageDataset() = default;
 StageDataset::StageDataset(StageDataset&&) noexcept = default;
 StageDataset& StageDataset::operator=(StageDataset&&) noexcept = default;
 
+void StageDataset::RequireWhole() const {
+  for (const auto& reader : readers) reader->RequireWhole();
+}
+
 StageDataset ReadStageDataset(std::span<const fs::path> folders, std::string_view stage,
                               double validation_share) {
   Require(!folders.empty(), ErrorCode::kInvalidArgument, "no data set to read samples from");
@@ -171,6 +184,7 @@ StageDataset ReadStageDataset(std::span<const fs::path> folders, std::string_vie
     content += AppendDataset(folder, std::string(stage), validation_share, dataset);
   }
   dataset.content_sha256 = Sha256Hex(content);
+  dataset.RequireWhole();
   return dataset;
 }
 

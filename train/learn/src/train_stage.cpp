@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <exception>
 #include <future>
 #include <memory>
 #include <numbers>
@@ -179,6 +180,7 @@ class Trainer {
       task_->Begin(number, PolicyOf(state_));
       if (!Teach({number, begin, end, per_epoch})) break;
     }
+    RequireSoundSamples();
     return std::move(state_);
   }
 
@@ -241,6 +243,24 @@ class Trainer {
     const float stops = hooks_.stop() ? 1.0F : 0.0F;
     const std::vector<float> all = group_.Gather(std::span(&stops, 1));
     return std::any_of(all.begin(), all.end(), [](float one) { return one != 0; });
+  }
+
+  // What one process has read from a damaged file is in the sums of all.
+  void RequireSoundSamples() {
+    if (!hooks_.check_samples) return;
+    std::exception_ptr problem;
+    try {
+      hooks_.check_samples();
+    } catch (const Error&) {
+      problem = std::current_exception();
+    }
+    const float damaged = problem ? 1.0F : 0.0F;
+    const std::vector<float> all = group_.Gather(std::span(&damaged, 1));
+    if (problem) std::rethrow_exception(problem);
+    if (std::any_of(all.begin(), all.end(), [](float one) { return one != 0; }))
+      throw Error(ErrorCode::kIo,
+                  "another process of this training has read a damaged data set and says which; "
+                  "the state of the last epoch stays");
   }
 
   // A step without a network repeats its last loss in the record.
@@ -506,6 +526,7 @@ class Trainer {
     const StageLosses before =
         state_.epochs.empty() ? UnknownLosses() : state_.epochs.back().validation;
     epoch.validation = Updated(before, Validate(lesson));
+    RequireSoundSamples();
     state_.epochs.push_back(epoch);
     internal::UpdateBest(config_, state_);
     if (hooks_.on_epoch) hooks_.on_epoch(state_);

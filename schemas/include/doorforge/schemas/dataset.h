@@ -144,6 +144,9 @@ class DatasetReader {
   EpisodeArrays Arrays(std::size_t episode) const;         ///< As ViewEpisode(); thread-safe.
   nlohmann::ordered_json Meta(std::size_t episode) const;  ///< As ReadEpisodeMeta().
 
+  /// ShardReader::RequireWhole() of all shards.
+  void RequireWhole() const;
+
   const std::vector<ShardReader>& shards() const { return shards_; }
   /// Hash over the shards' SHA-256, in order: the identity of what was read.
   std::string ContentHash() const;

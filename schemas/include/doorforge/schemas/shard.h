@@ -160,6 +160,10 @@ void RemoveShardLeftovers(FileSystem& files, const std::filesystem::path& folder
 enum class CrcCheck { kOnFirstRead, kOnEveryRead, kNever };
 
 /// Reads a committed shard through a memory map. Safe to use from several threads.
+///
+/// Another program that cuts the tar meanwhile ends nothing here: what is gone reads as zeros.
+/// Read() refuses it where it checks; who goes on using spans that Read() gave before calls
+/// RequireWhole() after the work, and gives away no result where that throws.
 class ShardReader {
  public:
   /// @param index_path The .index.json file.
@@ -180,8 +184,11 @@ class ShardReader {
   std::span<const std::byte> Read(std::size_t episode, std::string_view member) const;
 
   /// Every member of every episode against its checksum, and the tar against its SHA-256 and its
-  /// own headers. Each fault is one line; empty if all is well.
+  /// own headers. Each fault is one line; empty if all is well. Throws as RequireWhole().
   std::vector<std::string> FindFaults() const;
+
+  /// Throws Error(kIo), naming the tar, if a part of it was gone when it was read, or is by now.
+  void RequireWhole() const;
 
   /// The bytes of the tar outside the members: headers, padding and end have but one form. The
   /// first byte that differs, as a line; nothing if none does. Together with the members' checksums
@@ -208,7 +215,7 @@ struct RecoveredShard {
 
 /// Rebuilds an index from the tar alone. An episode counts as complete if it has all the members of
 /// the first one and its arrays agree in their leading axis. Without an index a flipped bit in the
-/// data cannot be noticed. Throws Error(kMissing or kIo).
+/// data cannot be noticed. Throws Error(kMissing or kIo), also where the tar is cut meanwhile.
 RecoveredShard RecoverShard(const std::filesystem::path& tar_path);
 
 }  // namespace doorforge

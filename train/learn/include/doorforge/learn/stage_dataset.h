@@ -33,6 +33,10 @@ struct StageDataset {
   ~StageDataset();
   StageDataset(StageDataset&&) noexcept;
   StageDataset& operator=(StageDataset&&) noexcept;
+
+  /// Throws Error(kIo), naming the file, if another program has cut a shard since: what is computed
+  /// from the samples then is worth nothing.
+  void RequireWhole() const;
 };
 
 /// Reads of every folder `provenance.json`, `<stage>/train`, and `<stage>/val` if there is one;

@@ -188,6 +188,9 @@ struct TrainHooks {
   std::function<void(const TrainerState&)> on_step;
   /// Called after every epoch, with its losses measured.
   std::function<void(const TrainerState&)> on_epoch;
+  /// Asked at the end of every epoch, before on_epoch, and at the end of the run: throws if what
+  /// the samples point to was damaged since they were read. Then no process of a group goes on.
+  std::function<void()> check_samples;
   /// Asked after every step; true ends the run there, in all processes of a group.
   std::function<bool()> stop;
   /// Point geometry of the samples is kept up to this size instead of being found again each epoch.
@@ -208,7 +211,8 @@ int EpochsOf(const TrainConfig& config);
 /// @returns The state at the end, or where `stop` ended it.
 /// @throws Error(kInvalidConfig), also if there is no such device, Error(kInvalidArgument) without
 /// samples or with a damaged cloud,
-///     Error(kIncomplete) if a loss stops being finite.
+///     Error(kIncomplete) if a loss stops being finite, what `check_samples` throws, and Error(kIo)
+///     where it throws in another process of the group.
 TrainerState TrainStage(std::span<const TrainingSample> train,
                         std::span<const TrainingSample> validation, const TrainConfig& config,
                         const TrainHooks& hooks);

@@ -270,7 +270,9 @@ int RunPipeline(const Pipeline& pipeline, const PipelineRun& run) {
   PrepareFolder(run.out);
   const auto lock = FileLock::Try(SystemFiles(), run.out / "pipeline" / "lock");
   Require(lock.has_value(), ErrorCode::kInvalidArgument,
-          run.out.string() + ": another process runs a pipeline there");
+          run.out.string() +
+              ": another process runs a pipeline there; wait until it has ended, "
+              "or choose another folder");
   const auto start = Clock::now();
   Workshop workshop(pipeline, run);
   std::map<std::string, std::string> hashes;

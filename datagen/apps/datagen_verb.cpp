@@ -13,8 +13,10 @@
 
 #include <unistd.h>
 
+#include "doorforge/core/committed_file.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/error.h"
+#include "doorforge/core/folder_lock.h"
 #include "doorforge/core/free_space.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
@@ -103,32 +105,52 @@ StageRequest RequestOf(const Options& options) {
   return {config, options.doors, options.policies, options.threads};
 }
 
-// Whether there is nothing but what a writer leaves that was killed at its first file.
+// Whether there is nothing but what a writer leaves that was killed at its first file, or has while
+// it writes.
 bool HoldsNothing(const fs::path& folder) {
   return std::all_of(fs::directory_iterator(folder), fs::directory_iterator(),
                      [](const fs::directory_entry& entry) {
-                       return entry.path().filename().string().starts_with(".config.yaml.tmp-");
+                       const std::string name = entry.path().filename().string();
+                       return name.starts_with(".config.yaml.tmp-") ||
+                              name == FolderLock::kFileName;
                      });
+}
+
+// Whether it is a dataset's, begun or finished, and not some folder with a config.yaml.
+bool HoldsDataset(const fs::path& folder) {
+  return fs::is_regular_file(folder / "config.yaml") &&
+         fs::is_regular_file(folder / "provenance.json") && fs::is_directory(folder / "splits");
+}
+
+// All but the lock of whoever removes it.
+void RemoveDataset(const fs::path& folder) {
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().filename() != FolderLock::kFileName) fs::remove_all(entry.path());
+  }
 }
 
 // Whether the folder is one to go on in is decided where config.yaml is compared.
 void PrepareFolder(const Options& options) {
   const fs::path out = options.out;
-  Require(!fs::exists(out) || fs::is_directory(out), ErrorCode::kInvalidArgument,
-          options.out + ": is a file; --out takes a folder");
-  if (!fs::exists(out) || HoldsNothing(out)) {
-    SystemFiles().CreateFolder(out);
-    return;
-  }
+  if (HoldsNothing(out)) return;
   if (!fs::exists(out / "config.yaml"))
     throw Error(ErrorCode::kInvalidArgument,
                 options.out +
                     ": exists and holds no dataset (no config.yaml); choose another "
                     "folder");
   if (!options.overwrite) return;
-  RequireKind(out, kDatasetFolder);
-  fs::remove_all(out);
-  SystemFiles().CreateFolder(out);
+  Require(HoldsDataset(out), ErrorCode::kInvalidArgument,
+          options.out +
+              ": holds a config.yaml and no dataset (no provenance.json, no splits); --overwrite "
+              "replaces datasets alone, choose another folder");
+  RemoveDataset(out);
+}
+
+// The tasks of a collection write side by side; who replaces what is there writes alone.
+FolderLock LockOf(const Options& options) {
+  Require(!fs::exists(options.out) || fs::is_directory(options.out), ErrorCode::kInvalidArgument,
+          options.out + ": is a file; --out takes a folder");
+  return {options.out, "doorforge datagen", options.overwrite ? Writers::kOne : Writers::kTogether};
 }
 
 CollectionTask TaskOf(const Options& options) {
@@ -202,6 +224,7 @@ void RequireSpaceForShards(const Options& options, const StageRun& run,
 int CollectStage(const Options& options) {
   const CollectionTask task = TaskOf(options);
   StageRun run(RequestOf(options));
+  const FolderLock lock = LockOf(options);
   PrepareFolder(options);
   RequireSpaceForShards(options, run, task);
   CollectRequest request = run.Request();
@@ -217,10 +240,13 @@ int GiveToSlurm(const Options& options, std::vector<std::string> arguments) {
   Require(options.task.empty() && options.task_offset == 0, ErrorCode::kInvalidArgument,
           "--task and --task-offset: --slurm numbers the tasks itself; give --tasks N");
   const StageRun run(RequestOf(options));
-  PrepareFolder(options);
+  {
+    const FolderLock lock = LockOf(options);
+    PrepareFolder(options);
+  }
   return RunSlurm(
       {options.out, std::move(arguments), options.tasks, options.threads, run.plan().shards.size()},
-      options.slurm);
+      options.slurm, options.overwrite ? Existing::kReplace : Existing::kRefuse);
 }
 
 int PrintPlan(const Options& options) {

@@ -1,27 +1,57 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
 
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/error.h"
+#include "doorforge/core/folder_lock.h"
 #include "doorforge/datagen/dataset_card.h"
 
 #include "dataset_downstream.h"
 
 namespace doorforge {
 
+namespace {
+
+struct Options {
+  std::string folder;
+  bool overwrite = false;
+  bool keep_readme = false;
+};
+
+OldReadme ReadmeOf(const Options& options) {
+  if (options.overwrite) return OldReadme::kReplace;
+  return options.keep_readme ? OldReadme::kKeep : OldReadme::kRefuseOthers;
+}
+
+int WriteCard(const Options& options) {
+  Require(std::filesystem::is_directory(options.folder), ErrorCode::kMissing,
+          options.folder + ": no such folder");
+  const FolderLock lock(options.folder, "doorforge dataset card", Writers::kOne);
+  RemoveStaleFiles(SystemFiles(), options.folder);
+  WriteDatasetCard(options.folder, ReadmeOf(options));
+  std::printf("%s/README.md\n%s/croissant.json\n", options.folder.c_str(), options.folder.c_str());
+  return 0;
+}
+
+}  // namespace
+
 std::function<int()> AddCard(CLI::App& verb) {
-  const auto folder = std::make_shared<std::string>();
+  const auto options = std::make_shared<Options>();
   CLI::App* app = verb.add_subcommand(
       "card", "writes README.md (YAML front matter) and croissant.json into the dataset");
-  app->add_option("folder", *folder, "the dataset's folder")->required();
+  app->add_option("folder", options->folder, "the dataset's folder")->required();
+  auto* overwrite =
+      app->add_flag("--overwrite", options->overwrite,
+                    "replace a README.md or croissant.json that was written or changed by hand");
+  app->add_flag("--keep-readme", options->keep_readme,
+                "leave README.md as it is; `verify` takes it as it is from now on")
+      ->excludes(overwrite);
   app->footer("example:\n  doorforge dataset card data");
-  return [folder, app] {
-    if (!app->parsed()) return -1;
-    WriteDatasetCard(*folder);
-    std::printf("%s/README.md\n%s/croissant.json\n", folder->c_str(), folder->c_str());
-    return 0;
-  };
+  return [options, app] { return app->parsed() ? WriteCard(*options) : -1; };
 }
 
 }  // namespace doorforge

@@ -9,7 +9,7 @@
 
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
-#include "doorforge/core/json_file.h"
+#include "doorforge/core/output_file.h"
 #include "doorforge/datagen/describe_dataset.h"
 #include "doorforge/datagen/describe_episodes.h"
 #include "doorforge/sensor/picture.h"
@@ -25,6 +25,7 @@ struct Options {
   std::string html;
   int examples = 2;
   int threads = 0;
+  bool overwrite = false;
   bool json = false;
 };
 
@@ -96,6 +97,8 @@ void WriteCharts(const EpisodeDescription& description, const std::string& path)
 }
 
 int Info(const Options& options) {
+  RequireNoFile(options.png, options.overwrite);
+  RequireNoFile(options.html, options.overwrite);
   nlohmann::ordered_json dataset = DescribeDataset(options.folder);
   const EpisodeDescription episodes = DescribeEpisodes(
       options.folder, options.html.empty() ? 0 : options.examples, options.threads);
@@ -125,6 +128,7 @@ std::function<int()> AddInfo(CLI::App& verb) {
   app->add_option("--threads", options->threads, "threads, 0: all")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
+  app->add_flag("--overwrite", options->overwrite, "replace --png and --html if they are there");
   app->add_flag("--json", options->json, "print one JSON document");
   app->footer("example:\n  doorforge dataset info data --html data.html --png data.png");
   return [options, app] { return app->parsed() ? Info(*options) : -1; };

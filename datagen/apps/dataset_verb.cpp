@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "doorforge/core/json_file.h"
+#include "doorforge/core/folder_lock.h"
 #include "doorforge/core/progress.h"
 #include "doorforge/datagen/describe_dataset.h"
 #include "doorforge/datagen/merge_dataset.h"
@@ -55,6 +55,7 @@ int Info(const Options& options) {
 }
 
 int Merge(const Options& options) {
+  const FolderLock lock(options.folder, "doorforge dataset merge", Writers::kOne);
   const MergeSummary summary =
       MergeDataset({options.folder, {options.parts.begin(), options.parts.end()}});
   std::fprintf(stderr, "doorforge: %s: %llu shards, %llu linked, %llu copied\n",
@@ -66,20 +67,27 @@ int Merge(const Options& options) {
 
 int Verify(const Options& options) {
   std::vector<DatasetFinding> findings = VerifyWithProgress(options);
-  if (findings.empty() && !options.regenerate.share.empty())
-    findings = Regenerate(options.folder, options.threads, options.regenerate);
+  if (!AnyFault(findings) && !options.regenerate.share.empty())
+    for (DatasetFinding& finding : Regenerate(options.folder, options.threads, options.regenerate))
+      findings.push_back(std::move(finding));
   if (options.json) {
     std::cout << JsonText(FindingsToJson(findings), 2) << '\n';
   } else {
-    for (const DatasetFinding& finding : findings)
+    std::size_t faults = 0;
+    for (const DatasetFinding& finding : findings) {
+      if (finding.severity == DatasetSeverity::kNote) {
+        std::printf("note    %s: %s\n", finding.where.c_str(), finding.measured.c_str());
+        continue;
+      }
+      ++faults;
       std::printf("%s  %s\n        found   %s\n        allowed %s\n        fix     %s\n",
                   finding.code.c_str(), finding.where.c_str(), finding.measured.c_str(),
                   finding.allowed.c_str(), finding.fix.c_str());
-    std::printf(
-        "%s: %s\n", options.folder.c_str(),
-        findings.empty() ? "no faults" : (std::to_string(findings.size()) + " faults").c_str());
+    }
+    std::printf("%s: %s\n", options.folder.c_str(),
+                faults == 0 ? "no faults" : (std::to_string(faults) + " faults").c_str());
   }
-  return findings.empty() ? 0 : 1;
+  return AnyFault(findings) ? 1 : 0;
 }
 
 }  // namespace
@@ -89,7 +97,9 @@ int RunDatasetVerb(int argc, char** argv) {
   CLI::App app("Checks and describes datasets.", "doorforge dataset");
   app.require_subcommand(1);
   auto* verify = app.add_subcommand(
-      "verify", "every byte against its checksum, every value against what it may be");
+      "verify",
+      "every byte of every file against its checksum or what it is made from, every value against "
+      "what it may be");
   auto* merge = app.add_subcommand(
       "merge", "joins the tasks of a collection and checks that all of them are there");
   const auto* reobserve = AddReobserve(app, options.reobserve);

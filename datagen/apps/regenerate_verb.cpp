@@ -12,6 +12,7 @@
 #include "doorforge/datagen/regenerate.h"
 
 #include "datagen_verb.h"
+#include "recorded_robot.h"
 #include "stage_run.h"
 #include "trained_policy.h"
 
@@ -56,6 +57,10 @@ void AddRegenerateOptions(CLI::App& app, RegenerateOptions& options) {
                                "and compare every byte");
   app.add_option("--doors", options.doors, "the doors that the dataset was made with")
       ->needs(share);
+  app.add_option("--robot", options.robot,
+                 "URDF of the dataset's robot; needed where its config.yaml names a file that is "
+                 "not in the dataset's folder")
+      ->needs(share);
   PolicyFolders& policies = options.policies;
   app.add_option("--handler", policies.handler, "the policy that turned the handle")->needs(share);
   app.add_option("--opener", policies.opener, "the policy that opened")->needs(share);
@@ -72,8 +77,16 @@ void PrepareRegenerate(const RegenerateOptions& options, int argc, char** argv) 
 std::vector<DatasetFinding> Regenerate(const fs::path& folder, int threads,
                                        const RegenerateOptions& options) {
   const Stage stage = StageOf(folder);
-  StageRun run({LoadConfig<StageConfig>((folder / "config.yaml").string(), {}, DefaultsOf(stage)),
-                options.doors, options.policies, threads});
+  const std::string config_file = (folder / "config.yaml").string();
+  auto config = LoadConfig<StageConfig>(config_file, {}, DefaultsOf(stage));
+  const std::string robot = RecordedRobot(folder, config.scene.robot, options.robot);
+  // the config, whose text is compared, goes on naming the file as it did
+  std::error_code error;
+  Require(robot == config.scene.robot || fs::equivalent(robot, config.scene.robot, error),
+          ErrorCode::kInvalidArgument,
+          config_file + ": names the robot \"" + config.scene.robot +
+              "\", which is another file than --robot " + robot);
+  StageRun run({config, options.doors, options.policies, threads});
   RequireSameConfig(folder / "config.yaml", run.Request().config_text);
   const RegenerateResult result = RegenerateEpisodes(
       run.plan(), [&](const PlannedEpisode& planned) { return run.Run(planned); },

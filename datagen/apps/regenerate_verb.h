@@ -18,6 +18,7 @@ namespace doorforge {
 struct RegenerateOptions {
   std::string share;  ///< "1%"; empty: nothing is made again.
   std::vector<std::string> doors;
+  std::string robot;  ///< See RecordedRobot().
   PolicyFolders policies;
 };
 

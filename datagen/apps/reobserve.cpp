@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <map>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "doorforge/core/committed_file.h"
@@ -21,6 +23,7 @@
 
 #include "door_folder.h"
 #include "episode_records.h"
+#include "recorded_robot.h"
 #include "recording_camera.h"
 #include "robot_meshes.h"
 
@@ -73,6 +76,20 @@ SceneSnapshot SnapshotOf(const Decision& decision, const Scene& scene, const Doo
   return snapshot;
 }
 
+// "ep000123" is episode 123 of the plan.
+std::uint64_t NumberOf(const std::string& key, const std::string& where) {
+  constexpr std::string_view kPrefix = "ep";
+  std::uint64_t number = 0;
+  const char* const end = key.data() + key.size();
+  const char* const digits = key.data() + std::min(kPrefix.size(), key.size());
+  const auto [after, error] = std::from_chars(digits, end, number);
+  if (!key.starts_with(kPrefix) || error != std::errc{} || after != end)
+    throw Error(ErrorCode::kFormat, where + ": the key \"" + key +
+                                        "\" is none of an episode of a plan (ep000123); was the "
+                                        "shard made by another program?");
+  return number;
+}
+
 // The plan that the shards were made by, failed episodes included.
 class SourceDataset {
  public:
@@ -94,7 +111,8 @@ class SourceDataset {
   const DatasetProvenance& provenance() const { return provenance_; }
   const CollectionPlan& plan() const { return plan_; }
   const std::vector<ShardReader>& shards() const { return shards_; }
-  const Source& SourceOf(const std::string& key) const { return sources_.at(key); }
+  /// Of an episode of plan().
+  const Source& SourceOf(const std::string& key) const { return sources_.find(key)->second; }
 
   std::uint64_t decisions() const {
     std::uint64_t sum = 0;
@@ -139,12 +157,17 @@ class SourceDataset {
 
   void AddEpisode(const std::string& key, const std::string& door_id, Source source,
                   PlannedShard& planned) {
+    const std::string where =
+        (folder_ / stage() / planned.split / ShardStem(planned.number)).string() + ".tar";
     const auto door = doors_.find(door_id);
-    if (door == doors_.end() || !key.starts_with("ep"))
-      throw Error(ErrorCode::kFormat, folder_.string() + ": episode " + key + " of door \"" +
-                                          door_id + "\" does not fit provenance.json");
-    planned.episodes.push_back({std::stoull(key.substr(2)), door->second, key});
-    sources_[key] = std::move(source);
+    if (door == doors_.end())
+      throw Error(ErrorCode::kFormat, where + ": episode " + key + " is of door \"" + door_id +
+                                          "\", which provenance.json does not name; verify the "
+                                          "dataset");
+    planned.episodes.push_back({NumberOf(key, where), door->second, key});
+    if (!sources_.emplace(key, std::move(source)).second)
+      throw Error(ErrorCode::kFormat,
+                  where + ": episode " + key + " is in another shard as well; verify the dataset");
   }
 
   fs::path folder_;
@@ -187,6 +210,7 @@ class Reobservation {
     if (config_.own_camera) collected.episode.scene.camera = CameraOf(config_.camera);
     LookAtDecisions(ViewEpisode(reader, *source.episode), *shelf_.Take(planned.door), where,
                     collected);
+    reader.RequireWhole();
     return collected;
   }
 
@@ -196,14 +220,20 @@ class Reobservation {
     Require(!arrays.state.empty(), ErrorCode::kInvalidArgument,
             where + ": the episode holds no joint states (state.npy); collect it anew");
     Episode& episode = collected.episode;
+    if (episode.decisions.size() != arrays.decisions)
+      throw Error(ErrorCode::kFormat, where + ": " + std::to_string(episode.decisions.size()) +
+                                          " decision times, the arrays hold " +
+                                          std::to_string(arrays.decisions) +
+                                          " decisions; verify the dataset");
     const RobotModel robot = RobotOf(episode.scene);
-    const bool sees_robot = config_.robot && collected.meta.value("robot_seen", true);
+    const bool sees_robot = config_.robot && (!collected.meta.contains("robot_seen") ||
+                                              ValueOf<bool>(collected.meta, "robot_seen", where));
     const bool at_grasp = source_.stage() == NameOf(Stage::kGrasp);
     const Scene seen = at_grasp ? SceneOf(config_.grasp_look, episode.scene) : episode.scene;
     const CloudExtent extent{config_.cloud.point_count, at_grasp ? config_.grasp_look.within_m : 0};
     RecordingCamera camera(seen, door, robot, config_.cloud, sees_robot);
     for (std::size_t t = 0; t < arrays.decisions; ++t) {
-      Decision decision = DecisionOf(arrays, t, episode.decisions.at(t).time_s);
+      Decision decision = DecisionOf(arrays, t, episode.decisions[t].time_s);
       const SceneSnapshot snapshot = SnapshotOf(decision, episode.scene, door, robot);
       const Eigen::Vector3d start =
           at_grasp ? Eigen::Vector3d(decision.action[0], decision.action[1], decision.action[2])
@@ -246,7 +276,7 @@ struct SourceConfig {
   std::string robot_file;
 };
 
-SourceConfig ReadSourceConfig(const fs::path& folder) {
+SourceConfig ReadSourceConfig(const fs::path& folder, const std::string& robot) {
   const fs::path path = folder / "config.yaml";
   const Json json = ParseYaml(ReadFile(path), path.string());
   SourceConfig source;
@@ -261,6 +291,7 @@ SourceConfig ReadSourceConfig(const fs::path& folder) {
     source.config.robot = json["robot"].get<bool>();
   if (json.contains("scene"))
     source.robot_file = ValueOf<std::string>(json["scene"], "robot", path.string() + ".scene");
+  source.robot_file = RecordedRobot(folder, source.robot_file, robot);
   return source;
 }
 
@@ -287,7 +318,7 @@ void RequireSpaceForClouds(const SourceDataset& source, const ReobserveConfig& c
 
 CollectSummary ReobserveDataset(const ReobserveRequest& request) {
   const SourceDataset source(request.folder);
-  const SourceConfig source_config = ReadSourceConfig(request.folder);
+  const SourceConfig source_config = ReadSourceConfig(request.folder, request.robot);
   const ReobserveConfig config = ConfigOf(request, source_config.config);
   RequireSpaceForClouds(source, config, request.out);
   const DoorFolder doors =

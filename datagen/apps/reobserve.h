@@ -41,6 +41,7 @@ struct ReobserveRequest {
   std::vector<std::string> doors;  ///< Folders with the doors of the dataset.
   std::string config;              ///< File with settings; empty: none.
   std::vector<std::string> settings;
+  std::string robot;  ///< URDF of the robot, where config.yaml names one; see RecordedRobot().
   bool without_robot = false;
   int threads = 0;
 };

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "doorforge/core/folder_lock.h"
 #include "doorforge/datagen/describe_dataset.h"
 
 namespace doorforge {
@@ -18,6 +19,9 @@ CLI::App* AddReobserve(CLI::App& app, ReobserveRequest& request) {
   verb->add_option("--config", request.config, "YAML file with settings");
   verb->add_option("--set", request.settings,
                    "a.b=c overrides one setting: cloud.* and camera.* as of `datagen`");
+  verb->add_option("--robot", request.robot,
+                   "URDF of the dataset's robot; needed where its config.yaml names a file that is "
+                   "not in the dataset's folder");
   verb->add_flag("--without-robot", request.without_robot,
                  "only the door is seen: the pair of what the robot hides");
   verb->add_option("-j,--threads", request.threads, "threads, 0: all; does not change the bytes")
@@ -31,6 +35,7 @@ CLI::App* AddReobserve(CLI::App& app, ReobserveRequest& request) {
 }
 
 int RunReobserve(const ReobserveRequest& request) {
+  const FolderLock lock(request.out, "doorforge dataset re-observe", Writers::kTogether);
   const CollectSummary summary = ReobserveDataset(request);
   if (summary.stopped_by_signal != 0) {
     std::fprintf(stderr,

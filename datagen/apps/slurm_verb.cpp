@@ -60,6 +60,19 @@ std::string FolderText(const std::string& folder) {
   return path.string();
 }
 
+// The same script again is no loss.
+void CommitScript(const fs::path& file, const std::string& text, Existing existing) {
+  const bool is_there = fs::exists(fs::symlink_status(file));
+  if (is_there && existing == Existing::kRefuse) {
+    if (fs::is_regular_file(file) && ReadFile(file) == text) return;
+    throw Error(ErrorCode::kInvalidArgument,
+                file.string() +
+                    ": already exists and is another file; remove it or give --slurm another name "
+                    "(--overwrite replaces it, and the dataset in --out with it)");
+  }
+  CommitFile(file, text, existing);
+}
+
 }  // namespace
 
 void AddSlurmOptions(CLI::App& app, SlurmOptions& options) {
@@ -81,7 +94,7 @@ void AddSlurmOptions(CLI::App& app, SlurmOptions& options) {
       ->needs(file);
 }
 
-int RunSlurm(const SlurmJob& job, const SlurmOptions& options) {
+int RunSlurm(const SlurmJob& job, const SlurmOptions& options, Existing existing) {
   SlurmScript script;
   script.program = (ProgramFolder() / "doorforge").string();
   script.work_folder = fs::current_path().string();
@@ -95,7 +108,7 @@ int RunSlurm(const SlurmJob& job, const SlurmOptions& options) {
   script.threads = std::max(job.threads, 1);
   script.memory = options.memory;
   script.options = options.options;
-  CommitFile(options.file, SlurmScriptText(script));
+  CommitScript(options.file, SlurmScriptText(script), existing);
   std::fprintf(stderr, "doorforge: %s: %d tasks of %zu shards in %zu arrays\n",
                options.file.c_str(), script.tasks, job.shards,
                CutIntoArrays(script.tasks, script.array_size).size());

@@ -7,6 +7,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "doorforge/core/committed_file.h"
+
 namespace doorforge {
 
 /// How a collection is given to Slurm instead of being run here.
@@ -31,6 +33,7 @@ struct SlurmJob {
 };
 
 /// Writes the script, says how it is submitted, and does so if asked. Returns the exit code.
-int RunSlurm(const SlurmJob& job, const SlurmOptions& options);
+/// Throws Error(kInvalidArgument) if another script is there already and `existing` is kRefuse.
+int RunSlurm(const SlurmJob& job, const SlurmOptions& options, Existing existing);
 
 }  // namespace doorforge

@@ -10,9 +10,13 @@
 #include <vector>
 
 #include "doorforge/core/committed_file.h"
+#include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/schemas/dataset.h"
+
+#include "dataset_records.h"
+#include "record_sums.h"
 
 namespace doorforge {
 namespace {
@@ -391,10 +395,46 @@ DatasetCardFiles MakeDatasetCard(const fs::path& folder) {
   return {ReadmeOf(contents), CroissantOf(contents)};
 }
 
-void WriteDatasetCard(const fs::path& folder) {
-  const DatasetCardFiles card = MakeDatasetCard(folder);
-  CommitFile(folder / "README.md", card.readme);
-  WriteJsonFile(folder / "croissant.json", card.croissant);
+namespace {
+
+// Whether a record is one that was written here: it is listed as it is, or is one of the texts.
+bool IsOurs(const fs::path& folder, const std::string& record, const RecordSums& sums,
+            const std::set<std::string>& texts) {
+  if (!fs::exists(fs::symlink_status(folder / record))) return true;
+  const std::string content = ReadFile(folder / record);
+  return sums.Lists(record, content) || texts.contains(content);
+}
+
+[[noreturn]] void RefuseToReplace(const fs::path& file) {
+  throw Error(ErrorCode::kInvalidArgument,
+              file.string() +
+                  ": was written or changed by hand; pass --overwrite to replace it, or "
+                  "--keep-readme to leave README.md as it is");
+}
+
+}  // namespace
+
+void WriteDatasetCard(const fs::path& folder, OldReadme readme) {
+  const Contents contents = ReadContents(folder);
+  const DatasetCardFiles card{ReadmeOf(contents), CroissantOf(contents)};
+  const std::string croissant = card.croissant.dump(2) + "\n";
+  const bool has_sums = fs::exists(folder / RecordSums::kFileName);
+  RecordSums sums = has_sums ? RecordSums::Read(folder) : RecordSums();
+  if (readme != OldReadme::kReplace) {
+    std::set<std::string> cards = ShortCards(contents.dataset, contents.provenance);
+    cards.insert(card.readme);
+    if (readme == OldReadme::kRefuseOthers && !IsOurs(folder, kReadmeRecord, sums, cards))
+      RefuseToReplace(folder / kReadmeRecord);
+    if (!IsOurs(folder, kCroissantRecord, sums, {croissant}))
+      RefuseToReplace(folder / kCroissantRecord);
+  }
+  if (readme != OldReadme::kKeep) CommitFile(folder / kReadmeRecord, card.readme);
+  CommitFile(folder / kCroissantRecord, croissant);
+  // a dataset of an earlier build has no list, and half a one would be worse
+  if (!has_sums) return;
+  sums.SetHash(kReadmeRecord, Sha256OfFile(folder / kReadmeRecord));
+  sums.Set(kCroissantRecord, croissant);
+  sums.Commit(SystemFiles(), folder);
 }
 
 }  // namespace doorforge

@@ -11,6 +11,8 @@
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
 
+#include "record_sums.h"
+
 namespace doorforge {
 namespace {
 
@@ -56,17 +58,6 @@ void CommitUnlessSame(FileSystem& files, const fs::path& path, const std::string
   if (!fs::exists(path) || ReadFile(path) != text) CommitFile(files, path, text);
 }
 
-// Ids of the doors of one split, sorted, one a line.
-std::string SplitLines(const DatasetProvenance& provenance, const std::string& split) {
-  std::set<std::string> ids;
-  for (const DatasetDoor& door : provenance.doors) {
-    if (door.split == split) ids.insert(door.id);
-  }
-  std::string lines;
-  for (const std::string& id : ids) lines += id + "\n";
-  return lines;
-}
-
 fs::path IndexPathOf(const fs::path& folder, const ExpectedShard& shard) {
   return folder / (shard.Name() + ".index.json");
 }
@@ -93,17 +84,20 @@ void RequireAllShards(const fs::path& folder, const DatasetProvenance& provenanc
   throw Error(ErrorCode::kIncomplete, message);
 }
 
-std::string FailureLines(const fs::path& folder, const std::vector<ExpectedShard>& shards) {
-  std::string lines;
-  for (const ExpectedShard& shard : shards) {
-    const DatasetPart part{shard.stage, shard.split, 0, 0, 0, 0, 0};
-    for (const FailedEpisode& failure : ReadShardIndex(IndexPathOf(folder, shard)).failures)
-      lines += FailureLine(failure, part) + "\n";
-  }
-  return lines;
+std::vector<ShardIndex> IndicesOf(const fs::path& folder,
+                                  const std::vector<ExpectedShard>& shards) {
+  std::vector<ShardIndex> indices;
+  for (const ExpectedShard& shard : shards)
+    indices.push_back(ReadShardIndex(IndexPathOf(folder, shard)));
+  return indices;
 }
 
-std::string RecordText(const nlohmann::ordered_json& json) { return JsonText(json, 2) + "\n"; }
+// The line of a record that this does not write: as it was listed, or as it is there.
+void KeepSum(const RecordSums& known, const fs::path& folder, const std::string& record,
+             RecordSums& sums) {
+  if (!fs::is_regular_file(folder / record)) return;
+  sums.SetHash(record, known.Has(record) ? known.sums().at(record) : Sha256OfFile(folder / record));
+}
 
 }  // namespace
 
@@ -134,18 +128,68 @@ std::string PlanFaultOf(const fs::path& folder, const ExpectedShard& shard,
 }
 
 DatasetProvenance ReadProvenance(const fs::path& folder) {
-  const fs::path path = folder / "provenance.json";
+  const fs::path path = folder / kProvenanceRecord;
+  const RecordSums sums = RecordSums::ReadOrEmpty(folder);
+  if (sums.Has(kProvenanceRecord) && !sums.Lists(kProvenanceRecord, ReadFile(path)))
+    throw Error(ErrorCode::kFormat, path.string() + ": SHA-256 is not the one in " +
+                                        RecordSums::kFileName +
+                                        "; give the datagen command again, which writes it anew");
   return ProvenanceFromJson(ReadJsonFile(path), path.string());
+}
+
+std::string SplitRecord(const std::string& split) { return "splits/" + split + ".txt"; }
+
+// Ids of the doors of one split, sorted, one a line.
+std::string SplitText(const DatasetProvenance& provenance, const std::string& split) {
+  std::set<std::string> ids;
+  for (const DatasetDoor& door : provenance.doors) {
+    if (door.split == split) ids.insert(door.id);
+  }
+  std::string lines;
+  for (const std::string& id : ids) lines += id + "\n";
+  return lines;
+}
+
+std::string FailuresText(std::span<const ShardIndex> indices) {
+  std::string lines;
+  for (const ShardIndex& index : indices) {
+    const DatasetPart part{index.header.stage, index.header.split, 0, 0, 0, 0, 0};
+    for (const FailedEpisode& failure : index.failures) lines += FailureLine(failure, part) + "\n";
+  }
+  return lines;
+}
+
+std::string DatasetText(const DatasetRecord& record) {
+  return DatasetToJson(record).dump(2) + "\n";
+}
+
+std::string ProvenanceText(const DatasetProvenance& provenance) {
+  return ProvenanceToJson(provenance).dump(2) + "\n";
+}
+
+std::set<std::string> ShortCards(const DatasetRecord& record, const DatasetProvenance& provenance) {
+  const std::string card = DatasetCard(record, provenance);
+  // the first builds called the reader by another name
+  const std::string now = "doorforge_reader.py";
+  std::string earlier = card;
+  const std::size_t at = card.find(now);
+  if (at != std::string::npos) earlier.replace(at, now.size(), "doorforge_shards.py");
+  return {card, earlier};
 }
 
 void BeginDataset(FileSystem& files, const fs::path& folder, const std::string& config_text,
                   const DatasetProvenance& provenance) {
   files.CreateFolder(folder);
-  CommitConfig(files, folder / "config.yaml", config_text);
-  CommitUnlessSame(files, folder / "provenance.json", RecordText(ProvenanceToJson(provenance)));
-  for (const char* split : {"train", "val"})
-    CommitUnlessSame(files, folder / "splits" / (std::string(split) + ".txt"),
-                     SplitLines(provenance, split));
+  CommitConfig(files, folder / kConfigRecord, config_text);
+  RecordSums sums = RecordSums::ReadOrEmpty(folder);
+  sums.Set(kConfigRecord, config_text);
+  const auto commit = [&](const std::string& record, const std::string& text) {
+    CommitUnlessSame(files, folder / record, text);
+    sums.Set(record, text);
+  };
+  commit(kProvenanceRecord, ProvenanceText(provenance));
+  for (const char* split : kSplitNames) commit(SplitRecord(split), SplitText(provenance, split));
+  sums.Commit(files, folder);
 }
 
 void FinishDataset(FileSystem& files, const fs::path& folder) {
@@ -153,9 +197,21 @@ void FinishDataset(FileSystem& files, const fs::path& folder) {
   const std::vector<ExpectedShard> shards = ExpectedShards(provenance);
   RequireAllShards(folder, provenance, shards);
   const DatasetRecord record = SummarizeShards(folder);
-  CommitUnlessSame(files, folder / "failures.jsonl", FailureLines(folder, shards));
-  CommitUnlessSame(files, folder / "README.md", DatasetCard(record, provenance));
-  CommitUnlessSame(files, folder / "dataset.json", RecordText(DatasetToJson(record)));
+  const std::string dataset = DatasetText(record);
+  const std::string failures = FailuresText(IndicesOf(folder, shards));
+  CommitUnlessSame(files, folder / kFailuresRecord, failures);
+  if (!fs::exists(folder / kReadmeRecord))
+    CommitFile(files, folder / kReadmeRecord, DatasetCard(record, provenance));
+  const RecordSums known = RecordSums::ReadOrEmpty(folder);
+  RecordSums sums;
+  sums.SetHash(kConfigRecord, provenance.config_sha256);
+  for (const char* split : kSplitNames) sums.Set(SplitRecord(split), SplitText(provenance, split));
+  for (const char* kept : {kProvenanceRecord, kReadmeRecord, kCroissantRecord})
+    KeepSum(known, folder, kept, sums);
+  sums.Set(kFailuresRecord, failures);
+  sums.Set(kDatasetRecord, dataset);
+  sums.Commit(files, folder);
+  CommitUnlessSame(files, folder / kDatasetRecord, dataset);
 }
 
 }  // namespace doorforge

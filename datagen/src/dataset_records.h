@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,6 +14,14 @@
 #include "doorforge/schemas/dataset.h"
 
 namespace doorforge {
+
+/// Names of a dataset's records, from its folder.
+inline constexpr const char* kConfigRecord = "config.yaml";
+inline constexpr const char* kProvenanceRecord = "provenance.json";
+inline constexpr const char* kFailuresRecord = "failures.jsonl";
+inline constexpr const char* kReadmeRecord = "README.md";
+inline constexpr const char* kCroissantRecord = "croissant.json";  ///< Of `dataset card` alone.
+inline constexpr const char* kDatasetRecord = "dataset.json";
 
 /// A shard that the plan of a dataset has.
 struct ExpectedShard {
@@ -31,18 +42,33 @@ std::vector<ExpectedShard> ExpectedShards(const DatasetProvenance& provenance);
 std::string PlanFaultOf(const std::filesystem::path& folder, const ExpectedShard& shard,
                         const std::string& config_sha256);
 
-/// Reads provenance.json. Throws Error(kMissing or kFormat).
+/// Reads provenance.json. Throws Error(kMissing or kFormat), also if it is not the one that
+/// SHA256SUMS lists.
 DatasetProvenance ReadProvenance(const std::filesystem::path& folder);
 
-/// What is known before the first episode: config.yaml, provenance.json and splits/*.txt. Several
-/// processes may do so at once.
+/// The splits that have a file of their own, "splits/<name>.txt".
+inline constexpr std::array<const char*, 2> kSplitNames = {"train", "val"};
+/// "splits/train.txt"
+std::string SplitRecord(const std::string& split);
+
+/// What the records hold as writers make them from provenance, indices and shards.
+std::string SplitText(const DatasetProvenance& provenance, const std::string& split);
+std::string FailuresText(std::span<const ShardIndex> indices);
+std::string DatasetText(const DatasetRecord& record);
+std::string ProvenanceText(const DatasetProvenance& provenance);
+/// README.md as FinishDataset() writes it, and as the builds before did.
+std::set<std::string> ShortCards(const DatasetRecord& record, const DatasetProvenance& provenance);
+
+/// What is known before the first episode: config.yaml, provenance.json, splits/*.txt, and their
+/// lines of SHA256SUMS. Several processes may do so at once.
 ///
 /// @throws Error(kInvalidArgument) if the folder's config.yaml is another one, Error(kIo).
 void BeginDataset(FileSystem& files, const std::filesystem::path& folder,
                   const std::string& config_text, const DatasetProvenance& provenance);
 
-/// What the shards say: failures.jsonl, README.md and, last, dataset.json, whose presence means
-/// that the dataset is complete.
+/// What the shards say: failures.jsonl, README.md, SHA256SUMS and, last, dataset.json, whose
+/// presence means that the dataset is complete. A README.md that is there already stays: it is this
+/// one, that of `dataset card`, or a user's.
 ///
 /// @throws Error(kIncomplete) that lists the planned shards which are missing or short.
 void FinishDataset(FileSystem& files, const std::filesystem::path& folder);

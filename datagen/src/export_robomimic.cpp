@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/datagen/export_robomimic.h"
 
+#include <algorithm>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include <fcntl.h>
 #include <unistd.h>
 
 #include "doorforge/core/error.h"
-#include "doorforge/core/file_system.h"
+#include "doorforge/core/folder_lock.h"
 #include "doorforge/core/free_space.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
@@ -35,6 +37,12 @@ std::vector<DatasetPart> PartsOfStage(const fs::path& folder, const std::string&
     there += " " + part.stage + "/" + part.split;
     if (part.stage == stage && part.episodes > 0) parts.push_back(part);
   }
+  const bool any_decision = std::any_of(parts.begin(), parts.end(),
+                                        [](const DatasetPart& part) { return part.decisions > 0; });
+  if (!parts.empty() && !any_decision)
+    throw Error(ErrorCode::kInvalidArgument,
+                folder.string() + ": the episodes of stage '" + stage +
+                    "' hold 0 decisions, so there is nothing to export; verify the dataset");
   if (parts.empty())
     throw Error(ErrorCode::kMissing, folder.string() + ": no episodes of stage '" + stage +
                                          "'; the dataset has" + (there.empty() ? " none" : there));
@@ -53,28 +61,36 @@ DatasetProvenance ProvenanceIn(const fs::path& folder) {
   return ProvenanceFromJson(ReadJsonFile(path), path.string());
 }
 
-// A file beside `target` that takes its name when it is complete, or goes.
+// A file in a hidden folder beside `target` that takes its place when it is complete, or goes. One
+// writer at a time: what a killed one left is in the same folder and goes with the next.
 class PartialFile {
  public:
   explicit PartialFile(const fs::path& target)
       : target_(target),
-        path_(target.parent_path() / (std::string(1, '.') + target.filename().string() + "." +
-                                      std::to_string(::getpid()) + ".partial")) {}
+        folder_(target.parent_path() / ("." + target.filename().string() + ".export")),
+        lock_(std::in_place, folder_, "doorforge dataset export", Writers::kOne) {
+    SystemFiles().Remove(path());
+  }
   ~PartialFile() {
     std::error_code ignored;
-    fs::remove(path_, ignored);
+    fs::remove(path(), ignored);
+    lock_.reset();
+    fs::remove(folder_, ignored);
   }
   PartialFile(const PartialFile&) = delete;
   PartialFile& operator=(const PartialFile&) = delete;
 
-  const fs::path& path() const { return path_; }
+  fs::path path() const { return folder_ / target_.filename(); }
 
   void Commit(Existing existing) {
-    SyncFile(path_);
-    if (existing == Existing::kRefuse && fs::exists(target_))
+    SyncFile(path());
+    FileSystem& files = SystemFiles();
+    if (existing == Existing::kReplace) {
+      files.Rename(path(), target_);
+    } else if (!files.RenameToNew(path(), target_)) {
       throw Error(ErrorCode::kInvalidArgument,
                   target_.string() + ": appeared meanwhile; pass --overwrite to replace it");
-    fs::rename(path_, target_);
+    }
     SyncFile(target_.has_parent_path() ? target_.parent_path() : fs::path("."));
   }
 
@@ -87,7 +103,8 @@ class PartialFile {
   }
 
   fs::path target_;
-  fs::path path_;
+  fs::path folder_;
+  std::optional<FolderLock> lock_;
 };
 
 class Exporter {
@@ -147,7 +164,12 @@ class Exporter {
 
   std::size_t AddArray(const ShardReader& shard, std::size_t episode, const std::string& member,
                        const std::string& group) {
-    const std::span<const std::byte> bytes = shard.Read(episode, member);
+    // A copy: a write straight from the map would fail as if the disk were full where another
+    // program has cut the shard.
+    const std::span<const std::byte> mapped = shard.Read(episode, member);
+    const std::vector<std::byte> copy(mapped.begin(), mapped.end());
+    shard.RequireWhole();
+    const std::span<const std::byte> bytes(copy);
     const NpyHeader header = ParseNpyHeader(bytes, shard.Describe(episode, member));
     const std::string name = member.substr(0, member.size() - 4);
     std::vector<std::size_t> shape = header.shape;

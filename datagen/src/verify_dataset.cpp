@@ -15,21 +15,17 @@
 #include "doorforge/schemas/dataset.h"
 #include "doorforge/schemas/policy.h"
 
-#include "dataset_records.h"
+#include "verify_records.h"
 
 namespace doorforge {
 namespace {
 
 namespace fs = std::filesystem;
-using Findings = std::vector<DatasetFinding>;
+using internal::Append;
+using internal::CheckRecords;
+using internal::Findings;
 
 constexpr const char* kCollectAgain = "delete the shard's index and give the datagen command again";
-constexpr const char* kRecords =
-    "give the datagen command again, or dataset merge: they write the records anew";
-
-void Append(Findings& to, Findings from) {
-  std::move(from.begin(), from.end(), std::back_inserter(to));
-}
 
 std::string Text(double value) {
   char text[32];
@@ -188,93 +184,6 @@ ShardFiles FindShards(const fs::path& folder) {
   return files;
 }
 
-// Part by part: what dataset.json counts against what the indices count.
-Findings CheckCounts(const fs::path& folder, const DatasetRecord& record,
-                     const std::vector<fs::path>& indices) {
-  std::map<std::pair<std::string, std::string>, DatasetPart> counted;
-  for (const fs::path& path : indices) {
-    const ShardIndex index = ReadShardIndex(path);
-    DatasetPart& part = counted[{index.header.stage, index.header.split}];
-    ++part.shards;
-    part.episodes += index.episodes.size();
-    part.failed_episodes += index.failures.size();
-    for (const ShardEpisode& episode : index.episodes) part.decisions += episode.decisions;
-  }
-  Findings findings;
-  for (const DatasetPart& part : record.parts) {
-    const DatasetPart& found = counted[{part.stage, part.split}];
-    if (found.shards == part.shards && found.episodes == part.episodes &&
-        found.failed_episodes == part.failed_episodes && found.decisions == part.decisions)
-      continue;
-    findings.push_back({"DST008", (folder / part.stage / part.split).string(),
-                        std::to_string(found.shards) + " shards, " +
-                            std::to_string(found.episodes) + " episodes, " +
-                            std::to_string(found.decisions) + " decisions",
-                        std::to_string(part.shards) + ", " + std::to_string(part.episodes) + ", " +
-                            std::to_string(part.decisions) + " as in dataset.json",
-                        kRecords});
-  }
-  return findings;
-}
-
-// No part of one role on two sides, at whatever size.
-Findings CheckSplits(const std::string& path, std::span<const DatasetDoor> doors,
-                     PartIdentity DatasetDoor::*role) {
-  Findings findings;
-  std::vector<const DatasetDoor*> firsts;  // one door for each part and split
-  for (const DatasetDoor& door : doors) {
-    const PartIdentity& part = door.*role;
-    const auto shares = [&](const DatasetDoor* known) { return part.SameAs(known->*role); };
-    const auto on_other_side = std::find_if(firsts.begin(), firsts.end(), [&](const auto* known) {
-      return known->split != door.split && shares(known);
-    });
-    if (on_other_side != firsts.end())
-      findings.push_back(
-          {"DST009", path + ": " + door.id,
-           part.id + " is in " + door.split + " and, as " + ((*on_other_side)->*role).id + " of " +
-               (*on_other_side)->id + ", in " + (*on_other_side)->split,
-           "each part on one side, at whatever size", "collect anew with a split by parts"});
-    const bool listed = std::any_of(firsts.begin(), firsts.end(), [&](const auto* known) {
-      return known->split == door.split && (known->*role).sha256 == part.sha256;
-    });
-    if (!listed) firsts.push_back(&door);
-  }
-  return findings;
-}
-
-// Every planned shard is there with all its episodes.
-Findings CheckPlan(const fs::path& folder, const DatasetProvenance& provenance) {
-  Findings findings;
-  for (const ExpectedShard& shard : ExpectedShards(provenance)) {
-    const std::string fault = PlanFaultOf(folder, shard, provenance.config_sha256);
-    if (!fault.empty())
-      findings.push_back({"DST010", (folder / shard.Name()).string(), fault,
-                          std::to_string(shard.episodes) + " episodes as planned",
-                          "give the datagen command again"});
-  }
-  return findings;
-}
-
-Findings CheckRecords(const fs::path& folder, const std::vector<fs::path>& indices) {
-  Findings findings;
-  try {
-    Append(findings, CheckCounts(folder, ReadDataset(folder), indices));
-    const fs::path path = folder / "provenance.json";
-    const DatasetProvenance provenance = ReadProvenance(folder);
-    const std::vector<DatasetDoor>& doors = provenance.doors;
-    Append(findings, CheckPlan(folder, provenance));
-    Append(findings, CheckSplits(path.string(), doors, &DatasetDoor::body));
-    Append(findings, CheckSplits(path.string(), doors, &DatasetDoor::handle));
-    for (const char* name : {"config.yaml", "failures.jsonl", "README.md"}) {
-      if (!fs::is_regular_file(folder / name))
-        findings.push_back({"DST001", (folder / name).string(), "missing", "present", kRecords});
-    }
-  } catch (const Error& error) {
-    findings.push_back({"DST001", folder.string(), error.what(), "complete records", kRecords});
-  }
-  return findings;
-}
-
 }  // namespace
 
 std::vector<DatasetFinding> VerifyDataset(const VerifyRequest& request) {
@@ -288,9 +197,16 @@ std::vector<DatasetFinding> VerifyDataset(const VerifyRequest& request) {
   });
   Findings findings;
   for (Findings& shard : by_shard) Append(findings, std::move(shard));
+  const bool shards_are_whole = findings.empty();
   Append(findings, std::move(files.orphans));
-  Append(findings, CheckRecords(request.folder, files.indices));
+  Append(findings, CheckRecords(request.folder, files.indices, shards_are_whole));
   return findings;
+}
+
+bool AnyFault(const std::vector<DatasetFinding>& findings) {
+  return std::any_of(findings.begin(), findings.end(), [](const DatasetFinding& finding) {
+    return finding.severity == DatasetSeverity::kError;
+  });
 }
 
 nlohmann::ordered_json FindingsToJson(const std::vector<DatasetFinding>& findings) {
@@ -299,7 +215,7 @@ nlohmann::ordered_json FindingsToJson(const std::vector<DatasetFinding>& finding
   for (const DatasetFinding& finding : findings) {
     ++counts[finding.code];
     list.push_back({{"code", finding.code},
-                    {"severity", "error"},
+                    {"severity", finding.severity == DatasetSeverity::kNote ? "note" : "error"},
                     {"where", finding.where},
                     {"measured", finding.measured},
                     {"allowed", finding.allowed},

@@ -17,6 +17,7 @@
 #include <fnmatch.h>
 
 #include "doorforge/core/config_file.h"
+#include "doorforge/core/folder_lock.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
@@ -451,6 +452,7 @@ int ComposeMany(const Options& options, const ComposeRequest& request) {
   const PartStore store(options.parts);
   RefuseToImport(store, request.body);
   RefuseToImport(store, request.handle);
+  const FolderLock lock(options.out, "doorforge compose", Writers::kOne);
   std::vector<std::string> names;
   if (request.body.empty() || options.all || options.as_imported) {
     names = store.All();

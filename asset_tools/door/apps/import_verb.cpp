@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "doorforge/core/config_file.h"
+#include "doorforge/core/folder_lock.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/door/import_objects.h"
@@ -148,10 +149,10 @@ int RunImportVerb(int argc, char** argv) {
   if (!options.only.empty()) config.only = options.only;
   if (!config.read.category.empty()) CheckCategory("--category", config.read.category);
   for (const std::string& category : config.only) CheckCategory("--only", category);
-  const ImportReport report = NamingConfig(options.config, [&] {
-    return ImportObjects(FindObjects(options.sources, options.format), options.out, config,
-                         options.overwrite ? Existing::kReplace : Existing::kRefuse);
-  });
+  const std::vector<ForeignSource> objects = FindObjects(options.sources, options.format);
+  const FolderLock lock(options.out, "doorforge import", Writers::kOne);
+  const ImportReport report = ImportObjects(
+      objects, options.out, config, options.overwrite ? Existing::kReplace : Existing::kRefuse);
   if (options.json)
     std::cout << JsonText(ToJson(report), 2) << '\n';
   else

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "doorforge/core/output_file.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
@@ -38,6 +39,7 @@ struct Options {
   int threads = 0;
   bool collision = false;
   bool episode = false;
+  bool overwrite = false;
   std::uint64_t seed = 1;
   int frames = 7;
 };
@@ -62,6 +64,7 @@ Options Parse(int argc, char** argv) {
   app.add_option("--width", options.width, "of each picture in pixels; 960, or 320 on a sheet")
       ->check(CLI::Range(32, 4096));
   app.add_option("--threads", options.threads, "0: all processors");
+  app.add_flag("--overwrite", options.overwrite, "replace --out if it is there");
   app.add_flag("--collision", options.collision, "draw the collision shapes instead");
 #ifdef DOORFORGE_WITH_OPENABLE
   app.add_flag("--episode", options.episode,
@@ -202,6 +205,7 @@ void WritePreview(const fs::path& folder, const fs::path& png) {
 
 int RunPreviewVerb(int argc, char** argv) {
   const Options options = Parse(argc, argv);
+  RequireNoFile(options.out, options.overwrite);
   std::vector<fs::path> folders;
   for (const std::string& path : options.paths) {
     for (fs::path& folder : FindRecords(path)) folders.push_back(std::move(folder));

@@ -36,6 +36,7 @@ int Main(int argc, char** argv) {
   app.add_option("--robot", robot, "URDF of a robot; the built-in mobile Franka if left out")
       ->check(CLI::ExistingFile);
   app.add_option("--film", options.film, "folder for a PNG of each episode");
+  app.add_flag("--overwrite", options.overwrite, "replace pictures that are in --film");
   app.add_option("--threads", options.threads, "0: all processors")->check(CLI::Range(0, 4096));
   app.add_option("--config", config, "YAML file with the settings of scene and expert");
   app.add_option("--set", settings, "a.b=c overrides one setting");

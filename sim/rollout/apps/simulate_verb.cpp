@@ -14,7 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "doorforge/core/error.h"
-#include "doorforge/core/json_file.h"
+#include "doorforge/core/output_file.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
@@ -72,6 +72,18 @@ std::string NameOf(const Row& row, const DoorAsset& door) {
   return door.id + "_seed" + std::to_string(row.seed) + "_" + std::to_string(row.episode);
 }
 
+fs::path PictureOf(const SimulateOptions& options, const Row& row, const DoorAsset& door) {
+  return options.film / (NameOf(row, door) + ".png");
+}
+
+// Before hours of work, not after.
+void RequireNoPictures(const SimulateOptions& options, const std::vector<Row>& rows,
+                       const std::vector<DoorAsset>& doors) {
+  if (options.film.empty()) return;
+  for (const Row& row : rows)
+    RequireNoFile(PictureOf(options, row, doors[row.door]), options.overwrite);
+}
+
 void RunRow(const SimulateOptions& options, const DoorAsset& door, const RobotModel& robot,
             Row& row) {
   const Scene scene = SceneFor(
@@ -82,7 +94,7 @@ void RunRow(const SimulateOptions& options, const DoorAsset& door, const RobotMo
   if (!options.film.empty()) film = std::make_unique<Film>(scene, door, robot);
   OpeningExpert expert(options.config.expert);
   Episode episode = RunEpisode(scene, door, robot, expert, film.get());
-  if (film) film->Write(OutputBelow(options.film, NameOf(row, door) + ".png"));
+  if (film) film->Write(PictureOf(options, row, door));
   for (Decision& decision : episode.decisions) decision.cloud = {};
   row.result = std::move(episode);
 }
@@ -175,6 +187,7 @@ int Simulate(const SimulateOptions& options) {
   const RobotModel robot = LoadRobot(
       options.config.scene.robot, RobotBaseNamed(options.config.scene.physics.base), RobotMeshes());
   std::vector<Row> rows = PlanRows(options, doors.size());
+  RequireNoPictures(options, rows, doors);
   Progress progress("simulating", rows.size());
   ParallelFor(rows.size(), options.threads, [&](std::size_t i) {
     if (StopRequested() != 0) return;

@@ -30,6 +30,7 @@ struct SimulateOptions {
   int threads = 0;
   bool json = false;
   std::filesystem::path film;  ///< Empty: no pictures.
+  bool overwrite = false;      ///< Of pictures that are there.
   SimulateConfig config;
 };
 

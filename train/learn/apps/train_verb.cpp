@@ -22,7 +22,7 @@
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/config_io.h"
 #include "doorforge/core/error.h"
-#include "doorforge/core/json_file.h"
+#include "doorforge/core/folder_lock.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
 #include "doorforge/learn/checkpoint.h"
@@ -87,7 +87,8 @@ Options Parse(int argc, char** argv) {
   app.add_flag("--overwrite", options.overwrite, "start anew where --out holds a training");
   app.add_flag("--nodes", options.nodes,
                "one of 2, 4 or 8 processes that share the batches: RANK, WORLD_SIZE, MASTER_ADDR\n"
-               "and MASTER_PORT say which, as torchrun sets them; the result is that of one");
+               "and MASTER_PORT say which, as torchrun sets them; the result is that of one. They\n"
+               "talk in clear text and ask nobody who he is: for a network that you trust alone");
   app.footer(
       "Writes policy.safetensors and policy.json (the policy), best/ (as it was when it erred "
       "least\n"
@@ -266,7 +267,13 @@ int Train(const Options& options) {
   if (config.device == "libtorch" || NormOf(config) == EncoderNorm::kBatch) KeepFreedMemory();
   const auto group = options.nodes ? ProcessGroupFromEnvironment() : SoleProcess();
   const bool first = group->rank() == 0;  // which alone writes
-  if (first) CheckFolder(options);
+  std::optional<FolderLock> lock;
+  if (first) {
+    CheckFolder(options);
+    lock.emplace(out, "doorforge train", Writers::kOne);
+    CheckFolder(options);  // again: another training may have ended in between
+    RemoveStaleFiles(SystemFiles(), out);
+  }
   WarnOfSlowLinearAlgebra();
   const std::vector<fs::path> folders(options.data.begin(), options.data.end());
   const StageDataset dataset = ReadStageDataset(folders, options.stage, config.validation_share);
@@ -276,6 +283,7 @@ int Train(const Options& options) {
   TrainHooks hooks;
   hooks.threads = options.threads;
   hooks.group = group.get();
+  hooks.check_samples = [&] { dataset.RequireWhole(); };
   if (!options.from.empty()) BeginWith(options, provenance, hooks);
   if (options.resume && HasTrainerState(out)) hooks.resume = ReadTrainerState(out, provenance);
   const std::uint64_t per_epoch = StepsPerEpoch(dataset.train.size(), config);
@@ -315,6 +323,7 @@ int Train(const Options& options) {
     try {
       state = TrainStage(dataset.train, dataset.validation, config, hooks);
     } catch (const Error& error) {
+      dataset.RequireWhole();  // zeros in place of clouds make losses that are no numbers
       if (!first || error.code() != ErrorCode::kIncomplete) throw;
       throw Error(error.code(), error.what() + KeepLastGood(out, provenance));
     }

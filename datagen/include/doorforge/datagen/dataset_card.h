@@ -26,7 +26,19 @@ struct DatasetCardFiles {
 /// dataset. Throws Error(kMissing or kFormat).
 DatasetCardFiles MakeDatasetCard(const std::filesystem::path& folder);
 
-/// Writes both files into the dataset's folder; README.md replaces the short one of `datagen`.
-void WriteDatasetCard(const std::filesystem::path& folder);
+/// What WriteDatasetCard() does with the README.md that is there.
+enum class OldReadme {
+  kRefuseOthers,  ///< Replaced if `datagen` or this wrote it; Error(kInvalidArgument) if not.
+  kReplace,       ///< Replaced whatever it is.
+  kKeep,          ///< Stays, and `verify` takes it as it is from now on.
+};
+
+/// Writes both files into the dataset's folder, and their lines of SHA256SUMS where there is one;
+/// README.md replaces the short one of `datagen`.
+///
+/// @throws Error(kInvalidArgument) if there is a README.md or croissant.json that was not written
+///     here, see OldReadme; Error(kFormat) if SHA256SUMS is damaged; as MakeDatasetCard().
+void WriteDatasetCard(const std::filesystem::path& folder,
+                      OldReadme readme = OldReadme::kRefuseOthers);
 
 }  // namespace doorforge

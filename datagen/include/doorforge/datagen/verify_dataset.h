@@ -11,6 +11,11 @@
 
 namespace doorforge {
 
+enum class DatasetSeverity {
+  kError,
+  kNote,  ///< Said, and no fault of the dataset: a file that is no part of it.
+};
+
 /// A fault of a dataset. Codes are listed in docs/format-shards.md.
 struct DatasetFinding {
   std::string code;   ///< "DST001"
@@ -18,6 +23,7 @@ struct DatasetFinding {
   std::string measured;
   std::string allowed;
   std::string fix;
+  DatasetSeverity severity = DatasetSeverity::kError;
 };
 
 struct VerifyRequest {
@@ -26,13 +32,22 @@ struct VerifyRequest {
   std::function<void()> on_shard;  ///< Called after each shard, from any thread; may be empty.
 };
 
-/// Checks a dataset's folder completely: every byte of every shard against its checksums, every
-/// array's type, shape and values, meta data against index, counts against dataset.json, and that
-/// no body or handle is on both sides of a split. Finds all faults, not the first; their order does
-/// not depend on threads.
+/// Checks a dataset's folder completely, every byte of every file that belongs to it: shards
+/// against their checksums, every array's type, shape and values, meta data against index; splits,
+/// failures.jsonl, dataset.json against what provenance.json and the shards make them, config.yaml
+/// against the hash in every index, and all records against SHA256SUMS; and that no body or handle
+/// is on both sides of a split. Finds all faults, not the first; their order does not depend on
+/// threads. Of an unfinished dataset, what is there is checked just so.
+///
+/// Datasets of earlier builds have no SHA256SUMS. Of those this cannot tell a change in the fields
+/// of provenance.json that are recorded nowhere else, in the prose of dataset.json, or in a
+/// croissant.json of another build.
 ///
 /// @throws Error(kMissing) if `folder` is not a folder.
 std::vector<DatasetFinding> VerifyDataset(const VerifyRequest& request);
+
+/// Whether there is more than notes.
+bool AnyFault(const std::vector<DatasetFinding>& findings);
 
 /// {"schema", "schema_version", "findings": [...], "counts": {code: number}}
 nlohmann::ordered_json FindingsToJson(const std::vector<DatasetFinding>& findings);

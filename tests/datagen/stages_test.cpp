@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
+#include "doorforge/core/json_file.h"
 #include "doorforge/datagen/verify_dataset.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/rollout/standing_place.h"
@@ -19,6 +21,7 @@
 
 #include "../physics/primitive_door.h"
 #include "datagen_verb.h"
+#include "recorded_robot.h"
 #include "recording_camera.h"
 #include "reobserve.h"
 #include "robot_meshes.h"
@@ -201,6 +204,68 @@ TEST_F(StagesTest, LookedAtAgainAsItWasADatasetHasTheSameShards) {
     EXPECT_GT(DatasetReader(data, NameOf(stage), "train").size(), 0U) << NameOf(stage);
     EXPECT_EQ(TarHash(request.out, stage), TarHash(data, stage)) << NameOf(stage);
   }
+}
+
+// A shard beside the first one, sound in itself, with the first episode under another key or with
+// other meta data: made by another program, as far as anybody can tell.
+void AddForeignShard(const fs::path& data, const std::string& key,
+                     const std::function<void(nlohmann::ordered_json&)>& change) {
+  const fs::path part = data / "open" / "train";
+  const ShardReader reader(part / "shard-000000.index.json");
+  const ShardEpisode& episode = reader.index().episodes.at(0);
+  nlohmann::ordered_json meta = ReadEpisodeMeta(reader, 0);
+  change(meta);
+  std::vector<MemberBytes> members;
+  for (const ShardMember& member : episode.members) {
+    const auto bytes = reader.Read(0, member.name);
+    const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    members.push_back({member.name, member.name == "meta.json" ? JsonText(meta) : text});
+  }
+  ShardWriter writer(part, {1, "open", "train", reader.index().header.config_sha256});
+  writer.Add(key.empty() ? episode.key : key, episode.decisions, std::move(members));
+  writer.Commit();
+}
+
+TEST_F(StagesTest, AForeignShardIsRefusedByNameAndWithWhatIsWrong) {
+  const fs::path data = Collected(Stage::kOpen, 2);
+  const auto expect = [&](const std::string& key, const std::string& problem,
+                          const std::function<void(nlohmann::ordered_json&)>& change) {
+    AddForeignShard(data, key, change);
+    const ReobserveRequest request = Again(data);
+    try {
+      ReobserveDataset(request);
+      ADD_FAILURE() << problem << ": was looked at again";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kFormat) << error.what();
+      EXPECT_NE(std::string(error.what()).find(problem), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("shard-000001.tar"), std::string::npos)
+          << error.what();
+    }
+    for (const char* ending : {".tar", ".index.json"})
+      fs::remove(data / "open" / "train" / (std::string("shard-000001") + ending));
+    fs::remove_all(request.out);
+  };
+  const auto nothing = [](nlohmann::ordered_json&) {};
+  expect("epXYZ", "none of an episode of a plan", nothing);
+  expect("ep99999999999999999999999999", "none of an episode of a plan", nothing);
+  expect("", "is in another shard as well", nothing);
+  expect("ep000009", "which provenance.json does not name",
+         [](nlohmann::ordered_json& meta) { meta["scene"]["door_id"] = "nobody"; });
+  expect("ep000009", "decision times", [](nlohmann::ordered_json& meta) {
+    meta["decision_time_s"] = nlohmann::ordered_json::array();
+  });
+  expect("ep000009", "robot_seen",
+         [](nlohmann::ordered_json& meta) { meta["robot_seen"] = "perhaps"; });
+  ReobserveDataset(Again(data));
+  ExpectSound(Again(data).out);
+}
+
+TEST(RecordedRobotTest, OnlyAFileOfTheDatasetOrOfTheCommandLineIsOpened) {
+  EXPECT_EQ(RecordedRobot("data", "", ""), "");
+  EXPECT_EQ(RecordedRobot("data", "data/robot.urdf", ""), "data/robot.urdf");
+  EXPECT_EQ(RecordedRobot("data", "/etc/passwd", "mine.urdf"), "mine.urdf");
+  for (const char* elsewhere : {"/etc/passwd", "robot.urdf", "data/../robot.urdf", "database/r"})
+    EXPECT_THROW(RecordedRobot("data", elsewhere, ""), Error) << elsewhere;
 }
 
 TEST_F(StagesTest, WithoutTheRobotOnlyWhatIsSeenChanges) {

@@ -4,6 +4,7 @@
 import json
 import os
 import pathlib
+import shlex
 import shutil
 import signal
 import subprocess
@@ -184,23 +185,37 @@ class DamagedData(ProgramTest):
             process = self.start(*self.collection(out))
             time.sleep(delay)
             self.kill(process)
-        # what a writer leaves that is killed between a file's first byte and its name
-        host = os.uname().nodename
-        dead = subprocess.Popen(["true"])
-        dead.wait()
-        out.mkdir(exist_ok=True)
-        (out / f".config.yaml.tmp-{dead.pid}-0-{host}").write_text("half")
         self.assert_ends(self.collect(out), 0)
         self.assertEqual(hidden(out), [])
         self.assertEqual(contents(out), whole)
 
-        policy = self.folder / "policy"
-        process = self.start(*self.training(policy, "--epochs", 100000))
-        self.wait_until(lambda: (policy / "losses.jsonl").exists(), "the first epoch", process)
-        self.kill(process)
-        (policy / f".training.safetensors.tmp-{dead.pid}-0-{host}").write_text("half")
+    def end_within_a_file(self, blocks: int, *arguments: object) -> None:
+        """Runs `doorforge ARGUMENTS` until it has written so many KiB of one file, and ends it there."""
+        command = shlex.join([str(BINARY_DIR / "bin/doorforge"), *map(str, arguments)])
+        result = subprocess.run(["bash", "-c", f"ulimit -c 0 -f {blocks}; exec {command}"], capture_output=True,
+                                timeout=300)
+        self.assertEqual(result.returncode, -signal.SIGXFSZ, result.stderr[-2000:])
+
+    def test_nothing_of_a_writer_that_ended_within_a_file_is_left_after_the_next_run(self):
+        out, policy = self.folder / "ended", self.folder / "policy"
+        self.end_within_a_file(1, *self.collection(out))
+        self.assertTrue(any(".tmp-" in name for name in hidden(out)), hidden(out))
+        self.assert_ends(self.collect(out), 0)
+        self.assertEqual(hidden(out), [])
+        self.assertEqual(contents(out), contents(self.data))
+
+        self.end_within_a_file(100, *self.training(policy, "--epochs", 2))
+        self.assertTrue(any(".tmp-" in name for name in hidden(policy)), hidden(policy))
         self.assert_ends(run(*self.training(policy, "--epochs", 1, "--overwrite")), 0)
         self.assertEqual(hidden(policy), [])
+
+        exported = self.folder / "exported"
+        exported.mkdir()
+        export = ["dataset", "export", self.data, "--to", "robomimic", "--out", exported / "data.hdf5"]
+        self.end_within_a_file(64, *export)
+        self.assertNotEqual(hidden(exported), [])
+        self.assert_ends(run(*export), 0)
+        self.assertEqual([path.name for path in exported.iterdir()], ["data.hdf5"])
 
     # ---- nothing is replaced unasked ------------------------------------------------------------
 
@@ -257,7 +272,7 @@ class DamagedData(ProgramTest):
     def test_no_path_of_a_record_leaves_the_data_set(self):
         hostile = self.folder / "hostile"
         shutil.copytree(self.data, hostile)
-        (hostile / "SHA256SUMS").unlink()
+        (hostile / "SHA256SUMS").unlink(missing_ok=True)
         for key in ("stage", "split"):
             record = json.loads((self.data / "provenance.json").read_text())
             for part in record["planned"]:

@@ -48,6 +48,8 @@ Part LeverPart() {
 DoorAsset TestDoor() {
   DoorAsset door;
   door.id = "test-door";
+  door.body.id = "test-body";
+  door.handle.id = "test-lever";
   door.mechanism = Mechanism::kLever;
   door.license = "CC0-1.0";
   const char* names[] = {"base", "leaf", "handle"};

@@ -112,7 +112,7 @@ TEST(Safetensors, RefuseFilesThatDoNotFollowTheFormat) {
   ExpectRefused("", "shorter than 8 bytes");
   ExpectRefused(std::string(8, '\xFF'), "header of");
   ExpectRefused(WithHeader("[]", ""), "begin with {");
-  ExpectRefused(WithHeader("{\"x\":", ""), "parse");
+  ExpectRefused(WithHeader("{\"x\":", ""), "not JSON");
   ExpectRefused(WithHeader(good, "abcde"), "belong to no tensor");
   ExpectRefused(WithHeader(good, "abc"), "outside the data");
   ExpectRefused(WithHeader(R"({"x":{"dtype":"BF16","shape":[2],"data_offsets":[0,4]}})", "abcd"),

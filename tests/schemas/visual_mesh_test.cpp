@@ -49,6 +49,8 @@ Part PartWith(const VisualMesh& visual) {
 DoorAsset DoorWith(const VisualMesh& visual) {
   DoorAsset door;
   door.id = "drawn";
+  door.body.id = "drawn-body";
+  door.handle.id = "drawn-handle";
   for (std::size_t i = 0; i < 3; ++i) door.links[i].name = std::to_string(i);
   const PartPiece leaf = PartWith(visual).pieces[0];
   door.links[kLeafLink].geometry.push_back({.name = "leaf",

@@ -23,7 +23,6 @@
 #include "doorforge/datagen/describe_dataset.h"
 #include "doorforge/datagen/task_number.h"
 
-#include "door_folder.h"
 #include "forecast.h"
 #include "slurm_verb.h"
 #include "stage_run.h"

@@ -100,11 +100,13 @@ CollectionForecast Forecast(StageRun& run, int probe, int threads) {
   forecast.stage = NameOf(run.config().stage);
   forecast.threads = ThreadCount(threads);
   forecast.shards = run.plan().shards.size();
-  for (const DatasetDoor& door : run.doors().doors) ++forecast.doors_by_category[door.category];
+  for (const FoundDoor& door : run.doors())
+    ++forecast.doors_by_category[std::string(NameOf(door.identity.category))];
   for (const PlannedShard& shard : run.plan().shards) {
     forecast.episodes += shard.episodes.size();
     for (const PlannedEpisode& episode : shard.episodes)
-      ++forecast.episodes_by_category[run.doors().doors[episode.door].category];
+      ++forecast
+            .episodes_by_category[std::string(NameOf(run.doors()[episode.door].identity.category))];
   }
   if (probe > 0) Probe(run, static_cast<std::size_t>(probe), forecast);
   return forecast;

@@ -18,10 +18,10 @@
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/rollout/run_episode.h"
+#include "doorforge/schemas/door_set.h"
 #include "doorforge/schemas/episode_arrays.h"
 #include "doorforge/schemas/shard.h"
 
-#include "door_folder.h"
 #include "episode_records.h"
 #include "recorded_robot.h"
 #include "recording_camera.h"
@@ -193,7 +193,7 @@ CollectedEpisode FailedAgain(const FailedEpisode& failure) {
 class Reobservation {
  public:
   Reobservation(const SourceDataset& source, const ReobserveConfig& config,
-                const std::string& robot_file, const DoorFolder& doors)
+                const std::string& robot_file, const std::vector<FoundDoor>& doors)
       : source_(source), config_(config), robot_file_(robot_file), shelf_(doors) {}
 
   CollectedEpisode Look(const PlannedEpisode& planned) {
@@ -321,8 +321,8 @@ CollectSummary ReobserveDataset(const ReobserveRequest& request) {
   const SourceConfig source_config = ReadSourceConfig(request.folder, request.robot);
   const ReobserveConfig config = ConfigOf(request, source_config.config);
   RequireSpaceForClouds(source, config, request.out);
-  const DoorFolder doors =
-      FindRecordedDoors(request.doors, source.provenance().doors, request.threads);
+  const std::vector<FoundDoor> doors =
+      FindRecordedDoors(DoorSelectionOf(request.doors), source.provenance().doors, request.threads);
   Reobservation reobservation(source, config, source_config.robot_file, doors);
   CollectRequest collect;
   collect.folder = request.out;

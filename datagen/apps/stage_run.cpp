@@ -6,7 +6,7 @@
 
 #include "doorforge/core/config_io.h"
 #include "doorforge/core/error.h"
-#include "doorforge/core/json_file.h"
+#include "doorforge/core/hash.h"
 #include "doorforge/core/program.h"
 #include "doorforge/rollout/run_episode.h"
 
@@ -58,23 +58,34 @@ std::string LearnerOf(const StageRequest& request, bool grasps) {
   return (request.config.stage == Stage::kGrasp) == grasps ? request.policies.learner : "";
 }
 
-// There is no handle to turn where there is no latch.
-DoorFolder WithLatch(const DoorFolder& all) {
-  DoorFolder some;
-  for (std::size_t i = 0; i < all.doors.size(); ++i) {
-    if (all.doors[i].mechanism == NameOf(Mechanism::kNone)) continue;
-    some.doors.push_back(all.doors[i]);
-    some.paths.push_back(all.paths[i]);
-  }
-  Require(!some.doors.empty(), ErrorCode::kInvalidArgument,
-          "none of the " + std::to_string(all.doors.size()) +
+std::vector<FoundDoor> DoorsFor(const StageRequest& request) {
+  std::vector<FoundDoor> doors = FindDoorSet(DoorSelectionOf(request.doors), request.threads);
+  if (request.config.stage != Stage::kHandle) return doors;
+  // there is no handle to turn where there is no latch
+  const std::size_t all = doors.size();
+  std::erase_if(doors,
+                [](const FoundDoor& door) { return door.identity.mechanism == Mechanism::kNone; });
+  Require(!doors.empty(), ErrorCode::kInvalidArgument,
+          "none of the " + std::to_string(all) +
               " doors has a latch; the stage \"handle\" needs handles that turn");
-  return some;
+  return doors;
 }
 
-DoorFolder DoorsFor(const StageRequest& request) {
-  DoorFolder doors = ReadDoors(request.doors, request.threads);
-  return request.config.stage == Stage::kHandle ? WithLatch(doors) : doors;
+// What the plan needs of the doors, in their order.
+std::vector<DoorParts> PartsOf(const std::vector<FoundDoor>& doors) {
+  std::vector<DoorParts> parts;
+  for (const auto& [door, folder, is_indexed] : doors)
+    parts.push_back({door.id, std::string(NameOf(door.category)),
+                     std::string(NameOf(door.mechanism)), door.body, door.handle});
+  return parts;
+}
+
+// Hash over all doors' ids and hashes.
+std::string HashOf(const std::vector<FoundDoor>& doors) {
+  Sha256 hash;
+  for (const FoundDoor& door : doors)
+    hash.Update(door.identity.id + "\n" + door.identity.sha256 + "\n");
+  return hash.HexDigest();
 }
 
 }  // namespace
@@ -108,7 +119,7 @@ std::vector<TrainedPolicy> StageRun::Trained() const {
 std::string StageRun::ConfigText() const {
   std::string text =
       "# doorforge datagen " + std::string(NameOf(config_.stage)) + ", " + CodeVersion() + "\n# " +
-      std::to_string(doors_.doors.size()) + " doors, sha256 " + ContentHash(doors_) + "\n# robot " +
+      std::to_string(doors_.size()) + " doors, sha256 " + HashOf(doors_) + "\n# robot " +
       (robot_.name().empty() ? "embedded" : robot_.name() + ", sha256 " + robot_.sha256()) +
       ", rays by " + RayCasterVersion() + "\n";
   for (const TrainedPolicy& policy : Trained())
@@ -126,7 +137,8 @@ CollectRequest StageRun::Request() const {
   for (const TrainedPolicy& policy : Trained())
     request.provenance.policies.push_back(policy.identity);
   request.provenance.seed = config_.seed;
-  request.provenance.doors = doors_.doors;
+  for (const FoundDoor& door : doors_)
+    request.provenance.doors.push_back(DatasetDoorOf(door.identity));
   return request;
 }
 

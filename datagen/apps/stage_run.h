@@ -8,8 +8,8 @@
 
 #include "doorforge/datagen/collect.h"
 #include "doorforge/datagen/collection_plan.h"
+#include "doorforge/schemas/door_set.h"
 
-#include "door_folder.h"
 #include "stage_episode.h"
 
 namespace doorforge {
@@ -17,7 +17,7 @@ namespace doorforge {
 /// What a collection is made from, as a user names it.
 struct StageRequest {
   StageConfig config;
-  std::vector<std::string> doors;  ///< As ReadDoors().
+  std::vector<std::string> doors;  ///< As DoorSelectionOf().
   PolicyFolders policies;
   int threads = 0;
 };
@@ -36,7 +36,7 @@ class StageRun {
   const StageConfig& config() const { return config_; }
   const CollectionPlan& plan() const { return plan_; }
   /// Those that the stage has a use for: "handle" has none for doors without a latch.
-  const DoorFolder& doors() const { return doors_; }
+  const std::vector<FoundDoor>& doors() const { return doors_; }
 
   /// For Collect(): folder, threads and task are the caller's.
   CollectRequest Request() const;
@@ -53,7 +53,7 @@ class StageRun {
   std::unique_ptr<PolicyPool> opener_;
   std::unique_ptr<PolicyPool> learner_;
   std::unique_ptr<GraspPool> grasp_learner_;
-  DoorFolder doors_;
+  std::vector<FoundDoor> doors_;
   DoorShelf shelf_;
   CollectionPlan plan_;
 };

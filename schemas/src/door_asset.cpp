@@ -14,6 +14,7 @@
 #include "doorforge/schemas/mesh_file.h"
 #include "doorforge/schemas/mesh_pool.h"
 
+#include "door_record.h"
 #include "latch_json.h"
 #include "record_json.h"
 
@@ -32,19 +33,34 @@ PointLabel LabelNamed(const std::string& name, const std::string& path) {
   throw Error(ErrorCode::kFormat, path + ".label: unknown name \"" + name + '"');
 }
 
-Json GeometryToJson(const DoorGeometry& geometry) {
+Json MeshReference(const std::string& path, const std::string& sha256) {
+  return {{"path", path}, {"sha256", sha256}};
+}
+
+Json GeometryToJson(const DoorGeometry& geometry, const internal::GeometryHashes& hashes) {
   Json hulls = Json::array();
-  for (std::size_t i = 0; i < geometry.hulls.size(); ++i)
-    hulls.push_back(internal::MeshReference(CollisionMeshPath(geometry, i), geometry.hulls[i]));
+  for (std::size_t i = 0; i < hashes.hulls.size(); ++i)
+    hulls.push_back(MeshReference(CollisionMeshPath(geometry, i), hashes.hulls[i]));
   Json json = {{"name", geometry.name},
                {"label", kLabelNames.at(static_cast<std::size_t>(geometry.label))},
                {"color_rgba", internal::ColorToJson(geometry.color_rgba)},
-               {"mesh", internal::MeshReference(VisualMeshPath(geometry), geometry.mesh)},
+               {"mesh", MeshReference(VisualMeshPath(geometry), hashes.mesh)},
                {"hulls", hulls}};
-  if (!geometry.visual.empty())
-    json["visual"] = internal::VisualToJson(
-        VisualFilesIn(internal::kAuthoredFolder, geometry.name, geometry.visual));
+  if (hashes.visual) json["visual"] = internal::VisualToJson(*hashes.visual);
   return json;
+}
+
+internal::DoorHashes HashesOf(const DoorAsset& door) {
+  internal::DoorHashes hashes;
+  for (std::size_t i = 0; i < hashes.size(); ++i) {
+    for (const DoorGeometry& geometry : door.links[i].geometry) {
+      internal::GeometryHashes own{Sha256Hex(ToObj(geometry.mesh)), {}, {}};
+      for (const TriangleMesh& hull : geometry.hulls) own.hulls.push_back(Sha256Hex(ToObj(hull)));
+      own.visual = internal::AuthoredFilesOf(geometry.name, geometry.visual);
+      hashes[i].push_back(std::move(own));
+    }
+  }
+  return hashes;
 }
 
 Json PooledGeometryToJson(const DoorGeometry& geometry, const GeometryFiles& files,
@@ -199,12 +215,14 @@ Json HeadToJson(const DoorAsset& door) {
   return json;
 }
 
-Json DoorToJson(const DoorAsset& door) {
+Json DoorToJson(const DoorAsset& door, const internal::DoorHashes& hashes) {
   Json json = HeadToJson(door);
   json["links"] = Json::array();
-  for (const DoorLink& link : door.links) {
+  for (std::size_t i = 0; i < hashes.size(); ++i) {
+    const DoorLink& link = door.links[i];
     Json geometry = Json::array();
-    for (const DoorGeometry& piece : link.geometry) geometry.push_back(GeometryToJson(piece));
+    for (std::size_t k = 0; k < link.geometry.size(); ++k)
+      geometry.push_back(GeometryToJson(link.geometry[k], hashes[i].at(k)));
     json["links"].push_back(LinkToJson(link, geometry));
   }
   return json;
@@ -277,22 +295,22 @@ void WriteMeshFiles(const DoorAsset& door, const std::filesystem::path& folder) 
 
 void WriteDoor(const DoorAsset& door, const std::filesystem::path& folder) {
   WriteMeshFiles(door, folder);
-  WriteJsonFile(folder / "door.json", DoorToJson(door));
+  WriteJsonFile(folder / "door.json", DoorToJson(door, HashesOf(door)));
 }
 
 namespace {
 
-Json ReadRecord(const std::filesystem::path& folder, const std::string& path) {
-  Json json = ReadJsonFile(folder / "door.json");
+void RequireDoorRecord(const Json& json, const std::string& path) {
   RequireSchema(json, "doorforge.door", kDoorSchemaVersion, path);
   const Json& links = MemberOf(json, "links", path);
   if (!links.is_array() || links.size() != std::tuple_size_v<decltype(DoorAsset::links)>)
     throw Error(ErrorCode::kFormat, path + ".links: expected base, leaf and handle");
-  return json;
 }
 
+}  // namespace
+
 // Own files by path below the folder, pooled ones by hash.
-MeshReader ReaderOf(const std::filesystem::path& folder, const std::string& path) {
+MeshReader internal::DoorMeshReader(const std::filesystem::path& folder, const std::string& path) {
   const MeshReader own = internal::ReaderBelow(folder, path);
   const auto pool = std::make_shared<std::optional<MeshPool>>();
   return [folder, path, own, pool](const std::string& relative, const std::string& sha256) {
@@ -304,17 +322,22 @@ MeshReader ReaderOf(const std::filesystem::path& folder, const std::string& path
   };
 }
 
-}  // namespace
-
 DoorAsset ReadDoor(const std::filesystem::path& folder) {
-  return ReadDoor(folder, ReaderOf(folder, (folder / "door.json").string()));
+  return ReadDoor(folder, internal::DoorMeshReader(folder, (folder / "door.json").string()));
 }
 
 DoorAsset ReadDoor(const std::filesystem::path& folder, const MeshReader& read_mesh,
                    const VisualReader& read_visual) {
   const std::string path = (folder / "door.json").string();
-  const Readers readers{read_mesh, read_visual ? read_visual : DoorVisualReader(folder, path)};
-  const Json json = ReadRecord(folder, path);
+  return internal::DoorFromRecord(ReadJsonFile(path), folder, read_mesh,
+                                  read_visual ? read_visual : DoorVisualReader(folder, path));
+}
+
+DoorAsset internal::DoorFromRecord(const Json& json, const std::filesystem::path& folder,
+                                   const MeshReader& read_mesh, const VisualReader& read_visual) {
+  const std::string path = (folder / "door.json").string();
+  const Readers readers{read_mesh, read_visual};
+  RequireDoorRecord(json, path);
   DoorAsset door;
   ReadIdentity(json, path, door);
   door.latch = internal::LatchFromJson(MemberOf(json, "latch", path), path + ".latch");
@@ -345,7 +368,8 @@ DoorFiles OwnFilesOf(const DoorAsset& door) {
 
 DoorFiles ReadDoorFiles(const std::filesystem::path& folder) {
   const std::string path = (folder / "door.json").string();
-  const Json json = ReadRecord(folder, path);
+  const Json json = ReadJsonFile(path);
+  RequireDoorRecord(json, path);
   const DoorSource source(json, folder, path);
   DoorFiles files;
   for (std::size_t i = 0; i < files.size(); ++i) {
@@ -404,6 +428,18 @@ void RequireSimulatable(const DoorAsset& door, std::string_view user) {
           "compose it with latch: effort");
 }
 
-std::string ContentHash(const DoorAsset& door) { return Sha256Hex(JsonText(DoorToJson(door))); }
+std::string ContentHash(const DoorAsset& door) {
+  return internal::ContentHash(door, HashesOf(door));
+}
+
+std::string internal::ContentHash(const DoorAsset& door, const DoorHashes& hashes) {
+  return Sha256Hex(DoorToJson(door, hashes).dump());
+}
+
+std::optional<VisualFiles> internal::AuthoredFilesOf(const std::string& name,
+                                                     const VisualMesh& visual) {
+  if (visual.empty()) return std::nullopt;
+  return VisualFilesIn(kAuthoredFolder, name, visual);
+}
 
 }  // namespace doorforge

@@ -11,6 +11,8 @@
 #include "doorforge/core/json_file.h"
 #include "doorforge/door/export_urdf.h"
 #include "doorforge/door/validate_door.h"
+#include "doorforge/schemas/door_index.h"
+#include "doorforge/schemas/door_set.h"
 #include "doorforge/schemas/mesh_pool.h"
 
 #include "mujoco_door.h"
@@ -120,6 +122,31 @@ TEST_F(SharedDoors, MuJoCoAndTheValidatorFollowTheUrdfIntoThePool) {
     const std::string family = finding.code.substr(0, 3);
     EXPECT_TRUE(family == "COL" || family == "HND") << finding.code << " " << finding.measured;
   }
+}
+
+TEST_F(SharedDoors, TheirIndexHoldsTheHashesOfTheDoorsThemselves) {
+  for (const ComposeConfig& config : {ComposeConfig{}, ComposeConfig{.hinge_side = "right"},
+                                      ComposeConfig{.opening = "push", .handle_turn_deg = 90}}) {
+    const fs::path out = folder_ / (config.hinge_side + config.opening);
+    Write(out, 1, Existing::kRefuse, config);
+    WriteDoorIndex(out, 2);
+    const std::vector<FoundDoor> doors = FindDoorSet({.folders = {out}}, 1);
+    ASSERT_EQ(doors.size(), 4U);
+    for (const FoundDoor& door : doors) {
+      EXPECT_TRUE(door.is_indexed);
+      EXPECT_EQ(door.identity, IdentityOf(ReadDoor(door.folder)));
+    }
+  }
+}
+
+TEST_F(SharedDoors, AChangedPoolFileIsNoticedBesideAnIndexToo) {
+  Write(folder_, 1, Existing::kRefuse);
+  WriteDoorIndex(folder_, 1);
+  const std::vector<FoundDoor> doors = FindDoorSet({.folders = {folder_}}, 1);
+  DoorShelf shelf(doors);
+  const fs::path mesh = doors.at(0).folder / ReadDoorFiles(doors[0].folder)[kLeafLink][0].mesh;
+  CommitFile(mesh, ReadFile(mesh) + "v 9 9 9\n");
+  EXPECT_THROW(shelf.Take(0), Error);
 }
 
 TEST_F(SharedDoors, AChangedPoolFileIsNoticed) {

@@ -15,6 +15,7 @@
 #include "doorforge/core/closed_mesh.h"
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
 #include "doorforge/door/compose.h"
 #include "doorforge/door/export_door.h"
 #include "doorforge/door/export_urdf.h"
@@ -22,6 +23,7 @@
 #include "doorforge/door/shared_doors.h"
 #include "doorforge/door/validate_door.h"
 #include "doorforge/mesh/import_mesh.h"
+#include "doorforge/schemas/door_identity.h"
 
 #include "mujoco_door.h"
 #include "scratch_folder.h"
@@ -331,6 +333,8 @@ TEST(VisualDoor, DoorsThatShareMeshesShareThemToo) {
   const fs::path folder = root / "doors" / outcomes[0].id;
   const DoorAsset door = ReadDoor(folder);
   EXPECT_EQ(ContentHash(door), ContentHash(ComposeDoor(Read(root, "leaf"), Read(root, "bar"), {})));
+  DoorIdentifier identifier;
+  EXPECT_EQ(identifier.Identify(ReadJsonFile(folder / "door.json"), folder), IdentityOf(door));
   ASSERT_EQ(LeafOf(door).visual.surfaces.size(), 2U);
   const ValidationReport report = ValidateDoor(folder, ValidationProfile::kUrdf);
   EXPECT_EQ(report.errors, 0) << (report.findings.empty() ? "" : report.findings[0].measured);

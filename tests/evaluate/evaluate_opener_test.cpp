@@ -93,7 +93,7 @@ class EvaluateOpenerTest : public testing::Test {
   static EvaluationRequest RequestFor(const std::string& doors) {
     EvaluationRequest request;
     request.policy = folder_ / "policy";
-    request.doors = {(folder_ / doors).string()};
+    request.doors.folders = {folder_ / doors};
     request.data = {folder_ / "data"};
     request.config.seeds = 1;
     request.config.scene.physics.max_opening_actions = 4;
@@ -179,7 +179,7 @@ TEST_F(EvaluateOpenerTest, ATrainedHandlePolicyTurnsTheHandleAndItsDoorsAreSeenT
   EXPECT_NE(report.episodes.at(0).state_sha256, by_rule);
   EXPECT_EQ(report.provenance.handler_sha256, ReadPolicy(request.handler, "handle").weights_sha256);
 
-  request.doors = {(folder_ / "half_seen").string()};
+  request.doors.folders = {folder_ / "half_seen"};
   EXPECT_NE(RefusalOf(request).find("body_b__handle_a"), std::string::npos);
   request.handler = folder_ / "policy";
   EXPECT_THROW(EvaluateOpener(request), Error) << "an opener does not turn handles";
@@ -254,7 +254,7 @@ TEST_F(EvaluateOpenerTest, ATrainedGrasperTakesHoldAndItsDoorsAreSeenToo) {
   const EvaluationReport back = ReportFromJson(ReportToJson(report), "report");
   EXPECT_EQ(back.provenance.grasper_sha256, report.provenance.grasper_sha256);
 
-  request.doors = {(folder_ / "half_seen").string()};
+  request.doors.folders = {folder_ / "half_seen"};
   EXPECT_NE(RefusalOf(request).find("body_b__handle_a"), std::string::npos);
   request.grasper = folder_ / "policy";
   EXPECT_THROW(EvaluateOpener(request), Error) << "an opener does not choose grasps";

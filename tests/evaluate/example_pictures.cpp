@@ -21,7 +21,7 @@ ReportPictures ExamplePictures(const EvaluationReport& report) {
   const std::string png(kPixel.begin(), kPixel.end());
   ReportPictures pictures;
   for (const auto* doors : {&report.doors, &report.training_doors}) {
-    for (const ReportDoor& door : *doors) pictures.doors[door.id] = png;
+    for (const DoorIdentity& door : *doors) pictures.doors[door.id] = png;
   }
   for (int i = 0; i < kEpisodeOutcomeCount; ++i)
     pictures.episodes[static_cast<EpisodeOutcome>(i)] = {

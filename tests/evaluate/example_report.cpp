@@ -18,7 +18,7 @@ Category CategoryOfDoor(int door) {
   return door < 4 ? Category::kInterior : Category::kStorageFurniture;
 }
 
-ReportDoor Door(int number, const std::string& set) {
+DoorIdentity Door(int number, const std::string& set) {
   const std::string body = set + "_body_" + std::to_string(number);
   const std::string handle = set + "_handle_" + std::to_string(number);
   return {.id = body + "__" + handle,
@@ -30,7 +30,7 @@ ReportDoor Door(int number, const std::string& set) {
           .license = "CC0-1.0"};
 }
 
-EvaluatedEpisode Row(const ReportDoor& door, std::uint64_t seed, double skill) {
+EvaluatedEpisode Row(const DoorIdentity& door, std::uint64_t seed, double skill) {
   Rng rng(seed, "example/" + door.id);
   EvaluatedEpisode row;
   row.door_id = door.id;
@@ -80,7 +80,7 @@ EvaluationReport ExampleReport() {
     report.trained_on.bodies.push_back(report.training_doors.back().body);
     report.trained_on.handles.push_back(report.training_doors.back().handle);
   }
-  for (const ReportDoor& door : report.doors) {
+  for (const DoorIdentity& door : report.doors) {
     for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
       report.episodes.push_back(Row(door, seed, 1));
       report.reference.push_back(Row(door, seed, 1.6));

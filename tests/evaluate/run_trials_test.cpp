@@ -47,6 +47,11 @@ std::vector<DoorAsset> Doors() {
   return doors;
 }
 
+TrialPlan PlanFor(const std::vector<DoorAsset>& doors, const EvaluationConfig& config) {
+  return {[doors](std::size_t door) { return std::make_shared<const DoorAsset>(doors.at(door)); },
+          doors.size(), config};
+}
+
 Contender Tiring() {
   return {[] { return Players{std::make_unique<TiringPolicy>()}; }, nullptr};
 }
@@ -57,13 +62,17 @@ TEST(RunTrials, EveryDoorIsTriedInEverySeed) {
   config.first_seed = 40;
   config.episodes_per_door = 3;
   const auto doors = Doors();
-  const std::vector<Trial> trials = PlanTrials(doors, config);
+  const TrialPlan trials = PlanFor(doors, config);
   ASSERT_EQ(trials.size(), doors.size() * 2 * 3);
   std::set<std::tuple<std::string, std::uint64_t, std::uint64_t>> different;
-  for (const Trial& trial : trials) {
-    EXPECT_EQ(trial.scene.door_id, doors[trial.door].id);
-    EXPECT_TRUE(trial.scene.seed == 40 || trial.scene.seed == 41);
-    different.insert({trial.scene.door_id, trial.scene.seed, trial.scene.episode});
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const auto [door, scene] = trials.At(i);
+    EXPECT_EQ(door->id, doors[i / 6].id) << "ordered by door, seed and episode";
+    EXPECT_EQ(trials.DoorOf(i), i / 6);
+    EXPECT_EQ(scene.door_id, door->id);
+    EXPECT_EQ(scene.seed, 40 + i / 3 % 2);
+    EXPECT_EQ(scene.episode, i % 3);
+    different.insert({scene.door_id, scene.seed, scene.episode});
   }
   EXPECT_EQ(different.size(), trials.size());
 }
@@ -71,31 +80,31 @@ TEST(RunTrials, EveryDoorIsTriedInEverySeed) {
 TEST(RunTrials, SettingsOutOfRangeAreRefused) {
   EvaluationConfig config;
   config.seeds = 0;
-  EXPECT_THROW(PlanTrials(Doors(), config), Error);
+  EXPECT_THROW(PlanFor(Doors(), config), Error);
   config.seeds = 1;
   config.episodes_per_door = -1;
-  EXPECT_THROW(PlanTrials(Doors(), config), Error);
+  EXPECT_THROW(PlanFor(Doors(), config), Error);
 }
 
 TEST(RunTrials, RowsDoNotDependOnTheNumberOfThreads) {
   EvaluationConfig config;
   config.seeds = 2;
   const auto doors = Doors();
-  const auto trials = PlanTrials(doors, config);
-  const auto one = RunTrials(doors, trials, Tiring(), {.threads = 1, .done = nullptr});
+  const TrialPlan trials = PlanFor(doors, config);
+  const auto one = RunTrials(trials, Tiring(), {.threads = 1, .done = nullptr});
   std::mutex mutex;
   std::size_t told = 0;
   const auto three =
-      RunTrials(doors, trials, Tiring(), {.threads = 3, .done = [&](const EvaluatedEpisode&) {
-                                            const std::scoped_lock lock(mutex);
-                                            ++told;
-                                          }});
+      RunTrials(trials, Tiring(), {.threads = 3, .done = [&](const EvaluatedEpisode&) {
+                                     const std::scoped_lock lock(mutex);
+                                     ++told;
+                                   }});
   EXPECT_EQ(told, trials.size());
   ASSERT_EQ(one.size(), three.size());
   for (std::size_t i = 0; i < one.size(); ++i) {
     EXPECT_EQ(one[i].state_sha256, three[i].state_sha256) << one[i].door_id;
     EXPECT_EQ(one[i].detail, three[i].detail);
-    EXPECT_EQ(one[i].door_id, doors[trials[i].door].id) << "rows are in the trials' order";
+    EXPECT_EQ(one[i].door_id, doors[trials.DoorOf(i)].id) << "rows are in the trials' order";
   }
 }
 
@@ -103,10 +112,10 @@ TEST(RunTrials, TheExpertOpensWhatAPolicyThatStopsDoesNot) {
   EvaluationConfig config;
   config.seeds = 1;
   const auto doors = Doors();
-  const auto trials = PlanTrials(doors, config);
+  const TrialPlan trials = PlanFor(doors, config);
   const Contender expert{[] { return Players{std::make_unique<OpeningExpert>()}; }, nullptr};
-  const auto good = Summarise(RunTrials(doors, trials, expert));
-  const auto bad = Summarise(RunTrials(doors, trials, Tiring()));
+  const auto good = Summarise(RunTrials(trials, expert));
+  const auto bad = Summarise(RunTrials(trials, Tiring()));
   EXPECT_EQ(good.opened.successes, 3);
   EXPECT_EQ(bad.opened.successes, 0);
   EXPECT_EQ(bad.outcomes[static_cast<int>(EpisodeOutcome::kDoorStuck)], 3);
@@ -120,9 +129,9 @@ TEST(TakePictures, GivesEveryDoorAFilmOfEachOutcomeAndTheCamerasView) {
   EvaluationConfig config;
   config.seeds = 1;
   const std::vector<DoorAsset> doors = {Doors().front()};
-  const auto trials = PlanTrials(doors, config);
-  const auto rows = RunTrials(doors, trials, Tiring());
-  const ReportPictures pictures = TakePictures({doors, trials, rows}, Tiring(), 2);
+  const TrialPlan trials = PlanFor(doors, config);
+  const auto rows = RunTrials(trials, Tiring());
+  const ReportPictures pictures = TakePictures({trials, rows}, Tiring(), 2);
   EXPECT_EQ(pictures.doors.size(), doors.size());
   std::set<EpisodeOutcome> outcomes;
   for (const EvaluatedEpisode& row : rows) outcomes.insert(row.outcome);
@@ -153,11 +162,11 @@ TEST(RunTrials, AGrasperWithoutAHandleInViewIsACauseOfItsOwn) {
                           return players;
                         },
                         nullptr};
-  const auto trials = PlanTrials(doors, config);
-  const auto rows = RunTrials(doors, trials, blind);
+  const TrialPlan trials = PlanFor(doors, config);
+  const auto rows = RunTrials(trials, blind);
   EXPECT_EQ(rows.at(0).outcome, EpisodeOutcome::kNotReached);
   EXPECT_EQ(CauseOf(rows.at(0)), kNoGraspInView);
-  EXPECT_TRUE(TakePictures({doors, trials, rows}, blind).episodes.empty()) << "nothing moves";
+  EXPECT_TRUE(TakePictures({trials, rows}, blind).episodes.empty()) << "nothing moves";
 }
 
 TEST(TakePictures, ShowsTheGraspOfADoorThatOpenedAndOfOneThatDidNotInEachCategory) {
@@ -165,12 +174,12 @@ TEST(TakePictures, ShowsTheGraspOfADoorThatOpenedAndOfOneThatDidNotInEachCategor
   config.seeds = 1;
   std::vector<DoorAsset> doors = Doors();
   doors.back().category = Category::kSafe;
-  const auto trials = PlanTrials(doors, config);
+  const TrialPlan trials = PlanFor(doors, config);
   std::vector<EvaluatedEpisode> rows;
-  for (const Trial& trial : trials) {
+  for (std::size_t i = 0; i < trials.size(); ++i) {
     EvaluatedEpisode& row = rows.emplace_back();
-    row.door_id = doors[trial.door].id;
-    row.category = doors[trial.door].category;
+    row.door_id = doors[trials.DoorOf(i)].id;
+    row.category = doors[trials.DoorOf(i)].category;
     row.outcome = EpisodeOutcome::kHandleSlipped;
   }
   rows.front().outcome = EpisodeOutcome::kOpened;
@@ -193,7 +202,7 @@ TEST(TakePictures, ShowsTheGraspOfADoorThatOpenedAndOfOneThatDidNotInEachCategor
                               return players;
                             },
                             nullptr};
-  const auto grasps = TakeGraspPictures({doors, trials, rows}, contender, 2);
+  const auto grasps = TakeGraspPictures({trials, rows}, contender, 2);
   ASSERT_EQ(grasps.size(), 2U);
   EXPECT_TRUE(grasps[0].opened);
   EXPECT_FALSE(grasps[1].opened);
@@ -203,17 +212,17 @@ TEST(TakePictures, ShowsTheGraspOfADoorThatOpenedAndOfOneThatDidNotInEachCategor
     EXPECT_EQ(grasp.category, Category::kInterior);
     EXPECT_EQ(grasp.picture.png.substr(1, 3), "PNG");
   }
-  EXPECT_TRUE(TakeGraspPictures({doors, trials, rows}, Tiring()).empty());
+  EXPECT_TRUE(TakeGraspPictures({trials, rows}, Tiring()).empty());
 }
 
 TEST(TakePictures, RefusesRowsOfAnotherPolicy) {
   EvaluationConfig config;
   config.seeds = 1;
   const std::vector<DoorAsset> doors = {Doors().front()};
-  const auto trials = PlanTrials(doors, config);
-  const auto rows = RunTrials(doors, trials, Tiring());
+  const TrialPlan trials = PlanFor(doors, config);
+  const auto rows = RunTrials(trials, Tiring());
   const Contender expert{[] { return Players{std::make_unique<OpeningExpert>()}; }, nullptr};
-  EXPECT_THROW(TakePictures({doors, trials, rows}, expert), Error);
+  EXPECT_THROW(TakePictures({trials, rows}, expert), Error);
 }
 
 }  // namespace

@@ -29,6 +29,7 @@
 #include "doorforge/door/export_urdf.h"
 #include "doorforge/door/shared_doors.h"
 #include "doorforge/door/validate_door.h"
+#include "doorforge/schemas/door_index.h"
 
 #include "mesh_options.h"
 #include "own_part.h"
@@ -448,6 +449,9 @@ void RefuseToImport(const PartStore& store, const std::string& name) {
                 name + ": is no part; for many doors make it one first with `doorforge import`");
 }
 
+// Readers of many doors start in a second with it, see docs/design/door-index.md.
+void IndexDoors(const Options& options) { WriteDoorIndex(options.out, options.threads); }
+
 int ComposeMany(const Options& options, const ComposeRequest& request) {
   const PartStore store(options.parts);
   RefuseToImport(store, request.body);
@@ -477,6 +481,7 @@ int ComposeMany(const Options& options, const ComposeRequest& request) {
                                       ? WriteStandalone(plan, store, names, options.out)
                                       : WriteShared(plan, options.out);
   WriteRequest(request, options.out);
+  if (StopRequested() == 0) IndexDoors(options);
   return Finish(doors, options);
 }
 

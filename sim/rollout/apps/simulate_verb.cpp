@@ -21,7 +21,7 @@
 #include "doorforge/core/record_id.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/rollout/standing_place.h"
-#include "doorforge/schemas/find_doors.h"
+#include "doorforge/schemas/door_set.h"
 
 #include "film.h"
 #include "robot_meshes.h"
@@ -68,8 +68,8 @@ std::vector<Row> PlanRows(const SimulateOptions& options, std::size_t doors) {
   return rows;
 }
 
-std::string NameOf(const Row& row, const DoorAsset& door) {
-  return door.id + "_seed" + std::to_string(row.seed) + "_" + std::to_string(row.episode);
+std::string NameOf(const Row& row, const std::string& door) {
+  return door + "_seed" + std::to_string(row.seed) + "_" + std::to_string(row.episode);
 }
 
 fs::path PictureOf(const SimulateOptions& options, const Row& row, const DoorAsset& door) {
@@ -94,12 +94,12 @@ void RunRow(const SimulateOptions& options, const DoorAsset& door, const RobotMo
   if (!options.film.empty()) film = std::make_unique<Film>(scene, door, robot);
   OpeningExpert expert(options.config.expert);
   Episode episode = RunEpisode(scene, door, robot, expert, film.get());
-  if (film) film->Write(PictureOf(options, row, door));
+  if (film) film->Write(options.film / (NameOf(row, door.id) + ".png"));
   for (Decision& decision : episode.decisions) decision.cloud = {};
   row.result = std::move(episode);
 }
 
-Json RowToJson(const Row& row, const DoorAsset& door) {
+Json RowToJson(const Row& row, const DoorIdentity& door) {
   const Episode& episode = *row.result;
   return {{"door", door.id},
           {"category", NameOf(door.category)},
@@ -136,12 +136,12 @@ Json TallyToJson(const Tally& tally) {
 }
 
 std::map<std::string, Tally> Tallies(const std::vector<Row>& rows,
-                                     const std::vector<DoorAsset>& doors) {
+                                     const std::vector<FoundDoor>& doors) {
   std::map<std::string, Tally> tallies;
   for (const Row& row : rows) {
     if (!row.result) continue;
     for (const std::string& group :
-         {std::string("overall"), std::string(NameOf(doors[row.door].category))}) {
+         {std::string("overall"), std::string(NameOf(doors[row.door].identity.category))}) {
       ++tallies[group].episodes;
       ++tallies[group].outcomes[std::string(NameOf(row.result->outcome))];
     }
@@ -149,11 +149,11 @@ std::map<std::string, Tally> Tallies(const std::vector<Row>& rows,
   return tallies;
 }
 
-void PrintText(const std::vector<Row>& rows, const std::vector<DoorAsset>& doors) {
+void PrintText(const std::vector<Row>& rows, const std::vector<FoundDoor>& doors) {
   for (const Row& row : rows) {
     if (!row.result) continue;
-    std::cout << NameOf(row, doors[row.door]) << ": " << NameOf(row.result->outcome) << " ("
-              << row.result->detail << ")\n";
+    std::cout << NameOf(row, doors[row.door].identity.id) << ": " << NameOf(row.result->outcome)
+              << " (" << row.result->detail << ")\n";
   }
   for (const auto& [group, tally] : Tallies(rows, doors)) {
     const Interval interval = WilsonInterval(tally.opened(), tally.episodes);
@@ -166,7 +166,7 @@ void PrintText(const std::vector<Row>& rows, const std::vector<DoorAsset>& doors
   }
 }
 
-void PrintJson(const std::vector<Row>& rows, const std::vector<DoorAsset>& doors) {
+void PrintJson(const std::vector<Row>& rows, const std::vector<FoundDoor>& doors) {
   Json json = {{"schema", "doorforge.simulate"},
                {"schema_version", 1},
                {"success", Json::object()},
@@ -174,7 +174,7 @@ void PrintJson(const std::vector<Row>& rows, const std::vector<DoorAsset>& doors
   for (const auto& [group, tally] : Tallies(rows, doors))
     json["success"][group] = TallyToJson(tally);
   for (const Row& row : rows) {
-    if (row.result) json["episodes"].push_back(RowToJson(row, doors[row.door]));
+    if (row.result) json["episodes"].push_back(RowToJson(row, doors[row.door].identity));
   }
   std::cout << JsonText(json, 2) << "\n";
 }
@@ -182,8 +182,8 @@ void PrintJson(const std::vector<Row>& rows, const std::vector<DoorAsset>& doors
 }  // namespace
 
 int Simulate(const SimulateOptions& options) {
-  std::vector<DoorAsset> doors;
-  for (const fs::path& folder : FindDoors(options.doors)) doors.push_back(ReadDoor(folder));
+  const std::vector<FoundDoor> doors = FindDoorSet({.folders = options.doors}, options.threads);
+  DoorShelf shelf(doors);
   const RobotModel robot = LoadRobot(
       options.config.scene.robot, RobotBaseNamed(options.config.scene.physics.base), RobotMeshes());
   std::vector<Row> rows = PlanRows(options, doors.size());
@@ -191,7 +191,7 @@ int Simulate(const SimulateOptions& options) {
   Progress progress("simulating", rows.size());
   ParallelFor(rows.size(), options.threads, [&](std::size_t i) {
     if (StopRequested() != 0) return;
-    RunRow(options, doors[rows[i].door], robot, rows[i]);
+    RunRow(options, *shelf.Take(rows[i].door), robot, rows[i]);
     progress.Advance();
   });
   if (options.json) {

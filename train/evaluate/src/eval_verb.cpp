@@ -45,11 +45,12 @@ void AddOptions(CLI::App& app, Options& options) {
     app.add_option("--policy", options.request.policy,
                    "folder of a trained policy, or `expert` for the rule-based one")
         ->required();
-  app.add_option("--doors", options.request.doors, "folders of composed doors, searched in depth")
+  app.add_option("--doors", options.request.doors.folders,
+                 "folders of composed doors, searched in depth")
       ->required();
-  app.add_option("--split", options.request.selection.split,
+  app.add_option("--split", options.request.doors.split,
                  "only doors of these parts: a split and its side, such as full:test");
-  app.add_option("-n,--per-category", options.request.selection.per_category,
+  app.add_option("-n,--per-category", options.request.doors.per_category,
                  "at most so many doors of each category, evenly from the list; 0: all")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--out", options.out,

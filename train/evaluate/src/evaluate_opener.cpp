@@ -11,7 +11,6 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
-#include "doorforge/evaluate/door_folders.h"
 #include "doorforge/evaluate/run_trials.h"
 #include "doorforge/evaluate/take_pictures.h"
 #include "doorforge/evaluate/trained_grasp.h"
@@ -23,6 +22,7 @@
 #include "doorforge/rollout/opening_expert.h"
 #include "doorforge/rollout/random_grasp.h"
 #include "doorforge/rollout/run_episode.h"
+#include "doorforge/schemas/door_set.h"
 
 #include "training_record.h"
 
@@ -178,9 +178,9 @@ void AddSeenParts(const PolicyRecord& policy, const fs::path& folder, bool allow
 }
 
 void AddTrainingDoors(std::span<const fs::path> data, EvaluationReport& report) {
-  std::map<std::string, ReportDoor> doors;  // each once, by id
+  std::map<std::string, DoorIdentity> doors;  // each once, by id
   for (const fs::path& folder : data) {
-    for (ReportDoor& door : internal::TrainingDoors(folder)) doors[door.id] = std::move(door);
+    for (DoorIdentity& door : internal::TrainingDoors(folder)) doors[door.id] = std::move(door);
   }
   for (auto& [id, door] : doors) report.training_doors.push_back(std::move(door));
 }
@@ -215,14 +215,12 @@ void AddTraining(const EvaluationRequest& request, EvaluationReport& report) {
   if (!request.allow_seen) RequireHeldOut(report);
 }
 
-std::vector<EvaluatedEpisode> RunWithProgress(const std::string& title,
-                                              std::span<const DoorAsset> doors,
-                                              std::span<const Trial> trials,
+std::vector<EvaluatedEpisode> RunWithProgress(const std::string& title, const TrialPlan& trials,
                                               const Contender& contender, int threads) {
   Progress progress(title, trials.size());
   std::atomic<int> opened = 0;
   std::atomic<int> done = 0;
-  return RunTrials(doors, trials, contender,
+  return RunTrials(trials, contender,
                    {.threads = threads, .done = [&](const EvaluatedEpisode& row) {
                       opened += row.outcome == EpisodeOutcome::kOpened ? 1 : 0;
                       const int percent = 100 * opened / ++done;
@@ -230,13 +228,13 @@ std::vector<EvaluatedEpisode> RunWithProgress(const std::string& title,
                     }});
 }
 
-EvaluationReport NewReport(const EvaluationRequest& request, std::span<const DoorAsset> doors) {
+EvaluationReport NewReport(const EvaluationRequest& request, const std::vector<FoundDoor>& doors) {
   EvaluationReport report;
   report.provenance.policy = NameOfPolicy(request);
   report.provenance.code_version = CodeVersion();
   report.provenance.command = request.command;
   report.provenance.config = ToJson(request.config);
-  for (const DoorAsset& door : doors) report.doors.push_back(ReportDoorOf(door));
+  for (const FoundDoor& door : doors) report.doors.push_back(door.identity);
   return report;
 }
 
@@ -244,19 +242,21 @@ EvaluationReport NewReport(const EvaluationRequest& request, std::span<const Doo
 
 Evaluation EvaluateOpener(const EvaluationRequest& request) {
   CheckSwitch(request);
-  const std::vector<DoorAsset> doors = ReadDoors(request.doors, request.selection);
-  const std::vector<Trial> trials = PlanTrials(doors, request.config);
+  const std::vector<FoundDoor> doors = FindDoorSet(request.doors, request.threads);
+  DoorShelf shelf(doors);
+  const TrialPlan trials([&](std::size_t door) { return shelf.Take(door); }, doors.size(),
+                         request.config);
   Evaluation evaluation;
   EvaluationReport& report = evaluation.report;
   report = NewReport(request, doors);
   AddTraining(request, report);
 
   const Contender contender = ContenderOf(request);
-  report.episodes = RunWithProgress("evaluate", doors, trials, contender, request.threads);
+  report.episodes = RunWithProgress("evaluate", trials, contender, request.threads);
   if (!IsExpertAlone(request) && request.config.expert_reference)
-    report.reference = RunWithProgress("expert", doors, trials, Expert(), request.threads);
+    report.reference = RunWithProgress("expert", trials, Expert(), request.threads);
 
-  evaluation.pictures = TakePictures({doors, trials, report.episodes}, contender, request.threads);
+  evaluation.pictures = TakePictures({trials, report.episodes}, contender, request.threads);
   for (const fs::path& data : request.data)
     evaluation.pictures.doors.merge(internal::TrainingPreviews(data, kTrainingPreviews));
   return evaluation;

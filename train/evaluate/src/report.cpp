@@ -73,7 +73,7 @@ void AddSuccess(Episodes episodes, Json& json) {
   json["causes"] = CausesToJson(episodes);
 }
 
-Json DoorToJson(const ReportDoor& door) {
+Json DoorToJson(const DoorIdentity& door) {
   return {{"id", door.id},
           {"category", NameOf(door.category)},
           {"mechanism", NameOf(door.mechanism)},
@@ -83,8 +83,8 @@ Json DoorToJson(const ReportDoor& door) {
           {"license", door.license}};
 }
 
-ReportDoor DoorFromJson(const Json& json, const std::string& path) {
-  ReportDoor door;
+DoorIdentity DoorFromJson(const Json& json, const std::string& path) {
+  DoorIdentity door;
   door.id = ValueOf<std::string>(json, "id", path);
   const auto category = CategoryNamed(ValueOf<std::string>(json, "category", path));
   const auto mechanism = MechanismNamed(ValueOf<std::string>(json, "mechanism", path));
@@ -170,9 +170,10 @@ bool IsSwitchPredicted(const ReportProvenance& provenance) {
          provenance.config.value("switch", "privileged") == "predicted";
 }
 
-std::vector<std::string> SeenDoors(std::span<const ReportDoor> doors, const SeenParts& trained_on) {
+std::vector<std::string> SeenDoors(std::span<const DoorIdentity> doors,
+                                   const SeenParts& trained_on) {
   std::vector<std::string> seen;
-  for (const ReportDoor& door : doors) {
+  for (const DoorIdentity& door : doors) {
     if (trained_on.Holds(door.body, door.handle)) seen.push_back(door.id);
   }
   return seen;

@@ -130,7 +130,7 @@ std::string Cause(const EvaluationReport& report, const ReportPictures& pictures
 }
 
 // which episodes on a door opened it, as filled and hollow dots
-std::string Dots(const ReportDoor& door, Episodes episodes) {
+std::string Dots(const DoorIdentity& door, Episodes episodes) {
   std::string dots;
   int opened = 0;
   int all = 0;
@@ -153,7 +153,7 @@ std::string BreakableId(const std::string& id) {
   return html;
 }
 
-std::string DoorTile(const ReportDoor& door, const ReportPictures& pictures, Episodes episodes) {
+std::string DoorTile(const DoorIdentity& door, const ReportPictures& pictures, Episodes episodes) {
   const auto picture = pictures.doors.find(door.id);
   const std::string image = picture == pictures.doors.end()
                                 ? ""
@@ -171,10 +171,10 @@ std::string DoorTile(const ReportDoor& door, const ReportPictures& pictures, Epi
 }
 
 // of many doors, those with pictures are enough to look at
-std::vector<const ReportDoor*> DoorsToShow(const std::vector<ReportDoor>& doors,
-                                           const ReportPictures& pictures) {
-  std::vector<const ReportDoor*> shown;
-  for (const ReportDoor& door : doors) {
+std::vector<const DoorIdentity*> DoorsToShow(const std::vector<DoorIdentity>& doors,
+                                             const ReportPictures& pictures) {
+  std::vector<const DoorIdentity*> shown;
+  for (const DoorIdentity& door : doors) {
     if (pictures.doors.contains(door.id)) shown.push_back(&door);
   }
   return shown;
@@ -189,7 +189,7 @@ std::string TrainingGallery(const EvaluationReport& report, const ReportPictures
   if (report.training_doors.empty()) return {};
   const auto shown = DoorsToShow(report.training_doors, pictures);
   std::string tiles;
-  for (const ReportDoor* door : shown) tiles += DoorTile(*door, pictures, {});
+  for (const DoorIdentity* door : shown) tiles += DoorTile(*door, pictures, {});
   return Fill(
       R"(<h3>Trained on</h3><p class="soft">{count}{note}</p><div class="tiles small">{tiles}</div>)",
       {{"count", CountText(shown.size(), report.training_doors.size())},
@@ -411,7 +411,7 @@ std::string GraspSection(const ReportPictures& pictures) {
 std::string DoorSection(const EvaluationReport& report, const ReportPictures& pictures) {
   std::string tiles;
   const auto shown = DoorsToShow(report.doors, pictures);
-  for (const ReportDoor* door : shown) tiles += DoorTile(*door, pictures, report.episodes);
+  for (const DoorIdentity* door : shown) tiles += DoorTile(*door, pictures, report.episodes);
   const auto seen = SeenDoors(report.doors, report.trained_on);
   std::string note = CountText(shown.size(), report.doors.size()) +
                      " Filled dots are episodes that opened the door, in the order of the seeds.";

@@ -41,32 +41,40 @@ class PlayerPool {
   std::vector<Players> idle_;
 };
 
-void RequireAtLeastOne(int value, const std::string& name) {
+std::size_t AtLeastOne(int value, const std::string& name) {
   Require(value >= 1, ErrorCode::kInvalidConfig,
           "config." + name + ": " + std::to_string(value) + ", expected 1 or more");
+  return static_cast<std::size_t>(value);
 }
 
 }  // namespace
 
-std::vector<Trial> PlanTrials(std::span<const DoorAsset> doors, const EvaluationConfig& config) {
-  RequireAtLeastOne(config.seeds, "seeds");
-  RequireAtLeastOne(config.episodes_per_door, "episodes_per_door");
+TrialPlan::TrialPlan(DoorGiver give_door, std::size_t door_count, const EvaluationConfig& config)
+    : give_door_(std::move(give_door)),
+      door_count_(door_count),
+      seeds_(AtLeastOne(config.seeds, "seeds")),
+      episodes_per_door_(AtLeastOne(config.episodes_per_door, "episodes_per_door")),
+      first_seed_(config.first_seed),
+      scene_(config.scene),
+      robot_(LoadRobot({}, RobotBaseNamed(config.scene.physics.base))) {
   Require(config.scene.robot.empty(), ErrorCode::kInvalidConfig,
           "config.scene.robot: eval knows the built-in robot, on any base; let the expert try \"" +
               config.scene.robot + "\" with `doorforge simulate --robot`");
-  const RobotModel robot = LoadRobot({}, RobotBaseNamed(config.scene.physics.base));
-  std::vector<Trial> trials;
-  for (std::size_t door = 0; door < doors.size(); ++door) {
-    for (int seed = 0; seed < config.seeds; ++seed) {
-      for (int episode = 0; episode < config.episodes_per_door; ++episode) {
-        const Scene scene =
-            SampleScene(doors[door], config.first_seed + static_cast<std::uint64_t>(seed),
-                        static_cast<std::uint64_t>(episode), config.scene);
-        trials.push_back({door, SceneFor(robot, scene, doors[door])});
-      }
-    }
-  }
-  return trials;
+}
+
+std::size_t TrialPlan::size() const { return door_count_ * seeds_ * episodes_per_door_; }
+
+std::size_t TrialPlan::DoorOf(std::size_t trial) const {
+  return trial / (seeds_ * episodes_per_door_);
+}
+
+TrialPlan::Staged TrialPlan::At(std::size_t trial) const {
+  const std::size_t seed = trial / episodes_per_door_ % seeds_;
+  auto door = give_door_(DoorOf(trial));
+  Scene scene =
+      SampleScene(*door, first_seed_ + seed, std::uint64_t{trial % episodes_per_door_}, scene_);
+  scene = SceneFor(robot_, scene, *door);
+  return {std::move(door), std::move(scene)};
 }
 
 Episode PlayTrial(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
@@ -81,21 +89,18 @@ Episode PlayTrial(const Scene& scene, const DoorAsset& door, const RobotModel& r
                    observer);
 }
 
-std::vector<EvaluatedEpisode> RunTrials(std::span<const DoorAsset> doors,
-                                        std::span<const Trial> trials, const Contender& contender,
+std::vector<EvaluatedEpisode> RunTrials(const TrialPlan& trials, const Contender& contender,
                                         const RunHooks& hooks) {
-  if (trials.empty()) return {};
-  const RobotModel robot = LoadRobot({}, RobotBaseNamed(trials[0].scene.physics.base));
   PlayerPool pool(contender);
   std::vector<EvaluatedEpisode> rows(trials.size());
   ParallelFor(trials.size(), hooks.threads, [&](std::size_t i) {
     Require(StopRequested() == 0, ErrorCode::kIncomplete, "evaluation interrupted");
-    const DoorAsset& door = doors[trials[i].door];
-    const Scene& scene = trials[i].scene;
+    const auto [held, scene] = trials.At(i);
+    const DoorAsset& door = *held;
     std::unique_ptr<Observer> observer;
     if (contender.make_observer) observer = contender.make_observer(scene, door);
     Players players = pool.Take();
-    rows[i] = RowOf(PlayTrial(scene, door, robot, players, observer.get()), door.category);
+    rows[i] = RowOf(PlayTrial(scene, door, trials.robot(), players, observer.get()), door.category);
     pool.Return(std::move(players));
     if (hooks.done) hooks.done(rows[i]);
   });

@@ -46,13 +46,6 @@ std::string DoorPng(const DoorAsset& door) {
   return EncodePng(RenderPicture(scene, FramingCamera(scene, view)));
 }
 
-std::vector<const DoorAsset*> DoorsToShow(std::span<const DoorAsset> doors) {
-  const std::size_t count = std::min(doors.size(), kMostDoorPictures);
-  std::vector<const DoorAsset*> shown;
-  for (std::size_t i = 0; i < count; ++i) shown.push_back(&doors[i * doors.size() / count]);
-  return shown;
-}
-
 // the first trial of each outcome
 std::vector<std::size_t> TrialsToFilm(std::span<const EvaluatedEpisode> rows) {
   std::array<std::optional<std::size_t>, kEpisodeOutcomeCount> first;
@@ -75,8 +68,8 @@ struct FilmedTrial {
 
 FilmedTrial FilmTrial(const FinishedTrials& finished, std::size_t index, const Players& players,
                       const Contender& contender) {
-  const Scene& scene = finished.trials[index].scene;
-  const DoorAsset& door = finished.doors[finished.trials[index].door];
+  const auto [held, scene] = finished.trials.At(index);
+  const DoorAsset& door = *held;
   const RobotModel robot = LoadRobot({}, RobotBaseNamed(scene.physics.base));
   internal::EpisodeFilm film(contender.make_observer ? contender.make_observer(scene, door)
                                                      : nullptr);
@@ -93,8 +86,8 @@ FilmedTrial FilmTrial(const FinishedTrials& finished, std::size_t index, const P
 
 void AddSight(const FinishedTrials& finished, std::size_t index, const SceneSnapshot& snapshot,
               ReportPictures& pictures) {
-  const Scene& scene = finished.trials[index].scene;
-  const DoorAsset& door = finished.doors[finished.trials[index].door];
+  const auto [held, scene] = finished.trials.At(index);
+  const DoorAsset& door = *held;
   const RobotModel robot = LoadRobot({}, RobotBaseNamed(scene.physics.base));
   DepthCamera camera(VisibleMeshesOf(door, robot));
   const DepthImage depth = camera.Render(scene.camera, LinkPosesOf(snapshot));
@@ -167,8 +160,8 @@ std::string GraspCaption(const EvaluatedEpisode& row, const GraspChoice& choice)
 // The heat map of a trial's grasp; nothing where none was in view.
 std::optional<ReportPicture> GraspPicture(const FinishedTrials& finished, std::size_t index,
                                           const Players& players) {
-  const Scene& scene = finished.trials[index].scene;
-  const DoorAsset& door = finished.doors[finished.trials[index].door];
+  const auto [held, scene] = finished.trials.At(index);
+  const DoorAsset& door = *held;
   const RobotModel robot = LoadRobot({}, RobotBaseNamed(scene.physics.base));
   Onlooker onlooker;
   RunStages(scene, door, robot, {.grasp = &onlooker, .open = players.open.get()}, nullptr);
@@ -188,10 +181,14 @@ std::optional<ReportPicture> GraspPicture(const FinishedTrials& finished, std::s
 }
 
 void TakeDoorPictures(const FinishedTrials& finished, int threads, ReportPictures& pictures) {
-  const auto shown = DoorsToShow(finished.doors);
-  std::vector<std::string> pngs(shown.size());
-  ParallelFor(shown.size(), threads, [&](std::size_t i) { pngs[i] = DoorPng(*shown[i]); });
-  for (std::size_t i = 0; i < shown.size(); ++i) pictures.doors[shown[i]->id] = std::move(pngs[i]);
+  const std::size_t all = finished.trials.door_count();
+  const std::size_t count = std::min(all, kMostDoorPictures);
+  std::vector<std::pair<std::string, std::string>> shown(count);  // id and picture
+  ParallelFor(count, threads, [&](std::size_t i) {
+    const auto door = finished.trials.Door(i * all / count);
+    shown[i] = {door->id, DoorPng(*door)};
+  });
+  for (auto& [id, png] : shown) pictures.doors[id] = std::move(png);
 }
 
 }  // namespace

@@ -29,22 +29,8 @@ constexpr std::array<LossName, 4> kLossNames = {{
     {"critic.score_rad", "Critic: angle gained, mean L1", "rad"},
 }};
 
-ReportDoor DoorOf(const DatasetDoor& door, const std::string& path) {
-  const auto category = CategoryNamed(door.category);
-  const auto mechanism = MechanismNamed(door.mechanism);
-  if (!category || !mechanism)
-    throw Error(ErrorCode::kFormat, path + ": unknown category or mechanism of door " + door.id);
-  return {.id = door.id,
-          .category = *category,
-          .mechanism = *mechanism,
-          .body = door.body,
-          .handle = door.handle,
-          .sha256 = door.sha256,
-          .license = door.license};
-}
-
 std::set<std::string> SomeDoors(const fs::path& data, std::size_t count) {
-  const std::vector<ReportDoor> doors = TrainingDoors(data);
+  const std::vector<DoorIdentity> doors = TrainingDoors(data);
   count = std::min(count, doors.size());
   std::set<std::string> some;
   for (std::size_t i = 0; i < count; ++i) some.insert(doors[i * doors.size() / count].id);
@@ -72,11 +58,11 @@ void CollectPreviews(const ShardReader& shard, std::set<std::string>& wanted,
 
 }  // namespace
 
-std::vector<ReportDoor> TrainingDoors(const fs::path& data) {
+std::vector<DoorIdentity> TrainingDoors(const fs::path& data) {
   const fs::path path = data / "provenance.json";
-  std::vector<ReportDoor> doors;
+  std::vector<DoorIdentity> doors;
   for (const DatasetDoor& door : ProvenanceFromJson(ReadJsonFile(path), path.string()).doors)
-    doors.push_back(DoorOf(door, path.string()));
+    doors.push_back(IdentityOf(door));
   std::sort(doors.begin(), doors.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   return doors;
 }

@@ -15,7 +15,7 @@ namespace doorforge::internal {
 
 /// Every door of which the data set has planned episodes, sorted by id. Throws Error(kMissing or
 /// kFormat) as reading `provenance.json` does.
-std::vector<ReportDoor> TrainingDoors(const std::filesystem::path& data);
+std::vector<DoorIdentity> TrainingDoors(const std::filesystem::path& data);
 
 /// PNG by door id: previews from the shards, of at most `count` training doors, evenly chosen.
 /// Empty if the shards hold none.

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "doorforge/evaluate/door_folders.h"
 #include "doorforge/evaluate/evaluation_config.h"
 #include "doorforge/evaluate/report.h"
 #include "doorforge/evaluate/report_page.h"
+#include "doorforge/schemas/door_set.h"
 #include "doorforge/schemas/policy.h"
 
 namespace doorforge {
@@ -35,8 +35,7 @@ struct EvaluationRequest {
   /// Empty: the expert's grasp.
   std::filesystem::path grasper;
   OwnPolicies own;
-  std::vector<std::string> doors;  ///< Folders of composed doors, see ReadDoors().
-  DoorSelection selection;         ///< Which of them.
+  DoorSelection doors = {.folders = {}, .default_side = "test"};
   /// Data sets that the policy was trained from, in their order: the report then lists and shows
   /// the doors. May be empty. Of a policy of one's own, nothing else says which doors it has seen.
   std::vector<std::filesystem::path> data;

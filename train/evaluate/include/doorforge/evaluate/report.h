@@ -11,25 +11,12 @@
 #include "doorforge/core/committed_file.h"
 #include "doorforge/evaluate/evaluated_episode.h"
 #include "doorforge/evaluate/success_statistics.h"
+#include "doorforge/schemas/door_identity.h"
 #include "doorforge/schemas/seen_parts.h"
 
 namespace doorforge {
 
 inline constexpr int kReportSchemaVersion = 4;
-
-/// The folder of a report, for StagedFolder.
-inline constexpr FolderKind kReportFolder{"a report", "report.json", "doorforge.report"};
-
-/// What a report says of a door.
-struct ReportDoor {
-  std::string id;
-  Category category = Category::kInterior;
-  Mechanism mechanism = Mechanism::kNone;
-  PartIdentity body;
-  PartIdentity handle;
-  std::string sha256;   ///< ContentHash of the door.
-  std::string license;  ///< SPDX expression of its parts.
-};
 
 /// One loss over a training run: epochs with the mean on the training and on the validation
 /// samples. All three have the same length; a validation value that was not measured is NaN (null
@@ -67,16 +54,17 @@ bool IsSwitchPredicted(const ReportProvenance& provenance);
 /// computed from `episodes`, so that they cannot disagree.
 struct EvaluationReport {
   ReportProvenance provenance;
-  std::vector<ReportDoor> doors;            ///< Evaluated, sorted by id.
-  SeenParts trained_on;                     ///< By any of the policies; empty for the expert.
-  std::vector<ReportDoor> training_doors;   ///< Of the opener's data set, if it was given.
-  std::vector<EvaluatedEpisode> episodes;   ///< Sorted by door, seed, episode.
-  std::vector<EvaluatedEpisode> reference;  ///< The expert on the same scenes; may be empty.
-  std::vector<LossCurve> losses;            ///< Of the training; empty for the expert.
+  std::vector<DoorIdentity> doors;           ///< Evaluated, sorted by id.
+  SeenParts trained_on;                      ///< By any of the policies; empty for the expert.
+  std::vector<DoorIdentity> training_doors;  ///< Of the opener's data set, if it was given.
+  std::vector<EvaluatedEpisode> episodes;    ///< Sorted by door, seed, episode.
+  std::vector<EvaluatedEpisode> reference;   ///< The expert on the same scenes; may be empty.
+  std::vector<LossCurve> losses;             ///< Of the training; empty for the expert.
 };
 
 /// Doors whose body or whose handle was trained on, by id, content or shape: they are not held out.
-std::vector<std::string> SeenDoors(std::span<const ReportDoor> doors, const SeenParts& trained_on);
+std::vector<std::string> SeenDoors(std::span<const DoorIdentity> doors,
+                                   const SeenParts& trained_on);
 
 /// The record `report.json`, docs/format-report.md: the fields above and, computed, "success",
 /// "over_seeds", "over_angle" and "causes". Same report, same text.

@@ -6,7 +6,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "doorforge/evaluate/evaluated_episode.h"
@@ -16,21 +15,44 @@
 #include "doorforge/rollout/observer.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/schemas/door_asset.h"
+#include "doorforge/schemas/door_set.h"
 #include "doorforge/schemas/episode.h"
 #include "doorforge/schemas/policy.h"
 #include "doorforge/schemas/scene.h"
 
 namespace doorforge {
 
-/// One episode to come: a door, by its place in the list, and its scene.
-struct Trial {
-  std::size_t door = 0;
-  Scene scene;
-};
+/// The episodes of an evaluation: every door in every seed, by door, seed and episode. A door and
+/// its scene are made when they are asked for, so memory does not grow with their number. Safe to
+/// use from several threads.
+class TrialPlan {
+ public:
+  /// Of the doors 0 to `door_count` - 1. Throws Error(kInvalidConfig) on a number out of range.
+  TrialPlan(DoorGiver give_door, std::size_t door_count, const EvaluationConfig& config);
 
-/// Every door in every seed, by door, seed and episode. Throws Error(kInvalidConfig) on a number
-/// out of range.
-std::vector<Trial> PlanTrials(std::span<const DoorAsset> doors, const EvaluationConfig& config);
+  std::size_t size() const;  ///< Number of episodes.
+  std::size_t door_count() const { return door_count_; }
+  std::size_t DoorOf(std::size_t trial) const;  ///< The door's number.
+
+  struct Staged {
+    std::shared_ptr<const DoorAsset> door;
+    Scene scene;
+  };
+  /// The same in every call. Throws as the doors' giver and SampleScene().
+  Staged At(std::size_t trial) const;
+
+  std::shared_ptr<const DoorAsset> Door(std::size_t door) const { return give_door_(door); }
+  const RobotModel& robot() const { return robot_; }
+
+ private:
+  DoorGiver give_door_;
+  std::size_t door_count_;
+  std::size_t seeds_;
+  std::size_t episodes_per_door_;
+  std::uint64_t first_seed_;
+  SceneConfig scene_;
+  RobotModel robot_;
+};
 
 /// Who acts in an episode. One set serves one episode at a time.
 struct Players {
@@ -71,8 +93,7 @@ Episode PlayTrial(const Scene& scene, const DoorAsset& door, const RobotModel& r
 /// Each policy instance serves one episode at a time (RunEpisode resets it) and may serve several
 /// one after the other. The rows do not depend on the number of threads if a policy forgets
 /// everything at Reset(). Throws Error(kIncomplete) if the program was asked to stop.
-std::vector<EvaluatedEpisode> RunTrials(std::span<const DoorAsset> doors,
-                                        std::span<const Trial> trials, const Contender& contender,
+std::vector<EvaluatedEpisode> RunTrials(const TrialPlan& trials, const Contender& contender,
                                         const RunHooks& hooks = {});
 
 }  // namespace doorforge

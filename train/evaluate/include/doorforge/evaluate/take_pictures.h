@@ -12,8 +12,7 @@ namespace doorforge {
 
 /// Trials that have been run, with their rows.
 struct FinishedTrials {
-  std::span<const DoorAsset> doors;
-  std::span<const Trial> trials;
+  const TrialPlan& trials;
   std::span<const EvaluatedEpisode> rows;  ///< One a trial, in order.
 };
 

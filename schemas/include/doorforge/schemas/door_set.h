@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "doorforge/schemas/dataset.h"
+#include "doorforge/schemas/door_asset.h"
+#include "doorforge/schemas/door_identity.h"
+
+namespace doorforge {
+
+/// Which composed doors are meant.
+struct DoorSelection {
+  std::vector<std::filesystem::path> folders;  ///< Searched in depth for door.json.
+  /// A split, as a name in data/splits or a file, with a side: "full:test", "my.yaml:train",
+  /// "full:unseen_categories". Doors are meant whose body and handle are both on that side. Empty:
+  /// all.
+  std::string split = {};
+  std::string default_side = "train";  ///< Of a split that is named without one.
+  /// At most so many of each category, evenly from the list by id; 0: all.
+  int per_category = 0;
+};
+
+/// The selection that the words of a verb's --doors mean: folders, and at most one split. Throws
+/// Error(kInvalidArgument) if there are two splits or no folder.
+DoorSelection DoorSelectionOf(const std::vector<std::string>& words);
+
+/// A door that was found, without its meshes.
+struct FoundDoor {
+  DoorIdentity identity;
+  std::filesystem::path folder;  ///< Empty: nowhere, see FindRecordedDoors().
+  bool is_indexed = false;       ///< The identity is what a DoorIndex says.
+};
+
+/// The doors of a selection, sorted by id; their meshes stay on the disk, see DoorShelf. Of doors
+/// with an entry in the index beside them no mesh is read and the entry is believed until the door
+/// is taken from a shelf; the others are read in full, with a line of progress where they are many.
+/// The same door found twice counts once.
+///
+/// @throws Error(kMissing) if a folder does not exist or holds no door, or the selection means
+///     none; Error(kFormat) that lists every door that cannot be read, or names an index that
+///     cannot; Error(kInvalidArgument) on an unknown side, a negative number, or two different
+///     doors with one id; as ReadSplit().
+std::vector<FoundDoor> FindDoorSet(const DoorSelection& selection, int threads);
+
+/// Where the doors of a record lie, in its order; those that the selection does not find have an
+/// empty folder. What is found is compared with the record when it is taken from a DoorShelf.
+///
+/// @throws As FindDoorSet(), and Error(kInvalidArgument) if none of the record's doors is there.
+std::vector<FoundDoor> FindRecordedDoors(const DoorSelection& selection,
+                                         const std::vector<DatasetDoor>& recorded, int threads);
+
+/// Gives a door by its number; called from several threads at once.
+using DoorGiver = std::function<std::shared_ptr<const DoorAsset>(std::size_t)>;
+
+/// The doors of a set, read when they are needed. At most 32 stay in memory, whatever their number.
+/// Safe to use from several threads.
+class DoorShelf {
+ public:
+  /// Keeps a reference.
+  explicit DoorShelf(const std::vector<FoundDoor>& doors) : doors_(doors) {}
+
+  /// Door number `door` of the set.
+  ///
+  /// @throws Error(kMissing, kIo or kFormat) if it can be read no more, or is not what its identity
+  ///     says: changed since then, or described wrongly by its index.
+  std::shared_ptr<const DoorAsset> Take(std::size_t door);
+
+ private:
+  struct Place {
+    std::shared_ptr<const DoorAsset> door;
+    std::uint64_t taken_at = 0;
+  };
+
+  std::shared_ptr<const DoorAsset> Kept(std::size_t door);
+
+  const std::vector<FoundDoor>& doors_;
+  std::mutex mutex_;
+  std::map<std::size_t, Place> places_;
+  std::uint64_t clock_ = 0;
+};
+
+}  // namespace doorforge

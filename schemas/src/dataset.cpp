@@ -299,31 +299,6 @@ Json DatasetPolicyToJson(const DatasetPolicy& policy) {
           {"code_version", policy.code_version}};
 }
 
-DatasetDoor DatasetDoorOf(const DoorIdentity& identity) {
-  return {identity.id,
-          identity.sha256,
-          std::string(NameOf(identity.category)),
-          std::string(NameOf(identity.mechanism)),
-          identity.body,
-          identity.handle,
-          identity.license,
-          ""};
-}
-
-DoorIdentity IdentityOf(const DatasetDoor& door) {
-  const auto category = CategoryNamed(door.category);
-  const auto mechanism = MechanismNamed(door.mechanism);
-  if (!category || !mechanism)
-    throw Error(ErrorCode::kFormat, "door " + door.id + ": unknown category or mechanism");
-  return {.id = door.id,
-          .category = *category,
-          .mechanism = *mechanism,
-          .body = door.body,
-          .handle = door.handle,
-          .sha256 = door.sha256,
-          .license = door.license};
-}
-
 Json ProvenanceToJson(const DatasetProvenance& provenance) {
   Json libraries = Json::object();
   for (const auto& [name, version] : provenance.libraries) libraries[name] = version;

@@ -207,6 +207,31 @@ std::vector<FoundDoor> EachOnce(std::vector<ListedDoor> doors) {
 
 }  // namespace
 
+DatasetDoor DatasetDoorOf(const DoorIdentity& identity) {
+  return {identity.id,
+          identity.sha256,
+          std::string(NameOf(identity.category)),
+          std::string(NameOf(identity.mechanism)),
+          identity.body,
+          identity.handle,
+          identity.license,
+          ""};
+}
+
+DoorIdentity IdentityOf(const DatasetDoor& door) {
+  const auto category = CategoryNamed(door.category);
+  const auto mechanism = MechanismNamed(door.mechanism);
+  if (!category || !mechanism)
+    throw Error(ErrorCode::kFormat, "door " + door.id + ": unknown category or mechanism");
+  return {.id = door.id,
+          .category = *category,
+          .mechanism = *mechanism,
+          .body = door.body,
+          .handle = door.handle,
+          .sha256 = door.sha256,
+          .license = door.license};
+}
+
 DoorSelection DoorSelectionOf(const std::vector<std::string>& words) {
   DoorSelection selection;
   for (const std::string& word : words) {

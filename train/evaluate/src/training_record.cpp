@@ -11,6 +11,7 @@
 #include "doorforge/core/json_file.h"
 #include "doorforge/learn/checkpoint.h"
 #include "doorforge/schemas/dataset.h"
+#include "doorforge/schemas/door_set.h"
 
 namespace doorforge::internal {
 namespace {

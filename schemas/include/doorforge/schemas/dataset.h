@@ -12,7 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "doorforge/schemas/door_identity.h"
+#include "doorforge/core/committed_file.h"
 #include "doorforge/schemas/episode_arrays.h"
 #include "doorforge/schemas/part_identity.h"
 #include "doorforge/schemas/shard.h"
@@ -79,11 +79,6 @@ struct DatasetDoor {
   std::string license;  ///< SPDX expression.
   std::string split;
 };
-
-/// Without a split.
-DatasetDoor DatasetDoorOf(const DoorIdentity& identity);
-/// Throws Error(kFormat) on an unknown category or mechanism.
-DoorIdentity IdentityOf(const DatasetDoor& door);
 
 /// What was planned of one stage and split: shard k holds the episodes from k * episodes_per_shard
 /// on, the last one what is left.

@@ -41,6 +41,11 @@ struct FoundDoor {
   bool is_indexed = false;       ///< The identity is what a DoorIndex says.
 };
 
+/// Without a split.
+DatasetDoor DatasetDoorOf(const DoorIdentity& identity);
+/// Throws Error(kFormat) on an unknown category or mechanism.
+DoorIdentity IdentityOf(const DatasetDoor& door);
+
 /// The doors of a selection, sorted by id; their meshes stay on the disk, see DoorShelf. Of doors
 /// with an entry in the index beside them no mesh is read and the entry is believed until the door
 /// is taken from a shelf; the others are read in full, with a line of progress where they are many.

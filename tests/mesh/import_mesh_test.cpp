@@ -3,17 +3,26 @@
 #include "doorforge/mesh/import_mesh.h"
 
 #include <array>
+#include <chrono>
+#include <cmath>
+#include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <thread>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "doorforge/core/closed_mesh.h"
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
+#include "doorforge/core/program.h"
 
 namespace doorforge {
 namespace {
@@ -407,6 +416,165 @@ TEST_F(ImportMeshTest, DoesNotTrustWhatAReaderSends) {
   const FakeReader reader(folder_, "printf 'DOFMESH1\\377\\377\\377\\377\\377\\377\\377\\177' >&3");
   EXPECT_EQ(ErrorOf("a.obj", kCubeObj),
             kFormat + "a.obj: the reader ended with exit code 0 and no result");
+}
+
+TEST_F(ImportMeshTest, GivesTheReaderNoDescriptorAndNoEnvironment) {
+  const FakeReader reader(folder_, "/bin/ls /proc/$$/fd > '" + (folder_ / "fd").string() +
+                                       "'; /bin/cat /proc/$$/environ > '" +
+                                       (folder_ / "environ").string() + "'");
+  const int open = ::open("/dev/null", O_RDONLY);  // inherited: without O_CLOEXEC
+  ASSERT_EQ(::dup2(open, 57), 57);
+  ::setenv("DOORFORGE_SECRET", "of the user", 1);
+  ErrorOf("a.obj", kCubeObj);
+  ::unsetenv("DOORFORGE_SECRET");
+  ::close(57);
+  ::close(open);
+  EXPECT_EQ(ReadFile(folder_ / "environ"), "");
+  const std::string descriptors = "\n" + ReadFile(folder_ / "fd");
+  EXPECT_NE(descriptors.find("\n3\n"), std::string::npos) << descriptors;  // the pipe
+  EXPECT_EQ(descriptors.find("\n57\n"), std::string::npos) << descriptors;
+}
+
+TEST_F(ImportMeshTest, ReadsAgainWithAllTheMemoryWhatNeedsMore) {
+  const std::string log = (folder_ / "memory").string();
+  const std::string real = (ProgramFolder() / "doorforge-read-mesh").string();
+  {
+    const FakeReader reader(folder_, "echo \"$4\" >> '" + log +
+                                         "'; [ \"$4\" -gt 1000000000 ] || exit 4; " + "exec '" +
+                                         real + "' \"$@\"");
+    ExpectUnitCube(Import("cube.obj", kCubeObj));
+    EXPECT_EQ(ReadFile(log), "268435456\n2147483648\n");
+    fs::remove(log);
+    // who allows less gets less, and no second try
+    ErrorOf(folder_ / "cube.obj", {.memory_bytes = 100 << 20});
+    EXPECT_EQ(ReadFile(log), "104857600\n");
+  }
+}
+
+// The processes that this one has started.
+std::vector<pid_t> Children(pid_t parent) {
+  std::vector<pid_t> children;
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    const std::string name = entry.path().filename();
+    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+    std::ifstream status(entry.path() / "status");
+    for (std::string line; std::getline(status, line);) {
+      if (line == "PPid:\t" + std::to_string(parent)) children.push_back(std::stoi(name));
+    }
+  }
+  return children;
+}
+
+std::string TextOf(const fs::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// A face whose corners lie on a circle.
+std::string RoundFace(int corners) {
+  std::string text;
+  std::string face = "f";
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * 3.14159265358979 * i / corners;
+    text += "v " + std::to_string(std::cos(angle)) + ' ' + std::to_string(std::sin(angle)) + " 0\n";
+    face += ' ' + std::to_string(i + 1);
+  }
+  return text + face + "\n";
+}
+
+// A file that keeps its reader busy for a good while.
+class BusyImport : public ImportMeshTest {
+ protected:
+  fs::path WriteSlow() const {
+    std::string text = RoundFace(10000);
+    const std::string again = text.substr(text.find('f'));
+    for (int i = 0; i < 60; ++i) text += again;
+    return Write("slow.obj", text);
+  }
+
+  // Of the process: the one reader that it has started.
+  static pid_t ReaderOf(pid_t parent) {
+    for (int i = 0; i < 2000; ++i) {
+      for (const pid_t child : Children(parent)) {
+        // the kernel keeps fifteen letters of a name
+        const std::string status = TextOf("/proc/" + std::to_string(child) + "/status");
+        if (status.starts_with("Name:\tdoorforge-read-")) return child;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return 0;
+  }
+};
+
+TEST_F(BusyImport, TheReaderHasGivenUpItsRights) {
+  const fs::path path = WriteSlow();
+  std::jthread thread([&] { ErrorOf(path, {.timeout_s = 30}); });
+  const pid_t reader = ReaderOf(::getpid());
+  ASSERT_GT(reader, 0);
+  const std::string process = "/proc/" + std::to_string(reader);
+  std::string limits;
+  // it gives them up in its first milliseconds
+  for (int i = 0; i < 500 && limits.find("file size             0 ") == std::string::npos; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    limits = TextOf(process + "/limits");
+  }
+  EXPECT_NE(TextOf(process + "/status").find("NoNewPrivs:\t1"), std::string::npos);
+  for (const char* limit :
+       {"Max open files            64                   64",
+        "Max core file size        0                    0",
+        "Max file size             0                    0",
+        "Max processes             0                    0", "Max cpu time              30"})
+    EXPECT_NE(limits.find(limit), std::string::npos) << limit << "\n" << limits;
+#if !defined(__SANITIZE_ADDRESS__)
+  EXPECT_NE(limits.find("Max address space         268435456"), std::string::npos) << limits;
+#endif
+  ::kill(reader, SIGKILL);
+}
+
+TEST_F(BusyImport, TheReaderDiesWithItsParent) {
+  const fs::path path = WriteSlow();
+  const pid_t parent = ::fork();
+  if (parent == 0) {
+    try {
+      ImportMesh(path);
+    } catch (const Error&) {
+    }
+    ::_exit(0);
+  }
+  const pid_t reader = ReaderOf(parent);
+  ASSERT_GT(reader, 0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  // however long it would take; a stopped process can be killed all the same
+  ASSERT_EQ(::kill(reader, SIGSTOP), 0);
+  ::kill(parent, SIGKILL);
+  ::waitpid(parent, nullptr, 0);
+  const std::string status = "/proc/" + std::to_string(reader) + "/status";
+  for (int i = 0; i < 1000; ++i) {
+    const std::string state = TextOf(status);
+    if (state.empty() || state.find("State:\tZ") != std::string::npos) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  ::kill(reader, SIGKILL);
+  FAIL() << "the reader outlived its parent";
+}
+
+TEST_F(ImportMeshTest, RefusesCoordinatesBeyondAllUnits) {
+  ExpectUnitCube(Import("cube.obj", kCubeObj));
+  const std::string far = Replaced(kCubeObj, "v 1 1 1", "v 1 2e6 1");
+  EXPECT_EQ(ErrorOf("far.obj", far),
+            kFormat +
+                "far.obj:11: a face uses a vertex with a coordinate of 2000000, allowed "
+                "1000000; the file is damaged, or its unit is far too small");
+  // a door of two metres in tenths of a millimetre
+  EXPECT_EQ(ErrorOf("tenths.obj", Replaced(kCubeObj, "v 1 1 1", "v 1 20000 1")), "");
+}
+
+TEST_F(ImportMeshTest, RefusesAFaceOfMoreCornersThanProgramsWrite) {
+  EXPECT_EQ(Import("most.obj", RoundFace(10000)).pieces[0].mesh.triangles.size(), 9998U);
+  const std::string refusal = ErrorOf("more.obj", RoundFace(10001));
+  EXPECT_EQ(refusal, kFormat +
+                         "more.obj:10002: a face has 10001 corners, allowed 10000; export it "
+                         "in triangles");
 }
 
 TEST_F(ImportMeshTest, WorksFromSeveralThreads) {

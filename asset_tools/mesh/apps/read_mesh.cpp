@@ -2,18 +2,21 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // doorforge-read-mesh PATH MAX_FILE_BYTES MAX_TRIANGLES MEMORY_BYTES SECONDS MAX_PICTURE_BYTES
-//     FILES_BELOW
+//     FILES_BELOW PARENT_PROCESS
 //
 // Reads one mesh file on behalf of ImportMesh() and writes the result to file descriptor 3. It is
 // a program of its own so that a hostile file can neither crash nor hang the caller, and so that
 // the caller's threads and locks do not matter.
 
+#include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <new>
 
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -25,15 +28,48 @@
 namespace doorforge {
 namespace {
 
+constexpr rlim_t kOpenFiles = 64;  // a mesh, its materials and buffers, one after the other
+
+bool memory_lacked = false;
+
+// Also where a library takes the exception for a fault of the file and goes on.
+void NoteLackOfMemory() {
+  memory_lacked = true;
+  throw std::bad_alloc();
+}
+
+// What the user allows already is never raised, which would be refused.
 void Limit(int resource, rlim_t soft, rlim_t hard) {
-  const rlimit limit{soft, hard};
+  rlimit limit{};
+  ::getrlimit(static_cast<__rlimit_resource>(resource), &limit);
+  limit.rlim_max = std::min(limit.rlim_max, hard);
+  limit.rlim_cur = std::min(limit.rlim_max, soft);
   ::setrlimit(static_cast<__rlimit_resource>(resource), &limit);
+}
+
+// Ends with the program that waits for the result: without it nobody would, and a file that is a
+// pipe may never end. Where it is gone already, so is the parent.
+void EndWith(pid_t parent) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(3);
+}
+
+// What a file that takes over this process could use is given up before the file is opened.
+// Descriptors and environment were left behind by ImportMesh().
+void GiveUpRights() {
+  ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+#if !defined(__SANITIZE_ADDRESS__)  // its search for leaks looks at the process from outside
+  ::prctl(PR_SET_DUMPABLE, 0);
+#endif
+  Limit(RLIMIT_NOFILE, kOpenFiles, kOpenFiles);
+  Limit(RLIMIT_NPROC, 0, 0);  // reading starts neither threads nor programs
 }
 
 void LimitProcess([[maybe_unused]] std::uint64_t memory_bytes, std::uint64_t seconds) {
 #if !defined(__SANITIZE_ADDRESS__)  // its shadow memory alone takes terabytes of address space
   Limit(RLIMIT_AS, memory_bytes, memory_bytes);
 #endif
+  std::set_new_handler(NoteLackOfMemory);
   Limit(RLIMIT_CPU, seconds, seconds + 1);
   Limit(RLIMIT_CORE, 0, 0);
   Limit(RLIMIT_FSIZE, 0, 0);
@@ -52,17 +88,23 @@ ImportedMesh Read(const std::filesystem::path& path, const MeshImportLimits& lim
   return ReadWithAssimp(path, limits);
 }
 
+std::string OutOfMemory(const MeshImportLimits& limits) {
+  std::set_new_handler(nullptr);
+  return Encoded(Error(ErrorCode::kFormat, "reading it takes more than the " +
+                                               std::to_string(limits.memory_bytes >> 20) +
+                                               " MiB of memory allowed"));
+}
+
 std::string MessageFor(const std::filesystem::path& path, const MeshImportLimits& limits) {
   try {
     return Encoded(Read(path, limits));
   } catch (const Error& error) {
-    return Encoded(error);
+    // a library calls the lack of memory what it likes
+    return memory_lacked ? OutOfMemory(limits) : Encoded(error);
   } catch (const std::bad_alloc&) {
-    return Encoded(Error(ErrorCode::kFormat, "reading it takes more than the " +
-                                                 std::to_string(limits.memory_bytes >> 20) +
-                                                 " MiB of memory allowed"));
-  } catch (const std::exception& error) {
-    return Encoded(Error(ErrorCode::kFormat, error.what()));
+    return OutOfMemory(limits);
+  } catch (const std::exception&) {
+    return Encoded(Error(ErrorCode::kFormat, "its content does not follow its format"));
   }
 }
 
@@ -81,7 +123,7 @@ bool Send(std::string_view message) {
 
 int main(int argc, char** argv) {
   using namespace doorforge;  // NOLINT
-  if (argc != 8) {
+  if (argc != 9) {
     std::fprintf(stderr, "doorforge-read-mesh is started by the other doorforge programs\n");
     return 2;
   }
@@ -91,6 +133,9 @@ int main(int argc, char** argv) {
   limits.memory_bytes = std::strtoull(argv[4], nullptr, 10);
   limits.max_picture_bytes = std::strtoull(argv[6], nullptr, 10);
   limits.files_below = argv[7];
+  EndWith(static_cast<pid_t>(std::strtol(argv[8], nullptr, 10)));
+  GiveUpRights();
   LimitProcess(limits.memory_bytes, std::strtoull(argv[5], nullptr, 10));
-  return Send(MessageFor(argv[1], limits)) ? 0 : 3;
+  if (!Send(MessageFor(argv[1], limits))) return 3;
+  return memory_lacked ? kExitMemoryLacked : 0;
 }

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -21,10 +22,9 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/program.h"
 
+#include "memory_share.h"
 #include "mesh_message.h"
 #include "position_table.h"
-
-extern char** environ;  // NOLINT: POSIX names it so
 
 namespace doorforge {
 namespace {
@@ -33,6 +33,38 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr int kMessageDescriptor = 3;  // where the reading program writes
+
+// What most files need many times over. One that needs more is read again with all the memory, so
+// that whether it can be read does not depend on what is read beside it.
+constexpr std::uint64_t kFirstShareBytes = 256ULL << 20;
+
+// What of the environment the reading program sees: where the loader finds shared libraries that
+// lie in no usual place, and in a build with sanitizers what configures those. It reads no other
+// variable, and what it reads files for may not know the user's.
+constexpr std::array<const char*, 4> kKeptVariables {
+  "LD_LIBRARY_PATH",
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+      "ASAN_OPTIONS", "UBSAN_OPTIONS", "TSAN_OPTIONS"
+#endif
+};
+
+std::vector<std::string> ReaderEnvironment() {
+  std::vector<std::string> environment;
+  for (const char* name : kKeptVariables) {
+    const char* value = name == nullptr ? nullptr : std::getenv(name);
+    if (value != nullptr) environment.push_back(std::string(name) + '=' + value);
+  }
+  return environment;
+}
+
+// For the execution functions of POSIX; the texts must outlive it.
+std::vector<char*> PointersTo(std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  pointers.reserve(texts.size() + 1);
+  for (std::string& text : texts) pointers.push_back(text.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
 
 fs::path ReaderProgram() {
   if (const char* program = std::getenv("DOORFORGE_READ_MESH")) return program;
@@ -95,17 +127,19 @@ class Reader {
 
  private:
   int Spawn(std::vector<std::string>& arguments, int write_end) {
-    std::vector<char*> argv;
-    argv.reserve(arguments.size() + 1);
-    for (std::string& argument : arguments) argv.push_back(argument.data());
-    argv.push_back(nullptr);
+    std::vector<std::string> variables = ReaderEnvironment();
+    const std::vector<char*> argv = PointersTo(arguments);
+    const std::vector<char*> environment = PointersTo(variables);
     posix_spawn_file_actions_t actions;
     ::posix_spawn_file_actions_init(&actions);
     ::posix_spawn_file_actions_adddup2(&actions, write_end, kMessageDescriptor);
     ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-    const int error = ::posix_spawn(&process_, argv[0], &actions, nullptr, argv.data(), environ);
+    // what other code opened without the flag that closes it
+    ::posix_spawn_file_actions_addclosefrom_np(&actions, kMessageDescriptor + 1);
+    const int error =
+        ::posix_spawn(&process_, argv[0], &actions, nullptr, argv.data(), environment.data());
     ::posix_spawn_file_actions_destroy(&actions);
     if (error != 0) process_ = 0;
     return error;
@@ -126,23 +160,46 @@ std::string HowItEnded(int status, const MeshImportLimits& limits) {
          " and no result";
 }
 
-ImportedMesh ReadInChild(const fs::path& path, const MeshImportLimits& limits) {
+// It asked for more memory than it had, whatever came of that: the program says so itself, or it
+// crashed where a library does not expect that.
+bool MayHaveLackedMemory(int status) {
+  if (WIFSIGNALED(status)) return WTERMSIG(status) != SIGXCPU && WTERMSIG(status) != SIGKILL;
+  return WEXITSTATUS(status) == kExitMemoryLacked;
+}
+
+// Nothing where more memory might help.
+std::optional<ImportedMesh> ReadInChild(const fs::path& path, const MeshImportLimits& limits,
+                                        bool has_all_memory) {
   Reader reader({ReaderProgram().string(), path.string(), std::to_string(limits.max_file_bytes),
                  std::to_string(limits.max_triangles), std::to_string(limits.memory_bytes),
                  std::to_string(std::llround(std::ceil(limits.timeout_s))),
-                 std::to_string(limits.max_picture_bytes), limits.files_below.string()});
+                 std::to_string(limits.max_picture_bytes), limits.files_below.string(),
+                 std::to_string(::getpid())});
   const auto deadline =
       Clock::now() + std::chrono::milliseconds(std::llround(limits.timeout_s * 1000));
   std::string message;
   while (reader.ReadMore(message, deadline)) {
-    if (message.size() > limits.memory_bytes)
-      throw Error(ErrorCode::kFormat, "its triangles take more than the " +
-                                          std::to_string(limits.memory_bytes) + " bytes allowed");
+    if (message.size() <= limits.memory_bytes) continue;
+    if (!has_all_memory) return std::nullopt;
+    throw Error(ErrorCode::kFormat, "its triangles take more than the " +
+                                        std::to_string(limits.memory_bytes) + " bytes allowed");
   }
   const int status = reader.Wait();
+  if (!has_all_memory && MayHaveLackedMemory(status)) return std::nullopt;
   std::optional<ImportedMesh> mesh = DecodedMesh(message);
   if (!mesh) throw Error(ErrorCode::kFormat, HowItEnded(status, limits));
-  return *std::move(mesh);
+  return mesh;
+}
+
+ImportedMesh ReadWithinShare(const fs::path& path, MeshImportLimits limits) {
+  const std::uint64_t all = std::min(limits.memory_bytes, MemoryShare::kTotalBytes);
+  for (const std::uint64_t wanted : {std::min(all, kFirstShareBytes), all}) {
+    const MemoryShare share(wanted);
+    limits.memory_bytes = share.bytes();
+    if (std::optional<ImportedMesh> mesh = ReadInChild(path, limits, wanted == all))
+      return *std::move(mesh);
+  }
+  throw Error(ErrorCode::kFormat, "the reader ended without a result");
 }
 
 void CheckFile(const fs::path& path) {
@@ -175,7 +232,7 @@ ImportedMesh ImportMesh(const fs::path& path, const MeshImportLimits& limits) {
   try {
     CheckFile(path);
     CheckEnding(path);
-    return ReadInChild(path, limits);
+    return ReadWithinShare(path, limits);
   } catch (const Error& error) {
     const std::string name = path.string();
     const std::string problem = error.what();

@@ -76,6 +76,12 @@ class Source {
   bool ok_ = true;
 };
 
+bool AllWithinReach(const std::vector<Eigen::Vector3d>& vertices) {
+  return std::all_of(vertices.begin(), vertices.end(), [](const Eigen::Vector3d& vertex) {
+    return vertex.allFinite() && vertex.cwiseAbs().maxCoeff() <= kLargestRawCoordinate;
+  });
+}
+
 template <class Element>
 bool AllFinite(const std::vector<Element>& elements) {
   return std::all_of(elements.begin(), elements.end(),
@@ -98,7 +104,7 @@ bool IsNumberOf(int number, std::size_t count) {
 
 bool IsSound(const ImportedPiece& piece) {
   const auto& coordinates = piece.texcoord_triangles;
-  return !piece.mesh.triangles.empty() && AllFinite(piece.mesh.vertices) &&
+  return !piece.mesh.triangles.empty() && AllWithinReach(piece.mesh.vertices) &&
          AllWithin(piece.mesh.triangles, piece.mesh.vertices.size()) &&
          AllFinite(piece.texcoords) && AllWithin(coordinates, piece.texcoords.size()) &&
          (coordinates.empty() || coordinates.size() == piece.mesh.triangles.size()) &&

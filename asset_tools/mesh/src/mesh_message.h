@@ -14,6 +14,10 @@
 
 namespace doorforge {
 
+/// Exit code of the reading program where it asked for more memory than it may have, whatever it
+/// sent.
+inline constexpr int kExitMemoryLacked = 4;
+
 std::string Encoded(const ImportedMesh& mesh);
 std::string Encoded(const Error& error);
 

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
+#include <string>
 
 #include <Eigen/Geometry>
 
@@ -40,7 +42,9 @@ std::vector<Point2> Flattened(std::span<const Eigen::Vector3d> corners) {
   return flat;
 }
 
-bool IsEar(const std::vector<Point2>& flat, const std::vector<int>& ring, std::size_t i) {
+// `looked` counts the corners that were looked at.
+bool IsEar(const std::vector<Point2>& flat, const std::vector<int>& ring, std::size_t i,
+           std::size_t& looked) {
   const std::size_t n = ring.size();
   const auto at = [&](std::size_t k) -> const Point2& {
     return flat[static_cast<std::size_t>(ring[k % n])];
@@ -51,10 +55,20 @@ bool IsEar(const std::vector<Point2>& flat, const std::vector<int>& ring, std::s
   if (Cross(a, b, c) <= 0) return false;
   for (std::size_t k = i + 2; k < i + n - 1; ++k) {
     const Point2& p = at(k);
+    ++looked;
     if (p == a || p == b || p == c) continue;
     if (Cross(a, b, p) >= 0 && Cross(b, c, p) >= 0 && Cross(c, a, p) >= 0) return false;
   }
   return true;
+}
+
+// Some seconds: a face whose ears are that hard to find is no face that a program writes.
+constexpr std::size_t kMaxLooks = 1'000'000'000;
+
+[[noreturn]] void RefuseFace(std::size_t corners) {
+  throw Error(ErrorCode::kFormat, "a face of " + std::to_string(corners) +
+                                      " corners winds too much to be cut into triangles; export "
+                                      "it in triangles");
 }
 
 bool ComesBefore(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -80,6 +94,17 @@ bool RunsUpwards(const Eigen::Vector3i& t) {
   return (t[0] < t[1]) == ((t[1] < t[2]) == (t[0] < t[2]));
 }
 
+void CheckCorner(const Eigen::Vector3d& corner) {
+  const double largest = corner.cwiseAbs().maxCoeff();
+  if (!corner.allFinite())
+    throw Error(ErrorCode::kFormat, "a face uses a vertex that is not finite");
+  if (largest > kLargestRawCoordinate)
+    throw Error(ErrorCode::kFormat, "a face uses a vertex with a coordinate of " +
+                                        std::to_string(std::llround(largest)) + ", allowed " +
+                                        std::to_string(std::llround(kLargestRawCoordinate)) +
+                                        "; the file is damaged, or its unit is far too small");
+}
+
 }  // namespace
 
 std::vector<Eigen::Vector3i> Triangulated(std::span<const Eigen::Vector3d> corners) {
@@ -88,10 +113,12 @@ std::vector<Eigen::Vector3i> Triangulated(std::span<const Eigen::Vector3d> corne
   for (std::size_t i = 0; i < corners.size(); ++i) ring.push_back(static_cast<int>(i));
   if (ring.size() < 3) return triangles;
   const std::vector<Point2> flat = Flattened(corners);
+  std::size_t looked = 0;
   for (std::size_t n = ring.size(); n > 3; --n) {
     std::size_t ear = 1;  // the fan's choice, where no corner is an ear
     for (std::size_t i = 1; i <= n; ++i) {
-      if (!IsEar(flat, ring, i % n)) continue;
+      if (looked > kMaxLooks) RefuseFace(corners.size());
+      if (!IsEar(flat, ring, i % n, looked)) continue;
       ear = i % n;
       break;
     }
@@ -109,10 +136,11 @@ void PolygonSoup::BeginPiece(std::string name, const Eigen::Vector4d& color_rgba
 void PolygonSoup::AddPolygon(std::span<const Eigen::Vector3d> corners,
                              std::span<const Eigen::Vector2d> texcoords) {
   if (corners.size() < 3) return;
-  for (const Eigen::Vector3d& corner : corners) {
-    if (!corner.allFinite())
-      throw Error(ErrorCode::kFormat, "a face uses a vertex that is not finite");
-  }
+  if (corners.size() > kMaxFaceCorners)
+    throw Error(ErrorCode::kFormat, "a face has " + std::to_string(corners.size()) +
+                                        " corners, allowed " + std::to_string(kMaxFaceCorners) +
+                                        "; export it in triangles");
+  for (const Eigen::Vector3d& corner : corners) CheckCorner(corner);
   triangle_count_ += corners.size() - 2;
   if (triangle_count_ > max_triangles_)
     throw Error(ErrorCode::kFormat,

@@ -12,7 +12,8 @@
 namespace doorforge {
 
 /// Triangles that split a simple polygon (ear clipping in the plane of its Newell normal); a fan
-/// where the polygon crosses itself. Corner numbers into `corners`.
+/// where the polygon crosses itself. Corner numbers into `corners`. Throws Error(kFormat) on a
+/// polygon that would take more than some seconds.
 std::vector<Eigen::Vector3i> Triangulated(std::span<const Eigen::Vector3d> corners);
 
 /// Collects what a reader finds and turns it into an ImportedMesh: polygons become triangles,
@@ -24,8 +25,8 @@ class PolygonSoup {
   /// Further polygons belong to this piece; a piece without triangles is dropped in the end.
   void BeginPiece(std::string name, const Eigen::Vector4d& color_rgba, int material = -1);
   /// Fewer than three corners: nothing. `texcoords` is empty or as long as `corners`; what is not
-  /// finite in it becomes zero. Throws Error(kFormat) if a corner is not finite or the triangles
-  /// become too many.
+  /// finite in it becomes zero. Throws Error(kFormat) if a corner is not finite or beyond
+  /// kLargestRawCoordinate, or if the corners or the triangles are too many.
   void AddPolygon(std::span<const Eigen::Vector3d> corners,
                   std::span<const Eigen::Vector2d> texcoords = {});
 

@@ -17,13 +17,23 @@ namespace doorforge {
 struct MeshImportLimits {
   std::uint64_t max_file_bytes = 512ULL << 20;
   std::uint64_t max_triangles = 5'000'000;  ///< Before duplicates are dropped.
-  std::uint64_t memory_bytes = 4ULL << 30;  ///< Address space of the reading process.
-  double timeout_s = 60;                    ///< Wall clock and processor time of that process.
+  /// Address space of the reading process. All that read at a time in this process have 2 GiB
+  /// together, so more than that is 2 GiB.
+  std::uint64_t memory_bytes = 2ULL << 30;
+  double timeout_s = 60;  ///< Wall clock and processor time of that process.
   std::uint64_t max_picture_bytes = 32ULL << 20;  ///< Of a texture; larger ones are left out.
   /// Materials, textures and buffers that the file names must lie below this folder, which holds
   /// the file; empty: the file's own folder.
   std::filesystem::path files_below = {};
 };
+
+/// The largest coordinate of an imported mesh, in the unit that it is in. Files in tenths of a
+/// millimetre may state a hundred metres with it; what is larger is damage. Who knows the unit
+/// checks again after scaling.
+inline constexpr double kLargestRawCoordinate = 1e6;
+
+/// Corners of one face, at most: cutting it into triangles takes time by their square.
+inline constexpr std::size_t kMaxFaceCorners = 10'000;
 
 /// A material that the file states.
 struct ImportedMaterial {
@@ -75,12 +85,16 @@ struct ImportedMesh {
 ///
 /// Files from outside never run in this process: the program doorforge-read-mesh reads them, under
 /// limits on memory and time, and sends the triangles through a pipe, so a file that crashes or
-/// hangs a reader is an Error like any other. That program is $DOORFORGE_READ_MESH if set, else it
+/// hangs a reader is an Error like any other. It inherits no descriptor and no environment, gains
+/// no privileges, opens few files, starts nothing and ends when this process does. A read begins
+/// with an eighth of the memory and waits its turn for all of it where that is too little, so what
+/// is read beside a file changes nothing. That program is $DOORFORGE_READ_MESH if set, else it
 /// lies beside the running one, else where doorforge was installed. Safe to call from several
 /// threads. Deterministic.
 ///
 /// @throws Error kMissing: no such file, or the reading program is not there; kFormat: an unknown
-///     ending, content that does not follow its format, no triangle in it, or a limit exceeded;
+///     ending, content that does not follow its format, no triangle in it, a coordinate beyond
+///     kLargestRawCoordinate, a face beyond kMaxFaceCorners, or a limit exceeded;
 ///     kIo: the file cannot be read. The message names the file and, where known, the line.
 ///     kInvalidArgument: a limit is not positive.
 ImportedMesh ImportMesh(const std::filesystem::path& path, const MeshImportLimits& limits = {});

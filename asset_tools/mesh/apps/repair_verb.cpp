@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@
 #include "doorforge/core/program.h"
 #include "doorforge/mesh/import_mesh.h"
 #include "doorforge/mesh/repair_mesh.h"
+#include "doorforge/mesh/work_budget.h"
 
 #include "mesh_writer.h"
 
@@ -36,6 +38,7 @@ struct Options {
   std::string config;
   std::vector<std::string> settings;
   std::string wrap;
+  double max_seconds = kObjectSeconds;
   bool json = false;
   bool overwrite = false;
 };
@@ -67,6 +70,9 @@ Options OptionsOf(int argc, char** argv) {
   app.add_option("--wrap", options.wrap,
                  "alpha wrap: never, auto (where exact repair fails) or always")
       ->check(CLI::IsMember({"never", "auto", "always"}));
+  app.add_option("--max-seconds", options.max_seconds,
+                 "processor time that it may take before it is given up (300)")
+      ->check(CLI::PositiveNumber);
   app.footer(
       "settings and defaults: alpha_fraction 0.01, offset_fraction 0.000833, max_hole_fraction\n"
       "0.05, max_flat_hole_share 0.15, max_cap_fraction 0.01, max_triangles 6000 (0: any number)\n"
@@ -91,6 +97,7 @@ void CheckOutputs(const Options& options) {
     if (!options.overwrite && fs::exists(fs::symlink_status(path)))
       throw Error(ErrorCode::kInvalidArgument,
                   path + ": already exists; pass --overwrite to replace it");
+    RequireWritable(fs::absolute(path).parent_path());
   }
 }
 
@@ -120,14 +127,26 @@ void Print(const Options& options, const RepairReport& report) {
               millimetres(report.visible_input_to_output.max_m));
 }
 
+RepairResult Repaired(const Options& options, const RepairConfig& config) {
+  const TriangleMesh mesh = MergedPieces(ImportMesh(options.input));
+  const WorkBudget budget(options.input, options.max_seconds);
+  try {
+    return RepairMesh(mesh, config);
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::kInvalidConfig) throw;
+    throw Error(error.code(), CurrentProblem(options.input));
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorCode::kFormat, CurrentProblem(options.input));
+  }
+}
+
 }  // namespace
 
 int RunRepairVerb(int argc, char** argv) {
   const Options options = OptionsOf(argc, argv);
   const RepairConfig config = ConfigOf(options);
   CheckOutputs(options);
-  const RepairResult result = NamingConfig(
-      options.config, [&] { return RepairMesh(MergedPieces(ImportMesh(options.input)), config); });
+  const RepairResult result = Repaired(options, config);
   const Json record = RecordOf(options, config, result.report);
   if (result.mesh) {
     const Existing existing = options.overwrite ? Existing::kReplace : Existing::kRefuse;

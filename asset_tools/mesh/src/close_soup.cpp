@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <string>
 
 #include <CGAL/Polygon_mesh_processing/border.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
@@ -17,6 +18,10 @@
 #include <CGAL/Polygon_mesh_processing/stitch_borders.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <Eigen/Geometry>
+#include <boost/iterator/function_output_iterator.hpp>
+
+#include "doorforge/core/error.h"
+#include "doorforge/mesh/work_budget.h"
 
 #include "surface_mesh.h"
 #include "surface_operations.h"
@@ -26,6 +31,26 @@ namespace doorforge {
 namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
+
+constexpr std::size_t kMaxCrossings = 20'000'000;  // pairs of triangles; bounds the memory
+
+// Filling a hole takes time that grows with the third power of its border.
+struct FillWithinBudget : pmp::Hole_filling::Default_visitor {
+  void quadratic_step() const { CheckWork(100); }
+  void cubic_step() const { CheckWork(100); }
+};
+
+// The kernel, but for a test of two triangles that a hopeless mesh can be given up in.
+struct KernelWithinBudget : Kernel {
+  struct Do_intersect_3 : Kernel::Do_intersect_3 {
+    template <class A, class B>
+    bool operator()(const A& a, const B& b) const {
+      CheckWork(20);
+      return Kernel::Do_intersect_3::operator()(a, b);
+    }
+  };
+  Do_intersect_3 do_intersect_3_object() const { return {}; }
+};
 
 // Drops what adds nothing: triangles with a repeated corner and the repeats of others, in either
 // winding. Slivers stay, they may hold the surface together.
@@ -124,7 +149,8 @@ void FillHoles(SurfaceMesh& surface, const HoleLimits& limits, const TriangleTre
                       FlatArea(corners, limits.flatness_m) <= limits.max_flat_area_share * area;
     if (!flat && !IsSmall(corners, limits.max_size_m)) continue;
     std::vector<SurfaceMesh::Face_index> faces;
-    pmp::triangulate_hole(surface, border, std::back_inserter(faces));
+    pmp::triangulate_hole(surface, border, std::back_inserter(faces),
+                          CGAL::parameters::visitor(FillWithinBudget()));
     if (!IsFar(surface, faces, tree, limits.max_cap_distance_m)) {
       counts.holes_filled += !faces.empty();
       continue;
@@ -143,12 +169,15 @@ ClosedSoup CloseSoup(const TriangleMesh& soup, const HoleLimits& holes) {
   std::vector<Point> points = PointsOf(distinct);
   Polygons polygons = PolygonsOf(distinct);
   pmp::repair_polygon_soup(points, polygons);
+  CheckWork();
   const std::size_t before = points.size();
   pmp::orient_polygon_soup(points, polygons);
+  CheckWork();
   closed.split_vertices = static_cast<int>(points.size() - before);
   SurfaceMesh surface;
   pmp::polygon_soup_to_polygon_mesh(points, polygons, surface);
   pmp::stitch_borders(surface);
+  CheckWork();
   closed.split_vertices += static_cast<int>(pmp::duplicate_non_manifold_vertices(surface));
   FillHoles(surface, holes, TriangleTree(soup), closed);
   surface.collect_garbage();
@@ -158,18 +187,24 @@ ClosedSoup CloseSoup(const TriangleMesh& soup, const HoleLimits& holes) {
 
 std::vector<std::pair<int, int>> CrossingTriangles(const TriangleMesh& mesh) {
   const SurfaceMesh surface = SurfaceOf(mesh);
-  std::vector<std::pair<SurfaceMesh::Face_index, SurfaceMesh::Face_index>> faces;
-  pmp::self_intersections(surface, std::back_inserter(faces));
   std::vector<std::pair<int, int>> pairs;
-  for (const auto& [a, b] : faces) {
-    const auto s = static_cast<int>(a.idx());
-    const auto t = static_cast<int>(b.idx());
+  const auto add = [&](const std::pair<SurfaceMesh::Face_index, SurfaceMesh::Face_index>& faces) {
+    if (pairs.size() >= kMaxCrossings)
+      throw Error(ErrorCode::kFormat, "more than the " + std::to_string(kMaxCrossings) +
+                                          " pairs of triangles that may cross each other");
+    const auto s = static_cast<int>(faces.first.idx());
+    const auto t = static_cast<int>(faces.second.idx());
     pairs.emplace_back(std::min(s, t), std::max(s, t));
-  }
+  };
+  pmp::self_intersections(surface, boost::make_function_output_iterator(add),
+                          CGAL::parameters::geom_traits(KernelWithinBudget()));
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
 
-bool SelfIntersects(const TriangleMesh& mesh) { return pmp::does_self_intersect(SurfaceOf(mesh)); }
+bool SelfIntersects(const TriangleMesh& mesh) {
+  return pmp::does_self_intersect(SurfaceOf(mesh),
+                                  CGAL::parameters::geom_traits(KernelWithinBudget()));
+}
 
 }  // namespace doorforge

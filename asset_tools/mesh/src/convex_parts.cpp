@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "doorforge/core/error.h"
+#include "doorforge/mesh/work_budget.h"
 
 #include "convex_region.h"
 #include "cover_parts.h"
@@ -461,6 +462,7 @@ class Decomposition {
   bool Trim(std::size_t index) {
     Region& region = regions_[index];
     if (region.trimmed) return false;
+    CheckWork();
     region.trimmed = true;
     std::vector<std::vector<HalfSpace>> others;
     for (std::size_t i = 0; i < regions_.size(); ++i) {
@@ -560,6 +562,7 @@ class Decomposition {
 
   // Nothing where the side is empty or flat.
   std::optional<Side> SideOf(const Region& region, const Cut& cut, int sign, Depths depths) const {
+    CheckWork();
     const std::vector<Polygon> surface = OneSide(region, cut, sign);
     const std::optional<TriangleMesh> hull = HullOf(PointsOf(surface));
     if (!hull || !(VolumeOf(*hull) > smallest_m3_)) return std::nullopt;
@@ -664,6 +667,7 @@ class Decomposition {
     if (between.asked_m > 0 && (between.depth_m <= between.asked_m || bound_m <= between.asked_m))
       return between;
     between.asked_m = bound_m;
+    CheckWork(500);
     if (a.box.exteriorDistance(b.box) > solid_.grid().cell_m) return between;
     const std::optional<TriangleMesh> hull = CommonHull(a, b);
     if (!hull) return between;

@@ -5,6 +5,7 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/mesh/convex_parts.h"
+#include "doorforge/mesh/work_budget.h"
 
 #include "convex_region.h"
 #include "mesh_pieces.h"
@@ -26,6 +27,7 @@ bool IsConvex(const TriangleMesh& part) {
   if (!ClosedMesh::From(part)) return false;
   const double tolerance_m = 1e-6 * MeasureTopology(part).bounds.diagonal().norm();
   for (const HalfSpace& face : HalfSpacesOf(part)) {
+    CheckWork(static_cast<unsigned>(part.vertices.size()));
     for (const Eigen::Vector3d& vertex : part.vertices) {
       if (face.normal.dot(vertex) > face.offset + tolerance_m) return false;
     }

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <string>
 
 #include "doorforge/core/error.h"
 #include "doorforge/mesh/convex_parts.h"
+#include "doorforge/mesh/work_budget.h"
 
 namespace doorforge {
 namespace {
@@ -128,17 +131,25 @@ double VolumeOf(const TriangleMesh& mesh) {
 }
 
 std::vector<Eigen::Vector3d> PointsOn(const TriangleMesh& mesh, double step_m) {
+  constexpr std::size_t kMaxPoints = 20'000'000;  // bounds the memory
   std::vector<Eigen::Vector3d> points;
   for (const Eigen::Vector3i& t : mesh.triangles) {
     const Eigen::Vector3d& a = mesh.vertices[static_cast<std::size_t>(t[0])];
     const Eigen::Vector3d ab = mesh.vertices[static_cast<std::size_t>(t[1])] - a;
     const Eigen::Vector3d ac = mesh.vertices[static_cast<std::size_t>(t[2])] - a;
-    const int across = 1 + static_cast<int>(ab.norm() / step_m);
-    const int along = 1 + static_cast<int>(ac.norm() / step_m);
-    for (int u = 0; u <= across; ++u) {
-      for (int v = 0; v * across <= along * (across - u); ++v)
-        points.emplace_back(a + ab * u / across + ac * v / along);
+    const std::int64_t across = 1 + static_cast<std::int64_t>(ab.norm() / step_m);
+    const std::int64_t along = 1 + static_cast<std::int64_t>(ac.norm() / step_m);
+    for (std::int64_t u = 0; u <= across; ++u) {
+      const double u_share = static_cast<double>(u);
+      for (std::int64_t v = 0; v * across <= along * (across - u); ++v)
+        points.emplace_back(a + ab * u_share / static_cast<double>(across) +
+                            ac * static_cast<double>(v) / static_cast<double>(along));
+      if (points.size() > kMaxPoints)
+        throw Error(ErrorCode::kFormat, "a surface takes more than the " +
+                                            std::to_string(kMaxPoints) +
+                                            " points allowed; is one of its sides far too long?");
     }
+    CheckWork(static_cast<unsigned>(across));
   }
   return points;
 }
@@ -161,6 +172,7 @@ Concavity DeepestInside(const TriangleMesh& hull, const DistanceGrid& solid, int
       if (solid.LargestInRow(j, k) <= deepest.depth_m) continue;
       const Eigen::Vector3d center = grid.CenterOf(0, j, k);
       const Range range = InsideAlongX(faces, center.y(), center.z());
+      CheckWork(static_cast<unsigned>(faces.size()));
       if (range.low > range.high) continue;
       const auto [low_i, high_i] = CellsWithin(grid, 0, range.low, range.high);
       for (int i = low_i; i <= high_i; ++i) {

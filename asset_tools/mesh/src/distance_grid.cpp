@@ -8,6 +8,8 @@
 
 #include <Eigen/Geometry>
 
+#include "doorforge/mesh/work_budget.h"
+
 namespace doorforge {
 namespace {
 
@@ -95,6 +97,7 @@ void DistanceGrid::MarkSurface(const TriangleMesh& mesh) {
     const double longest = std::max({ab.norm(), ac.norm(), (ab - ac).norm()});
     const int steps = 1 + static_cast<int>(longest / (0.5 * grid_.cell_m));
     for (int u = 0; u <= steps; ++u) {
+      CheckWork(static_cast<unsigned>(steps - u + 1));
       for (int v = 0; u + v <= steps; ++v) {
         const Eigen::Vector3i index = grid_.CellAt(a + ab * u / steps + ac * v / steps);
         distance_m_[grid_.IndexOf(index.x(), index.y(), index.z())] = 0;
@@ -109,6 +112,7 @@ void DistanceGrid::SpreadDistances() {
   const auto ny = static_cast<std::size_t>(grid_.size.y());
   float* first = distance_m_.data();
   for (int k = 0; k < grid_.size.z(); ++k) {
+    CheckWork(static_cast<unsigned>(nx * ny));
     for (int j = 0; j < grid_.size.y(); ++j)
       line.Apply(first + grid_.IndexOf(0, j, k), 1, grid_.size.x());
     for (int i = 0; i < grid_.size.x(); ++i)

@@ -16,6 +16,7 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/mesh/convex_parts.h"
+#include "doorforge/mesh/work_budget.h"
 
 #include "box_octree.h"
 #include "mesh_pieces.h"
@@ -37,6 +38,7 @@ class BudgetAndCost {
 
   template <class Cost, class Profile>
   bool operator()(const Cost& cost, const Profile&, std::size_t, std::size_t edges) const {
+    CheckWork(200);
     return edges <= max_edges_ && cost > max_cost_;
   }
 
@@ -158,6 +160,7 @@ class WithoutCrossings {
     for (const Vertex end : {kept, gone}) {
       for (const Face face : surface.faces_around_target(surface.halfedge(end))) {
         if (vanishes(face)) continue;
+        CheckWork(100);
         const CornerTriangle moved = placed(face);
         if (CGAL::collinear(moved.points[0], moved.points[1], moved.points[2])) return false;
         Eigen::AlignedBox3d box;

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <exception>
 #include <iterator>
+#include <new>
 #include <utility>
 
 #include "doorforge/core/error.h"
+#include "doorforge/mesh/work_budget.h"
 
 #include "mesh_pieces.h"
 #include "separate_pieces.h"
@@ -76,8 +78,10 @@ class Repair {
       return Best();
     } catch (const Error&) {
       throw;
-    } catch (const std::exception& error) {
-      return Failed(std::string("a step failed: ") + error.what());
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception&) {
+      return Failed("a step failed on it; export it again or in another format");
     }
   }
 
@@ -263,6 +267,7 @@ class Repair {
   }
 
   static bool LiesInside(const TriangleMesh& piece, const TriangleMesh& other) {
+    CheckWork(static_cast<unsigned>(20 * (piece.triangles.size() + other.triangles.size())));
     const Eigen::AlignedBox3d box = MeasureTopology(other).bounds;
     if (!box.contains(MeasureTopology(piece).bounds)) return false;
     const TriangleTree tree(other);

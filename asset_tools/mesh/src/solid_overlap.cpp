@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "doorforge/mesh/work_budget.h"
+
 #include "convex_region.h"
 #include "triangle_tree.h"
 
@@ -73,6 +75,7 @@ void AddPoints(const TriangleMesh& mesh, const RigidTransform& placed, const Com
     const double longest = std::max({(b - a).norm(), (c - a).norm(), (c - b).norm()});
     const int steps = 1 + static_cast<int>(longest / step_m);
     for (int u = 0; u <= steps; ++u) {
+      CheckWork(static_cast<unsigned>(steps - u + 1));
       for (int v = 0; u + v <= steps; ++v) {
         const Eigen::Vector3d point = a + (b - a) * u / steps + (c - a) * v / steps;
         if (common.Contains(point) && is_inside(point)) points.push_back(point);

@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include <Eigen/Geometry>
+
+#include "doorforge/core/error.h"
+#include "doorforge/mesh/work_budget.h"
 
 namespace doorforge {
 namespace {
@@ -25,6 +29,8 @@ bool IsLeftOf(const TriangleMesh& mesh, int a, int b, const Vector2d& point) {
   const double side = (q.x() - p.x()) * (point.y() - p.y()) - (q.y() - p.y()) * (point.x() - p.x());
   return (side >= 0) != swapped;
 }
+
+constexpr std::size_t kMaxCrossings = 20'000'000;  // bounds the memory
 
 struct RowRange {
   int low_j, high_j, low_k, high_k;  // inclusive
@@ -47,8 +53,10 @@ double PlaneX(const Vector3d& a, const Vector3d& normal, const Vector2d& point) 
   return a.x() - (normal.y() * (point.x() - a.y()) + normal.z() * (point.y() - a.z())) / normal.x();
 }
 
-void AddTriangle(const TriangleMesh& mesh, const Eigen::Vector3i& t, const Grid& grid,
-                 std::vector<std::vector<Crossing>>& rows) {
+// Returns how many crossings it added.
+std::size_t AddTriangle(const TriangleMesh& mesh, const Eigen::Vector3i& t, const Grid& grid,
+                        std::vector<std::vector<Crossing>>& rows) {
+  std::size_t added = 0;
   const Vector3d& a = mesh.vertices[static_cast<std::size_t>(t[0])];
   const Vector3d& b = mesh.vertices[static_cast<std::size_t>(t[1])];
   const Vector3d& c = mesh.vertices[static_cast<std::size_t>(t[2])];
@@ -57,6 +65,7 @@ void AddTriangle(const TriangleMesh& mesh, const Eigen::Vector3i& t, const Grid&
   const Vector3d normal = (b - a).cross(c - a);
   const RowRange range = RowsOf(box, grid);
   for (int k = range.low_k; k <= range.high_k; ++k) {
+    CheckWork(static_cast<unsigned>(range.high_j - range.low_j + 1));
     for (int j = range.low_j; j <= range.high_j; ++j) {
       const Vector2d point = grid.CenterOf(0, j, k).tail<2>();
       const bool left = IsLeftOf(mesh, t[0], t[1], point);
@@ -67,8 +76,10 @@ void AddTriangle(const TriangleMesh& mesh, const Eigen::Vector3i& t, const Grid&
       rows[static_cast<std::size_t>(k) * static_cast<std::size_t>(grid.size.y()) +
            static_cast<std::size_t>(j)]
           .push_back({std::clamp(x, box.min().x(), box.max().x()), left ? -1 : 1});
+      ++added;
     }
   }
+  return added;
 }
 
 }  // namespace
@@ -76,7 +87,14 @@ void AddTriangle(const TriangleMesh& mesh, const Eigen::Vector3i& t, const Grid&
 std::vector<std::vector<Crossing>> RowCrossings(const TriangleMesh& mesh, const Grid& grid) {
   std::vector<std::vector<Crossing>> rows(static_cast<std::size_t>(grid.size.y()) *
                                           static_cast<std::size_t>(grid.size.z()));
-  for (const Eigen::Vector3i& t : mesh.triangles) AddTriangle(mesh, t, grid, rows);
+  std::size_t crossings = 0;
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    crossings += AddTriangle(mesh, t, grid, rows);
+    if (crossings > kMaxCrossings)
+      throw Error(ErrorCode::kFormat, "a mesh crosses the rows of its grid more than " +
+                                          std::to_string(kMaxCrossings) +
+                                          " times, which is as often as is allowed; simplify it");
+  }
   for (std::vector<Crossing>& row : rows) {
     std::stable_sort(row.begin(), row.end(), [](const Crossing& s, const Crossing& t) {
       return std::pair(s.x_m, -s.winding) < std::pair(t.x_m, -t.winding);
@@ -102,7 +120,8 @@ double CellFor(const TriangleMesh& mesh, double cell_m, int margin, int max_cell
   for (const Vector3d& vertex : mesh.vertices) box.extend(vertex);
   const auto cells = [&](double size) {
     double product = 1;
-    for (const double length : box.sizes()) product *= std::ceil(length / size) + 2 * margin;
+    for (const double length : box.sizes())
+      product *= std::max(1.0, std::ceil(length / size)) + 2 * margin;
     return product;
   };
   while (cells(cell_m) > max_cells) cell_m *= 1.05;

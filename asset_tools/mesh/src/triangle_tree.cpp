@@ -8,6 +8,8 @@
 #include <limits>
 #include <numbers>
 
+#include "doorforge/mesh/work_budget.h"
+
 namespace doorforge {
 namespace {
 
@@ -139,6 +141,7 @@ double TriangleTree::Distance(const Vector3d& point, double at_most) const {
   if (triangles_.empty()) return at_most;
   std::vector<std::pair<double, int>> pending{{0.0, 0}};
   while (!pending.empty()) {
+    CheckWork(1);
     const auto [bound, index] = pending.back();
     pending.pop_back();
     if (bound >= best) continue;
@@ -177,6 +180,7 @@ double TriangleTree::Nearest(const Vector3d& origin, const Vector3d& direction, 
   const Vector3d inverse = direction.cwiseInverse();
   std::vector<int> pending{0};
   while (!pending.empty()) {
+    CheckWork(1);
     const Node& node = nodes_[static_cast<std::size_t>(pending.back())];
     pending.pop_back();
     if (!(BoxEntry(origin, inverse, node.box) < best)) continue;
@@ -196,6 +200,7 @@ double TriangleTree::Nearest(const Vector3d& origin, const Vector3d& direction, 
 double TriangleTree::WindingNumber(const Vector3d& point) const {
   // solid angles: Van Oosterom and Strackee (1983)
   double angle = 0;
+  CheckWork(static_cast<unsigned>(4 * triangles_.size()));
   for (const Triangle& t : triangles_) {
     const Vector3d a = t.a - point;
     const Vector3d b = t.b - point;
@@ -219,6 +224,7 @@ std::optional<int> TriangleTree::SheetsBeyond(const Vector3d& point) const {
   std::vector<int> pending;
   if (!triangles_.empty()) pending.push_back(0);
   while (!pending.empty()) {
+    CheckWork(1);
     const Node& node = nodes_[static_cast<std::size_t>(pending.back())];
     pending.pop_back();
     if (!RayMeets(point, node.box, touch_m_)) continue;

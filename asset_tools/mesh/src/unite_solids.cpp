@@ -7,7 +7,9 @@
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <Eigen/Geometry>
 
+#include "doorforge/core/error.h"
 #include "doorforge/core/rng.h"
+#include "doorforge/mesh/work_budget.h"
 
 #include "mesh_pieces.h"
 #include "surface_mesh.h"
@@ -17,6 +19,20 @@ namespace doorforge {
 namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
+
+// Lets a union that takes too long be given up: it is asked between the steps of its long loops.
+struct WithinBudget : pmp::Corefinement::Default_visitor<SurfaceMesh> {
+  void progress_filtering_intersections(double) const { CheckWork(kSteps); }
+  void intersection_of_coplanar_faces_step() const { CheckWork(kSteps); }
+  void edge_face_intersections_step() const { CheckWork(kSteps); }
+  void triangulating_faces_step() const { CheckWork(kSteps); }
+  void after_subface_created(face_descriptor, SurfaceMesh&) { CheckWork(kSteps); }
+  void after_face_copy(face_descriptor, const SurfaceMesh&, face_descriptor, SurfaceMesh&) {
+    CheckWork(kSteps);
+  }
+
+  static constexpr unsigned kSteps = 100;
+};
 
 // Grown by about `shift_m` on every side and turned by as little. Boards that were drawn flush then
 // overlap in general position, which is what corefinement handles well: no faces in one plane.
@@ -56,7 +72,8 @@ std::optional<TriangleMesh> United(const std::vector<TriangleMesh>& solids, doub
       for (std::size_t i = 0; i + 1 < surfaces.size(); i += 2) {
         SurfaceMesh& both = halved.emplace_back();
         const bool done = pmp::corefine_and_compute_union(
-            surfaces[i], surfaces[i + 1], both, CGAL::parameters::throw_on_self_intersection(true));
+            surfaces[i], surfaces[i + 1], both,
+            CGAL::parameters::throw_on_self_intersection(true).visitor(WithinBudget()));
         if (!done) return std::nullopt;
         // CGAL numbers what is new by addresses
         both = SurfaceOf(InCanonicalOrder(TrianglesOf(both)));
@@ -64,6 +81,8 @@ std::optional<TriangleMesh> United(const std::vector<TriangleMesh>& solids, doub
       if (surfaces.size() % 2 == 1) halved.push_back(std::move(surfaces.back()));
       surfaces = std::move(halved);
     }
+  } catch (const Error&) {
+    throw;  // the budget is used up
   } catch (const std::exception&) {
     return std::nullopt;  // a solid crosses itself where another meets it
   }

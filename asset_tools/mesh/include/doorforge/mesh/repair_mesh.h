@@ -85,7 +85,7 @@ struct RepairResult {
 /// architecture, whatever the number of threads.
 ///
 /// @throws Error(kInvalidArgument) as MeasureTopology() does; Error(kInvalidConfig) on a config
-///     value out of range. A mesh that cannot be closed is an outcome, not an Error.
+///     value out of range, (kFormat) as CheckWork() does. A mesh that cannot be closed is no Error.
 RepairResult RepairMesh(const TriangleMesh& mesh, const RepairConfig& config);
 
 /// The report as a record of schema "doorforge.repair_report", version 1.

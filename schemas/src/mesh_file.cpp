@@ -6,6 +6,7 @@
 
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
+#include "doorforge/schemas/vertex_reach.h"
 
 #include "number_text.h"
 
@@ -21,9 +22,8 @@ bool ReadVertex(std::string_view line, TriangleMesh& mesh) {
   float z = 0;
   LineCursor cursor(line);
   if (!cursor.NextNumber(x) || !cursor.NextNumber(y) || !cursor.NextNumber(z)) return false;
-  if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) return false;
-  mesh.vertices.emplace_back(x, y, z);
-  return cursor.AtEnd();
+  if (!cursor.AtEnd()) return false;
+  return IsWithinReach(mesh.vertices.emplace_back(x, y, z));
 }
 
 bool ReadFace(std::string_view line, TriangleMesh& mesh) {
@@ -45,7 +45,34 @@ bool ReadLine(std::string_view line, TriangleMesh& mesh) {
   return false;
 }
 
+// Of a line that ReadLine() refused.
+std::string ProblemOf(std::string_view line, const TriangleMesh& mesh) {
+  const bool is_vertex = line.starts_with("v ") && !mesh.vertices.empty();
+  if (is_vertex && mesh.vertices.back().allFinite() && !IsWithinReach(mesh.vertices.back()))
+    return BeyondReach(mesh.vertices.back());
+  return "not a line of a canonical mesh; run `doorforge repair` on meshes from elsewhere";
+}
+
 }  // namespace
+
+std::string BeyondReach(const Eigen::Vector3d& vertex) {
+  std::string place;
+  for (const double coordinate : vertex) {
+    place += place.empty() ? "(" : ", ";
+    AppendNumber(place, static_cast<float>(coordinate));
+  }
+  return "a vertex at " + place + ") m, allowed are coordinates up to " +
+         std::to_string(std::lround(kFarthestVertexM)) +
+         " m; is it in millimetres, or damaged? Give the unit where the mesh is imported";
+}
+
+void RequireWithinReach(std::span<const Eigen::Vector3d> vertices, const std::string& name) {
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (!IsWithinReach(vertices[i]))
+      throw Error(ErrorCode::kFormat,
+                  name + ": vertex " + std::to_string(i + 1) + ": " + BeyondReach(vertices[i]));
+  }
+}
 
 std::string ToObj(const TriangleMesh& mesh) {
   std::string text;
@@ -81,10 +108,10 @@ TriangleMesh ParseObj(std::string_view text, const std::string& name) {
   std::string_view rest = text;
   for (int number = 1; !rest.empty(); ++number) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
-    if (!ReadLine(rest.substr(0, end), mesh))
-      throw Error(ErrorCode::kFormat, name + ":" + std::to_string(number) +
-                                          ": not a line of a canonical mesh; run `doorforge "
-                                          "repair` on meshes from elsewhere");
+    const std::string_view line = rest.substr(0, end);
+    if (!ReadLine(line, mesh))
+      throw Error(ErrorCode::kFormat,
+                  name + ":" + std::to_string(number) + ": " + ProblemOf(line, mesh));
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   return mesh;

@@ -9,6 +9,7 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
+#include "doorforge/schemas/vertex_reach.h"
 
 #include "number_text.h"
 
@@ -221,6 +222,7 @@ class MeshLines {
     if (lines_.IsBlank()) return;
     if (const auto vertex = lines_.After("v")) {
       mesh_.vertices.emplace_back(NumbersOf<3>(*vertex, lines_));
+      if (!IsWithinReach(mesh_.vertices.back())) lines_.Fail(BeyondReach(mesh_.vertices.back()));
     } else if (const auto texcoord = lines_.After("vt")) {
       mesh_.texcoords.emplace_back(NumbersOf<2>(*texcoord, lines_));
     } else if (const auto face = lines_.After("f")) {

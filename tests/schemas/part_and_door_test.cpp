@@ -199,6 +199,21 @@ TEST(MeshFile, TextReadsBackToTheSameText) {
   EXPECT_EQ(text.find("-0 "), std::string::npos);
 }
 
+TEST(MeshFile, RefusesAVertexBeyondAHundredMetres) {
+  EXPECT_EQ(ParseObj("v 100 -100 100\n", "a.obj").vertices.size(), 1U);
+  for (const char* const far : {"v 100.01 0 0\n", "v 0 -343598 0\n", "v 0 0 3e38\n"}) {
+    try {
+      ParseObj("v 0 0 0\n" + std::string(far), "a.obj");
+      ADD_FAILURE() << far;
+    } catch (const Error& error) {
+      const std::string message = error.what();
+      EXPECT_EQ(error.code(), ErrorCode::kFormat);
+      EXPECT_NE(message.find("a.obj:2: a vertex at ("), std::string::npos) << message;
+      EXPECT_NE(message.find("up to 100 m"), std::string::npos) << message;
+    }
+  }
+}
+
 TEST(MeshFile, RefusesWhatItWouldNotWrite) {
   const fs::path path = fs::path(testing::TempDir()) / "mesh_file_bad.obj";
   const std::string three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";

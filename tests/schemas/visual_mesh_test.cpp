@@ -176,6 +176,7 @@ TEST_F(VisualMeshFiles, FaultsAreRefusedWithTheirPlace) {
   EXPECT_TRUE(has(damaged(files.mesh, "f 1/1", "f 1"), "some corners alone"));
   EXPECT_TRUE(has(damaged(files.mesh, "usemtl glass", "usemtl gold"), "unknown material \"gold\""));
   EXPECT_TRUE(has(damaged(files.mesh, "v 0 0 0", "v 0 nan 0"), ":2: expected 3 finite numbers"));
+  EXPECT_TRUE(has(damaged(files.mesh, "v 0 0 0", "v 0 2000 0"), ":2: a vertex at (0, 2000, 0) m"));
   EXPECT_TRUE(has(damaged(files.materials, "Kd 1 1 1", "Kd 1 2 1"), "not within 0 and 1"));
   EXPECT_TRUE(has(damaged(files.materials, "map_Kd ", "map_Kd ../../"), "names no texture"));
 }

@@ -9,6 +9,7 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/parallel_for.h"
+#include "doorforge/schemas/vertex_reach.h"
 
 #include "piece_density.h"
 #include "placed_mesh.h"
@@ -40,6 +41,15 @@ void CheckNames(const PartDraft& draft) {
   if (!has_main)
     throw Error(ErrorCode::kInvalidArgument,
                 draft.facts.id + ": the piece \"" + std::string(names[0]) + "\" is missing");
+}
+
+// Whatever way a mesh came in, here it is in metres.
+void CheckReach(const PartDraft& draft) {
+  for (const RawPiece& piece : draft.pieces) {
+    const std::string name = draft.facts.id + ": " + piece.name;
+    RequireWithinReach(piece.mesh.vertices, name);
+    RequireWithinReach(piece.visual.vertices, name + " as it is drawn");
+  }
 }
 
 const ConvexPartsConfig& ConvexConfigOf(const std::string& piece, const MakePartConfig& config) {
@@ -135,6 +145,7 @@ MadePiece MakePiece(const RawPiece& raw, Category category, const MakePartConfig
 
 MadePart MakePart(const PartDraft& draft, const MakePartConfig& config) {
   CheckNames(draft);
+  CheckReach(draft);
   std::vector<MadePiece> pieces(draft.pieces.size());
   ParallelFor(pieces.size(), config.threads, [&](std::size_t i) {
     pieces[i] = MakePiece(draft.pieces[i], draft.facts.category, config);

@@ -11,6 +11,7 @@
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/mesh/import_mesh.h"
+#include "doorforge/schemas/vertex_reach.h"
 
 #include "import/authored_mesh.h"
 #include "placed_mesh.h"
@@ -73,6 +74,7 @@ ColoredMesh Load(const SourceMesh& source, const ImportedMesh& imported) {
   loaded.mesh = source.file.empty() ? source.solid : MergedPieces(imported);
   if (source.color_rgba) loaded.color_area = loaded.area * *source.color_rgba;
   loaded.mesh = Moved(std::move(loaded.mesh), source.part_from_raw);
+  RequireWithinReach(loaded.mesh.vertices, source.file.empty() ? "a shape" : source.file.string());
   return loaded;
 }
 

@@ -77,7 +77,7 @@ struct MadePart {
 /// robot can move. Deterministic for any number of threads.
 ///
 /// @throws Error(kInvalidArgument) if the draft has no leaf (body) or no grip (handle), or a piece
-///     name that its role does not have; Error(kInvalidConfig) from the config's parts.
+///     name that its role does not have; (kInvalidConfig) from the config; (kFormat) out of reach.
 MadePart MakePart(const PartDraft& draft, const MakePartConfig& config);
 
 /// Why a part could not be made: "leaf: <reason of its repair>; ..."; empty if it was.

@@ -21,6 +21,7 @@ using tinyxml2::XMLElement;
 
 constexpr std::uint64_t kMaxBytes = 16ULL << 20;
 constexpr int kMaxDepth = 64;
+constexpr std::size_t kMaxElements = 2000;  // of links, and of joints; large objects have 200
 
 // Where in which file: every message begins with it.
 struct Source {
@@ -262,6 +263,10 @@ std::vector<const XMLElement*> NamedElements(const XMLElement& robot, const char
     if (!names.insert(name).second)
       source.Fail(*element, "a second one named \"" + name + "\"; names must differ");
     elements.push_back(element);
+    if (elements.size() > kMaxElements)
+      source.Fail(*element, "more than the " + std::to_string(kMaxElements) +
+                                " allowed; leave out "
+                                "what the object does not need");
   }
   return elements;
 }
@@ -475,12 +480,18 @@ std::string RootLinkOf(const UrdfModel& model) {
   }
   if (root.empty()) fail("every link has a parent; one must be the root");
   // with one root and one parent each, a link off the tree lies on a cycle
+  std::map<std::string, std::vector<std::string>> children_of;
+  for (const UrdfJoint& joint : model.joints) children_of[joint.parent].push_back(joint.child);
+  std::set<std::string> reached;
+  std::vector<std::string> pending = {root};
+  while (!pending.empty()) {
+    const std::string at = std::move(pending.back());
+    pending.pop_back();
+    reached.insert(at);
+    for (const std::string& child : children_of[at]) pending.push_back(child);
+  }
   for (const UrdfLink& link : model.links) {
-    std::string at = link.name;
-    for (std::size_t steps = 0; at != root; ++steps) {
-      if (steps > model.links.size()) fail("link \"" + link.name + "\" hangs on a cycle of joints");
-      at = parent_of.at(at);
-    }
+    if (!reached.contains(link.name)) fail("link \"" + link.name + "\" hangs on a cycle of joints");
   }
   return root;
 }

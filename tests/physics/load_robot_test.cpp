@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/physics/load_robot.h"
 
+#include <ctime>
 #include <fstream>
 #include <numbers>
 
@@ -99,6 +100,39 @@ TEST(LoadRobot, TellsAllFaultsOfAUrdfAtOnce) {
         "link \"wrist1\", collision: no file \"package://nowhere/wrist.stl\"",
         "tcp_link: \"flang\" is not in the URDF; the nearest is \"flange\""})
     EXPECT_NE(message.find(part), std::string::npos) << part << "\n" << message;
+}
+
+TEST(LoadRobot, RefusesFixedJointsThatGoRoundInACircle) {
+  UrdfModel urdf = BoxArm();
+  UrdfJoint back;
+  back.name = "back";
+  back.parent = urdf.joints.back().child;
+  back.child = urdf.links[0].name;
+  for (UrdfJoint& joint : urdf.joints) joint.type = UrdfJointType::kFixed;
+  urdf.joints.back().type = UrdfJointType::kPrismatic;
+  back.type = UrdfJointType::kFixed;
+  urdf.joints.push_back(back);
+  EXPECT_NE(MessageOf(urdf).find("every link has a parent"), std::string::npos);
+}
+
+// Asking at every joint what lies above every other takes the fourth power of their number.
+TEST(LoadRobot, ATreeOfManyLinksIsToldToBeNoRobotAtOnce) {
+  UrdfModel urdf = BoxArm();
+  for (int i = 0; i < 1900; ++i) {
+    UrdfLink link;
+    link.name = "more" + std::to_string(i);
+    UrdfJoint joint;
+    joint.name = "joint" + std::to_string(i);
+    joint.type = i < 950 ? UrdfJointType::kFixed : UrdfJointType::kPrismatic;
+    joint.parent = urdf.links.back().name;
+    joint.child = link.name;
+    joint.upper = 1;
+    urdf.links.push_back(link);
+    urdf.joints.push_back(joint);
+  }
+  const std::clock_t begin = std::clock();
+  EXPECT_NE(MessageOf(urdf).find("cannot be used"), std::string::npos);
+  EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 20);
 }
 
 TEST(LoadRobot, AsksForWhatTheTreeDoesNotTell) {

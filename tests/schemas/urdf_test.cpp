@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/schemas/urdf.h"
 
+#include <ctime>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -193,6 +194,38 @@ TEST(Urdf, RefusesLinksThatAreNotOneTree) {
   EXPECT_NE(ProblemOf(links + joint("1", "b", "c") + joint("2", "c", "b") + "</robot>"), "");
   EXPECT_NE(ProblemOf(links + joint("1", "a", "b") + joint("2", "c", "b") + "</robot>"), "");
   EXPECT_EQ(ProblemOf(links + joint("1", "a", "b") + joint("2", "b", "c") + "</robot>"), "");
+}
+
+TEST(Urdf, RefusesMoreLinksOrJointsThanAnyObjectHas) {
+  std::string links;
+  for (int i = 0; i < 2000; ++i) links += "<link name='" + std::to_string(i) + "'/>";
+  EXPECT_EQ(ParseUrdf("<robot>" + links + "</robot>", "a.urdf").links.size(), 2000U);
+  EXPECT_NE(ProblemOf("<robot>" + links + "<link name='x'/></robot>")
+                .find("<link>: more than the 2000 allowed"),
+            std::string::npos);
+  std::string joints;
+  for (int i = 0; i < 2001; ++i)
+    joints += "<joint name='" + std::to_string(i) +
+              "' type='fixed'><parent link='a'/><child link='b'/></joint>";
+  EXPECT_NE(ProblemOf("<robot><link name='a'/><link name='b'/>" + joints + "</robot>")
+                .find("<joint>: more than the 2000 allowed"),
+            std::string::npos);
+}
+
+// A walk up from every link would take some 10^10 steps.
+TEST(Urdf, FindsTheRootOfALongChainInOnePass) {
+  constexpr int kLinks = 100'000;
+  UrdfModel model;
+  for (int i = 0; i < kLinks; ++i) {
+    model.links.push_back({.name = "link" + std::to_string(i)});
+    if (i == 0) continue;
+    UrdfJoint& joint = model.joints.emplace_back();
+    joint.parent = model.links[static_cast<std::size_t>(i) - 1].name;
+    joint.child = model.links.back().name;
+  }
+  const std::clock_t begin = std::clock();
+  EXPECT_EQ(RootLinkOf(model), "link0");
+  EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 10);
 }
 
 }  // namespace

@@ -141,6 +141,7 @@ void CheckOptions(const RobotOptions& options, std::size_t arm_joints, RobotFaul
 
 RobotModel Build(const std::string& name, const UrdfModel& given, const RobotSource& source,
                  RobotBase base) {
+  RootLinkOf(given);  // a walk up from a link ends only in a tree
   RobotFaults faults(name.empty() ? given.name : name);
   RobotRoles roles = internal::FindRoles(given, source.options, faults);
   if (!roles.arm.empty()) CheckOptions(source.options, roles.arm.size(), faults);
@@ -208,7 +209,15 @@ RobotModel BuildRobot(const UrdfModel& urdf, const RobotSource& source, RobotBas
 
 RobotModel LoadRobot(const fs::path& urdf, RobotBase base, const RobotMeshReader& read_mesh) {
   if (urdf.empty()) return LoadBuiltIn(base);
-  return BuildRobot(ReadUrdf(urdf), {urdf, OptionsBeside(urdf), read_mesh}, base);
+  const UrdfModel model = ReadUrdf(urdf);  // names the file itself
+  const RobotOptions options = OptionsBeside(urdf);
+  try {
+    return BuildRobot(model, {urdf, options, read_mesh}, base);
+  } catch (const Error& error) {
+    const std::string problem = error.what();
+    const bool named = problem.find(urdf.string()) != std::string::npos;
+    throw Error(error.code(), named ? problem : urdf.string() + ": " + problem);
+  }
 }
 
 RobotModel LoadMobileFranka() { return LoadBuiltIn(RobotBase::kSliders); }

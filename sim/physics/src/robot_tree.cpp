@@ -3,6 +3,7 @@
 #include "robot_tree.h"
 
 #include <algorithm>
+#include <set>
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/nearest_name.h"
@@ -20,24 +21,37 @@ const UrdfJoint* JointNamed(const UrdfModel& urdf, const std::string& name) {
   return found == urdf.joints.end() ? nullptr : &*found;
 }
 
-const UrdfJoint* JointAbove(const UrdfModel& urdf, const std::string& link) {
-  const auto found = std::find_if(urdf.joints.begin(), urdf.joints.end(),
-                                  [&](const UrdfJoint& joint) { return joint.child == link; });
-  return found == urdf.joints.end() ? nullptr : &*found;
-}
+// The joint above each link, found once: a hostile tree is large.
+class JointsAbove {
+ public:
+  explicit JointsAbove(const UrdfModel& urdf) {
+    for (const UrdfJoint& joint : urdf.joints) above_.emplace(joint.child, &joint);
+  }
 
-// The link at which the fixed joints above this one end.
-std::string BodyOf(const UrdfModel& urdf, std::string link) {
-  for (const UrdfJoint* above = JointAbove(urdf, link);
-       above != nullptr && above->type == UrdfJointType::kFixed; above = JointAbove(urdf, link))
-    link = above->parent;
-  return link;
-}
+  // Nothing above the root.
+  const UrdfJoint* Of(const std::string& link) const {
+    const auto found = above_.find(link);
+    return found == above_.end() ? nullptr : found->second;
+  }
 
-bool CarriesJoints(const UrdfModel& urdf, const std::string& body) {
-  return std::any_of(urdf.joints.begin(), urdf.joints.end(), [&](const UrdfJoint& joint) {
-    return joint.type != UrdfJointType::kFixed && BodyOf(urdf, joint.parent) == body;
-  });
+  // The link at which the fixed joints above this one end.
+  std::string BodyOf(std::string link) const {
+    for (const UrdfJoint* above = Of(link);
+         above != nullptr && above->type == UrdfJointType::kFixed; above = Of(link))
+      link = above->parent;
+    return link;
+  }
+
+ private:
+  std::map<std::string, const UrdfJoint*> above_;
+};
+
+std::set<std::string> BodiesThatCarryJoints(const UrdfModel& urdf, const JointsAbove& above) {
+  std::set<std::string> bodies;
+  for (const UrdfJoint& joint : urdf.joints) {
+    if (joint.type != UrdfJointType::kFixed) bodies.insert(above.BodyOf(joint.parent));
+  }
+  return bodies;
 }
 
 std::vector<std::string> NamesOf(const std::vector<UrdfJoint>& joints) {
@@ -60,10 +74,12 @@ std::string Listed(const std::vector<std::string>& names) {
 
 // Sliding joints at the ends of the tree, by the body that carries them.
 std::vector<std::string> GuessedFingers(const UrdfModel& urdf, RobotFaults& faults) {
+  const JointsAbove above(urdf);
+  const std::set<std::string> carriers = BodiesThatCarryJoints(urdf, above);
   std::map<std::string, std::vector<std::string>> sliding;
   for (const UrdfJoint& joint : urdf.joints) {
-    if (joint.type == UrdfJointType::kPrismatic && !CarriesJoints(urdf, joint.child))
-      sliding[BodyOf(urdf, joint.parent)].push_back(joint.name);
+    if (joint.type == UrdfJointType::kPrismatic && !carriers.contains(joint.child))
+      sliding[above.BodyOf(joint.parent)].push_back(joint.name);
   }
   std::vector<std::vector<std::string>> pairs;
   for (const auto& [body, joints] : sliding) {
@@ -95,12 +111,10 @@ std::vector<std::string> FingersOf(const UrdfModel& urdf, const RobotOptions& op
 }
 
 // Moving joints from the root to the body.
-std::vector<std::string> ChainTo(const UrdfModel& urdf, std::string link) {
+std::vector<std::string> ChainTo(const JointsAbove& above, const std::string& link) {
   std::vector<std::string> chain;
-  for (const UrdfJoint* above = JointAbove(urdf, link); above != nullptr;
-       above = JointAbove(urdf, link)) {
-    if (above->type != UrdfJointType::kFixed) chain.insert(chain.begin(), above->name);
-    link = above->parent;
+  for (const UrdfJoint* joint = above.Of(link); joint != nullptr; joint = above.Of(joint->parent)) {
+    if (joint->type != UrdfJointType::kFixed) chain.insert(chain.begin(), joint->name);
   }
   return chain;
 }
@@ -162,12 +176,13 @@ RobotRoles FindRoles(const UrdfModel& urdf, const RobotOptions& options, RobotFa
   if (roles.fingers.empty() || !hand_known) return roles;
   roles.hand_link =
       options.hand_link.empty() ? JointNamed(urdf, roles.fingers[0])->parent : options.hand_link;
-  const std::string body = BodyOf(urdf, roles.hand_link);
+  const JointsAbove above(urdf);
+  const std::string body = above.BodyOf(roles.hand_link);
   for (const std::string& name : roles.fingers) {
-    if (BodyOf(urdf, JointNamed(urdf, name)->parent) != body)
+    if (above.BodyOf(JointNamed(urdf, name)->parent) != body)
       faults.Add("finger \"" + name + "\" does not slide on the hand \"" + roles.hand_link + '"');
   }
-  SplitChain(urdf, ChainTo(urdf, roles.hand_link), roles, faults);
+  SplitChain(urdf, ChainTo(above, roles.hand_link), roles, faults);
   RequireRoles(urdf, roles, faults);
   return roles;
 }

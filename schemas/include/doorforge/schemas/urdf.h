@@ -79,7 +79,7 @@ struct UrdfModel {
 };
 
 /// Parses a URDF. Lenient where the released data sets are (missing inertia, effort, velocity),
-/// strict about what could harm: a DOCTYPE, more than 64 levels or 16 MiB, numbers that are not
+/// strict: a DOCTYPE, more than 64 levels, 16 MiB, 2000 links or 2000 joints, numbers that are not
 /// finite, joints that name no link. Throws Error(kMissing, kIo or kFormat) with file and line.
 UrdfModel ReadUrdf(const std::filesystem::path& path);
 UrdfModel ParseUrdf(const std::string& text, const std::string& name);

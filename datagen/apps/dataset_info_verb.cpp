@@ -41,14 +41,16 @@ constexpr int kChartHeight = 220;
 // A picture that is white.
 Picture Blank(int width, int height) {
   Picture picture{width, height, {}};
-  picture.rgb.assign(static_cast<std::size_t>(3 * width * height), 255);
+  picture.rgb.assign(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 255);
   return picture;
 }
 
 void FillRows(Picture& picture, int left, int right, int height, Color color) {
   for (int y = picture.height - height; y < picture.height; ++y) {
     for (int x = left; x < right; ++x) {
-      std::uint8_t* pixel = &picture.rgb[static_cast<std::size_t>(3 * (y * picture.width + x))];
+      std::uint8_t* pixel =
+          &picture.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+                            static_cast<std::size_t>(x))];
       pixel[0] = color.red;
       pixel[1] = color.green;
       pixel[2] = color.blue;

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "doorforge/core/error.h"
+
 #include "small_parts.h"
 
 namespace doorforge {
@@ -43,6 +45,29 @@ TEST(Grasp, EmptyAirABlockedFingerAndTheLeafDoNotHold) {
   // something of the handle where a finger goes
   const TriangleMesh handle = Together(Bar(), BoxMesh({0, -0.08, 0.045}, {0.1, -0.04, 0.05}));
   EXPECT_FALSE(MeasureGrasp(Bar(), handle, GraspAt({0.05, -0.06, 0})).fingers_free);
+}
+
+TEST(Grasp, AMeshThatIsFarTooLargeIsRefusedAndNotCut) {
+  for (const double far : {50.0, 343598.0, 1e9, 1e300}) {
+    const TriangleMesh plate = BoxMesh({0.2, -far, -far}, {0.21, far, far});
+    const TriangleMesh handle = Together(Bar(), plate);
+    try {
+      MeasureGrasp(Bar(), handle, GraspAt({0.05, -0.06, 0}));
+      ADD_FAILURE() << far << " m were cut into columns";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kFormat);
+      EXPECT_NE(std::string(error.what()).find("30000000 allowed"), std::string::npos);
+    }
+  }
+  // what a door may have at most still is measured
+  const TriangleMesh large = Together(Bar(), BoxMesh({0.2, -5, -5}, {0.21, 5, 5}));
+  EXPECT_TRUE(MeasureGrasp(Bar(), Bar(), GraspAt({0.05, -0.06, 0})).holds);
+  EXPECT_FALSE(MeasureGrasp(Bar(), large, GraspAt({0.05, -0.06, 0})).fingers_free);
+}
+
+TEST(Grasp, AGraspFarFromEverythingHoldsNothing) {
+  for (const double far : {1e6, 1e12, 1e300})
+    EXPECT_FALSE(MeasureGrasp(Bar(), Bar(), GraspAt({0.05, far, 0})).holds);
 }
 
 TEST(Grasp, AHoldingProposalIsKeptButCentred) {

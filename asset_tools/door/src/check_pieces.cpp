@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "doorforge/core/closed_mesh.h"
+#include "doorforge/mesh/work_budget.h"
 
 #include "findings.h"
 #include "placed_mesh.h"
@@ -73,6 +74,7 @@ double Uncovered(const TriangleMesh& mesh, const std::vector<HalfSpaces>& hulls)
     double nearest = std::numeric_limits<double>::infinity();
     for (const HalfSpaces& hull : hulls) {
       if (hull.bounds.exteriorDistance(point) >= nearest) continue;
+      CheckWork(static_cast<unsigned>(hull.offsets.size()));
       nearest = std::min(nearest, hull.Outside(point));
       if (nearest <= 0) break;
     }
@@ -87,8 +89,10 @@ double Bulge(const TriangleMesh& hull) {
   const HalfSpaces faces(hull);
   if (faces.offsets.size() == 0) return std::numeric_limits<double>::infinity();
   double bulge = 0;
-  for (const Eigen::Vector3d& vertex : hull.vertices)
+  for (const Eigen::Vector3d& vertex : hull.vertices) {
+    CheckWork(static_cast<unsigned>(faces.offsets.size()));
     bulge = std::max(bulge, faces.Outside(vertex));
+  }
   return bulge;
 }
 

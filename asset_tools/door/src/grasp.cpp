@@ -7,7 +7,10 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <vector>
+
+#include "doorforge/mesh/work_budget.h"
 
 #include "solid_columns.h"
 
@@ -52,7 +55,7 @@ std::optional<std::vector<PadColumn>> BetweenPads(const Cut& cut, const Eigen::V
   std::vector<PadColumn> pads;
   bool blocked = false;
   cut.grip.ForEachIn(
-      center - half, center + half, [&](double, double, const std::vector<SolidInterval>& column) {
+      center - half, center + half, [&](double, double, std::span<const SolidInterval> column) {
         PadColumn pad{std::numeric_limits<double>::infinity(),
                       -std::numeric_limits<double>::infinity()};
         for (const SolidInterval& solid : column) {
@@ -67,7 +70,7 @@ std::optional<std::vector<PadColumn>> BetweenPads(const Cut& cut, const Eigen::V
   return pads;
 }
 
-bool Meets(const std::vector<SolidInterval>& column, double low, double high) {
+bool Meets(std::span<const SolidInterval> column, double low, double high) {
   return std::any_of(column.begin(), column.end(), [&](const SolidInterval& solid) {
     return solid.high > low && solid.low < high;
   });
@@ -80,13 +83,13 @@ bool FingersFree(const Cut& cut, const Eigen::Vector3d& at, const GripperShape& 
   bool free = true;
   cut.handle.ForEachIn({at.x() - gripper.finger_half_width_m, -1.0},
                        {at.x() + gripper.finger_half_width_m, at.z() + gripper.tip_m},
-                       [&](double, double, const std::vector<SolidInterval>& column) {
+                       [&](double, double, std::span<const SolidInterval> column) {
                          free = free && !Meets(column, at.y() - outer, at.y() - inner) &&
                                 !Meets(column, at.y() + inner, at.y() + outer);
                        });
   // the palm is wider than the fingers on both sides
   cut.handle.ForEachIn({at.x() - 0.03, -1.0}, {at.x() + 0.03, at.z() - gripper.finger_reach_m},
-                       [&](double, double, const std::vector<SolidInterval>& column) {
+                       [&](double, double, std::span<const SolidInterval> column) {
                          free = free && !Meets(column, at.y() - 0.1, at.y() + 0.1);
                        });
   return free;
@@ -105,6 +108,7 @@ double ContactShare(const std::vector<PadColumn>& pads, double low, double high,
 }
 
 GraspFit FitAt(const Cut& cut, const Eigen::Vector3d& at, const GripperShape& gripper) {
+  CheckWork(2000);
   GraspFit fit;
   const Eigen::Vector3d tip = cut.part_from_cut * (at + Eigen::Vector3d(0, 0, gripper.tip_m));
   fit.tip_clearance_m = tip.x();

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
+
+#include "doorforge/core/error.h"
 
 namespace doorforge::internal {
 namespace {
@@ -49,19 +52,37 @@ std::optional<LineHits> HitsAlong(const TriangleMesh& mesh, int axis, const Eige
   return hits;
 }
 
+namespace {
+
+constexpr std::size_t kMaxEntries = 50'000'000;  // bounds the memory
+
+std::size_t CellIndex(int row, int column, int columns) {
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+         static_cast<std::size_t>(column);
+}
+
+}  // namespace
+
 LinesAlongX::LinesAlongX(const TriangleMesh& mesh)
     : cells_(static_cast<std::size_t>(kCells) * kCells) {
   for (const Eigen::Vector3i& triangle : mesh.triangles) {
     triangles_.push_back(CornersOf(mesh, triangle));
     for (const Eigen::Vector3d& corner : triangles_.back()) bounds_.extend(corner.tail<2>().eval());
   }
+  std::size_t entries = 0;
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
     Eigen::AlignedBox2d box;
     for (const Eigen::Vector3d& corner : triangles_[i]) box.extend(corner.tail<2>().eval());
     for (int row = CellOf(box.min().x(), 0); row <= CellOf(box.max().x(), 0); ++row) {
-      for (int column = CellOf(box.min().y(), 1); column <= CellOf(box.max().y(), 1); ++column)
-        cells_[static_cast<std::size_t>(row * kCells + column)].push_back(static_cast<int>(i));
+      for (int column = CellOf(box.min().y(), 1); column <= CellOf(box.max().y(), 1); ++column) {
+        cells_[CellIndex(row, column, kCells)].push_back(static_cast<int>(i));
+        ++entries;
+      }
     }
+    if (entries > kMaxEntries)
+      throw Error(ErrorCode::kFormat, "the triangles of a leaf cover " + std::to_string(entries) +
+                                          " cells of its outline, allowed " +
+                                          std::to_string(kMaxEntries) + "; simplify its mesh");
   }
 }
 
@@ -74,8 +95,7 @@ int LinesAlongX::CellOf(double coordinate, int axis) const {
 std::optional<LineHits> LinesAlongX::At(const Eigen::Vector2d& at) const {
   if (triangles_.empty() || !bounds_.contains(at)) return std::nullopt;
   std::optional<LineHits> hits;
-  for (const int i :
-       cells_[static_cast<std::size_t>(CellOf(at.x(), 0) * kCells + CellOf(at.y(), 1))])
+  for (const int i : cells_[CellIndex(CellOf(at.x(), 0), CellOf(at.y(), 1), kCells)])
     AddHit(MeetsTriangle(triangles_[static_cast<std::size_t>(i)], 0, at), hits);
   return hits;
 }

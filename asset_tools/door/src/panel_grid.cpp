@@ -59,6 +59,10 @@ class Panel {
 
   double U(int i) const { return grid_.u_m[static_cast<std::size_t>(i)]; }
   double V(int j) const { return grid_.v_m[static_cast<std::size_t>(j)]; }
+  std::size_t CellIndex(int i, int j) const {
+    return static_cast<std::size_t>(i) * static_cast<std::size_t>(rows_) +
+           static_cast<std::size_t>(j);
+  }
   bool Filled(int i, int j) const;
   int StepsToBorder(int i, int j) const;
   Eigen::Vector3d Point(int i, int j, bool front) const;
@@ -232,7 +236,7 @@ bool Panel::AllFilled(const Block& block, const std::vector<char>& taken) const 
   if (block.i1 > columns_ || block.j1 > rows_) return false;
   for (int i = block.i0; i < block.i1; ++i) {
     for (int j = block.j0; j < block.j1; ++j) {
-      if (!Filled(i, j) || taken[static_cast<std::size_t>(i * rows_ + j)] != 0) return false;
+      if (!Filled(i, j) || taken[CellIndex(i, j)] != 0) return false;
     }
   }
   return true;
@@ -262,7 +266,7 @@ Panel::Block Panel::Grown(Block block, const std::vector<char>& taken, double to
 }
 
 std::vector<TriangleMesh> Panel::Hulls(double tolerance_m) const {
-  std::vector<char> taken(static_cast<std::size_t>(columns_ * rows_), 0);
+  std::vector<char> taken(CellIndex(columns_, 0), 0);
   std::vector<TriangleMesh> hulls;
   for (int j = 0; j < rows_; ++j) {
     for (int i = 0; i < columns_; ++i) {
@@ -270,8 +274,7 @@ std::vector<TriangleMesh> Panel::Hulls(double tolerance_m) const {
       if (!AllFilled(cell, taken)) continue;
       const Block block = Grown(cell, taken, tolerance_m);
       for (int a = block.i0; a < block.i1; ++a) {
-        for (int b = block.j0; b < block.j1; ++b)
-          taken[static_cast<std::size_t>(a * rows_ + b)] = 1;
+        for (int b = block.j0; b < block.j1; ++b) taken[CellIndex(a, b)] = 1;
       }
       hulls.push_back(HullOf(block));
     }

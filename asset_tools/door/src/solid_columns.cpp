@@ -4,6 +4,10 @@
 
 #include <array>
 #include <optional>
+#include <string>
+
+#include "doorforge/core/error.h"
+#include "doorforge/mesh/work_budget.h"
 
 #include "placed_mesh.h"
 
@@ -21,11 +25,10 @@ double Cross(const Corners& c, std::size_t a, std::size_t b, double x, double z)
   return (c[a].x() - x) * (c[b].z() - z) - (c[a].z() - z) * (c[b].x() - x);
 }
 
-// depth of the solid along y: overlapping pieces count once
-std::vector<SolidInterval> IntervalsOf(std::vector<Crossing>& crossings) {
+// Appends the depth of the solid along y: overlapping pieces count once. The crossings are sorted.
+void AppendIntervals(std::span<Crossing> crossings, std::vector<SolidInterval>& intervals) {
   std::stable_sort(crossings.begin(), crossings.end(),
                    [](const Crossing& a, const Crossing& b) { return a.y < b.y; });
-  std::vector<SolidInterval> intervals;
   int depth = 0;
   double entered = 0;
   for (const Crossing& crossing : crossings) {
@@ -33,8 +36,42 @@ std::vector<SolidInterval> IntervalsOf(std::vector<Crossing>& crossings) {
     depth += crossing.step;
     if (depth == 0 && crossing.y > entered) intervals.push_back({entered, crossing.y});
   }
-  return intervals;
 }
+
+// The crossings of every column, in the order in which they were found.
+class ColumnCrossings {
+ public:
+  explicit ColumnCrossings(std::size_t columns) : end_of_(columns + 1, 0) {}
+
+  void Add(std::size_t column, const Crossing& crossing) {
+    if (found_.size() >= static_cast<std::size_t>(SolidColumns::kMaxCrossings))
+      throw Error(ErrorCode::kFormat, "a mesh crosses its columns more than " +
+                                          std::to_string(SolidColumns::kMaxCrossings) +
+                                          " times, which is as often as is allowed; simplify it");
+    found_.push_back({column, crossing});
+    ++end_of_[column + 1];
+  }
+
+  /// Calls visit(crossings) for each column in turn.
+  template <class Visitor>
+  void ForEachColumn(Visitor&& visit) {
+    for (std::size_t c = 1; c < end_of_.size(); ++c) end_of_[c] += end_of_[c - 1];
+    std::vector<Crossing> sorted(found_.size());
+    std::vector<std::uint32_t> next(end_of_.begin(), end_of_.end() - 1);
+    for (const Found& found : found_) sorted[next[found.column]++] = found.crossing;
+    for (std::size_t c = 0; c + 1 < end_of_.size(); ++c)
+      visit(std::span<Crossing>(sorted.data() + end_of_[c], end_of_[c + 1] - end_of_[c]));
+  }
+
+ private:
+  struct Found {
+    std::size_t column;
+    Crossing crossing;
+  };
+
+  std::vector<Found> found_;
+  std::vector<std::uint32_t> end_of_;  // of the column before; while they are found, their number
+};
 
 // where the triangle meets the column at (x, z), if it does
 std::optional<Crossing> CrossingOf(const Corners& c, double x, double z) {
@@ -58,25 +95,50 @@ SolidColumns::SolidColumns(const TriangleMesh& mesh, const RigidTransform& frame
   const TriangleMesh placed = Placed(mesh, frame_from_mesh);
   const Eigen::AlignedBox3d bounds = BoundsOf(placed);
   if (bounds.isEmpty()) return;
-  first_x_ = CellAtOrAbove(bounds.min().x());
-  first_z_ = CellAtOrAbove(bounds.min().z());
-  size_x_ = std::max(0, CellAtOrAbove(bounds.max().x()) - first_x_);
-  size_z_ = std::max(0, CellAtOrAbove(bounds.max().z()) - first_z_);
+  LayOut(bounds);
   // Columns stand a hair beside the grid, so that they miss vertices and edges of tidy models.
   const double aside = 1e-7 + cell_ * 1e-5;
-  std::vector<std::vector<Crossing>> crossings(static_cast<std::size_t>(size_x_ * size_z_));
+  ColumnCrossings crossings(static_cast<std::size_t>(size_x_ * size_z_));
   for (const Eigen::Vector3i& triangle : placed.triangles) {
     const Corners c = {placed.vertices[static_cast<std::size_t>(triangle[0])],
                        placed.vertices[static_cast<std::size_t>(triangle[1])],
                        placed.vertices[static_cast<std::size_t>(triangle[2])]};
+    unsigned visited = 0;
     ForEachCellOf(c[0].cwiseMin(c[1]).cwiseMin(c[2]), c[0].cwiseMax(c[1]).cwiseMax(c[2]),
-                  [&](int i, int k, std::size_t column) {
-                    const auto crossing = CrossingOf(c, i * cell_ + aside, k * cell_ + 0.7 * aside);
-                    if (crossing) crossings[column].push_back(*crossing);
+                  [&](std::int64_t i, std::int64_t k, std::size_t column) {
+                    ++visited;
+                    const auto crossing = CrossingOf(c, static_cast<double>(i) * cell_ + aside,
+                                                     static_cast<double>(k) * cell_ + 0.7 * aside);
+                    if (crossing) crossings.Add(column, *crossing);
                   });
+    CheckWork(visited);
   }
-  columns_.reserve(crossings.size());
-  for (std::vector<Crossing>& column : crossings) columns_.push_back(IntervalsOf(column));
+  first_of_.reserve(static_cast<std::size_t>(size_x_ * size_z_) + 1);
+  crossings.ForEachColumn([&](std::span<Crossing> column) {
+    first_of_.push_back(static_cast<std::uint32_t>(intervals_.size()));
+    AppendIntervals(column, intervals_);
+  });
+  first_of_.push_back(static_cast<std::uint32_t>(intervals_.size()));
+}
+
+void SolidColumns::LayOut(const Eigen::AlignedBox3d& bounds) {
+  const std::int64_t first_x = CellAtOrAbove(bounds.min().x());
+  const std::int64_t first_z = CellAtOrAbove(bounds.min().z());
+  const std::int64_t size_x = std::max<std::int64_t>(0, CellAtOrAbove(bounds.max().x()) - first_x);
+  const std::int64_t size_z = std::max<std::int64_t>(0, CellAtOrAbove(bounds.max().z()) - first_z);
+  // each by itself first, since their product need not fit
+  if (size_x > kMaxColumns || size_z > kMaxColumns || size_x * size_z > kMaxColumns) {
+    const Eigen::Vector3d size = bounds.sizes();
+    throw Error(ErrorCode::kFormat,
+                "a mesh of " + std::to_string(size.x()) + " by " + std::to_string(size.z()) +
+                    " m takes more columns of " + std::to_string(std::lround(1000 * cell_)) +
+                    " mm than the " + std::to_string(kMaxColumns) +
+                    " allowed; does a vertex lie far off, or is it in millimetres?");
+  }
+  first_x_ = first_x;
+  first_z_ = first_z;
+  size_x_ = size_x;
+  size_z_ = size_z;
 }
 
 }  // namespace doorforge::internal

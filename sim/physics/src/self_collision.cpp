@@ -97,10 +97,9 @@ bool TouchesItself(const RobotModel& robot, const JointVector& position) {
 }
 
 SelfCollisionFilter::SelfCollisionFilter(const RobotModel& robot)
-    : joint_count_(robot.joint_count()),
-      collide_(static_cast<std::size_t>(joint_count_ * joint_count_)) {
+    : joint_count_(robot.joint_count()), collide_(PairIndex(joint_count_, 0)) {
   for (const auto& [first, second] : robot.self_collisions())
-    collide_[static_cast<std::size_t>(first * joint_count_ + second)] = true;
+    collide_[PairIndex(first, second)] = true;
 }
 
 bool SelfCollisionFilter::needBroadphaseCollision(btBroadphaseProxy* a,
@@ -116,7 +115,7 @@ bool SelfCollisionFilter::needBroadphaseCollision(btBroadphaseProxy* a,
     return collider == nullptr ? -1 : collider->m_link;
   };
   const auto [first, second] = std::minmax({link(a), link(b)});
-  return first >= 0 && collide_[static_cast<std::size_t>(first * joint_count_ + second)];
+  return first >= 0 && collide_[PairIndex(first, second)];
 }
 
 }  // namespace doorforge::internal

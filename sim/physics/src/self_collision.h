@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,11 @@ class SelfCollisionFilter : public btOverlapFilterCallback {
   bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override;
 
  private:
+  std::size_t PairIndex(int first, int second) const {
+    return static_cast<std::size_t>(first) * static_cast<std::size_t>(joint_count_) +
+           static_cast<std::size_t>(second);
+  }
+
   int joint_count_;
   std::vector<bool> collide_;
 };

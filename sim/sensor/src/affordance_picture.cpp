@@ -130,7 +130,8 @@ class Colouring {
 
   // Of a sample: the map's colour with a trace of the shading, or the grey of what is no handle.
   cv::Vec3d ColorOf(int column, int row, double light) const {
-    const auto i = static_cast<std::size_t>(row * samples_.width + column);
+    const auto i = static_cast<std::size_t>(row) * static_cast<std::size_t>(samples_.width) +
+                   static_cast<std::size_t>(column);
     if (samples_.label[i] != static_cast<std::uint8_t>(PointLabel::kHandle))
       return {light, light, light};
     const Eigen::Vector3d place =

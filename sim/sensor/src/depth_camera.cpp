@@ -149,11 +149,13 @@ class TileRenderer {
     std::fill_n(packet_.hit.instID[0], kRays, RTC_INVALID_GEOMETRY_ID);
     rtcIntersect16(tile.valid, scene_.top(), &context_, &packet_);
     const std::uint32_t lanes = LanesThatHit(packet_.hit);
-    if (lanes != 0) Store(lanes, top * image_.width + left);
+    const auto width = static_cast<std::size_t>(image_.width);
+    if (lanes != 0)
+      Store(lanes, static_cast<std::size_t>(top) * width + static_cast<std::size_t>(left));
   }
 
  private:
-  void Store(std::uint32_t lanes, int corner) {
+  void Store(std::uint32_t lanes, std::size_t corner) {
     // All planes are asked for before the first is used: waiting for them one by one would be most
     // of what a render costs beyond Embree.
     for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
@@ -168,8 +170,9 @@ class TileRenderer {
     const std::array<float, kRays> depths = DepthsAt(planes_, packet_.ray);
     for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
       const int lane = std::countr_zero(left);
-      const auto pixel =
-          static_cast<std::size_t>(corner + lane / kTile * image_.width + lane % kTile);
+      const std::size_t pixel =
+          corner + static_cast<std::size_t>(lane / kTile) * static_cast<std::size_t>(image_.width) +
+          static_cast<std::size_t>(lane % kTile);
       const MeshView& view = views_[packet_.hit.instID[0][lane]];
       image_.depth_m[pixel] = depths[static_cast<std::size_t>(lane)];
       image_.link[pixel] = view.link;

@@ -75,9 +75,12 @@ class NoisySensor {
   }
 
  private:
-  float At(int row, int column) const {
-    return ideal_.depth_m[static_cast<std::size_t>(row * ideal_.width + column)];
+  std::size_t PixelAt(int row, int column) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(ideal_.width) +
+           static_cast<std::size_t>(column);
   }
+
+  float At(int row, int column) const { return ideal_.depth_m[PixelAt(row, column)]; }
 
   Eigen::Vector3d PointAt(int row, int column) const {
     return At(row, column) * rays_.Direction(column + 0.5, row + 0.5).cast<double>();
@@ -97,9 +100,7 @@ class NoisySensor {
   }
 
   bool SameLink(int row, int column, int other_row, int other_column) const {
-    const auto link = [&](int r, int c) {
-      return ideal_.link[static_cast<std::size_t>(r * ideal_.width + c)];
-    };
+    const auto link = [&](int r, int c) { return ideal_.link[PixelAt(r, c)]; };
     return link(row, column) == link(other_row, other_column);
   }
 

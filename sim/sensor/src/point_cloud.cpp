@@ -65,7 +65,9 @@ LabelledCloud CropCloud(const DepthImage& image, const PinholeView& view,
   LabelledCloud cloud;
   for (int row = 0; row < image.height; ++row) {
     for (int column = 0; column < image.width; ++column) {
-      const std::size_t pixel = static_cast<std::size_t>(row * image.width + column);
+      const std::size_t pixel =
+          static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
+          static_cast<std::size_t>(column);
       const double depth = image.depth_m[pixel];
       if (depth >= config.max_depth_m) continue;
       const Eigen::Vector3d direction = rays.Direction(column + 0.5, row + 0.5).cast<double>();

@@ -71,7 +71,7 @@ void SetPose(RTCGeometry instance, const RigidTransform& pose) {
   std::array<float, 12> columns{};
   for (int column = 0; column < 4; ++column) {
     for (int row = 0; row < 3; ++row)
-      columns[static_cast<std::size_t>(3 * column + row)] =
+      columns[3 * static_cast<std::size_t>(column) + static_cast<std::size_t>(row)] =
           static_cast<float>(pose.matrix()(row, column));
   }
   rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());

@@ -313,7 +313,9 @@ class Painter {
     const int column = left_ + static_cast<int>(index % 2);
     const int row = top_ + static_cast<int>(index / 2);
     if (column >= picture.width || row >= picture.height) return;
-    const auto pixel = 3 * static_cast<std::size_t>(row * picture.width + column);
+    const auto pixel =
+        3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(picture.width) +
+             static_cast<std::size_t>(column));
     for (std::size_t i = 0; i < 3; ++i)
       picture.rgb[pixel + i] = ToSrgb(color[static_cast<Eigen::Index>(i)]);
   }

@@ -41,7 +41,8 @@ void AddTransposed(const Floats& rows, const PackedLayer& layer, int column, flo
   for (int o = 0; o < layer.outputs; ++o) {
     for (int i = 0; i < count; ++i)
       weight[o * layer.inputs + column + i] +=
-          rows[static_cast<std::size_t>(i * layer.outputs + o)];
+          rows[static_cast<std::size_t>(i) * static_cast<std::size_t>(layer.outputs) +
+               static_cast<std::size_t>(o)];
   }
 }
 
@@ -57,7 +58,8 @@ void AddLayerGradient(const Kernels& kernels, const PackedLayer& layer, const Ma
     columns.columns -= tail;
     kernels.add_outer(output_gradient.Part(row, count).View(), columns, {weight, layer.inputs});
   });
-  Floats tail_weight(static_cast<std::size_t>(tail * layer.outputs));  // transposed
+  Floats tail_weight(static_cast<std::size_t>(tail) *
+                     static_cast<std::size_t>(layer.outputs));  // transposed
   for (std::ptrdiff_t row = 0; row < input.rows; ++row) {
     const float* from = output_gradient.data + row * layer.outputs;
     kernels.add_scaled(1.0F, from, layer.outputs, bias);
@@ -208,7 +210,7 @@ class SetGradient {
     const int row_width = LevelWidth(l_);
     const float* points = trace_.level[l_].data();
     const int by_hand = l_ == 0 ? 6 : 3;  // position columns of the weight
-    Floats position(static_cast<std::size_t>(by_hand * widths_[0]));
+    Floats position(static_cast<std::size_t>(by_hand) * static_cast<std::size_t>(widths_[0]));
     for (int k = 0; k < below_; ++k)
       AddPosition(source_.data() + static_cast<std::ptrdiff_t>(k) * widths_[0],
                   points + static_cast<std::ptrdiff_t>(k) * row_width, by_hand, position);

@@ -79,6 +79,18 @@ void AddMutationsOfFiles(std::vector<BrokenDoor>& all) {
                    })(f);
                  },
                  "2 times"});
+  // a name that no file system takes, where the visual mesh should be
+  all.push_back({"REC003",
+                 {},
+                 InJson([](Json& j) {
+                   const Json file = {{"path", "meshes/" + std::string(300, 'a')},
+                                      {"sha256", std::string(64, 'a')}};
+                   Json visual = file;
+                   visual["materials"] = file;
+                   visual["textures"] = Json::array();
+                   j["links"][0]["geometry"][0]["visual"] = visual;
+                 }),
+                 "could not be checked"});
   const auto named = [](const std::function<Json&(Json&)>& id, const char* name) {
     return InJson([=](Json& j) { id(j) = name; });
   };
@@ -96,6 +108,12 @@ void AddMutationsOfFiles(std::vector<BrokenDoor>& all) {
                  {},
                  [](const fs::path& f) { CommitFile(f / kLeafMesh, "v 0 nan 0\n"); },
                  "leaf.obj:1"});
+  all.push_back({"MSH002",
+                 {},
+                 [](const fs::path& f) {
+                   CommitFile(f / kLeafMesh, "v 0 0 0\nv 1 0 0\nv 0 -343598 0\nf 1 2 3\n");
+                 },
+                 "leaf.obj:3: a vertex at (0, -343598, 0) m, allowed are coordinates up to 100 m"});
   all.push_back(
       {"MSH003",
        {},

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/door/import_objects.h"
 
+#include <cmath>
+#include <csignal>
 #include <map>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
@@ -70,6 +73,80 @@ TEST(ImportObjects, GoesOnAfterAFaultAndLeavesNothingOfIt) {
     written.push_back(entry.path().filename());
   std::sort(written.begin(), written.end());
   EXPECT_EQ(written, (std::vector<std::string>{"import.json", "udm-9960003", "udm-9965006"}));
+}
+
+TEST(ImportObjects, RefusesAVertexBeyondAHundredMetresAndGoesOn) {
+  const fs::path root = TestFolder("batch_far");
+  WriteSmallObject(root / "in/LeverDoor/99650069960003");
+  WriteSmallObject(root / "in/LeverDoor/99650089960005");
+  const fs::path far = root / "in/LeverDoor/99650089960005/texture_dae/9960003.obj";
+  TriangleMesh mesh = ReadObj(far);
+  mesh.vertices[0].z() = 99000;
+  std::string text;  // ToObj() keeps its promise about what it writes
+  for (const Eigen::Vector3d& v : mesh.vertices)
+    text += "v " + std::to_string(v.x()) + ' ' + std::to_string(v.y()) + ' ' +
+            std::to_string(v.z()) + '\n';
+  for (const Eigen::Vector3i& t : mesh.triangles)
+    text += "f " + std::to_string(t[0] + 1) + ' ' + std::to_string(t[1] + 1) + ' ' +
+            std::to_string(t[2] + 1) + '\n';
+  WriteText(far, text);
+  const ImportReport report = ImportAll(root / "in", root / "out");
+  ASSERT_EQ(report.objects.size(), 2U);
+  EXPECT_EQ(report.objects[0].outcome, ImportOutcome::kImported) << report.objects[0].message;
+  EXPECT_EQ(report.objects[1].outcome, ImportOutcome::kInvalid);
+  for (const char* part : {"9960003.obj", "allowed are coordinates up to 100 m"})
+    EXPECT_NE(report.objects[1].message.find(part), std::string::npos) << report.objects[1].message;
+}
+
+TEST(ImportObjects, GivesUpAnObjectThatTakesTooMuchTimeAndSaysSo) {
+  const fs::path root = TestFolder("batch_slow");
+  WriteSmallObject(root / "in/LeverDoor/99650069960003");
+  ImportConfig config;
+  config.max_seconds = 1e-9;
+  const ImportReport report = ImportAll(root / "in", root / "out", config);
+  ASSERT_EQ(report.objects.size(), 1U);
+  EXPECT_EQ(report.objects[0].outcome, ImportOutcome::kInvalid);
+  for (const char* part : {"99650069960003", "processor time", "--max-seconds"})
+    EXPECT_NE(report.objects[0].message.find(part), std::string::npos) << report.objects[0].message;
+  EXPECT_FALSE(fs::exists(root / "out"));
+}
+
+TEST(ImportObjects, WritesNoHalfOfAPairWhereTheOtherHalfCannotBeWritten) {
+  const fs::path root = TestFolder("batch_half");
+  WriteSmallObject(root / "in/LeverDoor/99650069960003");
+  Profile round;
+  constexpr int kCorners = 1500;  // some 100 kB of handle, beside a body of some hundred bytes
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = 2 * 3.14159265358979 * i / kCorners;
+    round.points.emplace_back(0.02 * std::cos(angle), 0.02 * std::sin(angle));
+    if (i > 1) round.triangles.emplace_back(0, i - 1, i);
+  }
+  WriteText(root / "in/LeverDoor/99650069960003/texture_dae/9960003.obj",
+            ToObj(Prism(round, 0, 2, -0.1, 0)));
+  rlimit before{};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit small{50'000, before.rlim_max};
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  ::setrlimit(RLIMIT_FSIZE, &small);
+  EXPECT_THROW(ImportAll(root / "in", root / "out"), Error);
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_FALSE(fs::exists(root / "out/udm-9965006"));
+  EXPECT_FALSE(fs::exists(root / "out/udm-9960003"));
+  const ImportReport report = ImportAll(root / "in", root / "out");
+  EXPECT_EQ(report.objects[0].outcome, ImportOutcome::kImported) << report.objects[0].message;
+}
+
+TEST(ImportObjects, ADamagedPartInTheOutputCostsItsObjectAlone) {
+  const fs::path root = TestFolder("batch_damaged_output");
+  WriteSmallObject(root / "in/LeverDoor/99650069960003");
+  WriteSmallObject(root / "in/LeverDoor/99650079960004", {.body_scale = 0.9, .handle_scale = 1.3});
+  WriteText(root / "out/udm-9965006/part.json", "{");
+  const ImportReport report = ImportAll(root / "in", root / "out");
+  ASSERT_EQ(report.objects.size(), 2U);
+  EXPECT_EQ(report.objects[0].outcome, ImportOutcome::kInvalid);
+  EXPECT_NE(report.objects[0].message.find("part.json"), std::string::npos);
+  EXPECT_EQ(report.objects[1].outcome, ImportOutcome::kImported) << report.objects[1].message;
 }
 
 TEST(ImportObjects, LeavesOutObjectsOfOtherCategories) {

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <new>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -16,6 +18,7 @@
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/door/export_urdf.h"
+#include "doorforge/mesh/work_budget.h"
 #include "doorforge/schemas/mesh_file.h"
 #include "doorforge/schemas/part.h"
 
@@ -123,6 +126,45 @@ TEST(ValidateDoor, ReportsAllFaultsAtOnceAndCountsThem) {
       << Describe(report);
   EXPECT_EQ(report.errors, 4);
   EXPECT_EQ(report.warnings, 1);
+}
+
+// A grip whose extent in cells of two millimetres no integer of 32 bits holds.
+TEST(ValidateDoor, FindsAVertexOfTheGripThatLiesFarAway) {
+  for (const double far : {99.5, -343598.0, 1e30}) {
+    const fs::path folder = Written(BoxDoor(), "far_" + std::to_string(far).substr(0, 6));
+    TriangleMesh grip = ReadObj(folder / "meshes/visual/grip.obj");
+    grip.vertices[0].x() = far;
+    grip.vertices[1].y() = far;
+    grip.vertices[2].z() = far;
+    CommitFile(folder / "meshes/visual/grip.obj", ToObj(grip));
+    const ValidationReport report = ValidateDoor(folder);
+    const char* const code = std::abs(far) > 100 ? "MSH002" : "REC003";
+    EXPECT_TRUE(CodesOf(report).contains(code)) << Describe(report);
+  }
+}
+
+TEST(ValidateDoor, MakesAFindingOfWhateverACheckThrows) {
+  const fs::path folder = Written(BoxDoor(), "throwing");
+  const auto codes = [&](const std::function<void()>& fail) {
+    const DoorValidator validator([&](const DoorAsset&) {
+      fail();
+      return std::vector<Finding>{};
+    });
+    return CodesOf(validator.Validate(folder));
+  };
+  EXPECT_EQ(codes([] { throw std::bad_alloc(); }), std::set<std::string>{"REC003"});
+  EXPECT_EQ(codes([] { throw std::length_error("vector"); }), std::set<std::string>{"REC003"});
+  EXPECT_EQ(codes([] {}), std::set<std::string>{});
+}
+
+TEST(ValidateDoor, GivesUpWhatTakesTooMuchTimeAndSaysSo) {
+  DoorAsset door = BoxDoor();
+  const fs::path folder = Written(door, "slow");
+  const WorkBudget budget((folder / "door.json").string(), 1e-9);
+  const ValidationReport report = ValidateDoor(folder);
+  ASSERT_EQ(CodesOf(report), std::set<std::string>{"REC003"}) << Describe(report);
+  EXPECT_EQ(report.findings.size(), 1U) << "one fault, one finding: " << Describe(report);
+  EXPECT_NE(report.findings[0].measured.find("--max-seconds"), std::string::npos);
 }
 
 TEST(ValidateDoor, LeavesPhysicalRulesToThePhysicsProfile) {

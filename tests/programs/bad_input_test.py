@@ -84,6 +84,61 @@ class BadInput(ProgramTest):
                 self.assert_refused(result, 1, 3)
                 self.assert_nothing_left()
 
+    def write_stl(self, name: str) -> None:
+        # a tetrahedron; nothing here asks what it is good for
+        corners = [(0, 0, 0), (0.1, 0, 0), (0, 0.1, 0), (0, 0, 0.1)]
+        faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+        lines = ["solid s"]
+        for face in faces:
+            lines += ["facet normal 0 0 0", "outer loop"]
+            lines += ["vertex {} {} {}".format(*corners[corner]) for corner in face]
+            lines += ["endloop", "endfacet"]
+        (self.folder / name).write_text("\n".join(lines + ["endsolid s"]) + "\n")
+
+    def test_an_output_that_cannot_be_written_is_told_before_the_work(self):
+        self.write_stl("mesh.stl")
+        self.assert_ends(run("compose", "--body", "interior_flush_01", "--handle", "interior_lever_tube_01", "--out",
+                             self.folder / "door", "--quiet"), 0)
+        (self.folder / "file").touch()
+        out = self.folder / "file" / "below"  # where not even root can make a folder
+        before = processor_seconds()
+        for arguments in (["compose", "--all", "--out", out], ["catalog", "build", "--out", out],
+                          ["export", self.folder / "door", "--out", out], ["repair", self.folder / "mesh.stl", out / "a.obj"],
+                          ["import", self.folder / "mesh.stl", "--role", "handle", "--category", "interior", "--out", out]):
+            with self.subTest(arguments[0]):
+                result = run(*arguments)
+                self.assert_refused(result, 3)
+                self.assertIn(str(self.folder / "file"), result.stderr)
+        # preparing the 532 parts of the catalogue alone takes a minute
+        self.assertLess(processor_seconds() - before, 20)
+        self.assertEqual((self.folder / "file").read_bytes(), b"")
+        self.assert_nothing_left()
+
+    def test_one_damaged_part_costs_no_door_of_the_others(self):
+        self.assert_ends(run("catalog", "build", "--split", "quickstart", "--out", self.folder / "parts"), 0)
+        parts = {path.name: json.loads((path / "part.json").read_text()) for path in (self.folder / "parts").iterdir()}
+        handles = sorted(name for name, part in parts.items() if part["role"] == "handle")
+        damaged = self.folder / "parts" / handles[0]
+        mesh = next((damaged / "meshes").rglob("*.obj"))
+        mesh.write_text(mesh.read_text().replace("v ", "v 1e9", 1))
+        result = run("compose", "--all", "--parts", self.folder / "parts", "--out", self.folder / "out", "--json")
+        self.assert_ends(result, 1)
+        self.assertIn(handles[0] + ": left out", result.stderr)
+        doors = json.loads(result.stdout)["doors"]
+        self.assertGreater(len(doors), 0)
+        self.assertTrue(all(door["composed"] for door in doors), doors)
+        self.assertFalse(any(handles[0] in door["id"] for door in doors))
+
+    def test_what_takes_too_much_time_is_given_up_by_name(self):
+        self.write_stl("mesh.stl")
+        for seconds, code in ((1e-9, 3), (600, 0)):
+            result = run("repair", self.folder / "mesh.stl", self.folder / "out.obj", "--max-seconds", seconds)
+            self.assert_ends(result, code)
+            if code == 3:
+                self.assertIn(str(self.folder / "mesh.stl") + ": takes more than", result.stderr)
+                self.assertIn("--max-seconds", result.stderr)
+                self.assert_nothing_left()
+
     def test_wrong_use_is_told_apart_from_bad_input(self):
         for arguments in (["frobnicate"], ["repair"], ["compose", "--body", "x"], ["datagen", "open", "--wrong"],
                           ["eval", "--seeds"], ["train", "open"], ["validate"], ["pipeline", "quick"],

@@ -18,6 +18,7 @@
 #include "doorforge/core/record_id.h"
 #include "doorforge/core/rigid_transform.h"
 #include "doorforge/door/catalogue.h"
+#include "doorforge/mesh/work_budget.h"
 #include "doorforge/schemas/split.h"
 
 #include "verb_options.h"
@@ -128,6 +129,7 @@ int Show(const Options& options) {
 int Build(const Options& options) {
   const std::vector<CatalogueEntry> entries = Chosen(options);
   const Existing existing = options.overwrite ? Existing::kReplace : Existing::kRefuse;
+  RequireWritable(options.out);
   std::vector<std::string> problems(entries.size());
   Progress progress("building parts", entries.size());
   ParallelFor(entries.size(), options.threads, [&](std::size_t i) {
@@ -138,6 +140,8 @@ int Build(const Options& options) {
       staged.Commit();
     } catch (const Error& error) {
       problems[i] = error.what();
+    } catch (const std::exception&) {
+      problems[i] = CurrentProblem(entries[i].id);
     }
     progress.Advance();
   });

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -16,6 +17,7 @@
 
 #include <fnmatch.h>
 
+#include "doorforge/core/committed_file.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/folder_lock.h"
 #include "doorforge/core/json_file.h"
@@ -29,7 +31,7 @@
 #include "doorforge/door/export_urdf.h"
 #include "doorforge/door/shared_doors.h"
 #include "doorforge/door/validate_door.h"
-#include "doorforge/schemas/door_index.h"
+#include "doorforge/mesh/work_budget.h"
 
 #include "mesh_options.h"
 #include "own_part.h"
@@ -76,6 +78,7 @@ struct Options {
   LooseMeshConfig body_mesh = UnsetMeshOptions();
   LooseMeshConfig handle_mesh = UnsetMeshOptions();
   int threads = 0;
+  double max_seconds = kObjectSeconds;
   bool all = false;
   bool as_imported = false;
   bool standalone = false;
@@ -122,6 +125,7 @@ void AddOptions(CLI::App& app, Options& options) {
   app.add_flag("--preview", options.preview, "one door: write its picture thumb.png");
 #endif
   app.add_option("--threads", options.threads, "0: all processors; no byte depends on it");
+  AddMaxSeconds(app, options.max_seconds);
   app.add_flag("--overwrite", options.overwrite, "replace doors that are there already");
   app.add_flag("--json", options.json, "print one JSON document");
   app.add_flag("--quiet", options.quiet, "print nothing but errors");
@@ -314,30 +318,57 @@ void WriteRequest(const ComposeRequest& request, const fs::path& folder) {
 
 struct PreparedParts {
   std::vector<PreparedPart> parts;
-  std::vector<fs::path> folders;  ///< Of each; empty for those of the catalogue.
+  std::vector<std::string> names;  ///< Of each, as PartStore has them.
+  std::vector<fs::path> folders;   ///< Of each; empty for those of the catalogue.
+  std::set<std::string> left_out;  ///< Folder names, or ids, of those that could not be prepared.
+  std::size_t damaged = 0;         ///< Of those left out: parts that no rule left out.
 };
 
+/// What came of one part of many.
+struct Preparation {
+  std::optional<PreparedPart> part;
+  std::string problem;
+  bool damaged = false;
+};
+
+// Whatever is wrong with one part, the others go on.
+Preparation Prepare(const PartStore& store, const std::string& name, const Options& options,
+                    const ComposeConfig& config) {
+  Preparation prepared;
+  try {
+    const WorkBudget budget(name, options.max_seconds);
+    prepared.part.emplace(store.Load(name), config);
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::kInvalidConfig) throw;  // nothing of the part
+    prepared.problem = error.what();
+    // kInvalidArgument is a rule: no door has this part
+    prepared.damaged = error.code() != ErrorCode::kInvalidArgument;
+  } catch (const std::exception&) {
+    prepared.problem = CurrentProblem(name);
+    prepared.damaged = true;
+  }
+  return prepared;
+}
+
 PreparedParts PrepareParts(const PartStore& store, const std::vector<std::string>& names,
-                           const ComposeRequest& request, int threads) {
-  std::vector<std::optional<PreparedPart>> prepared(names.size());
-  std::vector<std::string> problems(names.size());
+                           const ComposeRequest& request, const Options& options) {
+  std::vector<Preparation> prepared(names.size());
   Progress progress("preparing parts", names.size());
-  ParallelFor(names.size(), threads, [&](std::size_t i) {
-    try {
-      prepared[i].emplace(store.Load(names[i]), request.door);
-    } catch (const Error& error) {
-      if (error.code() != ErrorCode::kInvalidArgument) throw;
-      problems[i] = error.what();  // a rule: no door has this part, the others go on
-    }
+  ParallelFor(names.size(), options.threads, [&](std::size_t i) {
+    prepared[i] = Prepare(store, names[i], options, request.door);
     progress.Advance();
   });
   PreparedParts parts;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (!prepared[i]) {
-      std::fprintf(stderr, "doorforge: %s: left out: %s\n", names[i].c_str(), problems[i].c_str());
+    if (!prepared[i].part) {
+      std::fprintf(stderr, "doorforge: %s: left out: %s\n", names[i].c_str(),
+                   prepared[i].problem.c_str());
+      parts.left_out.insert(fs::path(names[i]).filename().string());
+      parts.damaged += prepared[i].damaged ? 1 : 0;
       continue;
     }
-    parts.parts.push_back(std::move(*prepared[i]));
+    parts.parts.push_back(std::move(*prepared[i].part));
+    parts.names.push_back(names[i]);
     parts.folders.push_back(store.FolderOf(names[i]));
   }
   return parts;
@@ -369,15 +400,16 @@ std::map<std::string, std::size_t> PlacesById(const std::vector<PreparedPart>& p
   return places;
 }
 
-std::vector<PartPair> ImportedPairs(const fs::path& folder,
-                                    const std::vector<PreparedPart>& parts) {
-  const std::map<std::string, std::size_t> places = PlacesById(parts);
+std::vector<PartPair> ImportedPairs(const fs::path& folder, const PreparedParts& prepared) {
+  const std::map<std::string, std::size_t> places = PlacesById(prepared.parts);
   const std::string file = (folder / "import.json").string();
   const auto json = ReadJsonFile(file);
   RequireSchema(json, "doorforge.import", 1, file);
+  constexpr auto kLeftOut = std::numeric_limits<std::size_t>::max();
   const auto place = [&](const nlohmann::ordered_json& object, const char* role) {
     const auto id = ValueOf<std::string>(object, role, file);
     const auto found = places.find(id);
+    if (found == places.end() && prepared.left_out.contains(id)) return kLeftOut;
     if (found == places.end())
       throw Error(ErrorCode::kMissing, "part \"" + id + "\" of import.json is not among --parts");
     return found->second;
@@ -387,8 +419,9 @@ std::vector<PartPair> ImportedPairs(const fs::path& folder,
     // what came without a handle, or without a leaf, is half a door
     const bool whole = !ValueOf<std::string>(object, "body", file).empty() &&
                        !ValueOf<std::string>(object, "handle", file).empty();
-    if (whole && ValueOf<std::string>(object, "outcome", file) == "imported")
-      pairs.push_back({place(object, "body"), place(object, "handle")});
+    if (!whole || ValueOf<std::string>(object, "outcome", file) != "imported") continue;
+    const PartPair pair{place(object, "body"), place(object, "handle")};
+    if (pair.body != kLeftOut && pair.handle != kLeftOut) pairs.push_back(pair);
   }
   return pairs;
 }
@@ -407,7 +440,7 @@ std::vector<PartPair> MatchingPairs(const std::vector<PreparedPart>& parts) {
 }
 
 std::vector<Door> WriteStandalone(const SharedDoorPlan& plan, const PartStore& store,
-                                  const std::vector<std::string>& names, const fs::path& out) {
+                                  const std::vector<std::string>& names, const Options& options) {
   // the parts as they were made; prepared ones are changed already
   std::map<std::string, Part> made;
   for (const std::string& name : names) {
@@ -422,11 +455,14 @@ std::vector<Door> WriteStandalone(const SharedDoorPlan& plan, const PartStore& s
     doors[i].id = body.id + "__" + handle.id;
     try {
       if (StopRequested() != 0) throw Error(ErrorCode::kIncomplete, "stopped before its turn");
+      const WorkBudget budget(doors[i].id, options.max_seconds);
       const DoorAsset door = ComposeDoor(body, handle, plan.config, plan.pairs[i].body_from_handle);
       doors[i].id = door.id;
-      WriteDoorFolder(door, OutputBelow(out, door.id), plan.existing);
+      WriteDoorFolder(door, OutputBelow(options.out, door.id), plan.existing);
     } catch (const Error& error) {
       doors[i].problem = error.what();
+    } catch (const std::exception&) {
+      doors[i].problem = CurrentProblem(doors[i].id);
     }
     progress.Advance();
   });
@@ -453,6 +489,7 @@ void RefuseToImport(const PartStore& store, const std::string& name) {
 void IndexDoors(const Options& options) { WriteDoorIndex(options.out, options.threads); }
 
 int ComposeMany(const Options& options, const ComposeRequest& request) {
+  RequireWritable(options.out);
   const PartStore store(options.parts);
   RefuseToImport(store, request.body);
   RefuseToImport(store, request.handle);
@@ -465,10 +502,10 @@ int ComposeMany(const Options& options, const ComposeRequest& request) {
     for (std::string& name : store.Matching(request.handle, PartRole::kHandle))
       names.push_back(std::move(name));
   }
-  const PreparedParts prepared = PrepareParts(store, names, request, options.threads);
+  const PreparedParts prepared = PrepareParts(store, names, request, options);
   const std::vector<PreparedPart>& parts = prepared.parts;
   std::vector<PartPair> pairs =
-      options.as_imported ? ImportedPairs(options.parts, parts) : MatchingPairs(parts);
+      options.as_imported ? ImportedPairs(options.parts, prepared) : MatchingPairs(parts);
   if (!options.category.empty())
     std::erase_if(pairs, [&](const PartPair& pair) {
       return NameOf(parts[pair.body].category()) != options.category;
@@ -478,11 +515,11 @@ int ComposeMany(const Options& options, const ComposeRequest& request) {
   SetAuthorPlaces(prepared, pairs);
   const SharedDoorPlan plan{parts, pairs, request.door, OnExisting(options), options.threads};
   const std::vector<Door> doors = options.standalone
-                                      ? WriteStandalone(plan, store, names, options.out)
+                                      ? WriteStandalone(plan, store, prepared.names, options)
                                       : WriteShared(plan, options.out);
   WriteRequest(request, options.out);
-  if (StopRequested() == 0) IndexDoors(options);
-  return Finish(doors, options);
+  const int code = Finish(doors, options);
+  return code == 0 && prepared.damaged > 0 ? 1 : code;
 }
 
 /// One door on its way, with what was imported for it.
@@ -502,6 +539,7 @@ class OneDoor {
     // who says where the leaf lies in the file is believed
     if (own_handle_ && !request_.handle_mesh.mount.empty() && request_.door.place == "auto")
       request_.door.place = "plane";
+    const WorkBudget budget(options_.out, options_.max_seconds);
     const DoorAsset door = ComposeDoor(*body_, *handle_, request_.door, authored);
     WriteDoorFolder(door, options_.out, OnExisting(options_));
     WriteRequest(request_, options_.out);
@@ -536,7 +574,7 @@ class OneDoor {
   }
 
   Part ImportOwn(const OwnPartRequest& request, std::optional<OwnPart>& own) const {
-    own.emplace(request, options_.out);
+    own.emplace(request, options_.out, options_.max_seconds);
     for (const std::string& note : own->notes())
       std::fprintf(stderr, "doorforge: %s: %s\n", own->part().id.c_str(), note.c_str());
     return own->part();

@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "doorforge/core/committed_file.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
@@ -17,6 +18,7 @@
 #include "doorforge/core/record_id.h"
 #include "doorforge/door/export_door.h"
 #include "doorforge/door/validate_door.h"
+#include "doorforge/mesh/work_budget.h"
 
 #include "verb_options.h"
 
@@ -83,6 +85,8 @@ void Export(const Options& options, const std::vector<DoorFormat>& formats, Expo
                       options.overwrite ? Existing::kReplace : Existing::kRefuse);
   } catch (const Error& error) {
     exported.problem = error.what();
+  } catch (const std::exception&) {
+    exported.problem = CurrentProblem(exported.folder);
   }
 }
 
@@ -117,6 +121,7 @@ int RunExportVerb(int argc, char** argv) {
   std::vector<DoorFormat> formats;
   for (const std::string& name : options.formats) formats.push_back(*DoorFormatNamed(name));
   std::vector<Exported> doors = DoorsOf(options);
+  RequireWritable(options.out);
   Progress progress("exporting", doors.size());
   ParallelFor(doors.size(), options.threads, [&](std::size_t i) {
     Export(options, formats, doors[i]);

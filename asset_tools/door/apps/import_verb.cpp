@@ -30,6 +30,7 @@ struct Options {
   std::vector<std::string> only;
   ReadConfig read;  // what the flags say; an empty field leaves the config's
   int threads = 0;
+  double max_seconds = 0;  // 0: the config's
   bool overwrite = false;
   bool json = false;
 };
@@ -68,6 +69,7 @@ Options Parse(int argc, char** argv) {
   app.add_option("--config", options.config, "YAML file with the settings of import");
   app.add_option("--set", options.settings, "a.b=c overrides one setting");
   app.add_option("--threads", options.threads, "0: all processors");
+  AddMaxSeconds(app, options.max_seconds);
   app.add_flag("--overwrite", options.overwrite, "replace parts that are there already");
   app.add_flag("--json", options.json, "print one JSON document");
   app.footer(
@@ -146,6 +148,7 @@ int RunImportVerb(int argc, char** argv) {
   auto config = LoadConfig<ImportConfig>(options.config, options.settings);
   OverrideRead(config.read, options.read);
   if (options.threads != 0) config.threads = options.threads;
+  if (options.max_seconds > 0) config.max_seconds = options.max_seconds;
   if (!options.only.empty()) config.only = options.only;
   if (!config.read.category.empty()) CheckCategory("--category", config.read.category);
   for (const std::string& category : config.only) CheckCategory("--only", category);

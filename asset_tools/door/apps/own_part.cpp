@@ -82,13 +82,14 @@ std::string SizeNote(const Part& part) {
 
 }  // namespace
 
-OwnPart::OwnPart(const OwnPartRequest& request, const fs::path& beside)
+OwnPart::OwnPart(const OwnPartRequest& request, const fs::path& beside, double max_seconds)
     : scratch_(fs::absolute(beside).lexically_normal().parent_path(), kPartFolder) {
-  Import(request);
+  Import(request, max_seconds);
 }
 
-void OwnPart::Import(const OwnPartRequest& request) {
+void OwnPart::Import(const OwnPartRequest& request, double max_seconds) {
   ImportConfig config;
+  config.max_seconds = max_seconds;
   config.read.category = NameOf(request.category);
   config.read.mesh = request.mesh;
   config.read.mesh.role = NameOf(request.role);

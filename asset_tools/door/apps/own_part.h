@@ -24,10 +24,11 @@ struct OwnPartRequest {
 class OwnPart {
  public:
   /// @param beside The hidden folder is made in the folder of this path.
+  /// @param max_seconds As ImportConfig::max_seconds.
   /// @throws Error(kMissing) if the source is not there or holds nothing that import reads;
   ///     Error(kInvalidArgument or kFormat) with import's message, or if it holds none or several
   ///     of the role, or a handle that is not as long as handles are.
-  OwnPart(const OwnPartRequest& request, const std::filesystem::path& beside);
+  OwnPart(const OwnPartRequest& request, const std::filesystem::path& beside, double max_seconds);
   OwnPart(const OwnPart&) = delete;
   OwnPart& operator=(const OwnPart&) = delete;
 
@@ -38,7 +39,7 @@ class OwnPart {
   void MoveTo(const std::filesystem::path& folder);
 
  private:
-  void Import(const OwnPartRequest& request);
+  void Import(const OwnPartRequest& request, double max_seconds);
   void CheckLength() const;
 
   StagedBatch scratch_;  // never committed

@@ -18,6 +18,7 @@
 #include "doorforge/core/progress.h"
 #include "doorforge/door/fix_door.h"
 #include "doorforge/door/validate_door.h"
+#include "doorforge/mesh/work_budget.h"
 
 #include "verb_options.h"
 #ifdef DOORFORGE_WITH_OPENABLE
@@ -33,6 +34,7 @@ struct Options {
   std::vector<std::string> paths;
   std::string profile = "physics";
   int threads = 0;
+  double max_seconds = kObjectSeconds;
   bool json = false;
   bool rules = false;
   bool fix = false;
@@ -51,6 +53,7 @@ Options Parse(int argc, char** argv) {
                            "mend what can be mended, then validate; --rules says which");
   app.add_flag("--dry-run", options.dry_run, "with --fix: show what would be mended")->needs(fix);
   app.add_option("--threads", options.threads, "0: all processors");
+  AddMaxSeconds(app, options.max_seconds);
   app.add_flag("--json", options.json, "print one JSON document");
   app.add_flag("--rules", options.rules, "list the rules and end");
   app.footer(
@@ -101,8 +104,18 @@ struct Results {
 void FixOne(const Options& options, const fs::path& folder, std::size_t i, Results& results) {
   try {
     results.fixes[i] = FixFolder(folder, options.dry_run ? FixMode::kDryRun : FixMode::kWrite);
-  } catch (const Error& error) {
-    results.problems[i] = error.what();
+  } catch (const std::exception&) {
+    results.problems[i] = CurrentProblem(folder.string());
+  }
+}
+
+// A folder whose record went away meanwhile costs its own report alone.
+void ValidateOne(const DoorValidator& validator, const fs::path& folder, std::size_t i,
+                 Results& results) {
+  try {
+    results.reports[i] = validator.Validate(folder);
+  } catch (const std::exception&) {
+    results.problems[i] = CurrentProblem(folder.string());
   }
 }
 
@@ -113,8 +126,9 @@ Results ValidateAll(const Options& options, const std::vector<fs::path>& folders
   Progress progress("validating", folders.size());
   ParallelFor(folders.size(), options.threads, [&](std::size_t i) {
     if (StopRequested() != 0) return;
+    const WorkBudget budget(folders[i].string(), options.max_seconds);
     if (options.fix) FixOne(options, folders[i], i, results);
-    results.reports[i] = validator->Validate(folders[i]);
+    ValidateOne(*validator, folders[i], i, results);
     progress.Advance();
   });
   return results;
@@ -173,13 +187,14 @@ int Finish(const Options& options, Results results) {
   bool errors = false;
   bool problems = false;
   for (std::size_t i = 0; i < results.reports.size(); ++i) {
+    if (!results.problems[i].empty()) {
+      std::fprintf(stderr, "doorforge: %s\n", results.problems[i].c_str());
+      problems = true;
+    }
     if (!results.reports[i]) continue;
     ExplainLeft(results.fixes[i], *results.reports[i]);
     errors = errors || results.reports[i]->errors > 0;
     reports.push_back(std::move(*results.reports[i]));
-    if (results.problems[i].empty()) continue;
-    std::fprintf(stderr, "doorforge: %s\n", results.problems[i].c_str());
-    problems = true;
   }
   PrintReports(options, results, reports);
   if (StopRequested() != 0) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 
@@ -16,6 +17,7 @@
 #include "doorforge/core/progress.h"
 #include "doorforge/core/record_id.h"
 #include "doorforge/door/author_place.h"
+#include "doorforge/mesh/work_budget.h"
 
 #include "placed_mesh.h"
 #include "subtask.h"
@@ -34,6 +36,7 @@ constexpr const char* kStoppedMessage =
 struct PartJob {
   std::string id;
   ForeignPart part;      // of the first object that has it
+  fs::path source;       // of the same object
   bool present = false;  // made by an earlier run
   bool written = false;
   MadePart made;
@@ -55,6 +58,7 @@ class Import {
   }
 
   ImportReport Run() {
+    RequireWritable(out_);
     ReadAll();
     MakeAll();
     RememberPlaces();
@@ -103,6 +107,7 @@ class Import {
     failed.source = source;
     failed.name = internal::ObjectNameOf(source.path);
     try {
+      const WorkBudget budget(source.path.string(), config_.max_seconds);
       if (StopRequested() == 0) {
         objects = ReadObjects(source, config_.read);
       } else {
@@ -113,6 +118,9 @@ class Import {
       failed.outcome = error.code() == ErrorCode::kMissing ? ImportOutcome::kIncomplete
                                                            : ImportOutcome::kInvalid;
       failed.message = error.what();
+    } catch (const std::exception&) {
+      failed.message = CurrentProblem(source.path.string());
+      objects.clear();
     }
     for (const ForeignObject& object : objects) entries.push_back(EntryFor(source, object));
     if (objects.empty()) entries.push_back(std::move(failed));
@@ -132,9 +140,20 @@ class Import {
     return entry;
   }
 
-  // of the object last entered
+  // of the object last entered; where the output holds a damaged part of its name, that is its
+  // failure alone
   void Plan(const ForeignObject& object) {
     ImportedObject& entry = report_.objects.back();
+    try {
+      PlanParts(object, entry);
+    } catch (const std::exception&) {
+      jobs_of_.back().clear();
+      entry.outcome = ImportOutcome::kInvalid;
+      entry.message = CurrentProblem(out_.string());
+    }
+  }
+
+  void PlanParts(const ForeignObject& object, ImportedObject& entry) {
     for (const ForeignPart& part : object.parts) {
       const std::size_t job = JobFor(part);
       jobs_of_.back().push_back(job);
@@ -150,10 +169,13 @@ class Import {
       const std::string id = count == 1 ? part.id : part.id + "-" + std::to_string(count);
       if (taken_.contains(id)) continue;
       const std::optional<std::string> there = SourceHashOf(out_ / id);
+      // something else of that name stays what it is
+      if (!there && fs::exists(fs::symlink_status(out_ / id))) continue;
       if (there && *there != source_hash) continue;
       taken_[id] = true;
       job_by_hash_[source_hash] = jobs_.size();
       jobs_.push_back(NewJob(part, id, there.has_value()));
+      jobs_.back().source = report_.objects.back().source.path;
       return jobs_.size() - 1;
     }
   }
@@ -217,6 +239,7 @@ class Import {
       return;
     }
     try {
+      const WorkBudget budget(job.source.string(), config_.max_seconds);
       LoadedPart loaded = job.part.load();
       PartDraft& draft = loaded.draft;
       draft.facts.id = job.id;
@@ -231,7 +254,11 @@ class Import {
     } catch (const Error& error) {
       job.outcome = ImportOutcome::kInvalid;
       job.problem = error.what();
+    } catch (const std::exception&) {
+      job.outcome = ImportOutcome::kInvalid;
+      job.problem = CurrentProblem(job.source.string());
     }
+    if (job.outcome == ImportOutcome::kInvalid) job.made = {};
   }
 
   static void DropVisuals(PartDraft& draft) {
@@ -260,22 +287,29 @@ class Import {
       const bool complete = std::all_of(jobs.begin(), jobs.end(), [&](std::size_t j) {
         return jobs_[j].done && (jobs_[j].present || jobs_[j].made.part);
       });
-      if (!complete) continue;
-      for (const std::size_t j : jobs) Write(jobs_[j]);
+      if (complete) WriteTogether(jobs);
     }
   }
 
-  void Write(PartJob& job) const {
-    if (job.present || job.written) return;
-    StagedFolder staged(OutputBelow(out_, job.id), kPartFolder, existing_);
-    WritePart(*job.made.part, staged.path());
+  // The parts of an object: none appears before all of them are written.
+  void WriteTogether(const std::vector<std::size_t>& jobs) {
+    std::vector<std::unique_ptr<StagedFolder>> staged;
+    for (const std::size_t j : jobs) {
+      if (!jobs_[j].present && !jobs_[j].written) staged.push_back(Staged(jobs_[j]));
+    }
+    for (const std::unique_ptr<StagedFolder>& folder : staged) folder->Commit();
+    for (const std::size_t j : jobs) jobs_[j].written = !jobs_[j].present;
+  }
+
+  std::unique_ptr<StagedFolder> Staged(const PartJob& job) const {
+    auto staged = std::make_unique<StagedFolder>(OutputBelow(out_, job.id), kPartFolder, existing_);
+    WritePart(*job.made.part, staged->path());
     Json json = doorforge::ToJson(job.made);
     json["settings"] = settings_;
     json["box_deviation_m"] = job.box_deviation_m;
     if (job.part.role == PartRole::kHandle) json["grasp"] = GraspToJson(job.grasp);
-    WriteJsonFile(staged.path() / "repair.json", json);
-    staged.Commit();
-    job.written = true;
+    WriteJsonFile(staged->path() / "repair.json", json);
+    return staged;
   }
 
   static Json GraspToJson(const RefinedGrasp& grasp) {

@@ -10,6 +10,7 @@
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/record_id.h"
+#include "doorforge/mesh/work_budget.h"
 #include "doorforge/schemas/mesh_file.h"
 #include "doorforge/schemas/mesh_pool.h"
 
@@ -102,6 +103,8 @@ SharedDoorOutcome WriteDoorOf(const SharedDoorPlan& plan, const PartPair& pair,
     WriteStaged(staging / door.id / "model.urdf", door.urdf);
   } catch (const Error& error) {
     outcome.problem = error.what();
+  } catch (const std::exception&) {
+    outcome.problem = CurrentProblem(outcome.id);
   }
   return outcome;
 }

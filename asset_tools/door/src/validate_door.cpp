@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -11,6 +12,7 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/record_id.h"
+#include "doorforge/mesh/work_budget.h"
 
 #include "findings.h"
 #include "placed_mesh.h"
@@ -247,57 +249,104 @@ Findings CheckOpening(const DoorAsset& door, const Findings& others, const Openi
   }
 }
 
-Findings DoorFindings(const fs::path& folder, const OpeningCheck& check, ValidationMemory& memory) {
-  RecordMeshes meshes(folder, "door.json", memory);
+// A check that cannot be finished is a finding like any other: it costs neither what the other
+// checks found nor the report of other folders.
+template <class Check>
+void Add(Findings& findings, const std::string& record, const Check& check) {
+  std::string problem;
   try {
-    if (Findings ids = CheckIds(folder, "door.json"); !ids.empty()) return ids;
-    const DoorOnDisk on_disk = ReadDoorOnDisk(folder, meshes);
-    const DoorAsset& door = on_disk.door;
-    Findings findings = meshes.FindingsOfFiles();
-    Append(findings, CheckNames(door));
-    for (const std::vector<PieceOnDisk>& pieces : on_disk.pieces) {
-      for (const PieceOnDisk& piece : pieces) Append(findings, CheckPieceOnce(piece, memory));
-    }
-    Append(findings, CheckMasses(on_disk, memory));
-    Append(findings, internal::CheckMechanics(door));
-    Append(findings, internal::CheckUrdf(door, on_disk.files, folder));
-    Append(findings, internal::CheckHandle(door, *LinesOf(on_disk, memory)));
-    Append(findings, internal::CheckLicense(door.license, "door.json: license"));
-    Append(findings, CheckOpening(door, findings, check));
-    return findings;
-  } catch (const Error& error) {
-    Findings findings = meshes.FindingsOfFiles();
-    findings.push_back(Found("REC001", "door.json", error.what()));
-    return findings;
+    Append(findings, check());
+    return;
+  } catch (const std::exception&) {
+    problem = CurrentProblem(record);
   }
+  const Finding given_up = Found("REC003", record, "could not be checked: " + problem);
+  // time that is used up ends every check after it for the same reason
+  if (findings.empty() || findings.back().measured != given_up.measured)
+    findings.push_back(given_up);
+}
+
+// Of a record whose reading failed for `reason`.
+Findings Unreadable(const RecordMeshes& meshes, const std::string& record,
+                    const std::string& reason) {
+  Findings findings = meshes.FindingsOfFiles();
+  findings.push_back(Found("REC001", record, reason));
+  return findings;
+}
+
+Findings DoorFindings(const fs::path& folder, const OpeningCheck& check, ValidationMemory& memory) {
+  constexpr const char* kRecord = "door.json";
+  RecordMeshes meshes(folder, kRecord, memory);
+  std::optional<DoorOnDisk> read;
+  try {
+    if (Findings ids = CheckIds(folder, kRecord); !ids.empty()) return ids;
+    read = ReadDoorOnDisk(folder, meshes);
+  } catch (const Error& error) {
+    return Unreadable(meshes, kRecord, error.what());
+  }
+  const DoorOnDisk& on_disk = *read;
+  const DoorAsset& door = on_disk.door;
+  Findings findings = meshes.FindingsOfFiles();
+  const auto add = [&](const auto& one) { Add(findings, kRecord, one); };
+  add([&] { return CheckNames(door); });
+  for (const std::vector<PieceOnDisk>& pieces : on_disk.pieces) {
+    for (const PieceOnDisk& piece : pieces) add([&] { return CheckPieceOnce(piece, memory); });
+  }
+  add([&] { return CheckMasses(on_disk, memory); });
+  add([&] { return internal::CheckMechanics(door); });
+  add([&] { return internal::CheckUrdf(door, on_disk.files, folder); });
+  add([&] { return internal::CheckHandle(door, *LinesOf(on_disk, memory)); });
+  add([&] { return internal::CheckLicense(door.license, "door.json: license"); });
+  const Findings others = findings;
+  add([&] { return CheckOpening(door, others, check); });
+  return findings;
+}
+
+Findings CheckPartPiece(const PartPiece& piece, const PieceOnDisk& on_disk,
+                        ValidationMemory& memory) {
+  Findings findings = CheckPieceOnce(on_disk, memory);
+  internal::CheckedMass mass{on_disk.where, piece.mass};
+  if (on_disk.WasRead()) {
+    mass.bounds = internal::BoundsOf(piece.mesh);
+    mass.volume_m3 = VolumeOf(*on_disk.mesh, memory);
+  }
+  Append(findings, internal::CheckMass(mass));
+  return findings;
 }
 
 Findings PartFindings(const fs::path& folder, ValidationMemory& memory) {
-  RecordMeshes meshes(folder, "part.json", memory);
+  constexpr const char* kRecord = "part.json";
+  RecordMeshes meshes(folder, kRecord, memory);
+  std::optional<Part> read;
   try {
-    if (Findings ids = CheckIds(folder, "part.json"); !ids.empty()) return ids;
-    const Part part = ReadPart(folder, meshes.Reader(), meshes.Visuals());
-    Findings findings = meshes.FindingsOfFiles();
-    ReadPieces read(meshes);
-    for (const PartPiece& piece : part.pieces) {
-      const PieceOnDisk on_disk = read.Next("part.json: \"" + piece.name + "\"",
-                                            part.role == PartRole::kHandle, piece.hulls.size());
-      Append(findings, CheckPieceOnce(on_disk, memory));
-      internal::CheckedMass mass{on_disk.where, piece.mass};
-      if (on_disk.WasRead()) {
-        mass.bounds = internal::BoundsOf(piece.mesh);
-        mass.volume_m3 = VolumeOf(*on_disk.mesh, memory);
-      }
-      Append(findings, internal::CheckMass(mass));
-    }
-    Append(findings, internal::CheckPartJoint(part));
-    if (part.role == PartRole::kHandle) Append(findings, internal::CheckPartGrasp(part));
-    Append(findings, internal::CheckLicense(part.license, "part.json: license"));
-    return findings;
+    if (Findings ids = CheckIds(folder, kRecord); !ids.empty()) return ids;
+    read = ReadPart(folder, meshes.Reader(), meshes.Visuals());
   } catch (const Error& error) {
-    Findings findings = meshes.FindingsOfFiles();
-    findings.push_back(Found("REC001", "part.json", error.what()));
-    return findings;
+    return Unreadable(meshes, kRecord, error.what());
+  }
+  const Part& part = *read;
+  Findings findings = meshes.FindingsOfFiles();
+  const auto add = [&](const auto& one) { Add(findings, kRecord, one); };
+  ReadPieces pieces(meshes);
+  for (const PartPiece& piece : part.pieces) {
+    const PieceOnDisk on_disk = pieces.Next("part.json: \"" + piece.name + "\"",
+                                            part.role == PartRole::kHandle, piece.hulls.size());
+    add([&] { return CheckPartPiece(piece, on_disk, memory); });
+  }
+  add([&] { return internal::CheckPartJoint(part); });
+  if (part.role == PartRole::kHandle) add([&] { return internal::CheckPartGrasp(part); });
+  add([&] { return internal::CheckLicense(part.license, "part.json: license"); });
+  return findings;
+}
+
+// Whatever ends the work on a folder is a finding about that folder.
+template <class Check>
+Findings Contained(const fs::path& folder, const std::string& record, const Check& check) {
+  const WorkBudget budget((folder / record).string());
+  try {
+    return check();
+  } catch (const std::exception&) {
+    return {Found("REC003", record, "could not be checked: " + CurrentProblem(folder.string()))};
   }
 }
 
@@ -321,12 +370,16 @@ DoorValidator::~DoorValidator() = default;
 
 ValidationReport DoorValidator::Door(const fs::path& folder) const {
   RequireRecord(folder / "door.json");
-  return Report(folder, DoorFindings(folder, opening_check_, *memory_), profile_);
+  const Findings findings = Contained(
+      folder, "door.json", [&] { return DoorFindings(folder, opening_check_, *memory_); });
+  return Report(folder, findings, profile_);
 }
 
 ValidationReport DoorValidator::Part(const fs::path& folder) const {
   RequireRecord(folder / "part.json");
-  return Report(folder, PartFindings(folder, *memory_), profile_);
+  const Findings findings =
+      Contained(folder, "part.json", [&] { return PartFindings(folder, *memory_); });
+  return Report(folder, findings, profile_);
 }
 
 ValidationReport DoorValidator::Validate(const fs::path& folder) const {
@@ -348,7 +401,9 @@ std::vector<fs::path> FindRecords(const fs::path& path) {
   if (!fs::is_directory(path)) throw Error(ErrorCode::kMissing, path.string() + ": not a folder");
   if (holds_record(path)) return {path};
   std::vector<fs::path> folders;
-  for (auto entry = fs::recursive_directory_iterator(path); entry != fs::end(entry); ++entry) {
+  std::error_code error;
+  auto entry = fs::recursive_directory_iterator(path, error);
+  for (; !error && entry != fs::end(entry); entry.increment(error)) {
     if (!entry->is_directory()) continue;
     if (entry->path().filename().string().starts_with('.')) {
       entry.disable_recursion_pending();
@@ -358,6 +413,8 @@ std::vector<fs::path> FindRecords(const fs::path& path) {
     folders.push_back(entry->path());
     entry.disable_recursion_pending();
   }
+  if (error)
+    throw Error(ErrorCode::kIo, path.string() + ": cannot be searched: " + error.message());
   if (folders.empty())
     throw Error(ErrorCode::kMissing,
                 path.string() + ": no door.json or part.json in it or below it");

@@ -13,6 +13,7 @@
 #include "doorforge/door/foreign_object.h"
 #include "doorforge/door/grasp.h"
 #include "doorforge/door/make_part.h"
+#include "doorforge/mesh/work_budget.h"
 
 namespace doorforge {
 
@@ -23,6 +24,8 @@ struct ImportConfig {
   bool visual = true;
   std::vector<std::string> only = {};  ///< Objects of other categories are left out; empty: none.
   int threads = 0;                     ///< 0: all processors. Does not change the result.
+  /// Processor time to read an object, and to make a part, before it is given up [s].
+  double max_seconds = kObjectSeconds;
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -31,13 +34,15 @@ struct ImportConfig {
     visit("visual", self.visual);
     visit("only", self.only);
     visit("threads", self.threads);
+    visit("max_seconds", self.max_seconds);
   }
 };
 
 enum class ImportOutcome {
   kImported,
   kIncomplete,  ///< A file that the object names is not there.
-  kInvalid,     ///< A file does not follow its format, or the user has to say more.
+  kInvalid,     ///< A file does not follow its format, takes too much time or memory, or the user
+                ///< has to say more.
   kRefused,     ///< It is in order, but cannot be a door.
   kNotClosed,   ///< A mesh could not be closed.
   kExists,      ///< A part of that id was made with other settings; --overwrite replaces it.
@@ -75,10 +80,10 @@ struct ImportReport {
 /// Parts that several objects share are made once; another part that wants the same id gets "-2",
 /// "-3", ... in the order of `sources`. A part that is there already, from the same source and
 /// settings, is kept. Each part's folder appears complete or not at all, and only if all parts of
-/// its object could be made. An object's failure is an outcome, never an Error; the rest goes on.
-/// A body remembers where its object's handle was, see author_place.h. Grasps are refined, see
-/// RefineGrasp(). Progress goes to standard error. The parts do not depend
-/// on the number of threads.
+/// its object could be made. An object's failure is an outcome, never an Error, whatever the
+/// reason, time and memory among them; the rest goes on. A body remembers where its object's handle
+/// was, see author_place.h. Grasps are refined, see RefineGrasp(). Progress goes to standard error.
+/// The parts do not depend on the number of threads.
 ImportReport ImportObjects(const std::vector<ForeignSource>& sources,
                            const std::filesystem::path& out, const ImportConfig& config,
                            Existing existing);

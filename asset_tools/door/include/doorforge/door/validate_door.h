@@ -89,7 +89,8 @@ class DoorValidator {
   DoorValidator(const DoorValidator&) = delete;
   DoorValidator& operator=(const DoorValidator&) = delete;
 
-  /// By the record that the folder holds. Deterministic; never throws on what the folder holds.
+  /// By the record that the folder holds. Deterministic; never throws on what the folder holds: a
+  /// check that takes too much time (see work_budget.h) or memory is finding REC003.
   /// Throws Error(kMissing) if it has neither door.json nor part.json. May be called from several
   /// threads at once.
   ValidationReport Validate(const std::filesystem::path& folder) const;

@@ -563,7 +563,7 @@ TEST_F(ImportMeshTest, RefusesCoordinatesBeyondAllUnits) {
   const std::string far = Replaced(kCubeObj, "v 1 1 1", "v 1 2e6 1");
   EXPECT_EQ(ErrorOf("far.obj", far),
             kFormat +
-                "far.obj:11: a face uses a vertex with a coordinate of 2000000, allowed "
+                "far.obj: line 10: a face uses a vertex with a coordinate of 2000000, allowed "
                 "1000000; the file is damaged, or its unit is far too small");
   // a door of two metres in tenths of a millimetre
   EXPECT_EQ(ErrorOf("tenths.obj", Replaced(kCubeObj, "v 1 1 1", "v 1 20000 1")), "");
@@ -573,7 +573,7 @@ TEST_F(ImportMeshTest, RefusesAFaceOfMoreCornersThanProgramsWrite) {
   EXPECT_EQ(Import("most.obj", RoundFace(10000)).pieces[0].mesh.triangles.size(), 9998U);
   const std::string refusal = ErrorOf("more.obj", RoundFace(10001));
   EXPECT_EQ(refusal, kFormat +
-                         "more.obj:10002: a face has 10001 corners, allowed 10000; export it "
+                         "more.obj: line 10002: a face has 10001 corners, allowed 10000; export it "
                          "in triangles");
 }
 

@@ -48,7 +48,7 @@ TEST(Grasp, EmptyAirABlockedFingerAndTheLeafDoNotHold) {
 }
 
 TEST(Grasp, AMeshThatIsFarTooLargeIsRefusedAndNotCut) {
-  for (const double far : {50.0, 343598.0, 1e9, 1e300}) {
+  for (const double far : {343598.0, 1e9, 1e300}) {
     const TriangleMesh plate = BoxMesh({0.2, -far, -far}, {0.21, far, far});
     const TriangleMesh handle = Together(Bar(), plate);
     try {

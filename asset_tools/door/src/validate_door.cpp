@@ -255,6 +255,7 @@ template <class Check>
 void Add(Findings& findings, const std::string& record, const Check& check) {
   std::string problem;
   try {
+    CheckWork();
     Append(findings, check());
     return;
   } catch (const std::exception&) {

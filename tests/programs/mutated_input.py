@@ -27,6 +27,7 @@ import json
 import pathlib
 import random
 import re
+import resource
 import shlex
 import shutil
 import sys
@@ -35,7 +36,7 @@ import threading
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from mutation_oracle import Answer, Case, Limits, judged, limit_this_process  # noqa: E402
+from mutation_oracle import Answer, Case, Limits, judged  # noqa: E402
 from mutation_targets import Target, all_targets  # noqa: E402
 from mutators import ESCAPE, mutated  # noqa: E402
 from sealing import seal  # noqa: E402
@@ -46,7 +47,10 @@ PROGRESS_SECONDS = 30
 
 def files_of(target: Target, inputs: pathlib.Path) -> list[str]:
     folder = inputs / target.group
-    return sorted({str(path.relative_to(folder)) for pattern in target.files for path in folder.glob(pattern) if path.is_file()})
+    return sorted(
+        {str(path.relative_to(folder))
+         for pattern in target.files
+         for path in folder.glob(pattern) if path.is_file()})
 
 
 def names_of(target: Target, changed: pathlib.PurePath) -> frozenset[str]:
@@ -62,8 +66,11 @@ def case_of(target: Target, changed: str, doorforge: pathlib.Path, box: pathlib.
 
     def filled(word: str) -> str:
         return re.sub(r"\b(IN|OUT|CHANGED)\b", lambda match: replace[match.group()], word)
-    return Case([str(doorforge), *map(filled, target.arguments)], box, folder / "in" / changed, names_of(target, pathlib.PurePath(changed)),
-                in_place=target.in_place, environment={key: filled(value) for key, value in target.environment})
+
+    return Case([str(doorforge), *map(filled, target.arguments)], box, folder / "in" / changed,
+                names_of(target, pathlib.PurePath(changed)), in_place=target.in_place,
+                environment={key: filled(value)
+                             for key, value in target.environment})
 
 
 def make_box(target: Target, inputs: pathlib.Path, box: pathlib.Path) -> None:
@@ -77,7 +84,8 @@ def make_box(target: Target, inputs: pathlib.Path, box: pathlib.Path) -> None:
 class Campaign:
     """Counts and keeps what the runs give."""
 
-    def __init__(self, options: argparse.Namespace, doorforge: pathlib.Path, inputs: pathlib.Path, targets: list[Target]) -> None:
+    def __init__(self, options: argparse.Namespace, doorforge: pathlib.Path, inputs: pathlib.Path,
+                 targets: list[Target]) -> None:
         self.options, self.doorforge, self.inputs = options, doorforge, inputs
         self.limits = Limits()
         self.targets = [target for target in targets for _ in range(target.weight)]
@@ -109,7 +117,8 @@ class Campaign:
                 answer, faults = judged(case, self.limits)
                 if answer.code != 0 or faults:
                     said = (answer.output[-1500:] + answer.errors[-1500:]).decode(errors="replace")
-                    wrong.append(f"{target.name}: exit code {answer.code}, {faults}\n{shlex.join(case.command)}\n{said}")
+                    wrong.append(
+                        f"{target.name}: exit code {answer.code}, {faults}\n{shlex.join(case.command)}\n{said}")
         if wrong:
             raise SystemExit("on sound input:\n" + "\n".join(wrong))
 
@@ -135,15 +144,21 @@ class Campaign:
             answer, faults = judged(case, self.limits)
             if faults:
                 self.keep(kept.parent, case, new)
-            self.note(number, target, answer, {"file": changed, "mutations": mutations, "command": shlex.join(case.command)}, faults)
+            self.note(number, target, answer,
+                      {"file": changed, "mutations": mutations, "command": shlex.join(case.command)}, faults)
 
     def keep(self, folder: pathlib.Path, case: Case, content: bytes) -> None:
         folder.mkdir(parents=True, exist_ok=True)
         (folder / case.changed.name).write_bytes(content)
 
     def repeat_command(self, number: int) -> str:
-        return shlex.join([sys.executable, str(pathlib.Path(__file__).resolve()), str(self.options.build.resolve()), "--seed", str(self.options.seed),
-                           "--only", str(number), "--keep-input"])
+        return shlex.join([
+            sys.executable,
+            str(pathlib.Path(__file__).resolve()),
+            str(self.options.build.resolve()), "--seed",
+            str(self.options.seed), "--only",
+            str(number), "--keep-input"
+        ])
 
     def note(self, number: int, target: Target, answer: Answer, what: dict, faults: list[str]) -> None:
         with self.lock:
@@ -151,28 +166,38 @@ class Campaign:
             self.slowest[target.name] = max(self.slowest[target.name], answer.cpu_seconds)
             self.largest[target.name] = max(self.largest[target.name], answer.memory_mib)
             if self.options.only is not None:
-                print(f"exit code {answer.code}\n{answer.output.decode(errors='replace')}{answer.errors.decode(errors='replace')}", flush=True)
+                said = (answer.output + answer.errors).decode(errors="replace")
+                print(f"exit code {answer.code}\n{said}", flush=True)
             if not faults:
                 return
-            record = {"number": number, "target": target.name, "faults": faults, "exit_code": answer.code, **what, "repeat": self.repeat_command(number),
-                      "cpu_seconds": round(answer.cpu_seconds, 2), "memory_mib": answer.memory_mib,
-                      "stderr": answer.errors[-3000:].decode("utf-8", "backslashreplace"), "stdout": answer.output[-3000:].decode("utf-8", "backslashreplace")}
-            (self.options.out / f"seed{self.options.seed}_{number:06d}" / "fault.json").write_text(json.dumps(record, indent=2) + "\n")
+            record = {
+                "number": number, "target": target.name, "faults": faults, "exit_code": answer.code,
+                **what, "repeat": self.repeat_command(number), "cpu_seconds": round(answer.cpu_seconds, 2),
+                "memory_mib": answer.memory_mib, "stderr": answer.errors[-3000:].decode("utf-8", "backslashreplace"),
+                "stdout": answer.output[-3000:].decode("utf-8", "backslashreplace")
+            }
+            (self.options.out / f"seed{self.options.seed}_{number:06d}" /
+             "fault.json").write_text(json.dumps(record, indent=2) + "\n")
             self.faults.append(record)
-            print(f"run {number}: {target.name}, {what['file']} by {', '.join(what['mutations'])}: {'; '.join(faults)}", flush=True)
+            print(f"run {number}: {target.name}, {what['file']} by {', '.join(what['mutations'])}: {'; '.join(faults)}",
+                  flush=True)
 
     def runs(self) -> int:
         return sum(codes.total() for codes in self.codes.values())
 
     def report(self, seconds: float) -> str:
-        lines = [f"{'target':22} {'runs':>6} {'accepted':>8} {'refused':>8} {'faults':>6} {'most CPU s':>10} {'most MiB':>9}"]
+        lines = [
+            f"{'target':22} {'runs':>6} {'accepted':>8} {'refused':>8} {'faults':>6} {'most CPU s':>10} {'most MiB':>9}"
+        ]
         at_fault = collections.Counter(record["target"] for record in self.faults)
         for name in sorted(self.codes):
             codes = self.codes[name]
             refused = sum(codes[code] for code in (1, 2, 3, 4))
-            lines.append(f"{name:22} {codes.total():6} {codes[0]:8} {refused:8} {at_fault[name]:6} {self.slowest[name]:10.1f} {self.largest[name]:9}")
+            lines.append(f"{name:22} {codes.total():6} {codes[0]:8} {refused:8} {at_fault[name]:6} "
+                         f"{self.slowest[name]:10.1f} {self.largest[name]:9}")
         kinds = collections.Counter(re.split(r":", fault)[0] for record in self.faults for fault in record["faults"])
-        lines.append(f"{self.runs()} runs in {seconds / 60:.1f} min, seed {self.options.seed}: {len(self.faults)} at fault")
+        lines.append(
+            f"{self.runs()} runs in {seconds / 60:.1f} min, seed {self.options.seed}: {len(self.faults)} at fault")
         lines += [f"  {count:6} {kind}" for kind, count in kinds.most_common()]
         return "\n".join(lines)
 
@@ -198,7 +223,8 @@ class Workers:
             self.next_number += 1
             if time.monotonic() - self.told > PROGRESS_SECONDS:
                 self.told = time.monotonic()
-                print(f"{self.told - self.start:.0f} s, {self.campaign.runs()} runs, {len(self.campaign.faults)} at fault", file=sys.stderr, flush=True)
+                counts = f"{self.campaign.runs()} runs, {len(self.campaign.faults)} at fault"
+                print(f"{self.told - self.start:.0f} s, {counts}", file=sys.stderr, flush=True)
             return self.next_number - 1
 
     def work(self) -> None:
@@ -221,10 +247,13 @@ def parsed(arguments: list[str] | None = None) -> argparse.Namespace:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--first", type=int, default=0, help="number of the first run")
     parser.add_argument("--only", type=int, help="repeats this one run and prints what the program said")
-    parser.add_argument("--targets", nargs="+", help="only targets whose names contain one of these; the runs keep their numbers")
-    parser.add_argument("--inputs", type=pathlib.Path, help="sound inputs of an earlier call; made there if there are none")
+    parser.add_argument("--targets", nargs="+",
+                        help="only targets whose names contain one of these; the runs keep their numbers")
+    parser.add_argument("--inputs", type=pathlib.Path,
+                        help="sound inputs of an earlier call; made there if there are none")
     parser.add_argument("--keep-input", action="store_true", help="keeps the whole input of every run in --out")
-    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("mutated_input_faults"), help="where faults are kept")
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("mutated_input_faults"),
+                        help="where faults are kept")
     options = parser.parse_args(arguments)
     options.out = options.out.resolve()
     if options.only is not None:
@@ -240,7 +269,7 @@ def main() -> int:
         inputs = (options.inputs or pathlib.Path(work) / "inputs").resolve()
         if not inputs.exists():
             make_inputs(doorforge, inputs)
-        limit_this_process(Limits())
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
         campaign = Campaign(options, doorforge, inputs, all_targets())
         if options.only is None:
             campaign.check_sound()

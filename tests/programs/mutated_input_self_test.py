@@ -41,7 +41,8 @@ if behaviour == "child spins":
     if os.fork() == 0:
         while True: pass
     os.wait()
-if behaviour == "grow": grown = bytearray(300 << 20); refuse()
+if behaviour == "grow": grown = b"x" * (300 << 20); refuse()
+if behaviour == "grow and wait": grown = b"x" * (300 << 20); time.sleep(600)
 if behaviour == "name nothing": refuse("something is wrong")
 if behaviour == "library": refuse("tested_file.json: [json.exception.type_error.316] invalid UTF-8 byte")
 if behaviour == "two documents": print('{{"a": 1}}'); print('{{"a": 2}}')
@@ -59,6 +60,7 @@ LIMITS = Limits(cpu_seconds=20, wall_seconds=300, memory_mib=200)
 
 
 class StandIn(unittest.TestCase):
+
     def setUp(self) -> None:
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -70,6 +72,7 @@ class StandIn(unittest.TestCase):
 
 
 class Oracle(StandIn):
+
     def faults(self, behaviour: str, *options: str, limits: Limits = LIMITS, **case: object) -> list[str]:
         box = pathlib.Path(tempfile.mkdtemp(dir=self.folder))
         for part in ("run/in", "run/out", "run/tmp", "around/victim"):
@@ -77,7 +80,8 @@ class Oracle(StandIn):
         for name in ("run/in/tested_file.json", "run/in/other.json", "around/victim/keep.txt"):
             (box / name).write_text("{}")
         command = [str(self.program), behaviour, str(box / "run/in"), str(box / "run/out"), *options]
-        return judged(Case(command, box, box / "run/in/tested_file.json", frozenset(["tested_file.json"]), **case), limits)[1]
+        return judged(Case(command, box, box / "run/in/tested_file.json", frozenset(["tested_file.json"]), **case),
+                      limits)[1]
 
     def assert_found(self, fault: str, *arguments: str, **case: object) -> None:
         faults = self.faults(*arguments, **case)
@@ -103,6 +107,7 @@ class Oracle(StandIn):
 
     def test_much_memory_is_found(self):
         self.assert_found("memory: ", "grow")
+        self.assert_found("memory: more than 200 MiB", "grow and wait")
 
     def test_success_on_damage_is_found(self):
         self.assert_found("success on damage", "answer", covered=True)
@@ -128,6 +133,7 @@ class Oracle(StandIn):
 
 
 class WholeCampaign(StandIn):
+
     def setUp(self) -> None:
         super().setUp()
         record = self.folder / "inputs/group/tested_file.json"
@@ -177,11 +183,19 @@ class WholeCampaign(StandIn):
 
 class Mutators(unittest.TestCase):
     SOUND = {
-        ".json": b'{"id": "a", "numbers": [1, 2.5], "links": [{"id": "b"}, {"id": "c"}]}', ".jsonl": b'{"a": 1}\n{"a": 2}\n', ".yaml": b"a: 1\nb:\n  c: [1, 2]\n",
-        ".urdf": b'<robot name="r"><link name="a"/><link name="b"/></robot>', ".obj": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", ".off": b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
-        ".stl": bytes(80) + struct.pack("<I", 1) + bytes(50), ".png": grey_png(4, 4, lambda x, y: x + y), ".torch": torch_file((1, 2, 3)),
-        ".npy": b"\x93NUMPY\x01\x00\x36\x00" + b"{'descr': '<f4', 'fortran_order': False, 'shape': (1,)}".ljust(53) + b"\n" + bytes(4),
-        ".safetensors": struct.pack("<Q", 62) + b'{"a": {"dtype": "F32", "shape": [1], "data_offsets": [0, 4]} }' + bytes(4),
+        ".json": b'{"id": "a", "numbers": [1, 2.5], "links": [{"id": "b"}, {"id": "c"}]}',
+        ".jsonl": b'{"a": 1}\n{"a": 2}\n',
+        ".yaml": b"a: 1\nb:\n  c: [1, 2]\n",
+        ".urdf": b'<robot name="r"><link name="a"/><link name="b"/></robot>',
+        ".obj": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+        ".off": b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+        ".stl": bytes(80) + struct.pack("<I", 1) + bytes(50),
+        ".png": grey_png(4, 4, lambda x, y: x + y),
+        ".torch": torch_file((1, 2, 3)),
+        ".npy": b"\x93NUMPY\x01\x00\x36\x00" + b"{'descr': '<f4', 'fortran_order': False, 'shape': (1,)}".ljust(53) +
+        b"\n" + bytes(4),
+        ".safetensors": struct.pack("<Q", 62) + b'{"a": {"dtype": "F32", "shape": [1], "data_offsets": [0, 4]} }' +
+        bytes(4),
     }
 
     def test_every_kind_is_changed_and_equal_seeds_give_equal_bytes(self):
@@ -200,7 +214,10 @@ class Mutators(unittest.TestCase):
                     self.assertIsInstance(mutation(content, random.Random(number)), bytes, mutation.__name__)
 
     def test_names_in_json_become_paths_that_lead_out(self):
-        found = [json.loads(mutators.change_json(self.SOUND[".json"], random.Random(number))).get("id") for number in range(2000)]
+        found = [
+            json.loads(mutators.change_json(self.SOUND[".json"], random.Random(number))).get("id")
+            for number in range(2000)
+        ]
         self.assertIn("../../around/victim", found)
         self.assertIn(f"{mutators.ESCAPE}/around/victim", found)
 
@@ -210,10 +227,13 @@ class Mutators(unittest.TestCase):
             at = 8
             while at < len(changed):
                 (length,) = struct.unpack(">I", changed[at:at + 4])
-                self.assertEqual(struct.unpack(">I", changed[at + 8 + length:at + 12 + length])[0], zlib.crc32(changed[at + 4:at + 8 + length]))
+                self.assertEqual(
+                    struct.unpack(">I", changed[at + 8 + length:at + 12 + length])[0],
+                    zlib.crc32(changed[at + 4:at + 8 + length]))
                 at += 12 + length
             with contextlib.suppress(zipfile.BadZipFile):
-                with zipfile.ZipFile(io.BytesIO(mutators.change_zip(self.SOUND[".torch"], random.Random(number)))) as archive:
+                with zipfile.ZipFile(io.BytesIO(mutators.change_zip(self.SOUND[".torch"],
+                                                                    random.Random(number)))) as archive:
                     self.assertIsNone(archive.testzip())
 
 
@@ -227,6 +247,7 @@ def tar_of(members: dict[str, bytes]) -> bytes:
 
 
 class Sealing(unittest.TestCase):
+
     def setUp(self) -> None:
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -251,29 +272,39 @@ class Sealing(unittest.TestCase):
         self.assertEqual(mesh.read_bytes(), b"new")
 
     def test_a_changed_member_is_what_its_index_says(self):
-        old, new = tar_of({"ep0.a.npy": b"123", "ep0.b.json": b"{}"}), tar_of({"ep0.a.npy": b"1" * 600, "ep0.b.json": b"{}"})
-        members = [{"name": "a.npy", "offset": 512, "size": 3, "crc32c": crc32c(b"123")}, {"name": "b.json", "offset": 1536, "size": 2, "crc32c": crc32c(b"{}")}]
+        old, new = tar_of({"ep0.a.npy": b"123",
+                           "ep0.b.json": b"{}"}), tar_of({"ep0.a.npy": b"1" * 600, "ep0.b.json": b"{}"})
+        members = [{"name": "a.npy", "offset": 512, "size": 3, "crc32c": crc32c(b"123")},
+                   {"name": "b.json", "offset": 1536, "size": 2, "crc32c": crc32c(b"{}")}]
         tar, index = self.folder / "shard-000000.tar", self.folder / "shard-000000.index.json"
         tar.write_bytes(old)
-        index.write_bytes(index_text({"tar": tar.name, "tar_bytes": len(old), "tar_sha256": hashlib.sha256(old).hexdigest(),
-                                      "episodes": [{"key": "ep0", "members": members}]}))
+        index.write_bytes(
+            index_text({
+                "tar": tar.name, "tar_bytes": len(old), "tar_sha256": hashlib.sha256(old).hexdigest(),
+                "episodes": [{"key": "ep0", "members": members}]
+            }))
         seal(self.folder, tar, old, new)
         text = index.read_text()
         document = json.loads(text)
         first, second = document["episodes"][0]["members"]
-        self.assertEqual((first["size"], first["crc32c"], second["offset"]), (600, crc32c(b"1" * 600), 512 + 1024 + 512))
+        self.assertEqual((first["size"], first["crc32c"], second["offset"]),
+                         (600, crc32c(b"1" * 600), 512 + 1024 + 512))
         self.assertEqual((document["tar_bytes"], document["tar_sha256"]), (len(new), hashlib.sha256(new).hexdigest()))
         checksum = document.pop("index_crc32c")
         self.assertEqual(checksum, crc32c((json.dumps(document, indent=2) + "\n").encode()))
 
 
 class Targets(unittest.TestCase):
+
     def test_names_are_unique_and_every_verb_that_reads_is_there(self):
         names = [target.name for target in all_targets()]
         self.assertEqual(len(names), len(set(names)))
         verbs = {target.arguments[0] for target in all_targets()}
-        self.assertEqual(verbs, {"validate", "export", "preview", "simulate", "eval", "datagen", "compose", "catalog", "train", "import", "pipeline",
-                                 "dataset", "act", "repair"})
+        self.assertEqual(
+            verbs, {
+                "validate", "export", "preview", "simulate", "eval", "datagen", "compose", "catalog", "train", "import",
+                "pipeline", "dataset", "act", "repair"
+            })
 
 
 if __name__ == "__main__":

@@ -13,12 +13,13 @@ import subprocess
 import time
 
 TICKS = os.sysconf("SC_CLK_TCK")
-LOOK_SECONDS = 0.25  # between two looks at the processor time
+LOOK_SECONDS = 0.25  # between two looks at processor time and memory
 CODES = (0, 1, 2, 3, 4)
 # names of libraries and their functions, in texts that are not ours
 LIBRARY_WORDS = re.compile(
-    rb"json\.exception|basic_string|vector::_M|\bstd::|map::at|stoull|stoi\b|stod\b|filesystem error|yaml-cpp|YAML::|bad conversion|"
-    rb"terminate called|Assertion|AddressSanitizer|runtime error|\bcv::|OpenCV|c10::|torch::|at::|pickle\.|Exception raised|Traceback|CGAL|"
+    rb"json\.exception|basic_string|vector::_M|\bstd::|map::at|stoull|stoi\b|stod\b|filesystem error|yaml-cpp|YAML::|"
+    rb"bad conversion|terminate called|Assertion|AddressSanitizer|runtime error|\bcv::|OpenCV|c10::|torch::|\bat::|"
+    rb"pickle\.|Exception raised|Traceback|CGAL|"
     rb"tinyxml|XML_ERROR|HDF5-DIAG|H5[A-Z][a-z]+\(|what\(\)")
 
 
@@ -28,7 +29,6 @@ class Limits:
     cpu_seconds: float = 20
     wall_seconds: float = 300
     memory_mib: int = 2048
-    address_space_mib: int = 12 << 10
 
 
 @dataclasses.dataclass
@@ -57,15 +57,34 @@ class Answer:
     stopped: str  # why it was ended from outside; empty: it ended by itself
 
 
-def cpu_seconds_of(process: int) -> float:
-    """Of a process and all below it that live or were waited for."""
+@dataclasses.dataclass
+class Use:
+    cpu_seconds: float = 0
+    memory_mib: int = 0
+
+
+def use_of(process: int) -> Use:
+    """Of a process and all below it: processor time, that of ended ones too, and the memory that they hold."""
     try:
         fields = pathlib.Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
-        children = [int(child) for task in os.listdir(f"/proc/{process}/task")
-                    for child in pathlib.Path(f"/proc/{process}/task/{task}/children").read_text().split()]
+        children = [
+            int(child) for task in os.listdir(f"/proc/{process}/task")
+            for child in pathlib.Path(f"/proc/{process}/task/{task}/children").read_text().split()
+        ]
     except (OSError, ValueError):
-        return 0
-    return sum(int(field) for field in fields[11:15]) / TICKS + sum(cpu_seconds_of(child) for child in children)
+        return Use()
+    use = Use(sum(int(field) for field in fields[11:15]) / TICKS, int(fields[21]) * resource.getpagesize() >> 20)
+    for below in map(use_of, children):
+        use = Use(use.cpu_seconds + below.cpu_seconds, use.memory_mib + below.memory_mib)
+    return use
+
+
+def excess(use: Use, seconds: float, limits: Limits) -> str:
+    if use.cpu_seconds > limits.cpu_seconds:
+        return f"hang: more than {limits.cpu_seconds:g} s of processor time"
+    if use.memory_mib > limits.memory_mib:
+        return f"memory: more than {limits.memory_mib} MiB"
+    return f"hang: not done after {limits.wall_seconds:g} s" if seconds > limits.wall_seconds else ""
 
 
 def stop(process: int) -> None:
@@ -76,7 +95,7 @@ def stop(process: int) -> None:
 
 def waited_for(process: int, limits: Limits) -> tuple[int, resource.struct_rusage, str]:
     """(status, usage, why it was stopped) of a process that leads its group. One that takes too much processor time or
-    waits for ever is stopped; it is asked often at first, as most are done in no time."""
+    memory, or waits for ever, is stopped; it is asked often at first, as most are done in no time."""
     start = looked = time.monotonic()
     stopped = ""
     while True:
@@ -86,24 +105,18 @@ def waited_for(process: int, limits: Limits) -> tuple[int, resource.struct_rusag
         now = time.monotonic()
         if now - looked > LOOK_SECONDS:
             looked = now
-            if cpu_seconds_of(process) > limits.cpu_seconds:
-                stopped = f"more than {limits.cpu_seconds:g} s of processor time"
-            elif now - start > limits.wall_seconds:
-                stopped = f"not done after {limits.wall_seconds:g} s"
+            stopped = stopped or excess(use_of(process), now - start, limits)
             if stopped:
                 stop(process)
         time.sleep(min(0.05, 0.002 + 0.05 * (now - start)))
 
 
-def limit_this_process(limits: Limits) -> None:
-    """What is inherited by all that is started: no program may take the machine with it."""
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    resource.setrlimit(resource.RLIMIT_AS, (limits.address_space_mib << 20, resource.getrlimit(resource.RLIMIT_AS)[1]))
-
-
 def answer_of(case: Case, limits: Limits) -> Answer:
     folder = case.folder
-    environment = {**os.environ, "TMPDIR": str(folder / "tmp"), "HOME": str(folder / "tmp"), "OMP_NUM_THREADS": "1", **case.environment}
+    environment = {
+        **os.environ, "TMPDIR": str(folder / "tmp"), "HOME": str(folder / "tmp"), "OMP_NUM_THREADS": "1",
+        **case.environment
+    }
     with open(folder / "stdout", "wb") as output, open(folder / "stderr", "wb") as errors:
         process = subprocess.Popen(case.command, stdin=subprocess.DEVNULL, stdout=output, stderr=errors, cwd=folder,
                                    start_new_session=True, env=environment)
@@ -118,21 +131,22 @@ def listing(folder: pathlib.Path) -> dict[str, tuple]:
     found = {}
     for path in folder.rglob("*"):
         status = path.lstat()
-        found[str(path.relative_to(folder))] = (status.st_ino, status.st_size, status.st_mtime_ns) if path.is_file() else ()
+        found[str(path.relative_to(folder))] = (status.st_ino, status.st_size,
+                                                status.st_mtime_ns) if path.is_file() else ()
     return found
 
 
 def ending_faults(answer: Answer, limits: Limits) -> list[str]:
     faults = []
     if answer.stopped:
-        faults.append(f"hang: {answer.stopped}")
+        faults.append(answer.stopped)
     elif answer.code < 0:
         faults.append(f"signal {signal.Signals(-answer.code).name}")
     elif answer.code not in CODES:
         faults.append(f"exit code {answer.code}")
-    if answer.cpu_seconds > limits.cpu_seconds and not answer.stopped:
+    if answer.cpu_seconds > limits.cpu_seconds and "hang" not in answer.stopped:
         faults.append(f"hang: {answer.cpu_seconds:.1f} s of processor time")
-    if answer.memory_mib > limits.memory_mib:
+    if answer.memory_mib > limits.memory_mib and "memory" not in answer.stopped:
         faults.append(f"memory: {answer.memory_mib} MiB")
     return faults
 
@@ -173,7 +187,8 @@ def folder_faults(case: Case, before: dict[str, tuple]) -> list[str]:
         place = name.split("/")
         if ".tmp-" in name:
             faults.append(f"temporary left: {name}")
-        elif place[:2] not in (["run", "out"], ["run", "stdout"], ["run", "stderr"]) and not (case.in_place and place[:2] == ["run", "in"]):
+        elif place[:2] not in (["run", "out"], ["run", "stdout"],
+                               ["run", "stderr"]) and not (case.in_place and place[:2] == ["run", "in"]):
             faults.append(f"written outside the output: {name}")
     return faults
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The doorforge authors
 # SPDX-License-Identifier: Apache-2.0
-"""Seeded mutations of files: bytes of any file, and the structure of JSON, YAML, XML, meshes, tar, PNG, zip and tensors.
+"""Seeded mutations of files: bytes of any, the structure of JSON, YAML, XML, meshes, tar, PNG, zip and tensors.
 
 A mutation takes (bytes, random.Random) and returns other bytes, the same for the same state of the generator. One that
 finds nothing of its kind in the file flips a bit. Where a format carries a checksum or a length of its own, the
@@ -21,17 +21,21 @@ Mutation = Callable[[bytes, random.Random], bytes]
 # A path that a name in a file must not lead to: beside the input and the output of a run, at several depths, and
 # absolute. ESCAPE stands for the folder of the run, which differs between machines.
 ESCAPE = "@ESCAPE@"
-HOSTILE_NAMES = ["", ".", "..", "/", "../../around/victim", "../around/victim", "../../../around/victim", "../escaped",
-                 f"{ESCAPE}/around/victim", f"{ESCAPE}/escaped", "a/b", "a\\b", "-rf", "<script>alert(1)</script>", "line\nbreak",
-                 "\u0000", "\x1b[31mred", "x" * 121, "x" * 300, "x" * 70000, "\u202e", "é", "NaN", "name with spaces", "%s%n", "~"]
-EXTREME_NUMBERS = [b"0", b"-0.0", b"-1", b"1e300", b"-1e300", b"1e-300", b"1e39", b"nan", b"-inf", b"343600", b"343598.5", b"99.9",
-                   b"-99.9", b"101", b"1000", b"20000", b"2147483647", b"2147483648", b"-2147483649", b"4294967297",
-                   b"9223372036854775808", b"18446744073709551616", b"-9223372036854775809", b"0x10", b"1e", b"1e400", b"00012",
-                   b"9" * 400, b"3.0000000000000000000000000001", b"0.5"]
+HOSTILE_NAMES = [
+    "", ".", "..", "/", "../../around/victim", "../around/victim", "../../../around/victim", "../escaped",
+    f"{ESCAPE}/around/victim", f"{ESCAPE}/escaped", "a/b", "a\\b", "-rf", "<script>alert(1)</script>", "line\nbreak",
+    "\u0000", "\x1b[31mred", "x" * 121, "x" * 300, "x" * 70000, "\u202e", "é", "NaN", "name with spaces", "%s%n", "~"
+]
+EXTREME_NUMBERS = [
+    b"0", b"-0.0", b"-1", b"1e300", b"-1e300", b"1e-300", b"1e39", b"nan", b"-inf", b"343600", b"343598.5", b"99.9",
+    b"-99.9", b"101", b"1000", b"20000", b"2147483647", b"2147483648", b"-2147483649", b"4294967297",
+    b"9223372036854775808", b"18446744073709551616", b"-9223372036854775809", b"0x10", b"1e", b"1e400", b"00012",
+    b"9" * 400, b"3.0000000000000000000000000001", b"0.5"
+]
 NOT_UTF8 = [b"\xff", b"\xc0\x80", b"\xed\xa0\x80", b"\xf8\x88\x80\x80\x80", b"\xe9"]
 
-
 # ---- bytes of any file ----------------------------------------------------------------------------------------------
+
 
 def flip_bit(content: bytes, random: random.Random) -> bytes:
     if not content:
@@ -74,8 +78,11 @@ def append_bytes(content: bytes, random: random.Random) -> bytes:
 
 
 def replace_all(content: bytes, random: random.Random) -> bytes:
-    return random.choice([b"", b"\x00", b"garbage", b"{}", b"[]", b"null", b"\xff\xfe", b"[" * 200000, b'{"a":' * 200000,
-                          b"a: &a [*a]\n", b"<a>" * 5000, content[:len(content) // 2] * 2, random.randbytes(500)])
+    return random.choice([
+        b"", b"\x00", b"garbage", b"{}", b"[]", b"null", b"\xff\xfe", b"[" * 200000, b'{"a":' * 200000, b"a: &a [*a]\n",
+        b"<a>" * 5000, content[:len(content) // 2] * 2,
+        random.randbytes(500)
+    ])
 
 
 def insert_not_utf8(content: bytes, random: random.Random) -> bytes:
@@ -84,6 +91,7 @@ def insert_not_utf8(content: bytes, random: random.Random) -> bytes:
 
 
 # ---- numbers and lines of any text ----------------------------------------------------------------------------------
+
 
 def change_number(content: bytes, random: random.Random) -> bytes:
     numbers = list(re.finditer(rb"-?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?", content))
@@ -125,6 +133,7 @@ def as_text(name: str) -> bytes:
 
 # ---- JSON -----------------------------------------------------------------------------------------------------------
 
+
 def json_places(value: object, place: tuple = ()) -> list[tuple]:
     """Paths of all values below the root."""
     children = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
@@ -160,8 +169,14 @@ def choose_place(places: list[tuple], random: random.Random) -> tuple:
 
 
 def json_value(value: object, random: random.Random) -> object:
-    return random.choice([None, True, "text", [], {}, [value], {"a": value}, -1, 0, 0.5, 1e300, float("nan"), 2**31, 2**32 + 1, 2**63,
-                          2**64, -2**63, -2**63 - 1, nested(60), nested(70), nested(900), list(range(3000))])
+    return random.choice([
+        None, True, "text", [], {}, [value], {"a": value}, -1, 0, 0.5, 1e300,
+        float("nan"), 2**31, 2**32 + 1, 2**63, 2**64, -2**63, -2**63 - 1,
+        nested(60),
+        nested(70),
+        nested(900),
+        list(range(3000))
+    ])
 
 
 def json_change(document: object, random: random.Random) -> None:
@@ -217,10 +232,12 @@ def change_json_text(content: bytes, random: random.Random) -> bytes:
     key = b'"' + member.group(1) + b'": '
     new = random.choice([
         key + random.choice([b"1", b'"../../around/victim"', b"null"]) + b", " + member.group(),
-        member.group() + b", " + key + random.choice([b"1", b'"twice"', b"{}"]),
-        key + b'"\\ud800"', key + b'"\\u0000"', key + b'"' + random.choice(NOT_UTF8) + b'"', key + b"[" * 200000 + b"]" * 200000,
+        member.group() + b", " + key + random.choice([b"1", b'"twice"', b"{}"]), key + b'"\\ud800"', key + b'"\\u0000"',
+        key + b'"' + random.choice(NOT_UTF8) + b'"', key + b"[" * 200000 + b"]" * 200000,
         key + b'{"a":' * 66 + b"1" + b"}" * 66, key + b'"' + b"x" * 1000000 + b'"', key + b"1" + b"0" * 5000,
-        b"/* comment */ " + member.group(), member.group() + b",", key + b"NaN", key + b"-Infinity", key + b"+1", key + b".5"])
+        b"/* comment */ " + member.group(),
+        member.group() + b",", key + b"NaN", key + b"-Infinity", key + b"+1", key + b".5"
+    ])
     return content[:member.start()] + new + content[member.end():]
 
 
@@ -237,12 +254,19 @@ def change_json_line(content: bytes, random: random.Random) -> bytes:
 
 # ---- YAML -----------------------------------------------------------------------------------------------------------
 
-YAML_BOMBS = [b"a: &a [*a]\n", b"&a {b: *a}\n", b"? [a, b]\n: 1\n", b"a: !!binary x\n", b"a: !<tag:example.org,2026:x> {}\n", b"<<: *missing\n",
-              b"a: &b 1\n<<: {a: 2}\n", b"- " * 300, b"{" * 300, b"[" * 20000, b"a:\n" + b"".join(b" " * i + b"a:\n" for i in range(1, 90)),
-              b"--- 1\n--- 2\n", b"%YAML 9.9\n---\na: 1\n", b"a: 1\na: 2\n", b"a: '" + b"x" * 2000000 + b"'\n", b"\xef\xbb\xbfa: 1\n",
-              b"a: |\n" + b"  line\n" * 20000, b"a: 1\n\ta: 2\n", b"a: [" + b"1, " * 200000 + b"1]\n",
-              b"".join(b"%c: &%c [%s]\n" % (97 + i, 97 + i, b",".join([b"*%c" % (96 + i)] * 9) if i else b"1,1") for i in range(10))]
-YAML_VALUES = [b"[]", b"{}", b"~", b"[1, 2, 3, 4, 5]", b"{a: {b: {c: 1}}}", b"!!str 1", b"&x 1", b"*x", b".nan", b"-.inf", b"yes", b"1_000", b"'", b"["]
+YAML_BOMBS = [
+    b"a: &a [*a]\n", b"&a {b: *a}\n", b"? [a, b]\n: 1\n", b"a: !!binary x\n", b"a: !<tag:example.org,2026:x> {}\n",
+    b"<<: *missing\n", b"a: &b 1\n<<: {a: 2}\n", b"- " * 300, b"{" * 300, b"[" * 20000,
+    b"a:\n" + b"".join(b" " * i + b"a:\n" for i in range(1, 90)), b"--- 1\n--- 2\n", b"%YAML 9.9\n---\na: 1\n",
+    b"a: 1\na: 2\n", b"a: '" + b"x" * 2000000 + b"'\n", b"\xef\xbb\xbfa: 1\n", b"a: |\n" + b"  line\n" * 20000,
+    b"a: 1\n\ta: 2\n", b"a: [" + b"1, " * 200000 + b"1]\n",
+    b"".join(b"%c: &%c [%s]\n" % (97 + i, 97 + i, b",".join([b"*%c" % (96 + i)] * 9) if i else b"1,1")
+             for i in range(10))
+]
+YAML_VALUES = [
+    b"[]", b"{}", b"~", b"[1, 2, 3, 4, 5]", b"{a: {b: {c: 1}}}", b"!!str 1", b"&x 1", b"*x", b".nan", b"-.inf", b"yes",
+    b"1_000", b"'", b"["
+]
 
 
 def change_yaml(content: bytes, random: random.Random) -> bytes:
@@ -263,6 +287,7 @@ def change_yaml(content: bytes, random: random.Random) -> bytes:
 
 # ---- XML ------------------------------------------------------------------------------------------------------------
 
+
 def change_xml(content: bytes, random: random.Random) -> bytes:
     tags = list(re.finditer(rb"<[^>]*>", content))
     values = list(re.finditer(rb'"[^"]*"', content))
@@ -278,14 +303,18 @@ def change_xml(content: bytes, random: random.Random) -> bytes:
         return content[:value.start()] + other.group() + content[value.end():]
     if change == 3 and tags:
         at = random.choice(tags).start()
-        text = random.choice([b"<!DOCTYPE r [<!ENTITY a \"aaaa\">]>", b"<!-- -- -->", b"<![CDATA[", b"<?x?>", b"&a;", b"&#0;", b"&#xd800;", b"<a>" * 70,
-                              b"<a " + b" ".join(b'b%d=""' % i for i in range(5000)) + b"/>", b"\x00", b"<a" * 3000])
+        text = random.choice([
+            b"<!DOCTYPE r [<!ENTITY a \"aaaa\">]>", b"<!-- -- -->", b"<![CDATA[", b"<?x?>", b"&a;", b"&#0;",
+            b"&#xd800;", b"<a>" * 70, b"<a " + b" ".join(b'b%d=""' % i for i in range(5000)) + b"/>", b"\x00",
+            b"<a" * 3000
+        ])
         return content[:at] + text + content[at:]
     if values:
         value = random.choice(values)
         new = random.choice(EXTREME_NUMBERS + [as_text(name) for name in HOSTILE_NAMES] +
                             [b"0 0 343600", b"0 0", b"1 2 3 4", b"0 0 0", b"0 0 99", b"1e-9 1e-9 1e-9"])
-        return content[:value.start()] + b'"' + new.replace(b'"', b"").replace(b"<", b"&lt;") + b'"' + content[value.end():]
+        return content[:value.start()] + b'"' + new.replace(b'"', b"").replace(b"<",
+                                                                               b"&lt;") + b'"' + content[value.end():]
     return flip_bit(content, random)
 
 
@@ -298,20 +327,24 @@ def change_robot(content: bytes, random: random.Random) -> bytes:
     first, last = random.choice(links), random.choice(links)
 
     def joint(number: int, parent: bytes, child: bytes) -> bytes:
-        return b'<joint name="added%d" type="fixed"><parent link="%s"/><child link="%s"/></joint>' % (number, parent, child)
+        return b'<joint name="added%d" type="fixed"><parent link="%s"/><child link="%s"/></joint>' % (number, parent,
+                                                                                                      child)
+
     change = random.randrange(3)
     if change == 0:
         added = joint(0, first, last)
     elif change == 1:
         count = random.choice([3, 200, 20000])
         names = [last] + [b"added%d" % number for number in range(count)]
-        added = b"".join(b'<link name="%s"/>' % name for name in names[1:]) + b"".join(joint(i, names[i], names[i + 1]) for i in range(count))
+        added = b"".join(b'<link name="%s"/>' % name
+                         for name in names[1:]) + b"".join(joint(i, names[i], names[i + 1]) for i in range(count))
     else:
         added = b'<link name="%s"/>' % first + joint(0, first, b"missing")
     return content[:end] + added + content[end:]
 
 
 # ---- meshes ---------------------------------------------------------------------------------------------------------
+
 
 def change_mesh_text(content: bytes, random: random.Random) -> bytes:
     """A word of a line: a coordinate, an index or a count that no sound file has."""
@@ -326,11 +359,17 @@ def change_mesh_text(content: bytes, random: random.Random) -> bytes:
 def move_vertex(content: bytes, random: random.Random) -> bytes:
     """One vertex goes far away, or all do: distances below and above the allowed ones."""
     lines = content.split(b"\n")
-    vertices = [number for number, line in enumerate(lines) if re.fullmatch(rb"(v )?\s*-?[\d.]+\S* -?[\d.]+\S* -?[\d.]+\S*\s*", line)]
+    vertices = [
+        number for number, line in enumerate(lines)
+        if re.fullmatch(rb"(v )?\s*-?[\d.]+\S* -?[\d.]+\S* -?[\d.]+\S*\s*", line)
+    ]
     if not vertices:
         return flip_bit(content, random)
     axis = -1 - random.randrange(3)
-    new = random.choice([b"2.5", b"20", b"99.5", b"-99.5", b"150", b"1000", b"20000", b"343598.7", b"-343999", b"1e6", b"1e15", b"3e38", b"1e39", b"1e-40", b"nan"])
+    new = random.choice([
+        b"2.5", b"20", b"99.5", b"-99.5", b"150", b"1000", b"20000", b"343598.7", b"-343999", b"1e6", b"1e15", b"3e38",
+        b"1e39", b"1e-40", b"nan"
+    ])
     for number in vertices if random.random() < 0.1 else [random.choice(vertices)]:
         words = lines[number].split()
         words[axis] = new
@@ -351,7 +390,8 @@ def change_faces(content: bytes, random: random.Random) -> bytes:
         lines.insert(at, b"f " + b" ".join(b"%d" % (1 + i % 8) for i in range(count)))
     elif change == 1:
         words = lines[at].split()
-        words[-1] = random.choice([b"0", b"-1", b"-9", b"9999999", b"2147483648", b"4294967297", b"18446744073709551617", b"1/0/0"])
+        words[-1] = random.choice(
+            [b"0", b"-1", b"-9", b"9999999", b"2147483648", b"4294967297", b"18446744073709551617", b"1/0/0"])
         lines[at] = b" ".join(words)
     elif change == 2:
         lines[at:at + 1] = [lines[at]] * random.choice([2, 500])
@@ -367,8 +407,11 @@ def change_mesh_word(content: bytes, random: random.Random) -> bytes:
         return flip_bit(content, random)
     begin = 80 if len(content) > 200 else 0
     at = random.choice([80, 84]) if begin and random.random() < 0.2 else random.randrange(begin, len(content) - 4)
-    word = random.choice([struct.pack("<f", random.choice([343600.0, 1e30, float("nan"), float("inf"), 1000.0, 99.0, 1e-42])),
-                          struct.pack("<I", random.choice([0xFFFFFFFF, 0x80000000, 0x7FFFFFFF, 0, 1 << 20]))])
+    word = random.choice([
+        struct.pack("<f", random.choice([343600.0, 1e30,
+                                         float("nan"), float("inf"), 1000.0, 99.0, 1e-42])),
+        struct.pack("<I", random.choice([0xFFFFFFFF, 0x80000000, 0x7FFFFFFF, 0, 1 << 20]))
+    ])
     return content[:at] + word + content[at + 4:]
 
 
@@ -377,13 +420,15 @@ def change_glb(content: bytes, random: random.Random) -> bytes:
     if len(content) < 20 or content[:4] != b"glTF":
         return flip_bit(content, random)
     (length,) = struct.unpack("<I", content[12:16])
-    text = random.choice([change_json, change_json, change_json_text, change_number])(content[20:20 + length].rstrip(), random)
+    text = random.choice([change_json, change_json, change_json_text, change_number])(content[20:20 + length].rstrip(),
+                                                                                      random)
     text += b" " * (-len(text) % 4)
     rest = content[20 + length:]
     return struct.pack("<4sIIII", b"glTF", 2, 20 + len(text) + len(rest), len(text), 0x4E4F534A) + text + rest
 
 
 # ---- containers: tar, PNG, zip, npy, safetensors --------------------------------------------------------------------
+
 
 def tar_header(header: bytes, name: bytes | None = None, size: bytes | None = None) -> bytes:
     """With another name or size, its checksum mended."""
@@ -469,8 +514,9 @@ def change_png(content: bytes, random: random.Random) -> bytes:
             chunks[number] = (kind, flip_bit(body, random))
     else:
         chunks[number] = (kind, flip_bit(body, random))
-    return content[:8] + b"".join(struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
-                                  for kind, body in chunks)
+    return content[:8] + b"".join(
+        struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+        for kind, body in chunks)
 
 
 def change_zip(content: bytes, random: random.Random) -> bytes:
@@ -492,7 +538,8 @@ def change_zip(content: bytes, random: random.Random) -> bytes:
     elif change == 2:
         members[number] = (name, body * random.choice([2, 100]))
     else:
-        members[number] = (name, random.choice([flip_bit, set_byte, drop_piece, repeat_piece, change_pickle])(body, random))
+        members[number] = (name, random.choice([flip_bit, set_byte, drop_piece, repeat_piece, change_pickle])(body,
+                                                                                                              random))
     method = zipfile.ZIP_DEFLATED if random.random() < 0.1 else zipfile.ZIP_STORED
     out = io.BytesIO()
     with zipfile.ZipFile(out, "w", method) as target:
@@ -504,8 +551,11 @@ def change_zip(content: bytes, random: random.Random) -> bytes:
 def change_pickle(content: bytes, random: random.Random) -> bytes:
     """Operations that a reader of tensors must not carry out, or numbers that it must not believe."""
     at = random.randrange(len(content) + 1)
-    new = random.choice([b"cos\nsystem\n", b"(S'touch escaped'\ntR.", b"\x8a\xff" + b"\x7f" * 255, b"J\xff\xff\xff\x7f", b"h\xff", b"j\xff\xff\xff\xff",
-                         b"B\xff\xff\xff\x7f", b"(" * 5000, b"]" * 5000, b"2" * 5000, b"Q", b"R", b"M\xff\xff", b"."])
+    new = random.choice([
+        b"cos\nsystem\n", b"(S'touch escaped'\ntR.", b"\x8a\xff" + b"\x7f" * 255, b"J\xff\xff\xff\x7f", b"h\xff",
+        b"j\xff\xff\xff\xff", b"B\xff\xff\xff\x7f", b"(" * 5000, b"]" * 5000, b"2" * 5000, b"Q", b"R", b"M\xff\xff",
+        b"."
+    ])
     return content[:at] + new + content[at:]
 
 
@@ -518,8 +568,10 @@ def change_npy(content: bytes, random: random.Random) -> bytes:
     word = random.choice(list(re.finditer(rb"'[^']*'|\d+|True|False|\(|\)|,|\{|\}", header)) or [None])
     if word is None:
         return flip_bit(content, random)
-    new = random.choice([b"'<f8'", b"'|O'", b"'>f4'", b"'<f4'", b"True", b"0", b"-1", b"4294967296", b"18446744073709551616", b"1" * 60, b"(", b"((((", b"",
-                         b"(1,)*9", b"'x'", b"\xff"])
+    new = random.choice([
+        b"'<f8'", b"'|O'", b"'>f4'", b"'<f4'", b"True", b"0", b"-1", b"4294967296", b"18446744073709551616", b"1" * 60,
+        b"(", b"((((", b"", b"(1,)*9", b"'x'", b"\xff"
+    ])
     header = header[:word.start()] + new + header[word.end():]
     if random.random() < 0.5:
         header = header.rstrip(b" \n") + b" " * max(0, length - len(header.rstrip(b" \n")) - 1) + b"\n"

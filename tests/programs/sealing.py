@@ -58,7 +58,7 @@ def seal_hashes(folder: pathlib.Path, path: pathlib.Path, old: bytes, new: bytes
 
 
 def seal_index(index: pathlib.Path, tar: bytes) -> bytes | None:
-    """The index's text for this tar: members, offsets, sizes, checksums, hash. Nothing if the index knows other members."""
+    """The index's text for this tar: offsets, sizes, checksums, hash. Nothing if the index knows other members."""
     # real numbers keep their digits
     document = json.loads(index.read_bytes(), parse_float=lambda digits: "@real@" + digits)
     found = {name: (at + 512, size) for at, name, size in tar_members(tar)}
@@ -80,6 +80,7 @@ def index_text(document: dict) -> bytes:
 
     def text() -> bytes:
         return re.sub(r'"@real@([^"]*)"', r"\1", json.dumps(document, indent=2, ensure_ascii=False)).encode() + b"\n"
+
     document["index_crc32c"] = crc32c(text())
     return text()
 

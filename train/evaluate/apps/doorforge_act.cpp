@@ -179,11 +179,22 @@ std::optional<Grasper> LoadGrasper(const std::string& folder, const GraspOptions
   return Grasper{MakeGraspPolicy(std::move(record.networks), options), record.weights_sha256};
 }
 
+// What of a picture does not fit its camera or another picture is said of these files.
+template <class Look>
+auto NamingFiles(const std::string& files, const Look& look) {
+  try {
+    return look();
+  } catch (const Error& error) {
+    throw Error(error.code(), files + ": " + error.what());
+  }
+}
+
 /// Decides picture by picture, as one episode: what has been unlocked stays unlocked.
 class Decider {
  public:
   explicit Decider(const Options& options)
       : stage_(options.stage),
+        camera_name_(options.camera),
         stream_(options.stream),
         config_(ConfigOf(options)),
         robot_(LoadRobot({}, RobotBaseNamed(options.base))),
@@ -198,10 +209,14 @@ class Decider {
       throw Error(ErrorCode::kInvalidArgument,
                   "a grasp is to be chosen, and --grasper, which chooses it, was not given");
     const double yaw = config_.door_yaw_rad;
-    const HandleSight sight =
-        ObserveHandle(ReadDepth(depth_path),
-                      DecodeMaskPng(ReadFile(handle_path, kMostPictureBytes), handle_path.string()),
-                      camera_, -Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0), config_.cloud);
+    const DepthImage depth = ReadDepth(depth_path);
+    const PixelMask handle =
+        DecodeMaskPng(ReadFile(handle_path, kMostPictureBytes), handle_path.string());
+    const HandleSight sight = NamingFiles(
+        depth_path.string() + ", " + handle_path.string() + " and " + camera_name_, [&] {
+          return ObserveHandle(depth, handle, camera_,
+                               -Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0), config_.cloud);
+        });
     return Record(*grasper_->policy->Choose(sight.view), sight);
   }
 
@@ -209,7 +224,9 @@ class Decider {
     const RobotState state = ReadRobotState(state_path, robot_);
     const DepthImage depth = ReadDepth(depth_path);
     const Stage stage = StageOf(state, state_path.string());
-    const RobotSight sight = ObserveDepth(depth, camera_, state, config_.cloud);
+    const RobotSight sight = NamingFiles(depth_path.string() + " and " + camera_name_, [&] {
+      return ObserveDepth(depth, camera_, state, config_.cloud);
+    });
     Actor& actor = ActorOf(stage);
     return Record(stage, actor, state, sight, actor.policy->Act(sight.observation));
   }
@@ -281,6 +298,7 @@ class Decider {
   }
 
   std::string stage_;
+  std::string camera_name_;
   bool stream_;
   ActConfig config_;
   RobotModel robot_;

@@ -1,0 +1,52 @@
+# SPDX-FileCopyrightText: 2026 The doorforge authors
+# SPDX-License-Identifier: Apache-2.0
+"""What `act` refuses because its files do not fit each other names these files."""
+import unittest
+
+from programs import ProgramTest, run
+from sound_inputs import grey_png, write_sight
+
+
+class ActMessages(ProgramTest):
+    def setUp(self) -> None:
+        super().setUp()
+        write_sight(self.folder)
+        self.depth, self.camera = self.folder / "tested_depth.png", self.folder / "tested_camera.yaml"
+        self.state, self.mask = self.folder / "tested_state.yaml", self.folder / "tested_mask.png"
+
+    def act(self, *more: object):
+        return run("act", "--depth", self.depth, "--camera", self.camera, *more)
+
+    def open(self):
+        return self.act("--state", self.state, "--policy", self.folder / "tested_opener")
+
+    def grasp(self):
+        return self.act("--handle", self.mask, "--grasper", self.folder / "tested_grasper")
+
+    def assert_names(self, result, *paths) -> None:
+        self.assert_refused(result, 2)
+        for path in paths:
+            self.assertIn(str(path), result.stderr)
+
+    def test_sound_files_are_taken(self):
+        self.assert_ends(self.open(), 0)
+        self.assert_ends(self.grasp(), 0)
+
+    def test_a_picture_of_another_size_than_the_camera_file_says(self):
+        self.camera.write_text(self.camera.read_text().replace("160", "150"))
+        self.assert_names(self.open(), self.depth, self.camera)
+        self.assert_names(self.grasp(), self.depth, self.camera)
+
+    def test_a_picture_without_depth(self):
+        self.depth.write_bytes(grey_png(160, 120, lambda x, y: 0))
+        self.assert_names(self.open(), self.depth, self.camera)
+
+    def test_a_mask_of_another_size_and_an_empty_one(self):
+        self.mask.write_bytes(grey_png(80, 60, lambda x, y: 1))
+        self.assert_names(self.grasp(), self.depth, self.mask)
+        self.mask.write_bytes(grey_png(160, 120, lambda x, y: 0))
+        self.assert_names(self.grasp(), self.depth, self.mask)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

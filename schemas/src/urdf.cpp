@@ -420,7 +420,7 @@ UrdfModel ParseUrdf(const std::string& text, const std::string& name) {
   tinyxml2::XMLDocument document;
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS)
     source.Fail(document.ErrorLineNum(),
-                std::string("not well-formed XML (") + document.ErrorName() + ")");
+                "not well-formed XML; each tag needs its end, each value its quotes");
   const XMLElement* robot = document.RootElement();
   if (robot == nullptr || std::string_view(robot->Name()) != "robot")
     source.Fail(robot == nullptr ? 1 : robot->GetLineNum(), "the root element is not <robot>");

@@ -19,7 +19,7 @@ CODES = (0, 1, 2, 3, 4)
 LIBRARY_WORDS = re.compile(
     rb"json\.exception|basic_string|vector::_M|\bstd::|map::at|stoull|stoi\b|stod\b|filesystem error|yaml-cpp|YAML::|"
     rb"bad conversion|terminate called|Assertion|AddressSanitizer|runtime error|\bcv::|OpenCV|c10::|torch::|\bat::|"
-    rb"pickle\.|Exception raised|Traceback|CGAL|libpng|"
+    rb"pickle\.|Exception raised|Traceback|CGAL|"
     rb"tinyxml|XML_ERROR|HDF5-DIAG|H5[A-Z][a-z]+\(|what\(\)")
 
 

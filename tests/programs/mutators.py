@@ -401,8 +401,8 @@ def change_faces(content: bytes, random: random.Random) -> bytes:
     return b"\n".join(lines)
 
 
-def change_mesh_word(content: bytes, random: random.Random) -> bytes:
-    """A 32 bit word of a binary file becomes a count or a coordinate that no sound file has."""
+def change_word(content: bytes, random: random.Random) -> bytes:
+    """A 32 bit word of a binary file becomes a count or a number that no sound file has."""
     if len(content) < 8:
         return flip_bit(content, random)
     begin = 80 if len(content) > 200 else 0
@@ -608,14 +608,14 @@ BY_SUFFIX: dict[str, list[Mutation]] = {
     ".mtl": TEXT,
     ".off": TEXT + [change_mesh_text] * 5 + [move_vertex] * 5,
     ".ply": TEXT + [change_mesh_text] * 5 + [move_vertex] * 3,
-    ".stl": ANY + [change_mesh_word] * 8,
-    ".glb": ANY + [change_mesh_word] * 4 + [change_glb] * 8,
+    ".stl": ANY + [change_word] * 8,
+    ".glb": ANY + [change_word] * 4 + [change_glb] * 8,
     ".tar": ANY + [change_tar] * 5 + [change_tar_member] * 8,
     ".partial": ANY + [change_tar] * 5 + [change_tar_member] * 3,
     ".png": ANY + [change_png] * 8,
     ".npy": ANY + [change_npy] * 8,
     ".torch": ANY + [change_zip] * 10,
-    ".safetensors": ANY + [change_tensors] * 8,
+    ".safetensors": ANY + [change_tensors] * 8 + [change_word] * 4,
 }
 
 

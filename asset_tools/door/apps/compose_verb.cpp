@@ -637,7 +637,9 @@ int RunComposeVerb(int argc, char** argv) {
   const ComposeRequest request = RequestOf(options);
   const bool many =
       options.all || options.as_imported || IsGlob(request.body) || IsGlob(request.handle);
-  return many ? ComposeMany(options, request) : OneDoor(options, request).Run();
+  return NamingConfig(options.config, [&] {
+    return many ? ComposeMany(options, request) : OneDoor(options, request).Run();
+  });
 }
 
 }  // namespace doorforge

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The doorforge authors
 # SPDX-License-Identifier: Apache-2.0
-"""What `act` refuses because its files do not fit each other names these files."""
+"""What is refused is said with its files, in our words: pictures that do not fit, settings of a door, XML."""
 import unittest
 
 from programs import ProgramTest, run
@@ -46,6 +46,27 @@ class ActMessages(ProgramTest):
         self.assert_names(self.grasp(), self.depth, self.mask)
         self.mask.write_bytes(grey_png(160, 120, lambda x, y: 0))
         self.assert_names(self.grasp(), self.depth, self.mask)
+
+
+class OtherMessages(ProgramTest):
+    def test_a_door_that_a_config_asks_for_and_cannot_be_made(self):
+        config = self.folder / "mine.yaml"
+        for text in ("body: interior_flush_99\nhandle: interior_lever_tube_01\n",
+                     "body: interior_flush_01\nhandle: interior_lever_tube_01\nleaf_width_m: 1e39\n"):
+            config.write_text(text)
+            result = run("compose", "--config", config, "--out", self.folder / "door")
+            self.assert_refused(result, 2, 3)
+            self.assertIn(str(config), result.stderr)
+
+    def test_a_robot_that_is_no_xml(self):
+        robot, door = self.folder / "mine.urdf", self.folder / "door"
+        self.assert_ends(run("compose", "--body", "interior_flush_01", "--handle", "interior_lever_tube_01", "--out", door), 0)
+        for text in ("", "garbage", '<robot name="a"><link name="b"></robot>'):
+            robot.write_text(text)
+            result = run("simulate", "--door", door, "--seeds", 1, "--robot", robot)
+            self.assert_refused(result, 2, 3)
+            self.assertIn(str(robot), result.stderr)
+            self.assertNotIn("XML_", result.stderr)
 
 
 if __name__ == "__main__":

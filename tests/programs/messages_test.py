@@ -51,12 +51,10 @@ class ActMessages(ProgramTest):
 class OtherMessages(ProgramTest):
     def test_a_door_that_a_config_asks_for_and_cannot_be_made(self):
         config = self.folder / "mine.yaml"
-        for text in ("body: interior_flush_99\nhandle: interior_lever_tube_01\n",
-                     "body: interior_flush_01\nhandle: interior_lever_tube_01\nleaf_width_m: 1e39\n"):
-            config.write_text(text)
-            result = run("compose", "--config", config, "--out", self.folder / "door")
-            self.assert_refused(result, 2, 3)
-            self.assertIn(str(config), result.stderr)
+        config.write_text("body: interior_flush_01\nhandle: interior_lever_tube_01\nleaf_width_m: 1e39\n")
+        result = run("compose", "--config", config, "--out", self.folder / "door")
+        self.assert_refused(result, 2)
+        self.assertIn(str(config), result.stderr)
 
     def test_a_robot_that_is_no_xml(self):
         robot, door = self.folder / "mine.urdf", self.folder / "door"

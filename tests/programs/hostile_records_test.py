@@ -160,6 +160,11 @@ class HostileRecords(ProgramTest):
             self.assert_refused(result, 2)
             self.assertIn("mine.yaml", result.stderr)
             self.assertNotIn("yaml-cpp", result.stderr)
+        for text in ("body: nothing_01\nhandle: safe_ell_01\n", "body: safe_antique_01\nhandle: nothing_01\n"):
+            settings.write_text(text)
+            result = run("compose", "--config", settings, "--out", self.folder / "d")
+            self.assert_refused(result, 3)
+            self.assertIn("mine.yaml", result.stderr)
         settings.write_text("scene: {randomisation: wild}\n")
         for command in (["datagen", "open", "--doors", door, "--episodes", 1, "--out", self.folder / "d"],
                         ["simulate", "--door", door, "--episodes", 1]):

@@ -554,8 +554,8 @@ class OneDoor {
   void LoadParts() {
     const bool own_body = store_.IsToImport(request_.body);
     const bool own_handle = store_.IsToImport(request_.handle);
-    if (!own_body) body_ = store_.Load(request_.body);
-    if (!own_handle) handle_ = store_.Load(request_.handle);
+    if (!own_body) body_ = Load("body", request_.body, options_.body);
+    if (!own_handle) handle_ = Load("handle", request_.handle, options_.handle);
     if (own_body)
       body_ = ImportOwn({request_.body, PartRole::kBody, CategoryFor(handle_), request_.body_mesh},
                         own_body_);
@@ -563,6 +563,16 @@ class OneDoor {
       handle_ =
           ImportOwn({request_.handle, PartRole::kHandle, CategoryFor(body_), request_.handle_mesh},
                     own_handle_);
+  }
+
+  // A name that no option gave is the settings file's, and so is what is wrong with it.
+  Part Load(const std::string& key, const std::string& name, const std::string& option) const {
+    try {
+      return store_.Load(name);
+    } catch (const Error& error) {
+      if (!option.empty() || options_.config.empty()) throw;
+      throw Error(error.code(), options_.config + ": " + key + ": " + error.what());
+    }
   }
 
   // that of the other half

@@ -189,6 +189,24 @@ TEST(Checkpoint, AStateOfAnotherRunIsNotResumed) {
   ExpectError(ErrorCode::kInvalidArgument, "config", [&] { ReadTrainerState(folder, provenance); });
 }
 
+TEST(Checkpoint, ADamagedStateIsNotGoneOnFrom) {
+  const fs::path folder = EmptyFolder("damaged");
+  const PolicyProvenance provenance{"open", "abc", "v", {}, 0};
+  WriteTrainerState(folder, SomeState(), provenance);
+  const fs::path file = folder / "training.safetensors";
+  const std::string sound = ReadFile(file);
+  for (const double place : {0.3, 0.5, 0.7, 0.9, 0.999}) {
+    std::string damaged = sound;
+    const auto at = static_cast<std::size_t>(place * static_cast<double>(sound.size()));
+    damaged[at] = static_cast<char>(damaged[at] ^ 1);
+    CommitFile(file, damaged);
+    ExpectError(ErrorCode::kFormat, "training.safetensors",
+                [&] { ReadTrainerState(folder, provenance); });
+  }
+  CommitFile(file, sound);
+  EXPECT_EQ(ReadTrainerState(folder, provenance).step, SomeState().step);
+}
+
 TEST(Checkpoint, TheGraspsLossesHaveTheirOwnNamesAndGapsUntilTheyAreKnown) {
   const fs::path folder = EmptyFolder("grasp_losses");
   TrainerState state = SomeState();

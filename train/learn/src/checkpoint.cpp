@@ -27,6 +27,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kWeightsFile = "policy.safetensors";
 constexpr const char* kRecordFile = "policy.json";
 constexpr const char* kStateFile = "training.safetensors";
+constexpr const char* kStateHash = "content_sha256";
 constexpr const char* kLossesFile = "losses.json";
 constexpr int kLossesSchemaVersion = 1;
 
@@ -186,6 +187,28 @@ const std::string& MetadataOf(const TensorFile& file, const std::string& key,
   if (found == file.metadata.end())
     throw Error(ErrorCode::kFormat, path + ": lacks the metadata \"" + key + "\"");
   return found->second;
+}
+
+// Of all that the file holds but this hash: a training that goes on from a damaged number would end
+// in a policy that nobody can tell from a sound one.
+std::string StateHash(const TensorFile& file) {
+  Sha256 hash;
+  const auto add = [&](const std::string& text) {
+    hash.Update(std::to_string(text.size()) + ":");
+    hash.Update(text);
+  };
+  for (const auto& [name, tensor] : file.tensors) {
+    add(name);
+    add(std::to_string(static_cast<int>(tensor.type)));
+    for (const std::uint64_t length : tensor.shape) add(std::to_string(length));
+    add(tensor.bytes);
+  }
+  for (const auto& [key, text] : file.metadata) {
+    if (key == kStateHash) continue;
+    add(key);
+    add(text);
+  }
+  return hash.HexDigest();
 }
 
 void RequireSame(const TensorFile& file, const std::string& key, const std::string& expected,
@@ -357,6 +380,7 @@ void WriteTrainerState(const fs::path& folder, const TrainerState& state,
                    {"from_weights_sha256", provenance.from_weights_sha256},
                    {"normalisation", JsonText(NormalisationToJson(state.networks.normalisation))},
                    {"step", std::to_string(state.step)}};
+  file.metadata[kStateHash] = StateHash(file);
   CommitFile(folder / kStateFile, EncodeTensors(file));
 }
 
@@ -365,6 +389,11 @@ bool HasTrainerState(const fs::path& folder) { return fs::exists(folder / kState
 TrainerState ReadTrainerState(const fs::path& folder, const PolicyProvenance& expected) {
   const std::string path = (folder / kStateFile).string();
   const TensorFile file = ReadTensors(path);
+  if (MetadataOf(file, kStateHash, path) != StateHash(file))
+    throw Error(ErrorCode::kFormat,
+                path +
+                    ": damaged: its content is not what its own SHA-256 says; put back a copy, or "
+                    "train again with --overwrite");
   RequireSame(file, "dataset_sha256", expected.dataset_sha256, path);
   RequireSame(file, "config", ConfigText(expected.config), path);
   RequireSame(file, "from_weights_sha256", expected.from_weights_sha256, path);

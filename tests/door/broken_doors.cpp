@@ -337,7 +337,8 @@ std::vector<BrokenDoor> BrokenDoors() {
 fs::path ValidationFolder(const std::string& name) { return ScratchFolder("validate") / name; }
 
 fs::path Written(const DoorAsset& door, const std::string& name) {
-  WriteDoorFolder(door, ValidationFolder(name), Existing::kReplace);
+  fs::remove_all(ValidationFolder(name));  // an earlier run's may be no door by now
+  WriteDoorFolder(door, ValidationFolder(name), Existing::kRefuse);
   return ValidationFolder(name);
 }
 

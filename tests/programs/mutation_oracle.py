@@ -20,7 +20,7 @@ LIBRARY_WORDS = re.compile(
     rb"json\.exception|basic_string|vector::_M|\bstd::|map::at|stoull|stoi\b|stod\b|filesystem error|yaml-cpp|YAML::|"
     rb"bad conversion|terminate called|Assertion|AddressSanitizer|runtime error|\bcv::|OpenCV|c10::|torch::|\bat::|"
     rb"pickle\.|Exception raised|Traceback|CGAL|"
-    rb"tinyxml|XML_ERROR|HDF5-DIAG|H5[A-Z][a-z]+\(|what\(\)")
+    rb"libpng|tinyxml|XML_ERROR|HDF5-DIAG|H5[A-Z][a-z]+\(|what\(\)")
 
 
 @dataclasses.dataclass(frozen=True)

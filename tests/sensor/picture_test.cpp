@@ -141,6 +141,28 @@ TEST(MaskPng, ComesBackAsItWasWrittenAndAlsoFromSixteenBits) {
   EXPECT_EQ(DecodeMaskPng(EncodeDepthPng(depth), "mask").set, mask.set);
 }
 
+TEST(DepthPng, ADamagedOneIsRefusedAndNoLibrarySpeaks) {
+  DepthImage image{8, 6, std::vector<float>(48, 1.25F)};
+  image.depth_m[7] = 2;
+  const std::string sound = EncodeDepthPng(image);
+  const std::vector<float> depth = DecodeDepthPng(sound, 0.001, "d.png").depth_m;
+  testing::internal::CaptureStderr();
+  std::size_t refused = 0;
+  for (std::size_t i = 0; i < sound.size(); ++i) {
+    std::string damaged = sound;
+    damaged[i] = static_cast<char>(damaged[i] ^ 0x10);
+    try {
+      EXPECT_EQ(DecodeDepthPng(damaged, 0.001, "d.png").depth_m, depth) << "byte " << i;
+    } catch (const Error& error) {
+      ++refused;
+      EXPECT_TRUE(std::string(error.what()).starts_with("d.png: ")) << error.what();
+    }
+    EXPECT_THROW(DecodeDepthPng(sound.substr(0, i), 0.001, "d.png"), Error) << "cut at " << i;
+  }
+  EXPECT_GT(refused, sound.size() * 9 / 10);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 TEST(MaskPng, OtherPicturesAreRefused) {
   const Picture picture{2, 1, {1, 2, 3, 4, 5, 6}};
   EXPECT_THROW(DecodeMaskPng(EncodePng(picture), "mask"), Error) << "colours";

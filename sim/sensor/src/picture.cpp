@@ -14,6 +14,7 @@
 #include "doorforge/core/error.h"
 
 #include "picture_mat.h"
+#include "png_pixels.h"
 
 namespace doorforge {
 namespace {
@@ -113,16 +114,10 @@ cv::Mat DecodeGrey(std::string_view bytes, const std::string& name, const std::v
                     std::to_string(header.height) + " pixels, " + std::to_string(header.bits) +
                     " bits" + (header.color_type == 0 ? "" : ", not grey") + "; expected " +
                     ListOf(bits) + "-bit grey, 1 to 8192 pixels a side");
-  const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8UC1,
-                        const_cast<char*>(bytes.data()));  // only read from
-  cv::Mat pixels;
-  try {
-    pixels = cv::imdecode(encoded, cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception&) {  // reported below
-  }
-  if (pixels.type() != (header.bits == 16 ? CV_16UC1 : CV_8UC1) ||
-      pixels.cols != static_cast<int>(header.width) ||
-      pixels.rows != static_cast<int>(header.height))
+  cv::Mat pixels(static_cast<int>(header.height), static_cast<int>(header.width),
+                 header.bits == 16 ? CV_16UC1 : CV_8UC1);
+  const std::size_t row_bytes = pixels.cols * pixels.elemSize();
+  if (!internal::DecodePngPixels(bytes, pixels.data, header.height, row_bytes))
     throw Error(ErrorCode::kFormat, name + ": the PNG is damaged");
   return pixels;
 }

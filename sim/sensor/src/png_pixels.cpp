@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "png_pixels.h"
+
+#include <bit>
+#include <csetjmp>
+#include <cstring>
+#include <vector>
+
+#include <png.h>
+
+namespace doorforge::internal {
+namespace {
+
+// libpng leaves a function by longjmp, which skips destructors: what is between is plain data.
+[[noreturn]] void Leave(png_structp png, png_const_charp) { png_longjmp(png, 1); }
+void Ignore(png_structp, png_const_charp) {}
+
+void TakeBytes(png_structp png, png_bytep to, std::size_t count) {
+  auto& left = *static_cast<std::string_view*>(png_get_io_ptr(png));
+  if (count > left.size()) png_error(png, "cut off");
+  std::memcpy(to, left.data(), count);
+  left.remove_prefix(count);
+}
+
+bool ReadRows(png_structp png, png_infop info, unsigned char** rows, std::size_t row_bytes) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  png_read_info(png, info);
+  if (png_get_bit_depth(png, info) == 16 && std::endian::native == std::endian::little)
+    png_set_swap(png);
+  png_set_interlace_handling(png);
+  png_read_update_info(png, info);
+  if (png_get_rowbytes(png, info) != row_bytes) return false;
+  png_read_image(png, rows);
+  png_read_end(png, nullptr);
+  return true;
+}
+
+}  // namespace
+
+bool DecodePngPixels(std::string_view bytes, unsigned char* pixels, std::size_t height,
+                     std::size_t row_bytes) {
+  std::vector<unsigned char*> rows;
+  for (std::size_t row = 0; row < height; ++row) rows.push_back(pixels + row * row_bytes);
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, Leave, Ignore);
+  png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
+  bool is_read = false;
+  if (info != nullptr) {
+    std::string_view left = bytes;
+    png_set_read_fn(png, &left, TakeBytes);
+    is_read = ReadRows(png, info, rows.data(), row_bytes);
+  }
+  png_destroy_read_struct(&png, &info, nullptr);
+  return is_read;
+}
+
+}  // namespace doorforge::internal

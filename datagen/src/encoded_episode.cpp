@@ -21,10 +21,11 @@ FailedEpisode FailureOf(const PlannedEpisode& planned, const DatasetDoor& door,
           episode.peak_handle_rad};
 }
 
-// Whether trying again later may end differently.
-bool IsOfEnvironment(const Error& error) {
+// Whether it is not this episode's: files that may be there at another try, and settings, which no
+// episode of the run can follow.
+bool EndsTheRun(const Error& error) {
   return error.code() == ErrorCode::kMissing || error.code() == ErrorCode::kIo ||
-         error.code() == ErrorCode::kFormat;
+         error.code() == ErrorCode::kFormat || error.code() == ErrorCode::kInvalidConfig;
 }
 
 }  // namespace
@@ -48,7 +49,7 @@ EncodedEpisode RunAndEncode(const PlannedEpisode& planned, const DatasetDoor& do
       encoded.failure = FailureOf(planned, door, collected.episode);
     }
   } catch (const Error& error) {
-    if (IsOfEnvironment(error)) throw;
+    if (EndsTheRun(error)) throw;
     encoded.failure = FailedEpisode{planned.key, door.id, "error", error.what(), 0, 0};
   }
   return encoded;

@@ -291,7 +291,8 @@ TEST(ExportDoor, MuJoCosLatchHoldsAndLetsGoOnBothSidesAndBothWays) {
 }
 
 TEST(ExportDoor, MarkupInAnIdIsEscaped) {
-  const DoorAsset door = SmallDoor({.id = "a<b>&\"c"});
+  DoorAsset door = SmallDoor({});
+  door.id = "a<b>&\"c";  // no reader takes such a name any more
   EXPECT_NE(ToMjcf(door).find("a&lt;b&gt;&amp;&quot;c"), std::string::npos);
   EXPECT_EQ(ToSdf(door).find("a<b>"), std::string::npos);
 }

@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kDecisions = 3;
 
 void WriteProvenance(const fs::path& folder) {
-  const PartIdentity body{"body of " + folder.filename().string(), "", {}};
+  const PartIdentity body{"body_of_" + folder.filename().string(), "", {}};
   DatasetProvenance provenance;
   provenance.doors.push_back(
       {"door", "", "interior", "lever", body, {"handle", "", {}}, "CC0-1.0", "train"});
@@ -85,7 +85,7 @@ TEST(StageDataset, HoldsTheDecisionsOfTheShards) {
   ASSERT_EQ(dataset.validation.size(), 3U);
   EXPECT_EQ(dataset.content_sha256.size(), 64U);
   ASSERT_EQ(dataset.parts.bodies.size(), 1U);
-  EXPECT_EQ(dataset.parts.bodies[0].id, "body of doorforge_dataset_read");
+  EXPECT_EQ(dataset.parts.bodies[0].id, "body_of_doorforge_dataset_read");
   const TrainingSample& sample = dataset.train[5];  // episode 1, decision 2
   EXPECT_TRUE(std::equal(sample.cloud.begin(), sample.cloud.end(), made.samples[5].cloud.begin(),
                          made.samples[5].cloud.end()));

@@ -33,7 +33,10 @@ Ran RunExample(const fs::path& door) {
 TEST(OwnPolicyExample, OpensMostDoorsAndSaysWhatIsWrongOtherwise) {
   const fs::path folder = fs::path(testing::TempDir()) / "own_policy_example";
   fs::remove_all(folder);
-  WriteDoor(MakePrimitiveDoor({}), folder);
+  DoorAsset door = MakePrimitiveDoor({});
+  door.body.id = "leaf";
+  door.handle.id = "lever";
+  WriteDoor(door, folder);
   const Ran ran = RunExample(folder);
   EXPECT_EQ(ran.code, 0) << ran.output;
   EXPECT_TRUE(ran.output.ends_with("opened 5 of 5\n") || ran.output.ends_with("opened 4 of 5\n"))

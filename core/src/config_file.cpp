@@ -128,9 +128,12 @@ Json ParseSettings(const std::vector<std::string>& settings) {
 
 std::string internal::WithConfigName(const std::string& path, const Error& error) {
   const std::string what = error.what();
-  const bool is_of_config =
-      error.code() == ErrorCode::kInvalidConfig && what.starts_with("config.");
-  return is_of_config ? (path.empty() ? "--set" : path) + ": " + what : what;
+  const std::string subject = what.substr(0, what.find(": "));
+  // another file than the settings', or an option, is named already
+  const bool is_named = subject.find('/') != std::string::npos || subject.ends_with(".yaml") ||
+                        subject.starts_with("--");
+  if (error.code() != ErrorCode::kInvalidConfig || is_named) return what;
+  return (path.empty() ? "--set" : path) + ": " + what;
 }
 
 Json internal::ReadConfigFile(const std::filesystem::path& path) {

@@ -128,7 +128,9 @@ TEST(ConfigFile, WhatIsRefusedLaterStillNamesTheFile) {
   };
   EXPECT_EQ(what("my.yaml", use("config.width: is 0")), "my.yaml: config.width: is 0");
   EXPECT_EQ(what("", use("config.width: is 0")), "--set: config.width: is 0");
-  EXPECT_EQ(what("my.yaml", use("doors: none")), "doors: none");
+  EXPECT_EQ(what("my.yaml", use("physics: bad")), "my.yaml: physics: bad");
+  EXPECT_EQ(what("my.yaml", use("robots/arm.yaml: bad")), "robots/arm.yaml: bad");
+  EXPECT_EQ(what("my.yaml", use("--doors: none")), "--doors: none");
   EXPECT_EQ(NamingConfig("my.yaml", [] { return 7; }), 7);
 }
 

@@ -27,7 +27,7 @@ void Check(const PhysicsConfig& config) {
       config.finger_force_n > 0 && config.operational_space.kp > 0 &&
       config.operational_space.posture_kp > 0 && config.operational_space.armature >= 0 &&
       config.operational_space.lead_m > 0 && config.operational_space.lead_rad > 0;
-  Require(good, ErrorCode::kInvalidArgument,
+  Require(good, ErrorCode::kInvalidConfig,
           "physics: time_step_s must lie in (0, 0.02], frictions be >= 0, and all other numbers "
           "be positive");
   Require(config.controller == "joint_motors" || config.controller == "operational_space",

@@ -30,8 +30,8 @@ template <class T>
 T LoadConfig(const std::string& path, const std::vector<std::string>& settings, T defaults = {});
 
 /// Gives what `use` gives. Settings are looked at where they are used, far from their file; what is
-/// refused there as "config.<key>: ..." is refused here with the file's name in front, or with
-/// "--set" where `path` is empty.
+/// refused there as kInvalidConfig is refused here with the file's name in front, or with "--set"
+/// where `path` is empty, unless it begins with the name of another file or an option.
 template <class Use>
 auto NamingConfig(const std::string& path, Use&& use);
 

@@ -158,14 +158,41 @@ void RemoveStaleBeside(const fs::path& path) {
   }
 }
 
-// A new folder with its lock, which whoever removes what was left behind respects.
-int CreateLocked(const fs::path& folder) {
-  CreateFolder(FolderOf(folder));
-  if (::mkdir(folder.c_str(), 0777) != 0) ThrowIo(folder, "cannot be created");
-  const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock < 0) ThrowIo(folder, "cannot be opened");
-  ::flock(lock, LOCK_EX | LOCK_NB);  // without effect where the file system has no locks
-  return lock;
+// Waits for the lock of what was just made: whoever looks for what was left behind may hold it for
+// a moment, before it had an owner, and then removes it. False if that has happened. Where the file
+// system knows no locks nothing is removed.
+bool BecomeOwner(int file, const fs::path& path) {
+  while (::flock(file, LOCK_EX) != 0) {
+    if (errno != EINTR) return true;
+  }
+  return IsNamed(file, path);
+}
+
+struct OwnedTemporary {
+  fs::path path;
+  int file;  // locked until it is closed
+};
+
+OwnedTemporary CreateOwnedFolder(const fs::path& beside) {
+  CreateFolder(FolderOf(beside));
+  while (true) {
+    const fs::path path = TemporaryBeside(beside);
+    if (::mkdir(path.c_str(), 0777) != 0) ThrowIo(beside, "cannot be staged");
+    const int file = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (file < 0 && errno == ENOENT) continue;
+    if (file < 0) ThrowIo(path, "cannot be opened");
+    if (BecomeOwner(file, path)) return {path, file};
+    ::close(file);
+  }
+}
+
+OwnedTemporary CreateOwnedFile(FileSystem& files, const fs::path& beside) {
+  while (true) {
+    const fs::path path = TemporaryBeside(beside);
+    const int file = files.Create(path);
+    if (BecomeOwner(file, path)) return {path, file};
+    files.Close(file);
+  }
 }
 
 [[noreturn]] void ThrowExists(const fs::path& path) {
@@ -236,24 +263,20 @@ void CommitFile(FileSystem& files, const fs::path& path, std::string_view conten
                 Existing existing) {
   files.CreateFolder(FolderOf(path));
   if (existing == Existing::kRefuse) RefuseExisting(path);
-  const fs::path temporary = TemporaryBeside(path);
-  const int file = files.Create(temporary);
-  ::flock(file, LOCK_EX | LOCK_NB);  // see RemoveStaleFiles()
-  bool is_open = true;
+  const auto [temporary, file] = CreateOwnedFile(files, path);
   try {
     WriteAll(files, file, content, temporary);
     files.Sync(file, temporary);
-    files.Close(file);
-    is_open = false;
     if (existing == Existing::kReplace)
       files.Rename(temporary, path);
     else if (!files.RenameToNew(temporary, path))
       ThrowExists(path);
   } catch (...) {
-    if (is_open) files.Close(file);
     RemoveQuietly(files, temporary);
+    files.Close(file);
     throw;
   }
+  files.Close(file);  // its lock kept the temporary until it had its name
   files.SyncFolder(FolderOf(path));
 }
 
@@ -314,8 +337,9 @@ StagedFolder::StagedFolder(fs::path target, const FolderKind& kind, Existing exi
   else if (fs::exists(fs::symlink_status(target_)))
     RequireKind(target_, kind_);
   RemoveStaleBeside(target_);
-  staging_ = TemporaryBeside(target_);
-  lock_ = CreateLocked(staging_);
+  const OwnedTemporary owned = CreateOwnedFolder(target_);
+  staging_ = owned.path;
+  lock_ = owned.file;
 }
 
 StagedFolder::~StagedFolder() {
@@ -347,9 +371,10 @@ void StagedFolder::Replace() {
 StagedBatch::StagedBatch(fs::path folder, const FolderKind& kind)
     : folder_(std::move(folder)), kind_(kind) {
   CreateFolder(folder_);
-  staging_ = folder_ / TemporaryName("batch");
-  RemoveStaleBeside(staging_);
-  lock_ = CreateLocked(staging_);
+  RemoveStaleBeside(folder_ / "batch");
+  const OwnedTemporary owned = CreateOwnedFolder(folder_ / "batch");
+  staging_ = owned.path;
+  lock_ = owned.file;
 }
 
 StagedBatch::~StagedBatch() {

@@ -3,7 +3,9 @@
 #include "doorforge/core/committed_file.h"
 
 #include <chrono>
+#include <cstdio>
 #include <fstream>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -162,6 +164,41 @@ TEST_F(CommittedFile, WhatIsBeingWrittenIsNotTakenForLeftBehind) {
   EXPECT_TRUE(fs::exists(folder.path()));
   EXPECT_TRUE(fs::exists(batch.path()));
   EXPECT_TRUE(fs::is_empty(folder_ / "deeper"));
+}
+
+// Each of these processes begins by removing what is left behind in the folder that the others are
+// staging into.
+TEST_F(CommittedFile, ManyProcessesMayStageIntoOneFolderAtATime) {
+  constexpr int kProcesses = 8;
+  constexpr int kRounds = 100;
+  std::vector<pid_t> children;
+  for (int process = 0; process < kProcesses; ++process) {
+    const pid_t child = ::fork();
+    if (child != 0) {
+      children.push_back(child);
+      continue;
+    }
+    try {
+      for (int round = 0; round < kRounds; ++round) {
+        const std::string name = std::to_string(process) + "_" + std::to_string(round);
+        RemoveStaleFiles(SystemFiles(), folder_);
+        StagedFolder staged(folder_ / name, kNote);
+        RemoveStaleFiles(SystemFiles(), folder_);
+        CommitFile(folder_ / (name + ".txt"), "1");
+        staged.Commit();
+      }
+    } catch (const Error& error) {
+      std::fprintf(stderr, "%s\n", error.what());
+      ::_exit(1);
+    }
+    ::_exit(0);
+  }
+  for (const pid_t child : children) {
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+  }
+  EXPECT_EQ(EntryCount(), static_cast<std::size_t>(2 * kProcesses * kRounds));
 }
 
 TEST_F(CommittedFile, AnothersTemporariesStayForADay) {

@@ -109,6 +109,20 @@ TEST(MakePart, AMeshThatCannotBeClosedIsAnOutcomeWithAReason) {
   EXPECT_EQ(ToJson(made)["pieces"].size(), 2U);
 }
 
+TEST(MakePart, RefusesAPieceThatIsLargerThanDoorsAre) {
+  PartDraft draft = BoxBody();
+  draft.pieces[1].mesh.vertices[0].z() = -60;  // within reach, and no leaf
+  try {
+    MakePart(draft, {});
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kFormat);
+    const std::string what = error.what();
+    EXPECT_TRUE(what.starts_with("box: leaf: 62")) << what;
+    EXPECT_NE(what.find("20 m"), std::string::npos) << what;
+  }
+}
+
 TEST(MakePart, RefusesPiecesThatTheRoleDoesNotHave) {
   PartDraft draft = BoxBody();
   draft.pieces[0].name = "grip";

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The doorforge authors
 # SPDX-License-Identifier: Apache-2.0
 """What is refused is said with its files, in our words: pictures that do not fit, settings of a door, XML."""
+import json
 import unittest
 
 from programs import ProgramTest, run
@@ -55,6 +56,34 @@ class OtherMessages(ProgramTest):
         result = run("compose", "--config", config, "--out", self.folder / "door")
         self.assert_refused(result, 2)
         self.assertIn(str(config), result.stderr)
+
+    def test_a_config_that_names_no_parts(self):
+        config = self.folder / "mine.yaml"
+        config.write_text("{}\n")
+        result = run("compose", "--config", config, "--out", self.folder / "door")
+        self.assert_refused(result, 2)
+        self.assertIn(str(config), result.stderr)
+
+    def test_physics_that_no_settings_allow(self):
+        config, door = self.folder / "mine.yaml", self.folder / "door"
+        run("compose", "--body", "safe_antique_01", "--handle", "safe_ell_01", "--out", door)
+        config.write_text("scene: {physics: {time_step_s: 1}}\n")
+        result = run("simulate", "--door", door, "--seeds", 1, "--config", config)
+        self.assert_refused(result, 2)
+        self.assertIn(str(config), result.stderr)
+
+    def test_a_joint_whose_limits_are_swapped(self):
+        door = self.folder / "door"
+        run("compose", "--body", "safe_antique_01", "--handle", "safe_ell_01", "--out", door)
+        record = json.loads((door / "door.json").read_text())
+        record["hinge"]["lower_rad"], record["hinge"]["upper_rad"] = 1.0, 0.5
+        (door / "door.json").write_text(json.dumps(record))
+        for command in (["preview", door, "--out", self.folder / "a.png"],
+                        ["preview", door, "--out", self.folder / "b.png", "--episode"]):
+            result = run(*command)
+            self.assert_ends(result, 2, 3)  # 2: a door that no world can be made of
+            self.assertIn("door", result.stderr.replace("doorforge", ""))
+        self.assert_ends(run("validate", door, "--profile", "openable"), 1)
 
     def test_a_robot_that_is_no_xml(self):
         robot, door = self.folder / "mine.urdf", self.folder / "door"

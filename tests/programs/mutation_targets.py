@@ -100,7 +100,7 @@ def config_targets() -> list[Target]:
                ("compose", "--config", "IN/CHANGED", "--out", "OUT/door"), weight=2),
         Target("import --config", "foreign", ("tested_import.yaml",),
                ("import", "IN/objects/plain/tested_object", "--category", "storagefurniture", "--out", "OUT/parts",
-                "--config", "IN/CHANGED", "--json")),
+                "--config", "IN/CHANGED", "--json"), outcomes=("tested_object",)),
         Target("split", "configs", ("tested_split.yaml",),
                ("datagen", "plan", "open", "--doors", "IN/CHANGED:train", door, "--episodes", "2", "--probe", "0")),
         Target("pipeline", "configs", ("tested_pipeline.yaml",),

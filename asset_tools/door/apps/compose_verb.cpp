@@ -176,9 +176,11 @@ ComposeRequest RequestOf(const Options& options) {
   OverrideMesh(request.handle_mesh, options.handle_mesh);
   if (options.all || options.as_imported) return request;
   if (request.body.empty() || request.handle.empty())
-    throw Error(ErrorCode::kInvalidArgument,
-                "--body and --handle (or both in --config), --all or --as-imported is required; "
-                "see `doorforge compose --help`");
+    throw Error(
+        ErrorCode::kInvalidArgument,
+        (options.config.empty() ? "" : options.config + " names no pair of parts: ") +
+            "--body and --handle (or both in --config), --all or --as-imported is required; "
+            "see `doorforge compose --help`");
   return request;
 }
 

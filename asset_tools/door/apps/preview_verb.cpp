@@ -153,7 +153,11 @@ void AddShape(const Shape& shape, int link, bool collision, Model& model) {
     model.meshes.push_back({hull, link, PointLabel::kOther, PieceColor(model.meshes.size())});
 }
 
-double WithinLimits(double degrees, const DoorJoint& joint) {
+double WithinLimits(double degrees, const DoorJoint& joint, const fs::path& folder) {
+  if (!(joint.lower_rad <= joint.upper_rad))
+    throw Error(ErrorCode::kFormat, (folder / "door.json").string() + ": joint \"" + joint.name +
+                                        "\": its lower limit lies above its upper one; `doorforge "
+                                        "validate` says more");
   return std::clamp(degrees * std::numbers::pi / 180, joint.lower_rad, joint.upper_rad);
 }
 
@@ -167,8 +171,8 @@ Model LoadModel(const fs::path& folder, const Options& options) {
                  static_cast<int>(i), options.collision, model);
     }
     for (const RigidTransform& pose :
-         DoorFromLinks(door, WithinLimits(options.hinge_deg, door.hinge),
-                       WithinLimits(options.handle_deg, door.handle_joint)))
+         DoorFromLinks(door, WithinLimits(options.hinge_deg, door.hinge, folder),
+                       WithinLimits(options.handle_deg, door.handle_joint, folder)))
       model.poses.push_back(pose);
     return model;
   }

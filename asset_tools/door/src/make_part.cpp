@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <nlohmann/json.hpp>
 
@@ -43,12 +44,21 @@ void CheckNames(const PartDraft& draft) {
                 draft.facts.id + ": the piece \"" + std::string(names[0]) + "\" is missing");
 }
 
+// The gates of a large garage have it; grids and searches cost by the extent.
+constexpr double kLargestPieceM = 20;
+
 // Whatever way a mesh came in, here it is in metres.
 void CheckReach(const PartDraft& draft) {
   for (const RawPiece& piece : draft.pieces) {
     const std::string name = draft.facts.id + ": " + piece.name;
     RequireWithinReach(piece.mesh.vertices, name);
     RequireWithinReach(piece.visual.vertices, name + " as it is drawn");
+    const double across = internal::BoundsOf(piece.mesh).sizes().maxCoeff();
+    if (!piece.mesh.vertices.empty() && across > kLargestPieceM)
+      throw Error(ErrorCode::kFormat, name + ": " + std::to_string(across) +
+                                          " m across, allowed are " +
+                                          std::to_string(std::lround(kLargestPieceM)) +
+                                          " m; a vertex is out of place, or the unit is another");
   }
 }
 

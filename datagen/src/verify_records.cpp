@@ -297,7 +297,7 @@ class RecordCheck {
 
   void CheckSums() {
     for (const auto& [record, sha256] : sums_->sums()) {
-      if (IsFixed(record)) Try(record, [&] { CheckSum(record, sha256); });
+      if (IsFixed(record)) Try(record, [&, name = record, sum = sha256] { CheckSum(name, sum); });
     }
     for (const std::string& record : Records()) {
       if (dataset_ && IsThere(record) && !sums_->Has(record))

@@ -103,7 +103,8 @@ class BadInput(ProgramTest):
         out = self.folder / "file" / "below"  # where not even root can make a folder
         before = processor_seconds()
         for arguments in (["compose", "--all", "--out", out], ["catalog", "build", "--out", out],
-                          ["export", self.folder / "door", "--out", out], ["repair", self.folder / "mesh.stl", out / "a.obj"],
+                          ["export", self.folder / "door", "--format", "urdf", "--out", out],
+                          ["repair", self.folder / "mesh.stl", out / "a.obj"],
                           ["import", self.folder / "mesh.stl", "--role", "handle", "--category", "interior", "--out", out]):
             with self.subTest(arguments[0]):
                 result = run(*arguments)

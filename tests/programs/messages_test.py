@@ -59,10 +59,11 @@ class OtherMessages(ProgramTest):
 
     def test_a_config_that_names_no_parts(self):
         config = self.folder / "mine.yaml"
-        config.write_text("{}\n")
-        result = run("compose", "--config", config, "--out", self.folder / "door")
-        self.assert_refused(result, 2)
-        self.assertIn(str(config), result.stderr)
+        for text, code in (("{}\n", 2), ("body: " + "x" * 500 + "\nhandle: safe_ell_01\n", 3)):
+            config.write_text(text)
+            result = run("compose", "--config", config, "--out", self.folder / "door")
+            self.assert_refused(result, code)
+            self.assertIn(str(config), result.stderr)
 
     def test_physics_that_no_settings_allow(self):
         config, door = self.folder / "mine.yaml", self.folder / "door"

@@ -186,7 +186,13 @@ ComposeRequest RequestOf(const Options& options) {
 
 bool IsGlob(const std::string& name) { return name.find_first_of("*?[") != std::string::npos; }
 
-bool IsPartFolder(const fs::path& folder) { return fs::exists(folder / "part.json"); }
+// False also for what can be no path, such as a name that is too long.
+bool IsThere(const fs::path& path) {
+  std::error_code ignored;
+  return fs::exists(path, ignored);
+}
+
+bool IsPartFolder(const fs::path& folder) { return IsThere(folder / "part.json"); }
 
 /// Where parts come from: the catalogue, or a folder of parts.
 class PartStore {
@@ -238,12 +244,12 @@ class PartStore {
   /// Whether it is neither a part nor the name of one, but a file or folder to import.
   bool IsToImport(const std::string& name) const {
     if (!FolderOf(name).empty() || IsGlob(name)) return false;
-    return fs::exists(name) || fs::path(name).has_extension();
+    return IsThere(name) || fs::path(name).has_extension();
   }
 
   Part Load(const std::string& name) const {
     if (const fs::path folder = FolderOf(name); !folder.empty()) return ReadPart(folder);
-    if (name.find('/') != std::string::npos || fs::exists(name))
+    if (name.find('/') != std::string::npos || IsThere(name))
       throw Error(ErrorCode::kMissing, name +
                                            ": no part.json there; `doorforge import` and "
                                            "`doorforge catalog build` write parts");

@@ -162,6 +162,16 @@ TEST_F(RunEpisodeTest, AHandleOutOfTheArmsReachIsNotReached) {
   EXPECT_EQ(episode.outcome, EpisodeOutcome::kNotReached) << episode.detail;
 }
 
+// At the speed of the hand the way would take a day.
+TEST_F(RunEpisodeTest, AHandleKilometresAwayIsNotReachedAtOnce) {
+  const DoorAsset door = MakePrimitiveDoor({});
+  Scene scene = SampleScene(door, 1, 0);
+  scene.world_from_door.translation().x() = -20'000;
+  const Episode episode = Run(door, scene);
+  EXPECT_NE(episode.outcome, EpisodeOutcome::kOpened);
+  EXPECT_LT(episode.simulated_s, 60);
+}
+
 TEST_F(RunEpisodeTest, AHandThatStaysLeavesTheDoorStuck) {
   const DoorAsset door = MakePrimitiveDoor({});
   Scene scene = SampleScene(door, 1, 0);

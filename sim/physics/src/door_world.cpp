@@ -21,15 +21,17 @@ namespace doorforge {
 namespace {
 
 void Check(const PhysicsConfig& config) {
+  constexpr int kMost = 10'000;  // what takes longer is a mistake
   const bool good =
-      config.time_step_s > 0 && config.time_step_s <= 0.02 && config.solver_iterations > 0 &&
-      config.steps_per_action > 0 && config.finger_friction >= 0 && config.handle_friction >= 0 &&
-      config.finger_force_n > 0 && config.operational_space.kp > 0 &&
+      config.time_step_s >= 1e-5 && config.time_step_s <= 0.02 && config.solver_iterations > 0 &&
+      config.solver_iterations <= kMost && config.steps_per_action > 0 &&
+      config.steps_per_action <= kMost && config.finger_friction >= 0 &&
+      config.handle_friction >= 0 && config.finger_force_n > 0 && config.operational_space.kp > 0 &&
       config.operational_space.posture_kp > 0 && config.operational_space.armature >= 0 &&
       config.operational_space.lead_m > 0 && config.operational_space.lead_rad > 0;
   Require(good, ErrorCode::kInvalidConfig,
-          "physics: time_step_s must lie in (0, 0.02], frictions be >= 0, and all other numbers "
-          "be positive");
+          "physics: time_step_s must lie in [0.00001, 0.02], frictions be >= 0, all other numbers "
+          "be positive, and solver_iterations and steps_per_action at most 10000");
   Require(config.controller == "joint_motors" || config.controller == "operational_space",
           ErrorCode::kInvalidConfig,
           "physics.controller: found \"" + config.controller +

@@ -26,6 +26,7 @@ constexpr double kTurnLead = 0.25;           // [rad] ahead of the measured hand
 constexpr double kTurnBeyond = 0.07;         // [rad] past "handle done"
 constexpr double kTurnTime = 4;              // [s]
 constexpr double kLostTime = 0.25;           // [s] without any pad on the handle
+constexpr double kFarthestMove = 10;         // [m] no arm gets there, and the way would take hours
 constexpr double kReachTolerance = 0.012;    // [m]
 constexpr double kBlockingForce = 50;        // [N] of the arm or the hand on the door
 constexpr double kHandBehind = 0.01;         // [m] of the hand, where something holds it up
@@ -88,6 +89,7 @@ double EpisodeRun::HandError(const RigidTransform& world_from_hand) const {
 bool EpisodeRun::MoveHand(const RigidTransform& world_from_hand, double speed_m_s) {
   const double distance =
       (world_from_hand.translation() - controller_.CommandedHand().translation()).norm();
+  if (!(distance < kFarthestMove)) return false;
   controller_.MoveHandTo(world_from_hand, distance / speed_m_s);
   const int patience = StepsIn(0.4);
   for (int waited = 0; waited < patience && !diverged_;) {

@@ -269,9 +269,9 @@ int Train(const Options& options) {
   const bool first = group->rank() == 0;  // which alone writes
   std::optional<FolderLock> lock;
   if (first) {
-    CheckFolder(options);
+    // who writes there now is told first: what there is would be half of the answer
     lock.emplace(out, "doorforge train", Writers::kOne);
-    CheckFolder(options);  // again: another training may have ended in between
+    CheckFolder(options);
     RemoveStaleFiles(SystemFiles(), out);
   }
   WarnOfSlowLinearAlgebra();

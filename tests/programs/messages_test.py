@@ -59,7 +59,8 @@ class OtherMessages(ProgramTest):
 
     def test_a_config_that_names_no_parts(self):
         config = self.folder / "mine.yaml"
-        for text, code in (("{}\n", 2), ("body: " + "x" * 500 + "\nhandle: safe_ell_01\n", 3)):
+        for text, code in (("{}\n", 2), ("body: " + "x" * 500 + "\nhandle: safe_ell_01\n", 3),
+                           ("body: safe_antique_01\nhandle: mine.stl\n", 3)):
             config.write_text(text)
             result = run("compose", "--config", config, "--out", self.folder / "door")
             self.assert_refused(result, code)

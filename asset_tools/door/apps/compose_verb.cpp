@@ -562,21 +562,29 @@ class OneDoor {
   void LoadParts() {
     const bool own_body = store_.IsToImport(request_.body);
     const bool own_handle = store_.IsToImport(request_.handle);
-    if (!own_body) body_ = Load("body", request_.body, options_.body);
-    if (!own_handle) handle_ = Load("handle", request_.handle, options_.handle);
-    if (own_body)
-      body_ = ImportOwn({request_.body, PartRole::kBody, CategoryFor(handle_), request_.body_mesh},
-                        own_body_);
-    if (own_handle)
-      handle_ =
-          ImportOwn({request_.handle, PartRole::kHandle, CategoryFor(body_), request_.handle_mesh},
-                    own_handle_);
+    const auto load_body = [&] { return store_.Load(request_.body); };
+    const auto load_handle = [&] { return store_.Load(request_.handle); };
+    const auto import_body = [&] {
+      return ImportOwn({request_.body, PartRole::kBody, CategoryFor(handle_), request_.body_mesh},
+                       own_body_);
+    };
+    const auto import_handle = [&] {
+      return ImportOwn(
+          {request_.handle, PartRole::kHandle, CategoryFor(body_), request_.handle_mesh},
+          own_handle_);
+    };
+    // what is imported takes its category from the other half
+    if (!own_body) body_ = Named("body", options_.body, load_body);
+    if (!own_handle) handle_ = Named("handle", options_.handle, load_handle);
+    if (own_body) body_ = Named("body", options_.body, import_body);
+    if (own_handle) handle_ = Named("handle", options_.handle, import_handle);
   }
 
   // A name that no option gave is the settings file's, and so is what is wrong with it.
-  Part Load(const std::string& key, const std::string& name, const std::string& option) const {
+  template <class Make>
+  Part Named(const std::string& key, const std::string& option, Make&& make) const {
     try {
-      return store_.Load(name);
+      return make();
     } catch (const Error& error) {
       if (!option.empty() || options_.config.empty()) throw;
       throw Error(error.code(), options_.config + ": " + key + ": " + error.what());

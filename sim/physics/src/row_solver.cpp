@@ -177,9 +177,10 @@ void RowSolver::WriteBack() {
     gained_ += response_.col(i) * (impulse_[i] - start_impulse_[i]);
   }
   for (const Body& at : bodies_) {
-    change_.assign(static_cast<std::size_t>(at.first_dof + at.dofs), 0.0);
+    const auto first = static_cast<std::size_t>(at.first_dof);
+    change_.assign(first + static_cast<std::size_t>(at.dofs), 0.0);
     for (int i = 0; i < at.dofs; ++i) {
-      change_[static_cast<std::size_t>(at.first_dof + i)] = gained_[at.column + i];
+      change_[first + static_cast<std::size_t>(i)] = gained_[at.column + i];
       m_data.m_deltaVelocities[at.bullet_velocity + at.first_dof + i] += gained_[at.column + i];
     }
     at.body->applyDeltaVeeMultiDof2(change_.data(), 1);

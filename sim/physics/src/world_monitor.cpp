@@ -70,7 +70,8 @@ WorldMonitor::WorldMonitor(const BulletBody& robot, const BulletBody& door, cons
       drive_limit_(DriveLimits(model)),
       torque_limit_(TorqueLimits(asset)),
       watch_(JointsOf(model, asset)) {
-  const std::size_t links = static_cast<std::size_t>(robot_.link_count() + door_.link_count());
+  const auto links =
+      static_cast<std::size_t>(robot_.link_count()) + static_cast<std::size_t>(door_.link_count());
   torque_.resize(links);
   speed_before_.resize(links);
   step_.position.resize(drive_limit_.size() + kDoorJoints);

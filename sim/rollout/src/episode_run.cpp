@@ -279,7 +279,7 @@ EpisodeRun::Failure EpisodeRun::Turn(Policy& handle) {
   const auto off = [&] { return step_ - last_pad_step_; };
   while (actions_ < physics.max_handle_actions && !diverged_ && !EndsTurn()) {
     Decide(handle, Stage::kHandle);
-    if (off() > 3 * physics.steps_per_action) break;
+    if (off() > 3L * physics.steps_per_action) break;
   }
   Watch("unlock");
   const WorldState& state = world_.state();

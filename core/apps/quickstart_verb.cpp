@@ -90,25 +90,29 @@ void ComposeDoors(const std::vector<DoorPair>& pairs, const fs::path& out, int t
   });
 }
 
-// Only what a pipeline made, and not while another process makes it.
-void RemovePipeline(const fs::path& out) {
-  if (fs::is_directory(out) && fs::is_empty(out)) return;
-  const fs::path lock_file = out / "pipeline" / "lock";
-  Require(fs::is_regular_file(lock_file), ErrorCode::kInvalidArgument,
-          out.string() +
-              ": is no pipeline's folder (no pipeline/lock); --overwrite replaces those alone, "
-              "choose another folder");
-  const auto lock = FileLock::Try(SystemFiles(), lock_file);
+// The record of the first step, which is there as soon as anything is.
+constexpr FolderKind kQuickstartFolder{"a quickstart", "pipeline/parts.json",
+                                       "doorforge.pipeline_step"};
+
+bool IsEmptyFolder(const fs::path& folder) {
+  return fs::is_directory(fs::symlink_status(folder)) && fs::is_empty(folder);
+}
+
+// Not while another process makes it.
+void RemoveQuickstart(const fs::path& out) {
+  RequireKind(out, kQuickstartFolder);
+  const auto lock = FileLock::Try(SystemFiles(), out / "pipeline" / "lock");
   Require(lock.has_value(), ErrorCode::kInvalidArgument,
           out.string() +
-              ": another process runs a pipeline there; wait until it has ended, or "
-              "choose another folder");
+              ": another process runs a pipeline there; wait until it has ended, or choose "
+              "another folder");
   fs::remove_all(out);
 }
 
 void PrepareFolder(const Options& options) {
   const fs::path out = options.out;
-  if (options.overwrite && fs::exists(out)) RemovePipeline(out);
+  if (options.overwrite && fs::exists(fs::symlink_status(out)) && !IsEmptyFolder(out))
+    RemoveQuickstart(out);
   if (!options.resume && fs::exists(out) && !fs::is_empty(out))
     throw Error(ErrorCode::kInvalidArgument,
                 options.out + ": already exists; pass --resume to go on there, or --overwrite");

@@ -115,12 +115,6 @@ bool HoldsNothing(const fs::path& folder) {
                      });
 }
 
-// Whether it is a dataset's, begun or finished, and not some folder with a config.yaml.
-bool HoldsDataset(const fs::path& folder) {
-  return fs::is_regular_file(folder / "config.yaml") &&
-         fs::is_regular_file(folder / "provenance.json") && fs::is_directory(folder / "splits");
-}
-
 // All but the lock of whoever removes it.
 void RemoveDataset(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder)) {
@@ -138,10 +132,7 @@ void PrepareFolder(const Options& options) {
                     ": exists and holds no dataset (no config.yaml); choose another "
                     "folder");
   if (!options.overwrite) return;
-  Require(HoldsDataset(out), ErrorCode::kInvalidArgument,
-          options.out +
-              ": holds a config.yaml and no dataset (no provenance.json, no splits); --overwrite "
-              "replaces datasets alone, choose another folder");
+  RequireKind(out, kDatasetFolder);
   RemoveDataset(out);
 }
 

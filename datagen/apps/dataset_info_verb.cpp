@@ -9,6 +9,7 @@
 
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
 #include "doorforge/core/output_file.h"
 #include "doorforge/datagen/describe_dataset.h"
 #include "doorforge/datagen/describe_episodes.h"

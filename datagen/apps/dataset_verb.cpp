@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "doorforge/core/folder_lock.h"
+#include "doorforge/core/json_file.h"
 #include "doorforge/core/progress.h"
 #include "doorforge/datagen/describe_dataset.h"
 #include "doorforge/datagen/merge_dataset.h"

@@ -7,6 +7,7 @@
 #include "doorforge/core/config_io.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
+#include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/rollout/run_episode.h"
 

@@ -5,6 +5,7 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
+#include "doorforge/core/record_id.h"
 
 namespace doorforge {
 namespace {
@@ -41,7 +42,7 @@ TrainedPolicy ReadTrainedPolicy(const fs::path& folder, Stage stage, const std::
                        CloudPointsOf(json, path.string())};
   DatasetPolicy& identity = policy.identity;
   identity.weights_sha256 = ValueOf<std::string>(json, "weights_sha256", path.string());
-  const fs::path weights = folder / ValueOf<std::string>(json, "weights", path.string());
+  const fs::path weights = folder / IdOf(json, "weights", path.string());
   if (Sha256OfFile(weights) != identity.weights_sha256)
     throw Error(ErrorCode::kFormat,
                 weights.string() + ": its SHA-256 is not the one in " + path.string() +

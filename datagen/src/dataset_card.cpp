@@ -417,7 +417,7 @@ bool IsOurs(const fs::path& folder, const std::string& record, const RecordSums&
 void WriteDatasetCard(const fs::path& folder, OldReadme readme) {
   const Contents contents = ReadContents(folder);
   const DatasetCardFiles card{ReadmeOf(contents), CroissantOf(contents)};
-  const std::string croissant = card.croissant.dump(2) + "\n";
+  const std::string croissant = JsonText(card.croissant, 2) + "\n";
   const bool has_sums = fs::exists(folder / RecordSums::kFileName);
   RecordSums sums = has_sums ? RecordSums::Read(folder) : RecordSums();
   if (readme != OldReadme::kReplace) {

@@ -160,11 +160,11 @@ std::string FailuresText(std::span<const ShardIndex> indices) {
 }
 
 std::string DatasetText(const DatasetRecord& record) {
-  return DatasetToJson(record).dump(2) + "\n";
+  return JsonText(DatasetToJson(record), 2) + "\n";
 }
 
 std::string ProvenanceText(const DatasetProvenance& provenance) {
-  return ProvenanceToJson(provenance).dump(2) + "\n";
+  return JsonText(ProvenanceToJson(provenance), 2) + "\n";
 }
 
 std::set<std::string> ShortCards(const DatasetRecord& record, const DatasetProvenance& provenance) {

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/file_system.h"
 #include "doorforge/core/folder_lock.h"
 #include "doorforge/core/free_space.h"
 #include "doorforge/core/json_file.h"

@@ -222,7 +222,8 @@ class RecordCheck {
     const Json& features = MemberOf(found, "features", kDatasetRecord);
     CheckFeatures(features, expected["features"]);
     expected["features"] = features;
-    Compare(kDatasetRecord, expected.dump(2) + "\n", "the counts and statistics of the shards");
+    Compare(kDatasetRecord, JsonText(expected, 2) + "\n",
+            "the counts and statistics of the shards");
   }
 
   // Each is one of this build, in everything that a reader goes by.
@@ -290,7 +291,7 @@ class RecordCheck {
   void CheckCroissant() {
     if (!IsThere(kCroissantRecord) || IsListed(kCroissantRecord)) return;
     if (sums_ || !dataset_ || !provenance_) return;
-    if (TextOf(kCroissantRecord) != MakeDatasetCard(folder_).croissant.dump(2) + "\n")
+    if (TextOf(kCroissantRecord) != JsonText(MakeDatasetCard(folder_).croissant, 2) + "\n")
       Note(kCroissantRecord, "none that this build writes, and the dataset has no SHA256SUMS",
            "a croissant.json of another build");
   }

@@ -10,6 +10,7 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
+#include "doorforge/core/record_id.h"
 
 namespace doorforge {
 namespace {
@@ -48,8 +49,8 @@ Json PartToJson(const DatasetPart& part) {
 
 DatasetPart PartFromJson(const Json& json, const std::string& path) {
   DatasetPart part;
-  part.stage = ValueOf<std::string>(json, "stage", path);
-  part.split = ValueOf<std::string>(json, "split", path);
+  part.stage = IdOf(json, "stage", path);
+  part.split = IdOf(json, "split", path);
   part.shards = ValueOf<std::uint64_t>(json, "shards", path);
   part.episodes = ValueOf<std::uint64_t>(json, "episodes", path);
   part.failed_episodes = ValueOf<std::uint64_t>(json, "failed_episodes", path);
@@ -202,14 +203,14 @@ Json DoorToJson(const DatasetDoor& door) {
 
 DatasetDoor DoorFromJson(const Json& json, const std::string& path) {
   DatasetDoor door;
-  door.id = ValueOf<std::string>(json, "id", path);
+  door.id = IdOf(json, "id", path);
   door.sha256 = ValueOf<std::string>(json, "sha256", path);
   door.category = ValueOf<std::string>(json, "category", path);
   door.mechanism = ValueOf<std::string>(json, "mechanism", path);
   door.body = IdentityFromJson(MemberOf(json, "body", path), path + ".body");
   door.handle = IdentityFromJson(MemberOf(json, "handle", path), path + ".handle");
   door.license = ValueOf<std::string>(json, "license", path);
-  door.split = ValueOf<std::string>(json, "split", path);
+  door.split = IdOf(json, "split", path);
   return door;
 }
 
@@ -267,8 +268,8 @@ Json PlannedToJson(const PlannedPart& part) {
 
 PlannedPart PlannedFromJson(const Json& json, const std::string& path) {
   PlannedPart part;
-  part.stage = ValueOf<std::string>(json, "stage", path);
-  part.split = ValueOf<std::string>(json, "split", path);
+  part.stage = IdOf(json, "stage", path);
+  part.split = IdOf(json, "split", path);
   part.shards = ValueOf<std::uint64_t>(json, "shards", path);
   part.episodes = ValueOf<std::uint64_t>(json, "episodes", path);
   part.episodes_per_shard = ValueOf<std::uint64_t>(json, "episodes_per_shard", path);

@@ -433,7 +433,7 @@ std::string ContentHash(const DoorAsset& door) {
 }
 
 std::string internal::ContentHash(const DoorAsset& door, const DoorHashes& hashes) {
-  return Sha256Hex(DoorToJson(door, hashes).dump());
+  return Sha256Hex(JsonText(DoorToJson(door, hashes)));
 }
 
 std::optional<VisualFiles> internal::AuthoredFilesOf(const std::string& name,

@@ -14,6 +14,7 @@
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/progress.h"
+#include "doorforge/core/record_id.h"
 
 namespace doorforge {
 namespace {
@@ -57,7 +58,7 @@ DoorIdentity DoorFromJson(const Json& json, const std::vector<PartIdentity>& par
   const auto mechanism = MechanismNamed(ValueOf<std::string>(json, "mechanism", path));
   if (!category || !mechanism)
     throw Error(ErrorCode::kFormat, path + ": unknown category or mechanism");
-  return {.id = ValueOf<std::string>(json, "id", path),
+  return {.id = IdOf(json, "id", path),
           .category = *category,
           .mechanism = *mechanism,
           .body = PartAt(parts, json, "body", path),
@@ -69,7 +70,7 @@ DoorIdentity DoorFromJson(const Json& json, const std::vector<PartIdentity>& par
 /// The parts of doors, each once, in the order of their texts.
 class PartList {
  public:
-  void Add(const PartIdentity& part) { places_.emplace(IdentityToJson(part).dump(), 0); }
+  void Add(const PartIdentity& part) { places_.emplace(JsonText(IdentityToJson(part)), 0); }
 
   void Number() {
     std::size_t next = 0;
@@ -77,7 +78,7 @@ class PartList {
   }
 
   std::size_t PlaceOf(const PartIdentity& part) const {
-    return places_.at(IdentityToJson(part).dump());
+    return places_.at(JsonText(IdentityToJson(part)));
   }
 
   std::vector<std::string> Texts() const {
@@ -158,15 +159,14 @@ std::string DoorIndex::ToText() const {
   parts.Number();
   std::vector<std::string> rows;
   for (const auto& [record, door] : doors_) {
-    rows.push_back(Json({{"id", door.id},
-                         {"record_sha256", record},
-                         {"sha256", door.sha256},
-                         {"category", NameOf(door.category)},
-                         {"mechanism", NameOf(door.mechanism)},
-                         {"license", door.license},
-                         {"body", parts.PlaceOf(door.body)},
-                         {"handle", parts.PlaceOf(door.handle)}})
-                       .dump());
+    rows.push_back(JsonText({{"id", door.id},
+                             {"record_sha256", record},
+                             {"sha256", door.sha256},
+                             {"category", NameOf(door.category)},
+                             {"mechanism", NameOf(door.mechanism)},
+                             {"license", door.license},
+                             {"body", parts.PlaceOf(door.body)},
+                             {"handle", parts.PlaceOf(door.handle)}}));
   }
   std::sort(rows.begin(), rows.end());  // by id
   return "{\n  \"schema\": \"" + std::string(kSchema) +

@@ -17,6 +17,7 @@
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
+#include "doorforge/core/record_id.h"
 #include "doorforge/schemas/door_index.h"
 #include "doorforge/schemas/find_doors.h"
 #include "doorforge/schemas/split.h"
@@ -75,7 +76,7 @@ struct ListedDoor {
 ListedDoor NamesIn(const nlohmann::ordered_json& json, const fs::path& folder,
                    const std::string& path) {
   ListedDoor door{folder, {}, false};
-  door.identity.id = ValueOf<std::string>(json, "id", path);
+  door.identity.id = IdOf(json, "id", path);
   const auto category = CategoryNamed(ValueOf<std::string>(json, "category", path));
   Require(category.has_value(), ErrorCode::kFormat, path + ": unknown category");
   door.identity.category = *category;

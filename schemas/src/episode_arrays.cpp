@@ -189,12 +189,7 @@ nlohmann::ordered_json ReadEpisodeMeta(const ShardReader& reader, std::size_t ep
   const std::span<const std::byte> bytes = reader.Read(episode, "meta.json");
   const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   reader.RequireWhole();
-  try {
-    return nlohmann::ordered_json::parse(text);
-  } catch (const nlohmann::json::exception& error) {
-    throw Error(ErrorCode::kFormat,
-                reader.Describe(episode, "meta.json") + ": not JSON: " + error.what());
-  }
+  return ParseJson(text, reader.Describe(episode, "meta.json"));
 }
 
 }  // namespace doorforge

@@ -12,6 +12,7 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
+#include "doorforge/core/record_id.h"
 #include "doorforge/schemas/shard.h"
 #include "doorforge/schemas/tar.h"
 
@@ -179,8 +180,8 @@ ShardIndex ShardIndexFromJson(const Json& json, const std::string& path) {
   RequireSchema(json, std::string(kSchema), kShardSchemaVersion, path);
   ShardIndex index;
   index.header.number = ValueOf<int>(json, "number", path);
-  index.header.stage = ValueOf<std::string>(json, "stage", path);
-  index.header.split = ValueOf<std::string>(json, "split", path);
+  index.header.stage = IdOf(json, "stage", path);
+  index.header.split = IdOf(json, "split", path);
   index.header.config_sha256 = ValueOf<std::string>(json, "config_sha256", path);
   index.tar = ValueOf<std::string>(json, "tar", path);
   index.tar_bytes = CountOf(json, "tar_bytes", path);

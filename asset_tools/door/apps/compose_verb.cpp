@@ -32,6 +32,7 @@
 #include "doorforge/door/shared_doors.h"
 #include "doorforge/door/validate_door.h"
 #include "doorforge/mesh/work_budget.h"
+#include "doorforge/schemas/door_index.h"
 
 #include "mesh_options.h"
 #include "own_part.h"
@@ -526,6 +527,7 @@ int ComposeMany(const Options& options, const ComposeRequest& request) {
                                       ? WriteStandalone(plan, store, prepared.names, options)
                                       : WriteShared(plan, options.out);
   WriteRequest(request, options.out);
+  if (StopRequested() == 0) IndexDoors(options);
   const int code = Finish(doors, options);
   return code == 0 && prepared.damaged > 0 ? 1 : code;
 }

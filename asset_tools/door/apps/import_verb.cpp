@@ -154,8 +154,10 @@ int RunImportVerb(int argc, char** argv) {
   for (const std::string& category : config.only) CheckCategory("--only", category);
   const std::vector<ForeignSource> objects = FindObjects(options.sources, options.format);
   const FolderLock lock(options.out, "doorforge import", Writers::kOne);
-  const ImportReport report = ImportObjects(
-      objects, options.out, config, options.overwrite ? Existing::kReplace : Existing::kRefuse);
+  const ImportReport report = NamingConfig(options.config, [&] {
+    return ImportObjects(objects, options.out, config,
+                         options.overwrite ? Existing::kReplace : Existing::kRefuse);
+  });
   if (options.json)
     std::cout << JsonText(ToJson(report), 2) << '\n';
   else

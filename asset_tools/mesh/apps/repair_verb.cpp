@@ -146,7 +146,8 @@ int RunRepairVerb(int argc, char** argv) {
   const Options options = OptionsOf(argc, argv);
   const RepairConfig config = ConfigOf(options);
   CheckOutputs(options);
-  const RepairResult result = Repaired(options, config);
+  const RepairResult result =
+      NamingConfig(options.config, [&] { return Repaired(options, config); });
   const Json record = RecordOf(options, config, result.report);
   if (result.mesh) {
     const Existing existing = options.overwrite ? Existing::kReplace : Existing::kRefuse;

@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
 #include "doorforge/core/output_file.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
@@ -72,16 +73,16 @@ std::string NameOf(const Row& row, const std::string& door) {
   return door + "_seed" + std::to_string(row.seed) + "_" + std::to_string(row.episode);
 }
 
-fs::path PictureOf(const SimulateOptions& options, const Row& row, const DoorAsset& door) {
-  return options.film / (NameOf(row, door) + ".png");
+fs::path PictureOf(const SimulateOptions& options, const Row& row, const std::string& door) {
+  return OutputBelow(options.film, NameOf(row, door) + ".png");
 }
 
 // Before hours of work, not after.
 void RequireNoPictures(const SimulateOptions& options, const std::vector<Row>& rows,
-                       const std::vector<DoorAsset>& doors) {
+                       const std::vector<FoundDoor>& doors) {
   if (options.film.empty()) return;
   for (const Row& row : rows)
-    RequireNoFile(PictureOf(options, row, doors[row.door]), options.overwrite);
+    RequireNoFile(PictureOf(options, row, doors[row.door].identity.id), options.overwrite);
 }
 
 void RunRow(const SimulateOptions& options, const DoorAsset& door, const RobotModel& robot,
@@ -94,7 +95,7 @@ void RunRow(const SimulateOptions& options, const DoorAsset& door, const RobotMo
   if (!options.film.empty()) film = std::make_unique<Film>(scene, door, robot);
   OpeningExpert expert(options.config.expert);
   Episode episode = RunEpisode(scene, door, robot, expert, film.get());
-  if (film) film->Write(options.film / (NameOf(row, door.id) + ".png"));
+  if (film) film->Write(PictureOf(options, row, door.id));
   for (Decision& decision : episode.decisions) decision.cloud = {};
   row.result = std::move(episode);
 }

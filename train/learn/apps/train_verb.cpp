@@ -23,6 +23,7 @@
 #include "doorforge/core/config_io.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/folder_lock.h"
+#include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
 #include "doorforge/learn/checkpoint.h"

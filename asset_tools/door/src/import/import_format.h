@@ -26,8 +26,8 @@ ImportFormat DoorGymFormat();
 ImportFormat UrdfFormat();
 ImportFormat LooseMeshFormat();
 
-/// An id for a part (IdProblem() is empty): letters, digits, '-', '_' and '.' are kept, all else becomes '-',
-/// and a text beyond 50 characters is cut and ends in digits of its hash.
+/// An id for a part (IdProblem() is empty): letters, digits, '-', '_' and '.' are kept, all else
+/// becomes '-', and a text beyond 50 characters is cut and ends in digits of its hash.
 std::string PartIdFrom(const std::string& text);
 
 /// Of `name`, or of the config where it names one. Throws Error(kInvalidArgument) on an unknown

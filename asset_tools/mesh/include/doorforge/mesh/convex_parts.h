@@ -39,7 +39,8 @@ struct ConvexPartsConfig {
 /// Overlapping pieces of the mesh count as their union. Deterministic. Measure the result with
 /// MeasureConvexParts().
 ///
-/// @throws Error(kInvalidConfig) on a config value out of range; Error(kFormat) as CheckWork() does.
+/// @throws Error(kInvalidConfig) on a config value out of range; Error(kFormat) as CheckWork()
+/// does.
 std::vector<TriangleMesh> ConvexParts(const ClosedMesh& mesh, const ConvexPartsConfig& config);
 
 /// How well parts stand for a mesh, from sampled points.

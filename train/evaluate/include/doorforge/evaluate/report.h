@@ -18,6 +18,9 @@ namespace doorforge {
 
 inline constexpr int kReportSchemaVersion = 4;
 
+/// The folder of a report, for StagedFolder.
+inline constexpr FolderKind kReportFolder{"a report", "report.json", "doorforge.report"};
+
 /// One loss over a training run: epochs with the mean on the training and on the validation
 /// samples. All three have the same length; a validation value that was not measured is NaN (null
 /// in files).

@@ -267,7 +267,7 @@ void Add(Findings& findings, const std::string& record, const Check& check) {
     findings.push_back(given_up);
 }
 
-// Of a record whose reading failed for `reason`.
+// What is to be said of a record whose reading failed for `reason`.
 Findings Unreadable(const RecordMeshes& meshes, const std::string& record,
                     const std::string& reason) {
   Findings findings = meshes.FindingsOfFiles();

@@ -8,7 +8,7 @@ namespace doorforge::internal {
 namespace {
 
 // Point 0's geometry of a cloud, rounded up.
-constexpr std::size_t kGeometryBytes = 160 * 1024;
+constexpr std::size_t kGeometryBytes = 160UL * 1024;
 
 template <std::size_t N>
 void Append(const std::array<float, N>& values, std::vector<float>& out) {

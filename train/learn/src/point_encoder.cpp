@@ -58,7 +58,7 @@ std::vector<float> ColumnPanels(const float* matrix, int rows, int columns, Grad
 std::vector<float> RowPanels(const float* matrix, int rows, int columns, int panel) {
   std::vector<float> packed(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
   for (int row = 0; row < rows; ++row) {
-    const std::ptrdiff_t first = row / panel * panel;
+    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(row / panel) * panel;
     float* to = packed.data() + first * columns + row % panel;
     const float* from = matrix + static_cast<std::ptrdiff_t>(row) * columns;
     for (int k = 0; k < columns; ++k) to[static_cast<std::ptrdiff_t>(k) * panel] = from[k];

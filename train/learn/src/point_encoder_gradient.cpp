@@ -65,7 +65,8 @@ void AddLayerGradient(const Kernels& kernels, const PackedLayer& layer, const Ma
     kernels.add_scaled(1.0F, from, layer.outputs, bias);
     const float* values = input.data + (row + 1) * input.columns - tail;
     for (int i = 0; i < tail; ++i)
-      kernels.add_scaled(values[i], from, layer.outputs, tail_weight.data() + i * layer.outputs);
+      kernels.add_scaled(values[i], from, layer.outputs,
+                         tail_weight.data() + static_cast<std::ptrdiff_t>(i) * layer.outputs);
   }
   AddTransposed(tail_weight, layer, input.columns - tail, weight);
 }
@@ -236,7 +237,8 @@ class SetGradient {
         std::all_of(row_gradient, row_gradient + widths_[0], [](float g) { return g == 0; }))
       return;
     for (int i = 0; i < count; ++i)
-      kernels_.add_scaled(values[i], row_gradient, widths_[0], position.data() + i * widths_[0]);
+      kernels_.add_scaled(values[i], row_gradient, widths_[0],
+                          position.data() + static_cast<std::ptrdiff_t>(i) * widths_[0]);
   }
 
   const Kernels& kernels_;

@@ -235,7 +235,7 @@ class PartStore {
     return names;
   }
 
-  /// Of a part in files; empty for one of the catalogue.
+  /// Gives the folder of a part in files; it is empty for one of the catalogue.
   fs::path FolderOf(const std::string& name) const {
     if (IsPartFolder(name)) return name;
     const bool in_store = !folder_.empty() && name.find('/') == std::string::npos;

@@ -153,7 +153,7 @@ nlohmann::ordered_json FixesToJson(const Results& results) {
   return fixes;
 }
 
-// Of fixable findings that --fix could not mend, the fix report knows why.
+// The fix report knows why --fix could not mend a fixable finding.
 void ExplainLeft(const FixReport& fixed, ValidationReport& report) {
   for (Finding& finding : report.findings) {
     for (const Finding& left : fixed.left) {

@@ -24,7 +24,7 @@ inline void ParseVerb(CLI::App& app, int argc, char** argv) {
   }
 }
 
-/// Of verbs that work on many objects, or on a mesh from elsewhere.
+/// Verbs take this that work on many objects, or on a mesh from elsewhere.
 inline void AddMaxSeconds(CLI::App& app, double& max_seconds) {
   app.add_option("--max-seconds", max_seconds,
                  "processor time that one object may take before it is given up (300)")

@@ -48,7 +48,7 @@ bool Any(const Findings& findings, std::string_view family) {
 
 // ---- meshes -------------------------------------------------------------------------------------
 
-// The same triangles, turned, if they enclose a volume then.
+// Gives the same triangles turned, if they enclose a volume then.
 std::optional<TriangleMesh> Turned(TriangleMesh mesh) {
   for (Eigen::Vector3i& triangle : mesh.triangles) std::swap(triangle[0], triangle[1]);
   if (!ClosedMesh::From(mesh)) return std::nullopt;
@@ -148,7 +148,7 @@ MassProperties UsualMass(Category category, const std::string& piece, const Clos
   return mass;
 }
 
-// Of the pieces' volume; nothing unless all of them are closed.
+// Adds up the pieces' volume; there is none unless all of them are closed.
 std::optional<MassProperties> MassOf(const WeighedLink& link) {
   std::vector<MassProperties> masses;
   double volume = 0;

@@ -40,7 +40,7 @@ from mutation_oracle import Answer, Case, Limits, judged  # noqa: E402
 from mutation_targets import Target, all_targets  # noqa: E402
 from mutators import ESCAPE, mutated  # noqa: E402
 from sealing import seal  # noqa: E402
-from sound_inputs import DOOR_ID, make_inputs  # noqa: E402
+from sound_inputs import DOOR_ID, SAFE_HANDLES, make_inputs  # noqa: E402
 
 PROGRESS_SECONDS = 30
 
@@ -57,7 +57,7 @@ def names_of(target: Target, changed: pathlib.PurePath) -> frozenset[str]:
     """What a message may call a changed file: its name, that of the object that it belongs to, or the object's id. The
     inputs' own names have an underscore or a number, so that they are no words of a message."""
     objects = [part for part in (changed.stem, *changed.parts[:-1]) if re.search(r"_|\d{4}", part)]
-    return frozenset([changed.name, *objects, DOOR_ID, *target.outcomes])
+    return frozenset([changed.name, *objects, DOOR_ID, *SAFE_HANDLES, *target.outcomes])
 
 
 def case_of(target: Target, changed: str, doorforge: pathlib.Path, box: pathlib.Path) -> Case:

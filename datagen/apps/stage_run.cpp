@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stage_run.h"
 
+#include <set>
 #include <utility>
 
 #include "doorforge/core/config_io.h"
@@ -59,11 +60,31 @@ std::string LearnerOf(const StageRequest& request, bool grasps) {
   return (request.config.stage == Stage::kGrasp) == grasps ? request.policies.learner : "";
 }
 
+std::set<Mechanism> MechanismsFor(const StageConfig& config) {
+  std::set<Mechanism> mechanisms;
+  for (const std::string& name : config.collection.mechanisms) {
+    const auto mechanism = MechanismNamed(name);
+    Require(mechanism.has_value(), ErrorCode::kInvalidConfig,
+            "config.collection.mechanisms: \"" + name +
+                "\", expected none, lever, round, key, valve or flap");
+    mechanisms.insert(*mechanism);
+  }
+  return mechanisms;
+}
+
 std::vector<FoundDoor> DoorsFor(const StageRequest& request) {
   std::vector<FoundDoor> doors = FindDoorSet(DoorSelectionOf(request.doors), request.threads);
+  const std::set<Mechanism> wanted = MechanismsFor(request.config);
+  const std::size_t all = doors.size();
+  std::erase_if(doors, [&](const FoundDoor& door) {
+    return !wanted.empty() && !wanted.contains(door.identity.mechanism);
+  });
+  Require(!doors.empty(), ErrorCode::kInvalidArgument,
+          "none of the " + std::to_string(all) +
+              " doors has a mechanism of config.collection.mechanisms; compose such doors, or name "
+              "others");
   if (request.config.stage != Stage::kHandle) return doors;
   // there is no handle to turn where there is no latch
-  const std::size_t all = doors.size();
   std::erase_if(doors,
                 [](const FoundDoor& door) { return door.identity.mechanism == Mechanism::kNone; });
   Require(!doors.empty(), ErrorCode::kInvalidArgument,

@@ -18,6 +18,7 @@
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
 #include "doorforge/core/record_id.h"
+#include "doorforge/schemas/door_draw.h"
 #include "doorforge/schemas/door_index.h"
 #include "doorforge/schemas/find_doors.h"
 #include "doorforge/schemas/split.h"
@@ -54,14 +55,11 @@ bool NamesASplit(const std::string& word) {
 std::set<std::string> PartsOfSide(const DoorSelection& selection) {
   const SplitSide named = SplitSideOf(selection.split, selection.default_side);
   const Split split = ReadSplit(named.file);
-  const std::map<std::string, const std::vector<std::string>*> sides = {
-      {"train", &split.train},
-      {"test", &split.test},
-      {"unseen_categories", &split.unseen_categories}};
+  const auto sides = SidesOf(split);
   const auto found = sides.find(named.side);
   Require(found != sides.end(), ErrorCode::kInvalidArgument,
           "split \"" + selection.split + "\": unknown side \"" + named.side +
-              "\"; allowed are train, test, unseen_categories");
+              "\"; allowed are train, validation, test, unseen_categories");
   return {found->second->begin(), found->second->end()};
 }
 
@@ -80,6 +78,9 @@ ListedDoor NamesIn(const nlohmann::ordered_json& json, const fs::path& folder,
   const auto category = CategoryNamed(ValueOf<std::string>(json, "category", path));
   Require(category.has_value(), ErrorCode::kFormat, path + ": unknown category");
   door.identity.category = *category;
+  const auto mechanism = MechanismNamed(ValueOf<std::string>(json, "mechanism", path));
+  Require(mechanism.has_value(), ErrorCode::kFormat, path + ": unknown mechanism");
+  door.identity.mechanism = *mechanism;
   door.identity.body.id = ValueOf<std::string>(MemberOf(json, "body", path), "id", path);
   door.identity.handle.id = ValueOf<std::string>(MemberOf(json, "handle", path), "id", path);
   return door;
@@ -166,14 +167,13 @@ void SortById(std::vector<ListedDoor>& doors) {
 
 // Takes and leaves them sorted by id.
 void KeepSomeOfEachCategory(int most, std::vector<ListedDoor>& doors) {
-  std::map<Category, std::vector<ListedDoor>> by_category;
-  for (ListedDoor& door : doors) by_category[door.identity.category].push_back(std::move(door));
-  doors.clear();
-  for (auto& [category, all] : by_category) {
-    const std::size_t count = std::min(all.size(), static_cast<std::size_t>(most));
-    for (std::size_t i = 0; i < count; ++i) doors.push_back(std::move(all[i * all.size() / count]));
-  }
-  SortById(doors);
+  std::vector<DoorIdentity> identities;
+  identities.reserve(doors.size());
+  for (const ListedDoor& door : doors) identities.push_back(door.identity);
+  std::vector<ListedDoor> drawn;
+  for (const std::size_t door : DrawDoors(identities, static_cast<std::size_t>(most)))
+    drawn.push_back(std::move(doors[door]));
+  doors = std::move(drawn);
 }
 
 // Reads those without an entry in an index.

@@ -28,10 +28,16 @@ Split ReadSplit(const std::filesystem::path& path) {
   return split;
 }
 
+std::map<std::string, const std::vector<std::string>*> SidesOf(const Split& split) {
+  return {{"train", &split.train},
+          {"validation", &split.validation},
+          {"test", &split.test},
+          {"unseen_categories", &split.unseen_categories}};
+}
+
 std::vector<std::string> PartsOf(const Split& split) {
-  std::vector<std::string> ids = split.train;
-  ids.insert(ids.end(), split.test.begin(), split.test.end());
-  ids.insert(ids.end(), split.unseen_categories.begin(), split.unseen_categories.end());
+  std::vector<std::string> ids;
+  for (const auto& [name, side] : SidesOf(split)) ids.insert(ids.end(), side->begin(), side->end());
   std::sort(ids.begin(), ids.end());
   return ids;
 }

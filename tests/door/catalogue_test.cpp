@@ -21,6 +21,7 @@
 #include "doorforge/door/grasp.h"
 #include "doorforge/door/validate_door.h"
 #include "doorforge/mesh/convex_parts.h"
+#include "doorforge/schemas/door_draw.h"
 #include "doorforge/schemas/part_identity.h"
 #include "doorforge/schemas/split.h"
 
@@ -363,7 +364,70 @@ TEST(QuickstartSplit, PutsEveryPartOnExactlyOneSide) {
   EXPECT_EQ(kinds["train"], kinds["test"]) << "every kind is trained on and tested";
 }
 
-Split FullSplit() { return ReadSplit(DataOfSource() / "splits" / "full.yaml"); }
+Split SplitNamed(const std::string& name) {
+  return ReadSplit(DataOfSource() / "splits" / (name + ".yaml"));
+}
+
+Split FullSplit() { return SplitNamed("full"); }
+
+// A category's bodies, or its handles of one mechanism.
+std::string GroupOf(const Part& part) {
+  return std::string(NameOf(part.category)) + " " + std::string(NameOf(part.role)) + " " +
+         std::string(NameOf(part.mechanism));
+}
+
+// The generator of a part, as its recipe names it.
+std::string FamilyOf(const std::string& id) {
+  const Part& part = PartNamed(id);
+  const fs::path path = DataOfSource() / "catalog" / std::string(NameOf(part.category)) /
+                        (part.role == PartRole::kBody ? "bodies" : "handles") / (id + ".yaml");
+  return ParseYaml(ReadFile(path), path.string()).at("family").get<std::string>();
+}
+
+std::set<std::string> FamiliesOf(const std::vector<std::string>& ids) {
+  std::set<std::string> families;
+  for (const std::string& id : ids) families.insert(FamilyOf(id));
+  return families;
+}
+
+// Every body of a side with every handle of its category, as `compose --all` makes them.
+std::map<Category, std::vector<DoorIdentity>> DoorsOf(const std::vector<std::string>& parts) {
+  std::map<Category, std::vector<DoorIdentity>> doors;
+  for (const std::string& body : parts) {
+    if (PartNamed(body).role != PartRole::kBody) continue;
+    for (const std::string& handle : parts) {
+      const Part& grip = PartNamed(handle);
+      if (grip.role != PartRole::kHandle || grip.category != PartNamed(body).category) continue;
+      DoorIdentity door;
+      door.id = body + "__" + handle;
+      door.category = grip.category;
+      door.mechanism = grip.mechanism;
+      door.body.id = body;
+      door.handle.id = handle;
+      doors[grip.category].push_back(door);
+    }
+  }
+  return doors;
+}
+
+// No body and no handle is tried more than once more often than another.
+void ExpectEven(const std::vector<DoorIdentity>& doors, std::size_t count,
+                const std::string& where) {
+  std::map<std::string, int> bodies;
+  std::map<std::string, int> handles;
+  for (const DoorIdentity& door : doors) bodies[door.body.id] = handles[door.handle.id] = 0;
+  const auto drawn = DrawDoors(doors, count);
+  ASSERT_EQ(drawn.size(), count) << where;
+  for (const std::size_t door : drawn) {
+    ++bodies[doors[door].body.id];
+    ++handles[doors[door].handle.id];
+  }
+  for (const auto& uses : {bodies, handles}) {
+    const auto [least, most] =
+        std::ranges::minmax_element(uses, {}, [](const auto& use) { return use.second; });
+    ASSERT_LE(most->second - least->second, 1) << where << ", " << count << " doors";
+  }
+}
 
 Part AtAnotherSize(Part part, double scale) {
   for (PartPiece& piece : part.pieces) {
@@ -373,10 +437,11 @@ Part AtAnotherSize(Part part, double scale) {
   return part;
 }
 
-TEST(FullSplitFile, HoldsEveryPartOnceAndTheUnseenCategoriesApart) {
+TEST(SplitFiles, HoldEveryPartOnceAndTheUnseenCategoriesApart) {
   const Split split = FullSplit();
   std::map<std::string, int> count;
   for (const std::string& id : PartsOf(split)) ++count[id];
+  for (const std::string& id : SplitNamed("families").test) ++count[id];
   for (const Part& part : AllParts()) EXPECT_EQ(count[part.id], 1) << part.id;
   EXPECT_EQ(count.size(), AllParts().size());
   const auto unseen = [](const std::string& id) {
@@ -386,32 +451,73 @@ TEST(FullSplitFile, HoldsEveryPartOnceAndTheUnseenCategoriesApart) {
   EXPECT_EQ(std::ranges::count_if(split.unseen_categories, unseen), 160 + 8 + 10 + 9);
   EXPECT_EQ(split.unseen_categories.size(), 160u + 8 + 10 + 9);
   EXPECT_TRUE(std::ranges::none_of(split.train, unseen));
+  EXPECT_TRUE(std::ranges::none_of(split.validation, unseen));
   EXPECT_TRUE(std::ranges::none_of(split.test, unseen));
 }
 
-TEST(FullSplitFile, TestsWhatItTrainsOnWithAThirdOfTheParts) {
+TEST(SplitFiles, TestAndValidateEveryGroupThatIsTrainedOn) {
   const Split split = FullSplit();
-  std::map<std::string, std::pair<int, int>> kinds;  // trained on, tested
-  const auto kind = [](const Part& part) {
-    return std::string(NameOf(part.category)) + " " + std::string(NameOf(part.role)) + " " +
-           std::string(NameOf(part.mechanism));
-  };
-  for (const std::string& id : split.train) ++kinds[kind(PartNamed(id))].first;
-  for (const std::string& id : split.test) ++kinds[kind(PartNamed(id))].second;
-  EXPECT_EQ(kinds.size(), 10u);  // 4 categories of bodies, 6 kinds of handles
-  for (const auto& [name, sides] : kinds) {
-    EXPECT_EQ(sides.second, (sides.first + sides.second) / 3) << name;
+  std::map<std::string, std::array<std::size_t, 3>> groups;  // trained on, validated, tested
+  for (const std::string& id : split.train) ++groups[GroupOf(PartNamed(id))][0];
+  for (const std::string& id : split.validation) ++groups[GroupOf(PartNamed(id))][1];
+  for (const std::string& id : split.test) ++groups[GroupOf(PartNamed(id))][2];
+  EXPECT_EQ(groups.size(), 10u);  // 4 categories of bodies, 6 kinds of handles
+  for (const auto& [name, sides] : groups) {
+    const std::size_t rest = sides[0] + sides[1];
+    EXPECT_EQ(sides[2], (rest + sides[2]) / 3) << name;
+    EXPECT_EQ(sides[1], (rest + 2) / 6) << name;
+    EXPECT_GE(sides[1], 1u) << name;
   }
 }
 
-TEST(FullSplitFile, NoSideHasACopyOfAnotherSidesPartEvenAtAnotherSize) {
+TEST(SplitFiles, FamiliesAreHeldOutWhole) {
+  const Split full = FullSplit();
+  const Split families = SplitNamed("families");
+  EXPECT_EQ(families.train, full.train) << "one policy is judged by both";
+  EXPECT_EQ(families.validation, full.validation);
+  const std::set<std::string> held_out = FamiliesOf(families.test);
+  for (const auto* side : {&full.train, &full.validation, &full.test}) {
+    for (const std::string& family : FamiliesOf(*side))
+      EXPECT_FALSE(held_out.contains(family)) << family;
+  }
+  std::map<std::string, std::set<std::string>> groups;  // all families of a group
+  for (const Part& part : AllParts()) groups[GroupOf(part)].insert(FamilyOf(part.id));
+  for (const std::string& id : full.train) {
+    const auto& group = groups.at(GroupOf(PartNamed(id)));
+    const auto count = std::ranges::count_if(
+        group, [&](const std::string& family) { return held_out.contains(family); });
+    EXPECT_EQ(count, group.size() > 2 ? 1 : 0) << GroupOf(PartNamed(id));
+  }
+}
+
+TEST(SplitFiles, AnyNumberOfDoorsOfAnySideIsDrawnEvenly) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> sides;
+  for (const char* name : {"full", "families"}) {
+    const Split split = SplitNamed(name);
+    for (const auto& [side, parts] : SidesOf(split)) {
+      if (!parts->empty()) sides.emplace_back(std::string(name) + ":" + side, *parts);
+    }
+  }
+  EXPECT_EQ(sides.size(), 4u + 3u);
+  for (const auto& [name, parts] : sides) {
+    for (const auto& [category, doors] : DoorsOf(parts)) {
+      for (std::size_t n = 1; n <= std::min<std::size_t>(doors.size(), 120); ++n)
+        ExpectEven(doors, n, name + ", " + std::string(NameOf(category)));
+      ExpectEven(doors, doors.size() / 2, name);
+      ExpectEven(doors, doors.size() - 1, name);
+    }
+  }
+}
+
+TEST(SplitFiles, NoSideHasACopyOfAnotherSidesPartEvenAtAnotherSize) {
   const Split split = FullSplit();
   std::vector<std::pair<int, PartIdentity>> sided;
-  const std::vector<const std::vector<std::string>*> sides = {&split.train, &split.test,
-                                                              &split.unseen_categories};
-  for (int side = 0; side < 3; ++side) {
-    for (const std::string& id : *sides[static_cast<std::size_t>(side)])
-      sided.emplace_back(side, IdentityOf(PartNamed(id)));
+  const Split families = SplitNamed("families");
+  const std::vector<const std::vector<std::string>*> sides = {
+      &split.train, &split.validation, &split.test, &split.unseen_categories, &families.test};
+  for (std::size_t side = 0; side < sides.size(); ++side) {
+    for (const std::string& id : *sides[side])
+      sided.emplace_back(static_cast<int>(side), IdentityOf(PartNamed(id)));
   }
   for (std::size_t i = 0; i < sided.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {

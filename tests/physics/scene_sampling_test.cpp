@@ -52,6 +52,29 @@ TEST(SceneSampling, ADoorThatIsInTheRangeIsOnlyLiftedATenthOfAMetre) {
   EXPECT_LT((scene.world_from_door.translation() - Eigen::Vector3d(0, 0, 0.1)).norm(), 1e-12);
 }
 
+TEST(SceneSampling, TheHeightVariesAsFarAsAskedAndNothingElseDoes) {
+  const DoorAsset door = MakePrimitiveDoor({});
+  SceneConfig config;
+  config.height_jitter_m = 0.25;
+  double lowest = 1;
+  double highest = -1;
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    const Scene still = SampleScene(door, 1, i);
+    Scene moved = SampleScene(door, 1, i, config);
+    const Eigen::Vector3d shift =
+        moved.world_from_door.translation() - still.world_from_door.translation();
+    EXPECT_EQ(shift.head<2>().norm(), 0);
+    lowest = std::min(lowest, shift.z());
+    highest = std::max(highest, shift.z());
+    moved.world_from_door = still.world_from_door;
+    EXPECT_EQ(SceneToJson(moved).dump(), SceneToJson(still).dump());
+  }
+  EXPECT_NEAR(lowest, -0.25, 0.02);
+  EXPECT_NEAR(highest, 0.25, 0.02);
+  config.height_jitter_m = 0.6;
+  EXPECT_THROW(SampleScene(door, 1, 0, config), Error);
+}
+
 SceneConfig WithRandomisation(const std::string& name) {
   SceneConfig config;
   config.randomisation = name;

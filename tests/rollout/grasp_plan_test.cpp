@@ -66,5 +66,29 @@ TEST(GraspPlan, SaysByItsCostThatAHandleIsOutOfTheGripper) {
   EXPECT_GT(PlanGrasp(StillScene(door), door, robot).cost, 4);
 }
 
+// Room for a turn either way is all that counts: the grasp and its half turn are one grasp, and of
+// their postures the one with the wrist nearest to the middle of its range is taken.
+TEST(PlanReach, ReachesTheGraspOrItsHalfTurnWithRoomForTheWrist) {
+  const RobotModel robot = LoadMobileFranka();
+  const DoorAsset door = MakePrimitiveDoor({});
+  const Scene scene = StillScene(door);
+  const RigidTransform world_from_grasp =
+      scene.world_from_door * DoorFromLinks(door, 0, 0)[kHandleLink] * door.handle_from_grasp;
+  const int wrist = robot.arm_count() - 1;
+  const double middle = (robot.joint(wrist).lower + robot.joint(wrist).upper) / 2;
+  for (const double roll : {0.0, 0.6, 1.2, 2.0, 3.0}) {
+    const RigidTransform asked = world_from_grasp * RotationAbout(Eigen::Vector3d::UnitZ(), roll);
+    const ArmReach reach = PlanReach(scene, robot, asked);
+    const RobotPose at = robot.PoseAt(reach.grasp, scene.world_from_robot_base);
+    const RobotPose before = robot.PoseAt(reach.pregrasp, scene.world_from_robot_base);
+    EXPECT_LT((at.world_from_tcp.translation() - asked.translation()).norm(), 2e-3);
+    EXPECT_NEAR((before.world_from_tcp.translation() - asked.translation()).norm(),
+                kPregraspDistance, 3e-3);
+    const double along = at.world_from_tcp.linear().col(1).dot(asked.linear().col(1));
+    EXPECT_NEAR(std::abs(along), 1, 1e-3) << "the fingers close along the same line";
+    EXPECT_LT(std::abs(reach.grasp[wrist] - middle), 1.75) << "a quarter turn, and some reserve";
+  }
+}
+
 }  // namespace
 }  // namespace doorforge

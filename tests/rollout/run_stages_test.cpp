@@ -103,18 +103,27 @@ TEST_F(RunStagesTest, APredictedFlagThatComesTooEarlyLeavesTheHandleStuckAndIsNa
       << episode.detail;
 }
 
-TEST_F(RunStagesTest, APredictedFlagThatNeverComesEndsTheEpisodeAndIsNamed) {
+TEST_F(RunStagesTest, WhereThePredictedFlagNeverComesOpeningIsTriedAllTheSame) {
   const DoorAsset door = MakePrimitiveDoor({});
   Scene scene = SampleScene(door, 1, 0);
   scene.physics.max_handle_actions = 6;
+  EpisodeRoles roles{.recorded = Stage::kHandle, .predicted_turned = [] { return false; }};
   HandleExpert turns;
-  const Episode episode =
-      Run(door, scene,
-          {.recorded = Stage::kHandle, .handle = &turns, .predicted_turned = [] { return false; }});
-  EXPECT_EQ(episode.decisions.size(), 6U);
-  EXPECT_NE(episode.outcome, EpisodeOutcome::kOpened);
-  EXPECT_GE(episode.peak_handle_rad, door.latch.handle_done_angle_rad);
-  EXPECT_NE(episode.detail.find("the switch did not come"), std::string::npos) << episode.detail;
+  roles.handle = &turns;
+  const Episode turned = Run(door, scene, roles);
+  EXPECT_EQ(turned.decisions.size(), 6U);
+  EXPECT_EQ(turned.outcome, EpisodeOutcome::kOpened) << turned.detail;
+  EXPECT_TRUE(turned.handle_done);
+
+  Staying stays;
+  roles.handle = &stays;
+  const Episode still = Run(door, scene, roles);
+  EXPECT_EQ(still.decisions.size(), 6U);
+  EXPECT_EQ(still.outcome, EpisodeOutcome::kHandleStuck) << still.detail;
+  EXPECT_FALSE(still.handle_done);
+  EXPECT_NE(still.detail.find("no switch came, opening was tried with the handle at"),
+            std::string::npos)
+      << still.detail;
 }
 
 TEST_F(RunStagesTest, ALearnerDrivesFirstAndTheRuleSaysWhatItWouldHaveDone) {
@@ -210,6 +219,16 @@ TEST_F(RunStagesTest, ADoorWithoutALatchNeedsNoTurn) {
       Run(door, SampleScene(door, 1, 0), {.recorded = Stage::kHandle, .handle = &turns});
   EXPECT_EQ(episode.outcome, EpisodeOutcome::kOpened) << episode.detail;
   EXPECT_TRUE(episode.decisions.empty());
+}
+
+TEST_F(RunStagesTest, WhoSaysWhenTheHandleIsTurnedIsNotToldThatThereIsNoLatch) {
+  const DoorAsset door = MakePrimitiveDoor({.mechanism = Mechanism::kNone});
+  HandleExpert turns;
+  const Episode episode =
+      Run(door, SampleScene(door, 1, 0),
+          {.recorded = Stage::kHandle, .handle = &turns, .predicted_turned = AfterQuestions(2)});
+  EXPECT_EQ(episode.decisions.size(), 2U) << "as on a door with a latch";
+  EXPECT_EQ(episode.outcome, EpisodeOutcome::kOpened) << episode.detail;
 }
 
 TEST_F(RunStagesTest, RefusesAStageAtWhichNobodyDecides) {

@@ -30,28 +30,32 @@ ErrorCode CodeOf(const std::string& text) {
   return ErrorCode::kMissing;
 }
 
-constexpr const char* kHead = "schema: doorforge.split\nschema_version: 1\n";
+constexpr const char* kHead = "schema: doorforge.split\nschema_version: 2\n";
 
 TEST(Split, ListsItsPartsSideBySide) {
-  const Split split = ReadSplit(Written(std::string(kHead) + "train: [b, a]\ntest: [c]\n"));
+  const Split split =
+      ReadSplit(Written(std::string(kHead) + "train: [b, a]\nvalidation: [d]\ntest: [c]\n"));
   EXPECT_EQ(split.train, (std::vector<std::string>{"b", "a"}));
+  EXPECT_EQ(split.validation, std::vector<std::string>{"d"});
   EXPECT_EQ(split.test, std::vector<std::string>{"c"});
   EXPECT_TRUE(split.unseen_categories.empty());
-  EXPECT_EQ(PartsOf(split), (std::vector<std::string>{"a", "b", "c"}));
+  EXPECT_EQ(PartsOf(split), (std::vector<std::string>{"a", "b", "c", "d"}));
+  EXPECT_EQ(SidesOf(split).at("validation"), &split.validation);
 }
 
 TEST(Split, RefusesAPartOnTwoSides) {
   EXPECT_EQ(CodeOf(std::string(kHead) + "train: [a]\ntest: [a]\n"), ErrorCode::kInvalidConfig);
+  EXPECT_EQ(CodeOf(std::string(kHead) + "validation: [a]\ntest: [a]\n"), ErrorCode::kInvalidConfig);
 }
 
 TEST(Split, RefusesAnotherSchemaAndALaterVersion) {
   EXPECT_EQ(CodeOf("schema: doorforge.recipe\nschema_version: 1\n"), ErrorCode::kFormat);
-  EXPECT_EQ(CodeOf("schema: doorforge.split\nschema_version: 2\n"), ErrorCode::kFormat);
+  EXPECT_EQ(CodeOf("schema: doorforge.split\nschema_version: 3\n"), ErrorCode::kFormat);
   EXPECT_EQ(CodeOf("train: [a]\n"), ErrorCode::kFormat);
 }
 
 TEST(Split, RefusesAnUnknownKey) {
-  EXPECT_EQ(CodeOf(std::string(kHead) + "validation: [a]\n"), ErrorCode::kInvalidConfig);
+  EXPECT_EQ(CodeOf(std::string(kHead) + "tset: [a]\n"), ErrorCode::kInvalidConfig);
 }
 
 }  // namespace

@@ -51,7 +51,8 @@ constexpr double kWayFrom = 0.1;
 constexpr double kWayTo = 0.7;
 constexpr double kHalfWay = 0.08;
 
-constexpr double kPushLean = 0.35;  // [rad]
+constexpr double kPushLean = 0.35;         // [rad]
+constexpr double kMostHeightJitter = 0.5;  // [m] beyond it the arm reaches few handles
 
 double ClippedNormal(Rng& rng) { return std::clamp(0.5 * rng.Normal(), -1.0, 1.0); }
 
@@ -162,6 +163,12 @@ void VaryView(Scene& scene, Rng rng) {
   scene.camera.target_m += DrawShift(kTargetShift, rng);
 }
 
+double HeightShift(const SceneConfig& config, Rng rng) {
+  Require(config.height_jitter_m >= 0 && config.height_jitter_m <= kMostHeightJitter,
+          ErrorCode::kInvalidConfig, "config.scene.height_jitter_m: out of 0..0.5");
+  return rng.Uniform(-config.height_jitter_m, config.height_jitter_m);
+}
+
 // How much of the paper's own jitter there is.
 double PaperShare(const SceneConfig& config) {
   if (config.randomisation == "off") return 0;
@@ -214,6 +221,7 @@ Scene SampleScene(const DoorAsset& door, std::uint64_t seed, std::uint64_t episo
   scene.seed = seed;
   scene.episode = episode;
   scene.world_from_door = PlaceDoor(door, placement);
+  scene.world_from_door.translation().z() += HeightShift(config, Rng(seed, stream + "height"));
   scene.world_from_robot_base =
       PlaceRobot(placement, share * config.base_jitter, Rng(seed, stream + "base"));
   scene.latch = door.latch;

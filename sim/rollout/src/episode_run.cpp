@@ -128,7 +128,8 @@ EpisodeRun::Failure EpisodeRun::TakeHold(GraspChooser& chooser) {
   RigidTransform world_from_tcp = world_from_hand * robot_.hand_from_tcp();
   world_from_tcp.translation() =
       chosen->contact_m + kGraspInsertion * chosen->world_from_hand_rotation.col(2);
-  Plan(PlanReach(episode_.scene, door_, robot_, WorldFromHandle(0).inverse() * world_from_tcp));
+  const ArmReach reach = PlanReach(episode_.scene, robot_, world_from_tcp);
+  Plan({WorldFromHandle(0).inverse() * reach.world_from_tcp, reach.pregrasp, reach.grasp, 0});
   RecordChoice(std::move(*chosen));
   const Failure unreached = Reach();
   const std::string problem = std::exchange(problem_, {});
@@ -262,6 +263,7 @@ EpisodeRun::Failure EpisodeRun::Unlock() {
 // The sticky flag alone would not do: closing fingers may have knocked the handle down for a
 // moment.
 bool EpisodeRun::IsTurned() const {
+  if (episode_.scene.latch.type == LatchType::kNone) return true;
   const WorldState& state = world_.state();
   return !state.locked && state.handle_rad >= episode_.scene.latch.handle_done_angle_rad;
 }
@@ -274,7 +276,6 @@ bool EpisodeRun::EndsTurn() const {
 
 EpisodeRun::Failure EpisodeRun::Turn(Policy& handle) {
   const PhysicsConfig& physics = episode_.scene.physics;
-  if (episode_.scene.latch.type == LatchType::kNone) return std::nullopt;
   BeginStage(handle, Stage::kHandle);
   const auto off = [&] { return step_ - last_pad_step_; };
   while (actions_ < physics.max_handle_actions && !diverged_ && !EndsTurn()) {
@@ -282,17 +283,16 @@ EpisodeRun::Failure EpisodeRun::Turn(Policy& handle) {
     if (off() > 3L * physics.steps_per_action) break;
   }
   Watch("unlock");
+  const bool lost = off() > physics.steps_per_action;
+  const bool said = EndsTurn();
+  if (!said && (lost || !roles_.predicted_turned)) return TurnFailure(lost);
   const WorldState& state = world_.state();
-  if (EndsTurn()) {
-    if (!IsTurned() && !state.handle_done)
-      early_ =
-          Format("the switch came with the handle at %.1f of %.1f deg", state.handle_rad / kDegree,
-                 episode_.scene.latch.handle_done_angle_rad / kDegree);
-    return std::nullopt;
-  }
-  const Failure failure = TurnFailure(off() > physics.steps_per_action);
-  if (IsTurned()) problem_ += ", and the switch did not come";
-  return failure;
+  if (!IsTurned() && !state.handle_done)
+    early_ =
+        Format("%s with the handle at %.1f of %.1f deg",
+               said ? "the switch came" : "no switch came, opening was tried",
+               state.handle_rad / kDegree, episode_.scene.latch.handle_done_angle_rad / kDegree);
+  return std::nullopt;
 }
 
 EpisodeRun::Failure EpisodeRun::TurnFailure(bool lost) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -102,11 +103,6 @@ JudgedGrasp SearchGrasp(const DoorAsset& door, const RobotModel& robot,
 
 // ---- the arm ------------------------------------------------------------------------------------
 
-struct ReachedGrasp {
-  GraspPlan plan;
-  double cost = std::numeric_limits<double>::infinity();
-};
-
 struct Reach {
   const RobotModel& robot;
   const RigidTransform& world_from_base;
@@ -126,45 +122,58 @@ double WristUse(const RobotModel& robot, const JointVector& position) {
   return std::abs(position[wrist] - (robot.joint(wrist).upper - half)) / half;
 }
 
-ReachedGrasp ReachFrom(const Reach& reach, const Scene& scene, const DoorAsset& door,
-                       const RigidTransform& door_from_tcp, const JointVector& start) {
-  const RigidTransform world_from_tcp = scene.world_from_door * door_from_tcp;
-  ReachedGrasp reached;
-  reached.cost = 0;
+/// A grasp in some frame that is placed in the world, and the arm's way to it.
+struct ReachedGrasp {
+  RigidTransform frame_from_tcp = RigidTransform::Identity();
+  JointVector pregrasp;
+  JointVector grasp;
+  double cost = std::numeric_limits<double>::infinity();
+};
+
+ReachedGrasp ReachFrom(const Reach& reach, const RigidTransform& world_from_frame,
+                       const RigidTransform& frame_from_tcp, const JointVector& start) {
+  const RigidTransform world_from_tcp = world_from_frame * frame_from_tcp;
+  ReachedGrasp reached{frame_from_tcp, start, start, 0};
   JointVector position = start;
   reached.cost += reach.Solve(world_from_tcp * Translation({0, 0, -kPregraspDistance}), position);
-  reached.plan.pregrasp = position;
+  reached.pregrasp = position;
   reached.cost += reach.Solve(world_from_tcp, position);
-  reached.plan.grasp = position;
-  double use = WristUse(reach.robot, position);
-  if (door.handle_joint.upper_rad > 0) {
-    const RigidTransform handle = DoorFromLinks(door, 0, 0)[kHandleLink];
-    const double angle = std::min(kTurnCheck, door.handle_joint.upper_rad);
-    const RigidTransform turned = DoorFromLinks(door, 0, angle)[kHandleLink];
-    reached.cost +=
-        reach.Solve(scene.world_from_door * turned * handle.inverse() * door_from_tcp, position);
-    use = std::max(use, WristUse(reach.robot, position));
-  }
-  reached.cost += use;
+  reached.grasp = position;
   return reached;
 }
 
-GraspPlan BestReach(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
-                    const RigidTransform& door_from_grasp) {
-  const RigidTransform door_from_handle = DoorFromLinks(door, 0, 0)[kHandleLink];
-  const Reach reach{robot, scene.world_from_robot_base};
+using UseOfArm = std::function<double(const ReachedGrasp&)>;
+
+// Of all postures, and of the grasp and its half turn, the one that costs least, its use included.
+ReachedGrasp BestReach(const Reach& reach, const RigidTransform& world_from_frame,
+                       const RigidTransform& frame_from_tcp, const UseOfArm& use) {
   ReachedGrasp best;
   // the two fingers are alike: half a turn about the approach is the same grasp
   for (const double half_turn : {0.0, std::numbers::pi}) {
-    const RigidTransform door_from_tcp =
-        door_from_grasp * RotationAbout(Eigen::Vector3d::UnitZ(), half_turn);
-    for (const JointVector& start : robot.level_postures()) {
-      ReachedGrasp reached = ReachFrom(reach, scene, door, door_from_tcp, start);
-      reached.plan.handle_from_tcp = door_from_handle.inverse() * door_from_tcp;
+    const RigidTransform turned =
+        frame_from_tcp * RotationAbout(Eigen::Vector3d::UnitZ(), half_turn);
+    for (const JointVector& start : reach.robot.level_postures()) {
+      ReachedGrasp reached = ReachFrom(reach, world_from_frame, turned, start);
+      reached.cost += use(reached);
       if (reached.cost < best.cost) best = reached;
     }
   }
-  return best.plan;
+  return best;
+}
+
+// How much of the wrist's range the grasp and the turn of the handle take, and what the arm does
+// not reach of the turn.
+double UseInTurn(const Reach& reach, const Scene& scene, const DoorAsset& door,
+                 const ReachedGrasp& grasp) {
+  const double use = WristUse(reach.robot, grasp.grasp);
+  if (door.handle_joint.upper_rad <= 0) return use;
+  const RigidTransform handle = DoorFromLinks(door, 0, 0)[kHandleLink];
+  const double angle = std::min(kTurnCheck, door.handle_joint.upper_rad);
+  const RigidTransform turned = DoorFromLinks(door, 0, angle)[kHandleLink];
+  JointVector position = grasp.grasp;
+  const double missed = reach.Solve(
+      scene.world_from_door * turned * handle.inverse() * grasp.frame_from_tcp, position);
+  return missed + std::max(use, WristUse(reach.robot, position));
 }
 
 }  // namespace
@@ -174,14 +183,20 @@ GraspPlan PlanGrasp(const Scene& scene, const DoorAsset& door, const RobotModel&
   const RigidTransform door_from_grasp =
       door_from_handle * door.handle_from_grasp * scene.grasp_from_noisy_grasp;
   const JudgedGrasp judged = SearchGrasp(door, robot, door_from_grasp);
-  GraspPlan plan = BestReach(scene, door, robot, judged.door_from_tcp);
-  plan.cost = judged.cost;
-  return plan;
+  const Reach reach{robot, scene.world_from_robot_base};
+  const ReachedGrasp best =
+      BestReach(reach, scene.world_from_door, judged.door_from_tcp,
+                [&](const ReachedGrasp& grasp) { return UseInTurn(reach, scene, door, grasp); });
+  return {door_from_handle.inverse() * best.frame_from_tcp, best.pregrasp, best.grasp, judged.cost};
 }
 
-GraspPlan PlanReach(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
-                    const RigidTransform& handle_from_tcp) {
-  return BestReach(scene, door, robot, DoorFromLinks(door, 0, 0)[kHandleLink] * handle_from_tcp);
+ArmReach PlanReach(const Scene& scene, const RobotModel& robot,
+                   const RigidTransform& world_from_tcp) {
+  const Reach reach{robot, scene.world_from_robot_base};
+  const ReachedGrasp best =
+      BestReach(reach, RigidTransform::Identity(), world_from_tcp,
+                [&](const ReachedGrasp& grasp) { return WristUse(robot, grasp.grasp); });
+  return {best.frame_from_tcp, best.pregrasp, best.grasp};
 }
 
 double GraspCost(const DoorAsset& door, const RobotModel& robot) {

@@ -51,7 +51,8 @@ void AddOptions(CLI::App& app, Options& options) {
   app.add_option("--split", options.request.doors.split,
                  "only doors of these parts: a split and its side, such as full:test");
   app.add_option("-n,--per-category", options.request.doors.per_category,
-                 "at most so many doors of each category, evenly from the list; 0: all")
+                 "at most so many doors of each category, all handles and bodies as evenly as "
+                 "the number allows; 0: all")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--out", options.out,
                  "folder for report.json and report.html; without it only the table is printed");
@@ -64,8 +65,8 @@ void AddOptions(CLI::App& app, Options& options) {
                    "handle")
         ->check(CLI::ExistingDirectory);
   app.add_option("--switch", options.unlock_switch,
-                 "who says that the handle is turned: the simulator (privileged) or, with "
-                 "--handler, that policy itself (predicted); (config: switch, privileged)")
+                 "who says that the handle is turned: with --handler that policy itself "
+                 "(predicted), or the simulator (privileged); (config: switch, predicted)")
       ->check(CLI::IsMember({"privileged", "predicted"}));
   app.add_option("--grasper", options.request.grasper,
                  "folder of a policy of `doorforge train grasp`, or `random` for sampled grasps; "
@@ -121,6 +122,10 @@ Options Parse(int argc, char** argv, const OwnPolicies& own) {
 EvaluationConfig ConfigOf(const Options& options) {
   auto config = LoadConfig<EvaluationConfig>(options.config, options.settings);
   if (options.unlock_switch) config.unlock_switch = *options.unlock_switch;
+  Require(options.unlock_switch != "predicted" || !options.request.handler.empty(),
+          ErrorCode::kInvalidArgument,
+          "--switch predicted: a policy that turns the handle says when it is turned; give one "
+          "with --handler");
   if (options.seeds) config.seeds = *options.seeds;
   if (options.first_seed) config.first_seed = *options.first_seed;
   if (options.episodes_per_door) config.episodes_per_door = *options.episodes_per_door;

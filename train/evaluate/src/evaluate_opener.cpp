@@ -84,18 +84,15 @@ void AddGrasper(const EvaluationRequest& request, Players& players) {
 }
 
 bool IsSwitchPredicted(const EvaluationRequest& request) {
-  return request.config.unlock_switch == "predicted";
+  return request.config.unlock_switch == "predicted" && !request.handler.empty();
 }
 
 void CheckSwitch(const EvaluationRequest& request) {
   const std::string& name = request.config.unlock_switch;
   Require(!request.own.make_handle || request.handler.empty(), ErrorCode::kInvalidArgument,
           "two policies are to turn the handle: one's own and --handler; leave one out");
-  Require(name == "privileged" || IsSwitchPredicted(request), ErrorCode::kInvalidConfig,
+  Require(name == "privileged" || name == "predicted", ErrorCode::kInvalidConfig,
           "config.switch: \"" + name + "\", expected \"privileged\" or \"predicted\"");
-  Require(!IsSwitchPredicted(request) || !request.handler.empty(), ErrorCode::kInvalidArgument,
-          "the switch is predicted by the policy that turns the handle: give one with --handler, "
-          "or use the privileged switch");
 }
 
 void AddHandler(const EvaluationRequest& request, Players& players) {

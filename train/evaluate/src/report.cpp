@@ -166,8 +166,10 @@ auto ArrayFromJson(const Json& json, const std::string& path, const Codec& from_
 }  // namespace
 
 bool IsSwitchPredicted(const ReportProvenance& provenance) {
-  return provenance.config.is_object() &&
-         provenance.config.value("switch", "privileged") == "predicted";
+  const bool trained =
+      !provenance.handler_sha256.empty() && provenance.handler_sha256 != kOwnPolicy;
+  return trained && provenance.config.is_object() &&
+         provenance.config.value("switch", "predicted") == "predicted";
 }
 
 std::vector<std::string> SeenDoors(std::span<const DoorIdentity> doors,

@@ -19,11 +19,14 @@ struct CollectionConfig {
   /// make about 100 MiB.
   int episodes_per_shard = 128;
   double val_fraction = 0.1;  ///< See SplitDoors().
+  /// Doors are meant whose handles are of these, such as "round" or "lever"; empty: all doors.
+  std::vector<std::string> mechanisms = {};
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
     visit("episodes_per_shard", self.episodes_per_shard);
     visit("val_fraction", self.val_fraction);
+    visit("mechanisms", self.mechanisms);
   }
 };
 

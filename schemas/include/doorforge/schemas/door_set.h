@@ -22,11 +22,11 @@ namespace doorforge {
 struct DoorSelection {
   std::vector<std::filesystem::path> folders;  ///< Searched in depth for door.json.
   /// A split, as a name in data/splits or a file, with a side: "full:test", "my.yaml:train",
-  /// "full:unseen_categories". Doors are meant whose body and handle are both on that side. Empty:
-  /// all.
+  /// "full:validation", "full:unseen_categories". Doors are meant whose body and handle are both on
+  /// that side. Empty: all.
   std::string split = {};
   std::string default_side = "train";  ///< Of a split that is named without one.
-  /// At most so many of each category, evenly from the list by id; 0: all.
+  /// At most so many of each category, as DrawDoors() draws them; 0: all.
   int per_category = 0;
 };
 

@@ -3,12 +3,13 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
 namespace doorforge {
 
-inline constexpr int kSplitSchemaVersion = 1;
+inline constexpr int kSplitSchemaVersion = 2;  ///< 2: `validation`, which may be absent.
 
 /// Which parts are trained on and which are held out, as ids. No part is on two sides, so a door of
 /// one side shares neither body nor handle with a door of another.
@@ -16,6 +17,7 @@ struct Split {
   std::string schema;
   int schema_version = 0;
   std::vector<std::string> train;
+  std::vector<std::string> validation;         ///< Settings are chosen by these, and by no others.
   std::vector<std::string> test;               ///< Of categories that are trained on.
   std::vector<std::string> unseen_categories;  ///< Of categories that are never trained on.
 
@@ -24,6 +26,7 @@ struct Split {
     visit("schema", self.schema);
     visit("schema_version", self.schema_version);
     visit("train", self.train);
+    visit("validation", self.validation);
     visit("test", self.test);
     visit("unseen_categories", self.unseen_categories);
   }
@@ -32,6 +35,10 @@ struct Split {
 /// Reads a YAML or JSON file of schema "doorforge.split". Throws Error(kMissing), Error(kFormat) on
 /// another schema or version, or Error(kInvalidConfig) on an unknown key or a part named twice.
 Split ReadSplit(const std::filesystem::path& path);
+
+/// The sides by the names that `--split FILE:SIDE` takes: train, validation, test and
+/// unseen_categories.
+std::map<std::string, const std::vector<std::string>*> SidesOf(const Split& split);
 
 /// All ids, sorted.
 std::vector<std::string> PartsOf(const Split& split);

@@ -44,6 +44,9 @@ struct SceneConfig {
   /// masses, damping, springs, unlock angle, camera and start pose as well, see
   /// docs/design/simulation.md for the ranges and their sources.
   std::string randomisation = "paper";
+  /// The door stands higher or lower by up to this, drawn for each episode: robots are not all as
+  /// tall, and handles that one category has low, another has high. Camera and robot stay.
+  double height_jitter_m = 0;
   double base_jitter = 1;  ///< Scales the spread of the robot's place; 0: always the same.
   double grasp_noise = 1;  ///< Scales the offset of the expert's grasp; 0: the nominal grasp.
 
@@ -53,6 +56,7 @@ struct SceneConfig {
     visit("camera", self.camera);
     visit("robot", self.robot);
     visit("randomisation", self.randomisation);
+    visit("height_jitter_m", self.height_jitter_m);
     visit("base_jitter", self.base_jitter);
     visit("grasp_noise", self.grasp_noise);
   }
@@ -64,16 +68,18 @@ struct SceneConfig {
 /// The door stands axis-parallel, 0.1 m or more over the floor, so that the closed door's grasp
 /// point lies where UniDoorManip's objects of this category have it (its range of heights, sideways
 /// positions and distances, measured on the released objects); a door that is in the range at
-/// height 0.1 m is not moved. Robot: facing the door at the category's distance, x and y jittered
-/// independently by clip(N(0, 0.5), -1, 1) times 0.08 to 0.15 m. Grasp: turned about the approach
-/// by the same kind of number times 10 degrees; on levers and flaps also shifted along the handle
-/// by up to grasp_half_extent_m. A door hinged right stands where the mirror image of one hinged
-/// left would, the robot likewise; a door that is pushed stands as one that is pulled, with the
-/// robot on the handle's side, and the grasp of whoever pushes leans 20 degrees away from the jamb
-/// and, on a knob, is rolled back by half its turn. Throws as RequireSimulatable();
-/// Error(kInvalidArgument) where the frame of a pushed door stands between robot and handle, as the
-/// back of a cupboard does; Error(kInvalidConfig) on an unknown randomisation and as CameraOf(). A
-/// stronger randomisation leaves the draws of a weaker one as they are.
+/// height 0.1 m is not moved; then it is moved by up to height_jitter_m up or down, also into the
+/// floor, which is nothing that anything could touch. Robot: facing the door at the category's
+/// distance, x and y jittered independently by clip(N(0, 0.5), -1, 1) times 0.08 to 0.15 m. Grasp:
+/// turned about the approach by the same kind of number times 10 degrees; on levers and flaps also
+/// shifted along the handle by up to grasp_half_extent_m. A door hinged right stands where the
+/// mirror image of one hinged left would, the robot likewise; a door that is pushed stands as one
+/// that is pulled, with the robot on the handle's side, and the grasp of whoever pushes leans 20
+/// degrees away from the jamb and, on a knob, is rolled back by half its turn. Throws as
+/// RequireSimulatable(); Error(kInvalidArgument) where the frame of a pushed door stands between
+/// robot and handle, as the back of a cupboard does; Error(kInvalidConfig) on an unknown
+/// randomisation, a height_jitter_m out of 0..0.5 and as CameraOf(). A stronger randomisation
+/// leaves the draws of a weaker one as they are.
 Scene SampleScene(const DoorAsset& door, std::uint64_t seed, std::uint64_t episode,
                   const SceneConfig& config = {});
 

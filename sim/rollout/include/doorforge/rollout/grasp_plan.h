@@ -28,12 +28,18 @@ inline constexpr double kPregraspDistance = 0.12;  ///< [m], back along the appr
 /// Privileged: uses the door's geometry. Deterministic.
 GraspPlan PlanGrasp(const Scene& scene, const DoorAsset& door, const RobotModel& robot);
 
-/// How the arm gets to a grasp that is given, well chosen or not. `cost` is 0.
-///
-/// The two fingers are alike: the hand may arrive turned by half a turn about its approach, which
-/// GraspPlan::handle_from_tcp then says. Deterministic.
-GraspPlan PlanReach(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
-                    const RigidTransform& handle_from_tcp);
+/// How the arm gets to a grasp that is given, well chosen or not.
+struct ArmReach {
+  RigidTransform world_from_tcp = RigidTransform::Identity();
+  JointVector pregrasp;  ///< kPregraspDistance before the grasp.
+  JointVector grasp;
+};
+
+/// The posture for a grasp, chosen by reach and by the room that the last joint has for a turn
+/// either way, about the middle of its range; nothing is known of the door. The two fingers are
+/// alike: the hand may arrive turned by half a turn about its approach. Deterministic.
+ArmReach PlanReach(const Scene& scene, const RobotModel& robot,
+                   const RigidTransform& world_from_tcp);
 
 /// GraspPlan::cost of the best grasp near the door's own, noise and the arm's reach aside: below
 /// 0.3 good; above 5 a pad finds no hold, or the open gripper is blocked. Any side and opening.

@@ -66,8 +66,9 @@ struct EpisodeRoles {
   GraspChooser* grasp = nullptr;  ///< Null: PlanGrasp()'s grasp.
   Policy* handle = nullptr;       ///< Null: the rule of RunEpisode(), which turns it in one go.
   /// Asked after each action of `handle`, and not before the first: whether the handle is turned.
-  /// Opening begins after the first yes, whatever the simulator knows. Null: the simulator's
-  /// flag, turned to "handle done" and unlocked.
+  /// Opening begins after the first yes, whatever the simulator knows, also of doors without a
+  /// latch. Null: the simulator's flag, turned to "handle done" and unlocked, which doors without
+  /// a latch are from the start.
   std::function<bool()> predicted_turned = nullptr;
   Policy* open = nullptr;  ///< Never null.
   /// Drives the first `learner_decisions` of the recorded stage in the place of that stage's
@@ -84,8 +85,9 @@ struct EpisodeRoles {
 /// policies that look.
 ///
 /// Outcomes are RunEpisode()'s. If a predicted flag came before the handle was "handle done", and
-/// it never was later, a door that stays locked is kHandleStuck, and `handle_done` is false; if it
-/// does not come within max_handle_actions, the episode ends as one whose handle did not turn. A
+/// it never was later, a door that stays locked is kHandleStuck, and `handle_done` is false. If it
+/// does not come within max_handle_actions and the hand still holds, opening is tried all the same:
+/// whoever is not told cannot know whether there is a latch, but by trying. A
 /// chosen grasp is tried as it is: the fingers close also where the hand did not quite arrive, and
 /// one pad on the handle is enough to go on. Without a grasp in view the episode is kNotReached,
 /// without decisions.

@@ -21,8 +21,9 @@ struct EvaluationConfig {
   int episodes_per_door = 1;     ///< In each seed, >= 1.
   bool expert_reference = true;  ///< The expert opens the same scenes, too.
   /// Who says that the handle is turned and opening may begin, where a trained policy turns it:
-  /// "privileged", the simulator, or "predicted", the policy itself, as on a robot.
-  std::string unlock_switch = "privileged";
+  /// "predicted", the policy itself, as on a robot, or "privileged", the simulator. A rule and a
+  /// policy of one's own have the simulator's answer.
+  std::string unlock_switch = "predicted";
   PolicyOptions policy;
   GraspOptions grasp;                        ///< Of a trained grasper.
   RandomGraspConfig random_grasp;            ///< Of the grasper "random".

@@ -45,6 +45,7 @@ constexpr std::array kVerbs = {
     Verb{"dataset", "doorforge-datagen", "verify and describe datasets"},
     Verb{"train", "doorforge-train", "train a stage's policy from shards"},
     Verb{"eval", "doorforge-eval", "success of a policy per category, with a report"},
+    Verb{"report", "doorforge-eval", "one table of the reports of several trainings"},
     Verb{"act", "doorforge-act", "a real depth picture -> the hand's next pose"},
     Verb{"doctor", "doorforge-train", "what is installed, and what to do about it"},
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
@@ -305,6 +306,9 @@ void RequireDoorRecord(const Json& json, const std::string& path) {
   const Json& links = MemberOf(json, "links", path);
   if (!links.is_array() || links.size() != std::tuple_size_v<decltype(DoorAsset::links)>)
     throw Error(ErrorCode::kFormat, path + ".links: expected base, leaf and handle");
+  std::set<std::string> names;
+  for (const Json& link : links)
+    internal::RequireNewNames(MemberOf(link, "geometry", path + ".links"), names, path + ".links");
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/schemas/part.h"
 
+#include <set>
+
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
@@ -152,7 +154,9 @@ Part ReadPart(const std::filesystem::path& folder, const MeshReader& read_mesh,
     part.grasp_half_extent_m =
         Vector3FromJson(MemberOf(json, "grasp_half_extent_m", path), path + ".grasp_half_extent_m");
   }
-  for (const Json& piece : MemberOf(json, "pieces", path))
+  std::set<std::string> names;
+  internal::RequireNewNames(MemberOf(json, "pieces", path), names, path + ".pieces");
+  for (const Json& piece : json["pieces"])
     part.pieces.push_back(PieceFromJson(piece, read_mesh, visual_reader, path + ".pieces"));
   return part;
 }

@@ -135,4 +135,14 @@ VisualReader VisualReaderBelow(const fs::path& folder, const std::string& path) 
   };
 }
 
+void RequireNewNames(const nlohmann::ordered_json& pieces, std::set<std::string>& names,
+                     const std::string& path) {
+  for (const nlohmann::ordered_json& piece : pieces) {
+    const auto name = ValueOf<std::string>(piece, "name", path);
+    if (!names.insert(name).second)
+      throw Error(ErrorCode::kFormat, path + ": two pieces are called \"" + name +
+                                          "\"; their files have that name, so each has its own");
+  }
+}
+
 }  // namespace doorforge::internal

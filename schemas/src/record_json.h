@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -46,5 +47,10 @@ void WriteVisual(const VisualMesh& mesh, const std::string& name,
 
 /// Reads visual meshes below `folder`. Refuses what ReaderBelow() refuses.
 VisualReader VisualReaderBelow(const std::filesystem::path& folder, const std::string& path);
+
+/// Throws Error(kFormat) if two of these pieces have one name: pieces lend their names to files.
+/// `names` keeps what was seen before, of other links.
+void RequireNewNames(const nlohmann::ordered_json& pieces, std::set<std::string>& names,
+                     const std::string& path);
 
 }  // namespace doorforge::internal

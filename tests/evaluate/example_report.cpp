@@ -35,6 +35,9 @@ EvaluatedEpisode Row(const DoorIdentity& door, std::uint64_t seed, double skill)
   EvaluatedEpisode row;
   row.door_id = door.id;
   row.category = door.category;
+  row.mechanism = door.mechanism;
+  row.body = door.body.id;
+  row.handle = door.handle.id;
   row.seed = seed;
   row.peak_hinge_rad = std::min(1.2, skill * rng.Uniform(0.2, 1.6));
   row.peak_handle_rad = 0.6 + 0.1 * rng.Uniform();

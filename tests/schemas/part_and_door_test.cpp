@@ -170,6 +170,36 @@ TEST_F(Records, AChangedMeshOfAPartIsRefusedByName) {
   ExpectEveryChangedMeshIsRefused(folder_, [&] { ReadPart(folder_); });
 }
 
+// Pieces lend their names to files, and a grip that is there four hundred times costs minutes.
+TEST_F(Records, TwoPiecesOfOneNameAreRefusedByName) {
+  const auto refusal = [&](const std::function<void()>& read) -> std::string {
+    try {
+      read();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kFormat);
+      return error.what();
+    }
+    return "";
+  };
+  WritePart(LeverPart(), folder_);
+  auto part = ReadJsonFile(folder_ / "part.json");
+  part["pieces"].push_back(part["pieces"].back());
+  WriteJsonFile(folder_ / "part.json", part);
+  const std::string name = part["pieces"].back()["name"].get<std::string>();
+  const std::string of_part = refusal([&] { ReadPart(folder_); });
+  EXPECT_NE(of_part.find("part.json"), std::string::npos) << of_part;
+  EXPECT_NE(of_part.find('"' + name + '"'), std::string::npos) << of_part;
+
+  WriteDoor(TestDoor(), folder_);
+  auto door = ReadJsonFile(folder_ / "door.json");
+  auto& grips = door["links"][kHandleLink]["geometry"];
+  door["links"][kLeafLink]["geometry"].push_back(grips.back());
+  WriteJsonFile(folder_ / "door.json", door);
+  const std::string of_door = refusal([&] { ReadDoor(folder_); });
+  EXPECT_NE(of_door.find("door.json"), std::string::npos) << of_door;
+  EXPECT_NE(of_door.find(grips.back()["name"].get<std::string>()), std::string::npos) << of_door;
+}
+
 TEST_F(Records, ANewerSchemaVersionIsRefused) {
   WritePart(LeverPart(), folder_);
   auto json = ReadJsonFile(folder_ / "part.json");

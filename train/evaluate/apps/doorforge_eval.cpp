@@ -4,9 +4,13 @@
 #include <string_view>
 
 #include "doorforge/evaluate/eval_verb.h"
+#include "doorforge/evaluate/report_verb.h"
 
-// `doorforge eval ...` starts this program with the verb as first argument
+// `doorforge eval ...` and `doorforge report ...` start this program with the verb as first
+// argument
 int main(int argc, char** argv) {
-  const bool has_verb = argc > 1 && std::string_view(argv[1]) == "eval";
+  const std::string_view verb = argc > 1 ? argv[1] : "";
+  if (verb == "report") return doorforge::RunReportVerb(argc - 1, argv + 1);
+  const bool has_verb = verb == "eval";
   return doorforge::RunEvalVerb(has_verb ? argc - 1 : argc, has_verb ? argv + 1 : argv);
 }

@@ -22,9 +22,12 @@ Category CategoryOf(const std::string& name, const std::string& path) {
 
 }  // namespace
 
-EvaluatedEpisode RowOf(const Episode& episode, Category category) {
+EvaluatedEpisode RowOf(const Episode& episode, const DoorAsset& door) {
   return {.door_id = episode.scene.door_id,
-          .category = category,
+          .category = door.category,
+          .mechanism = door.mechanism,
+          .body = door.body.id,
+          .handle = door.handle.id,
           .seed = episode.scene.seed,
           .episode = episode.scene.episode,
           .outcome = episode.outcome,
@@ -62,9 +65,16 @@ nlohmann::ordered_json EvaluatedEpisodeToJson(const EvaluatedEpisode& episode) {
 }
 
 EvaluatedEpisode EvaluatedEpisodeFromJson(const nlohmann::ordered_json& json,
-                                          const std::string& path) {
-  return {.door_id = ValueOf<std::string>(json, "door_id", path),
+                                          const DoorsById& doors, const std::string& path) {
+  const auto id = ValueOf<std::string>(json, "door_id", path);
+  const auto door = doors.find(id);
+  if (door == doors.end())
+    throw Error(ErrorCode::kFormat, path + ".door_id: \"" + id + "\" is none of the doors");
+  return {.door_id = id,
           .category = CategoryOf(ValueOf<std::string>(json, "category", path), path),
+          .mechanism = door->second.mechanism,
+          .body = door->second.body.id,
+          .handle = door->second.handle.id,
           .seed = ValueOf<std::uint64_t>(json, "seed", path),
           .episode = ValueOf<std::uint64_t>(json, "episode", path),
           .outcome = OutcomeOf(ValueOf<std::string>(json, "outcome", path), path),

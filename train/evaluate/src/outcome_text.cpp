@@ -55,4 +55,10 @@ std::string TitleOf(Category category) {
   return "Unknown";
 }
 
+std::string TitleOf(const EpisodeGroup& group) {
+  if (!group.category) return "All";
+  if (!group.latched) return TitleOf(*group.category);
+  return TitleOf(*group.category) + (*group.latched ? ", with a latch" : ", without");
+}
+
 }  // namespace doorforge::internal

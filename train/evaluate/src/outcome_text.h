@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "doorforge/evaluate/evaluated_episode.h"
+#include "doorforge/evaluate/success_statistics.h"
 #include "doorforge/schemas/episode.h"
 #include "doorforge/schemas/names.h"
 
@@ -21,6 +22,7 @@ OutcomeText TextOf(EpisodeOutcome outcome);
 /// Of what CauseOf() gives.
 OutcomeText TextOf(std::string_view cause);
 
-std::string TitleOf(Category category);  ///< "Storage furniture"
+std::string TitleOf(Category category);          ///< "Storage furniture"
+std::string TitleOf(const EpisodeGroup& group);  ///< "All", "Storage furniture, with a latch"
 
 }  // namespace doorforge::internal

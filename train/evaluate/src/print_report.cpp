@@ -30,6 +30,12 @@ std::string Row(const std::string& name, Episodes episodes, Episodes reference) 
   return row + "\n";
 }
 
+// Doors with and without a latch are set in under their category.
+std::string LabelOf(const EpisodeGroup& group) {
+  if (!group.latched) return NameOf(group);
+  return *group.latched ? "  with a latch" : "  without";
+}
+
 std::string EffortLine(const SuccessSummary& summary) {
   return Format(
       "handle turned: %.1f %%; median time to open %.1f s; greatest force %.0f N (median), %.0f "
@@ -77,11 +83,8 @@ std::string ReportTable(const EvaluationReport& report) {
   std::string text =
       Format("%-18s %8s   %15s   %9s   %15s%s\n", "success > 45 deg", "rate", "95 % interval",
              "opened", "over seeds", report.reference.empty() ? "" : "     expert");
-  text += Row("overall", report.episodes, report.reference);
-  for (const Category category : CategoriesOf(report.episodes)) {
-    text += Row(std::string(NameOf(category)), OfCategory(report.episodes, category),
-                OfCategory(report.reference, category));
-  }
+  for (const EpisodeGroup& group : GroupsOf(report.episodes))
+    text += Row(LabelOf(group), OfGroup(report.episodes, group), OfGroup(report.reference, group));
   const SuccessSummary all = Summarise(report.episodes);
   return text + StagesLine(report.provenance) + EffortLine(all) + AngleLine(all) + Causes(report);
 }

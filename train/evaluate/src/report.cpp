@@ -17,11 +17,8 @@ using Json = nlohmann::ordered_json;
 using Episodes = std::span<const EvaluatedEpisode>;
 
 Json RateToJson(const SuccessRate& rate) {
-  return {{"rate", rate.rate},
-          {"low", rate.low},
-          {"high", rate.high},
-          {"episodes", rate.episodes},
-          {"opened", rate.successes}};
+  return {{"rate", rate.rate},         {"low", rate.low},          {"high", rate.high},
+          {"episodes", rate.episodes}, {"opened", rate.successes}, {"trials", rate.trials}};
 }
 
 Json SpreadToJson(const SeedSpread& spread) {
@@ -42,12 +39,24 @@ Json AnglesToJson(const std::vector<AngleSuccess>& angles) {
   return json;
 }
 
+/// What the episodes of a group come to.
+struct GroupSummary {
+  std::string name;
+  SuccessSummary summary;
+};
+
+std::vector<GroupSummary> SummariesOf(Episodes episodes) {
+  std::vector<GroupSummary> summaries;
+  for (const EpisodeGroup& group : GroupsOf(episodes))
+    summaries.push_back({NameOf(group), Summarise(OfGroup(episodes, group))});
+  return summaries;
+}
+
 // {"overall": value, "<category>": value, ...}
 template <class ValueOfSummary>
-Json ByCategory(Episodes episodes, const ValueOfSummary& value) {
-  Json json{{"overall", value(Summarise(episodes))}};
-  for (const Category category : CategoriesOf(episodes))
-    json[std::string(NameOf(category))] = value(Summarise(OfCategory(episodes, category)));
+Json ByGroup(const std::vector<GroupSummary>& groups, const ValueOfSummary& value) {
+  Json json = Json::object();
+  for (const GroupSummary& group : groups) json[group.name] = value(group.summary);
   return json;
 }
 
@@ -58,18 +67,16 @@ Json CausesToJson(Episodes episodes) {
 }
 
 void AddSuccess(Episodes episodes, Json& json) {
-  json["success"] = ByCategory(episodes, [](const auto& s) { return RateToJson(s.opened); });
-  json["handle_success"] =
-      ByCategory(episodes, [](const auto& s) { return RateToJson(s.handle_done); });
-  json["effort"] = ByCategory(episodes, [](const auto& s) {
+  const std::vector<GroupSummary> groups = SummariesOf(episodes);
+  json["success"] = ByGroup(groups, [](const auto& s) { return RateToJson(s.opened); });
+  json["handle_success"] = ByGroup(groups, [](const auto& s) { return RateToJson(s.handle_done); });
+  json["effort"] = ByGroup(groups, [](const auto& s) {
     return Json{{"median_opening_s", s.median_opening_s},
                 {"median_force_n", s.median_force_n},
                 {"peak_force_n", s.peak_force_n}};
   });
-  json["over_seeds"] =
-      ByCategory(episodes, [](const auto& s) { return SpreadToJson(s.over_seeds); });
-  json["over_angle"] =
-      ByCategory(episodes, [](const auto& s) { return AnglesToJson(s.over_angle); });
+  json["over_seeds"] = ByGroup(groups, [](const auto& s) { return SpreadToJson(s.over_seeds); });
+  json["over_angle"] = ByGroup(groups, [](const auto& s) { return AnglesToJson(s.over_angle); });
   json["causes"] = CausesToJson(episodes);
 }
 
@@ -209,8 +216,13 @@ EvaluationReport ReportFromJson(const Json& json, const std::string& path) {
   report.trained_on = SeenPartsFromJson(MemberOf(json, "trained_on", path), path + ".trained_on");
   report.training_doors = read("training_doors", DoorFromJson);
   report.losses = read("losses", LossFromJson);
-  report.episodes = read("episodes", EvaluatedEpisodeFromJson);
-  report.reference = read("expert_episodes", EvaluatedEpisodeFromJson);
+  DoorsById doors;
+  for (const DoorIdentity& door : report.doors) doors.emplace(door.id, door);
+  const auto row = [&](const Json& episode, const std::string& where) {
+    return EvaluatedEpisodeFromJson(episode, doors, where);
+  };
+  report.episodes = read("episodes", row);
+  report.reference = read("expert_episodes", row);
   return report;
 }
 

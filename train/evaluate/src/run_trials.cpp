@@ -100,7 +100,7 @@ std::vector<EvaluatedEpisode> RunTrials(const TrialPlan& trials, const Contender
     std::unique_ptr<Observer> observer;
     if (contender.make_observer) observer = contender.make_observer(scene, door);
     Players players = pool.Take();
-    rows[i] = RowOf(PlayTrial(scene, door, trials.robot(), players, observer.get()), door.category);
+    rows[i] = RowOf(PlayTrial(scene, door, trials.robot(), players, observer.get()), door);
     pool.Return(std::move(players));
     if (hooks.done) hooks.done(rows[i]);
   });

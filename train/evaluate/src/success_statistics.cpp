@@ -14,8 +14,6 @@
 namespace doorforge {
 namespace {
 
-constexpr double kNormalQuantile975 = 1.959963984540054;
-
 SeedSpread SpreadOf(std::span<const EvaluatedEpisode> episodes) {
   std::map<std::uint64_t, std::pair<int, int>> opened_of_all;
   for (const EvaluatedEpisode& episode : episodes) {
@@ -36,6 +34,15 @@ SeedSpread SpreadOf(std::span<const EvaluatedEpisode> episodes) {
   return spread;
 }
 
+template <class Succeeded>
+SuccessRate RateOf(std::span<const EvaluatedEpisode> episodes, const Succeeded& succeeded) {
+  std::vector<ClusteredTrial> trials;
+  trials.reserve(episodes.size());
+  for (const EvaluatedEpisode& episode : episodes)
+    trials.push_back({episode.body, episode.handle, succeeded(episode) ? 1.0 : 0.0});
+  return ClusteredRate(trials);
+}
+
 // The upper of the two in the middle of an even number; 0 of none.
 double MedianOf(std::vector<double> values) {
   if (values.empty()) return 0;
@@ -46,46 +53,25 @@ double MedianOf(std::vector<double> values) {
 
 }  // namespace
 
-SuccessRate WilsonRate(int successes, int episodes) {
-  Require(successes >= 0 && successes <= episodes, ErrorCode::kInvalidArgument,
-          std::to_string(successes) + " successes of " + std::to_string(episodes) +
-              " episodes: expected 0 <= successes <= episodes");
-  if (episodes == 0) return {};
-  const double n = episodes;
-  const double p = successes / n;
-  const double z2 = kNormalQuantile975 * kNormalQuantile975;
-  const double center = (p + z2 / (2 * n)) / (1 + z2 / n);
-  const double half =
-      kNormalQuantile975 / (1 + z2 / n) * std::sqrt(p * (1 - p) / n + z2 / (4 * n * n));
-  // at 0 and n successes one end is exactly 0 or 1; rounding must not say otherwise
-  const double low = successes == 0 ? 0 : std::max(0.0, center - half);
-  const double high = successes == episodes ? 1 : std::min(1.0, center + half);
-  return {successes, episodes, p, low, high};
-}
-
 SuccessSummary Summarise(std::span<const EvaluatedEpisode> episodes) {
   SuccessSummary summary;
-  for (const EvaluatedEpisode& episode : episodes)
-    ++summary.outcomes.at(static_cast<std::size_t>(episode.outcome));
-  const int all = static_cast<int>(episodes.size());
-  summary.opened = WilsonRate(summary.outcomes[static_cast<int>(EpisodeOutcome::kOpened)], all);
-  summary.over_seeds = SpreadOf(episodes);
   std::vector<double> times;
   std::vector<double> forces;
-  int done = 0;
   for (const EvaluatedEpisode& episode : episodes) {
-    done += episode.handle_done ? 1 : 0;
+    ++summary.outcomes.at(static_cast<std::size_t>(episode.outcome));
     forces.push_back(episode.peak_force_n);
     if (episode.outcome == EpisodeOutcome::kOpened) times.push_back(episode.simulated_s);
     summary.peak_force_n = std::max(summary.peak_force_n, episode.peak_force_n);
   }
-  summary.handle_done = WilsonRate(done, all);
+  summary.opened = RateOf(
+      episodes, [](const auto& episode) { return episode.outcome == EpisodeOutcome::kOpened; });
+  summary.handle_done = RateOf(episodes, [](const auto& episode) { return episode.handle_done; });
+  summary.over_seeds = SpreadOf(episodes);
   summary.median_opening_s = MedianOf(times);
   summary.median_force_n = MedianOf(forces);
   for (const double angle : kSuccessAngles) {
-    const auto beyond = std::count_if(episodes.begin(), episodes.end(),
-                                      [&](const auto& e) { return e.peak_hinge_rad > angle; });
-    summary.over_angle.push_back({angle, WilsonRate(static_cast<int>(beyond), all)});
+    summary.over_angle.push_back(
+        {angle, RateOf(episodes, [&](const auto& e) { return e.peak_hinge_rad > angle; })});
   }
   return summary;
 }
@@ -103,12 +89,39 @@ std::vector<FailureCause> CausesOf(std::span<const EvaluatedEpisode> episodes) {
   return causes;
 }
 
+std::string NameOf(const EpisodeGroup& group) {
+  if (!group.category) return "overall";
+  std::string name(NameOf(*group.category));
+  if (group.latched) name += *group.latched ? "/latched" : "/unlatched";
+  return name;
+}
+
+std::vector<EpisodeGroup> GroupsOf(std::span<const EvaluatedEpisode> episodes) {
+  std::vector<EpisodeGroup> groups = {{}};
+  for (const Category category : CategoriesOf(episodes)) {
+    groups.push_back({category, {}});
+    const std::vector<EpisodeGroup> kinds = {{category, true}, {category, false}};
+    const bool has_both = std::ranges::all_of(
+        kinds, [&](const EpisodeGroup& kind) { return !OfGroup(episodes, kind).empty(); });
+    if (has_both) groups.insert(groups.end(), kinds.begin(), kinds.end());
+  }
+  return groups;
+}
+
+std::vector<EvaluatedEpisode> OfGroup(std::span<const EvaluatedEpisode> episodes,
+                                      const EpisodeGroup& group) {
+  std::vector<EvaluatedEpisode> chosen;
+  std::ranges::copy_if(episodes, std::back_inserter(chosen), [&](const EvaluatedEpisode& episode) {
+    const bool latched = episode.mechanism != Mechanism::kNone;
+    return (!group.category || episode.category == *group.category) &&
+           (!group.latched || latched == *group.latched);
+  });
+  return chosen;
+}
+
 std::vector<EvaluatedEpisode> OfCategory(std::span<const EvaluatedEpisode> episodes,
                                          Category category) {
-  std::vector<EvaluatedEpisode> chosen;
-  std::copy_if(episodes.begin(), episodes.end(), std::back_inserter(chosen),
-               [&](const auto& e) { return e.category == category; });
-  return chosen;
+  return OfGroup(episodes, {category, {}});
 }
 
 std::vector<Category> CategoriesOf(std::span<const EvaluatedEpisode> episodes) {

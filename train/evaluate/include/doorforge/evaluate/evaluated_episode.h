@@ -3,11 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "doorforge/schemas/door_asset.h"
+#include "doorforge/schemas/door_identity.h"
 #include "doorforge/schemas/episode.h"
 #include "doorforge/schemas/names.h"
 
@@ -17,6 +20,9 @@ namespace doorforge {
 struct EvaluatedEpisode {
   std::string door_id;
   Category category = Category::kInterior;
+  Mechanism mechanism = Mechanism::kLever;  ///< kNone: a door without a latch.
+  std::string body;                         ///< Ids of the door's parts.
+  std::string handle;
   std::uint64_t seed = 0;
   std::uint64_t episode = 0;  ///< Index among the episodes of this door and seed.
   EpisodeOutcome outcome = EpisodeOutcome::kDiverged;
@@ -30,8 +36,8 @@ struct EvaluatedEpisode {
   std::string state_sha256;    ///< Hash of the final joint state: equal runs have equal hashes.
 };
 
-/// Drops clouds and actions, keeps what a report says about an episode.
-EvaluatedEpisode RowOf(const Episode& episode, Category category);
+/// Drops clouds and actions, keeps what a report says about an episode on `door`.
+EvaluatedEpisode RowOf(const Episode& episode, const DoorAsset& door);
 
 /// The cause of an episode in which no point of the handle was in the grasper's view. Records know
 /// it as kNotReached, with the reason in the detail.
@@ -40,9 +46,14 @@ inline constexpr std::string_view kNoGraspInView = "no_grasp_in_view";
 /// What became of an episode, for statistics: kNoGraspInView, else the name of its outcome.
 std::string_view CauseOf(const EvaluatedEpisode& episode);
 
+/// Without what the door's identity says but the category.
 nlohmann::ordered_json EvaluatedEpisodeToJson(const EvaluatedEpisode& episode);
-/// Throws Error(kFormat); `path` names the record.
+
+/// The doors of a record by their ids.
+using DoorsById = std::map<std::string, DoorIdentity>;
+
+/// Throws Error(kFormat), also for a door that is not among `doors`; `path` names the record.
 EvaluatedEpisode EvaluatedEpisodeFromJson(const nlohmann::ordered_json& json,
-                                          const std::string& path);
+                                          const DoorsById& doors, const std::string& path);
 
 }  // namespace doorforge

@@ -16,7 +16,7 @@
 
 namespace doorforge {
 
-inline constexpr int kReportSchemaVersion = 4;
+inline constexpr int kReportSchemaVersion = 5;
 
 /// The folder of a report, for StagedFolder.
 inline constexpr FolderKind kReportFolder{"a report", "report.json", "doorforge.report"};

@@ -4,29 +4,56 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "doorforge/evaluate/evaluated_episode.h"
 
 namespace doorforge {
 
-/// A share of episodes with its Wilson score interval (Wilson 1927) at 95 % confidence. The
-/// interval takes episodes as independent; several episodes on one door are not quite, so read it
-/// together with the number of doors.
+/// A share of episodes with an interval at 95 % confidence.
 struct SuccessRate {
   int successes = 0;
   int episodes = 0;
-  double rate = 0;  ///< successes / episodes, 0..1; 0 where there are no episodes.
-  double low = 0;   ///< Lower end of the interval, 0..rate; 0 where there are no episodes.
-  double high = 1;  ///< Upper end of the interval, rate..1; 1 where there are no episodes.
+  double rate = 0;    ///< successes / episodes, 0..1; 0 where there are no episodes.
+  double low = 0;     ///< Lower end of the interval, 0..rate; 0 where there are no episodes.
+  double high = 1;    ///< Upper end of the interval, rate..1; 1 where there are no episodes.
+  double trials = 0;  ///< Independent trials that the interval stands for, see ClusteredRate().
 };
 
-/// Throws Error(kInvalidArgument) unless 0 <= successes <= episodes.
-SuccessRate WilsonRate(int successes, int episodes);
+/// Wilson's score interval (Wilson 1927) of independent trials. Throws Error(kInvalidArgument)
+/// unless 0 <= successes <= trials; they need not be whole numbers.
+struct Interval {
+  double low = 0;
+  double high = 1;
+};
+Interval WilsonInterval(double successes, double trials);
+
+/// A trial for ClusteredRate(): what was tried and how much of it succeeded.
+struct ClusteredTrial {
+  std::string body;
+  std::string handle;
+  double success = 0;  ///< 0 or 1; in between for the mean of several policies on one trial.
+};
+
+/// The share of successes, with an interval for other bodies and handles of the kind.
+///
+/// Trials with a body or a handle in common are not independent: mostly it is the same handle that
+/// fails with every body and every seed. So bodies and handles are resampled, both at a time, and
+/// not trials (the pigeonhole bootstrap: Owen, The pigeonhole bootstrap, Annals of Applied
+/// Statistics 2007; 1,000 times, always the same). The variance over the resamples says how many
+/// independent trials would have varied as much, and Wilson's interval is taken for so many (Korn
+/// and Graubard, Confidence intervals for proportions with small expected number of positive counts
+/// estimated from survey data, Survey Methodology 1998). They are never more than the doors,
+/// pairs of a body and a handle, also where all trials end alike and resampling shows no variance.
+///
+/// The order of the trials does not matter.
+SuccessRate ClusteredRate(std::span<const ClusteredTrial> trials);
 
 /// Success of each seed by itself: UniDoorManip repeats its evaluation over 3 seeds and reports
-/// mean and variance (Section 6 of the paper).
+/// mean and variance (Section 5 of the paper).
 struct SeedSpread {
   std::vector<std::uint64_t> seeds;  ///< Ascending, those that have episodes.
   std::vector<double> rates;         ///< Success rate of each seed.
@@ -69,6 +96,26 @@ std::vector<FailureCause> CausesOf(std::span<const EvaluatedEpisode> episodes);
 
 /// The order of episodes does not matter; no episodes give a summary of zeros.
 SuccessSummary Summarise(std::span<const EvaluatedEpisode> episodes);
+
+/// Which of the episodes are meant: all, those of a category, or of its doors with or without a
+/// latch.
+struct EpisodeGroup {
+  std::optional<Category> category = {};
+  std::optional<bool> latched = {};
+
+  bool operator==(const EpisodeGroup&) const = default;
+};
+
+/// "overall", "car", "storagefurniture/latched".
+std::string NameOf(const EpisodeGroup& group);
+
+/// All, then each category that occurs, in the order of the enumeration; after a category with
+/// doors of both kinds those with and those without a latch.
+std::vector<EpisodeGroup> GroupsOf(std::span<const EvaluatedEpisode> episodes);
+
+/// The episodes of a group, in their order.
+std::vector<EvaluatedEpisode> OfGroup(std::span<const EvaluatedEpisode> episodes,
+                                      const EpisodeGroup& group);
 
 /// The episodes of one category, in their order.
 std::vector<EvaluatedEpisode> OfCategory(std::span<const EvaluatedEpisode> episodes,

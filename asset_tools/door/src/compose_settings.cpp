@@ -34,7 +34,7 @@ constexpr std::array kRules = {
 
 constexpr std::array kJointPresets = {
     ComposePreset{"paper",
-                  "springs 3 and 3 N m/rad: UniDoorManip, Section 3.3; damping 0.5 and 0.05 N m s: "
+                  "springs 3 and 3 N m/rad: UniDoorManip, Section 3.2; damping 0.5 and 0.05 N m s: "
                   "doorforge, docs/design/simulation.md"},
     ComposePreset{"unidoormanip",
                   "springs 3 and 3 N m/rad, no damping: the released simulator of UniDoorManip"},

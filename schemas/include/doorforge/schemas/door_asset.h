@@ -55,7 +55,7 @@ struct DoorJoint {
   double damping_nm_s = 0;  ///< Not in the paper; see docs/design/simulation.md.
 };
 
-/// The latch as data. kEffort is the paper's law (Section 3.3): while locked the hinge feels
+/// The latch as data. kEffort is the paper's law (Section 3.2): while locked the hinge feels
 /// -lock_effort against opening, afterwards -hinge_spring * door angle; the handle feels
 /// -handle_spring * handle angle throughout. Locked means handle angle <= unlock_angle.
 ///

@@ -13,7 +13,7 @@ struct LatchState {
 };
 
 /// State after the door and the handle have come to these angles. See Latch in door_asset.h for the
-/// law (UniDoorManip, Section 3.3). A bolt is not a law of angles: its `locked` is kept as it was,
+/// law (UniDoorManip, Section 3.2). A bolt is not a law of angles: its `locked` is kept as it was,
 /// and follows from where the bolt is, see IsCaught() in bolt.h.
 LatchState UpdatedLatch(const Latch& latch, const LatchState& before, double hinge_rad,
                         double handle_rad);

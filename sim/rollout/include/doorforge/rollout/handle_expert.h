@@ -21,7 +21,7 @@ struct HandleExpertConfig {
   }
 };
 
-/// Turns the handle as UniDoorManip's rules do (Section 3 of the released code), decision by
+/// Turns the handle as UniDoorManip's rules do (its released code), decision by
 /// decision: the hand as it holds the handle goes round the handle's axis. Reads only the
 /// privileged state.
 class HandleExpert : public Policy {

@@ -32,7 +32,7 @@ struct RandomGraspConfig {
   }
 };
 
-/// Samples grasps for the grasp stage (UniDoorManip 4.4 and 5.4): a visible point of the handle,
+/// Samples grasps for the grasp stage (UniDoorManip, Section 4 and released code): a visible point of the handle,
 /// each as likely as any other, and a hand turned about its approach, which on all handles but
 /// flaps is the handle's axis, so that the fingers close in the plane normal to it. The random
 /// stream is "grasp/<door id>/<episode>" of the scene's seed.

@@ -50,7 +50,7 @@ struct Evaluation {
   ReportPictures pictures;
 };
 
-/// Closed-loop evaluation of the opening stage (UniDoorManip, Section 6): in every scene the expert
+/// Closed-loop evaluation of the opening stage (UniDoorManip, Section 5): in every scene the expert
 /// or a trained grasper takes hold, the rule or a trained policy turns the handle, then the policy
 /// opens. The rule-based expert by itself with policy "expert". Progress is shown on standard
 /// error.

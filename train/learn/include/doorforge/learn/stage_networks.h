@@ -96,7 +96,7 @@ StageNormalisation NormalisationFromJson(const nlohmann::ordered_json& json,
 
 /// Which networks a stage has. Each stage has one that proposes and one that judges: actor and
 /// critic where the hand is moved, affordance and discriminator where a grasp is chosen
-/// (UniDoorManip 5.2 to 5.4).
+/// (UniDoorManip, Section 4).
 enum class NetworkFamily { kMotion, kGrasp };
 NetworkFamily FamilyOf(std::string_view stage);
 

@@ -26,7 +26,7 @@ struct TrainConfig {
   int epochs = 10;
   int discriminator_epochs = 0;  ///< In the place of `epochs`; 0: as many. With near points an
                                  ///< epoch takes a tenth of the affordance's.
-  int batch_size = 32;  ///< UniDoorManip 5.5; an epoch leaves out the last, incomplete batch.
+  int batch_size = 32;  ///< UniDoorManip's released code; an epoch leaves out the last, incomplete batch.
   double learning_rate = 1e-3;
   double weight_decay = 1e-5;
   /// "cosine": half a cosine from the learning rate to 1 % of it over all steps. "step": times 0.9
@@ -202,7 +202,7 @@ std::uint64_t StepsPerEpoch(std::size_t samples, const TrainConfig& config);
 /// Epochs of the whole run: the grasp's two networks learn one after the other.
 int EpochsOf(const TrainConfig& config);
 
-/// Trains a stage's networks (UniDoorManip 5; departures and their reasons are
+/// Trains a stage's networks (UniDoorManip, Section 4; departures and their reasons are
 /// in docs/design/learn.md): Adam, the losses above, batches that are a pure function of (seed,
 /// epoch, step). Gradients are summed over fixed parts of the batch in a fixed order. Actor and
 /// critic learn side by side; the discriminator learns before the affordance, whose targets are its

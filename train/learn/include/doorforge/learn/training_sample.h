@@ -10,7 +10,7 @@
 
 namespace doorforge {
 
-/// One decision of a stage, as the networks see it (UniDoorManip 4.2).
+/// One decision of a stage, as the networks see it (UniDoorManip, Section 4).
 struct TrainingSample {
   /// 4096 x 3, world [m]; point 0 is the visible point nearest to the hand, at "grasp" to the
   /// contact. Not owned.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stage_run.h"
 
+#include <cstdio>
 #include <set>
 #include <utility>
 
@@ -73,7 +74,9 @@ std::set<Mechanism> MechanismsFor(const StageConfig& config) {
 }
 
 std::vector<FoundDoor> DoorsFor(const StageRequest& request) {
-  std::vector<FoundDoor> doors = FindDoorSet(DoorSelectionOf(request.doors), request.threads);
+  DoorSet set = FindDoorSet(DoorSelectionOf(request.doors), request.threads);
+  for (const std::string& note : set.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
+  std::vector<FoundDoor> doors = std::move(set.doors);
   const std::set<Mechanism> wanted = MechanismsFor(request.config);
   const std::size_t all = doors.size();
   std::erase_if(doors, [&](const FoundDoor& door) {

@@ -159,6 +159,31 @@ void KeepThoseOfSplit(const DoorSelection& selection, std::vector<ListedDoor>& d
                     "--all`)");
 }
 
+using DoorCounts = std::map<Category, std::size_t>;
+
+DoorCounts CountDoors(const std::vector<ListedDoor>& doors) {
+  DoorCounts counts;
+  for (const ListedDoor& door : doors) ++counts[door.identity.category];
+  return counts;
+}
+
+std::vector<std::string> NotesOn(const DoorSelection& selection, const DoorCounts& all,
+                                 const DoorCounts& meant) {
+  std::vector<std::string> notes;
+  for (const auto& [category, count] : all) {
+    const std::string name = std::string(NameOf(category));
+    const auto found = meant.find(category);
+    if (found == meant.end()) {
+      notes.push_back(name + ": none of its " + std::to_string(count) +
+                      " doors has body and handle of " + selection.split);
+    } else if (std::cmp_less(found->second, selection.per_category)) {
+      notes.push_back(name + ": all of its " + std::to_string(found->second) + " doors, " +
+                      std::to_string(selection.per_category) + " were asked for");
+    }
+  }
+  return notes;
+}
+
 void SortById(std::vector<ListedDoor>& doors) {
   std::stable_sort(doors.begin(), doors.end(), [](const ListedDoor& a, const ListedDoor& b) {
     return a.identity.id < b.identity.id;
@@ -254,19 +279,23 @@ DoorSelection DoorSelectionOf(const std::vector<std::string>& words) {
   return selection;
 }
 
-std::vector<FoundDoor> FindDoorSet(const DoorSelection& selection, int threads) {
+DoorSet FindDoorSet(const DoorSelection& selection, int threads) {
   Require(selection.per_category >= 0, ErrorCode::kInvalidArgument,
           "the number of doors of each category must be 0 or more");
   Listing listing = ListDoors(selection.folders, threads);
   std::vector<ListedDoor>& doors = listing.doors;
   if (doors.empty()) RequireReadable(listing.problems);
+  DoorSet set;
+  const DoorCounts all = CountDoors(doors);
   if (!selection.split.empty()) KeepThoseOfSplit(selection, doors);
+  set.notes = NotesOn(selection, all, CountDoors(doors));
   SortById(doors);
   if (selection.per_category > 0) KeepSomeOfEachCategory(selection.per_category, doors);
   const std::vector<std::string> unread = IdentifyRest(doors, threads);
   listing.problems.insert(listing.problems.end(), unread.begin(), unread.end());
   RequireReadable(listing.problems);
-  return EachOnce(std::move(doors));
+  set.doors = EachOnce(std::move(doors));
+  return set;
 }
 
 std::vector<FoundDoor> FindRecordedDoors(const DoorSelection& selection,

@@ -130,7 +130,7 @@ TEST_F(SharedDoors, TheirIndexHoldsTheHashesOfTheDoorsThemselves) {
     const fs::path out = folder_ / (config.hinge_side + config.opening);
     Write(out, 1, Existing::kRefuse, config);
     WriteDoorIndex(out, 2);
-    const std::vector<FoundDoor> doors = FindDoorSet({.folders = {out}}, 1);
+    const std::vector<FoundDoor> doors = FindDoorSet({.folders = {out}}, 1).doors;
     ASSERT_EQ(doors.size(), 4U);
     for (const FoundDoor& door : doors) {
       EXPECT_TRUE(door.is_indexed);
@@ -142,7 +142,7 @@ TEST_F(SharedDoors, TheirIndexHoldsTheHashesOfTheDoorsThemselves) {
 TEST_F(SharedDoors, AChangedPoolFileIsNoticedBesideAnIndexToo) {
   Write(folder_, 1, Existing::kRefuse);
   WriteDoorIndex(folder_, 1);
-  const std::vector<FoundDoor> doors = FindDoorSet({.folders = {folder_}}, 1);
+  const std::vector<FoundDoor> doors = FindDoorSet({.folders = {folder_}}, 1).doors;
   DoorShelf shelf(doors);
   const fs::path mesh = doors.at(0).folder / ReadDoorFiles(doors[0].folder)[kLeafLink][0].mesh;
   CommitFile(mesh, ReadFile(mesh) + "v 9 9 9\n");

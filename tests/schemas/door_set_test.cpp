@@ -53,7 +53,7 @@ class DoorSetTest : public testing::Test {
 
   std::vector<FoundDoor> Find(DoorSelection selection = {}) const {
     if (selection.folders.empty()) selection.folders = {folder_};
-    return FindDoorSet(selection, 2);
+    return FindDoorSet(selection, 2).doors;
   }
 
   // What the doors are, by reading each with all its meshes.
@@ -103,6 +103,33 @@ TEST_F(DoorSetTest, ASelectionTakesSomeOfEachCategoryWhetherThereIsAnIndexOrNot)
   EXPECT_EQ(drawn[0].size(), 3U);
   EXPECT_EQ(drawn[0], drawn[1]);
   EXPECT_TRUE(std::ranges::is_sorted(drawn[0]));
+}
+
+TEST_F(DoorSetTest, FewerDoorsThanWereAskedForAreSaid) {
+  for (const char* id : {"a", "b"}) Write(id, id);
+  const auto notes = [&](int most) {
+    return FindDoorSet({.folders = {folder_}, .per_category = most}, 1).notes;
+  };
+  EXPECT_TRUE(notes(0).empty());
+  EXPECT_TRUE(notes(2).empty());
+  ASSERT_EQ(notes(5).size(), 1U);
+  EXPECT_EQ(notes(5)[0], "interior: all of its 2 doors, 5 were asked for");
+}
+
+TEST_F(DoorSetTest, ACategoryOfWhichTheSplitHasNoHandleIsSaid) {
+  Write("a", "a");
+  Write("b", "b");
+  nlohmann::ordered_json car = ReadJsonFile(folder_ / "b/door.json");
+  car["category"] = "car";
+  WriteJsonFile(folder_ / "b/door.json", car);
+  const fs::path split = folder_ / "own.yaml";
+  std::ofstream(split) << "schema: doorforge.split\nschema_version: 2\n"
+                       << "test: [a_body, a_handle, b_body]\n";
+  const DoorSet set = FindDoorSet({.folders = {folder_}, .split = split.string() + ":test"}, 1);
+  EXPECT_EQ(set.doors.size(), 1U);
+  ASSERT_EQ(set.notes.size(), 1U);
+  EXPECT_EQ(set.notes[0],
+            "car: none of its 1 doors has body and handle of " + split.string() + ":test");
 }
 
 TEST_F(DoorSetTest, ASplitTakesDoorsOfWhichBothPartsAreOnItsSide) {

@@ -173,6 +173,7 @@ int Evaluate(Options& options) {
     std::fprintf(stderr, "doorforge: interrupted; nothing was written\n");
     return 128 + StopRequested();
   }
+  for (const std::string& note : evaluation.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
   if (staged) WriteReport(evaluation, options.out, *staged);
   const std::string text = options.json ? JsonText(ReportToJson(evaluation.report), 2) + "\n"
                                         : ReportTable(evaluation.report);

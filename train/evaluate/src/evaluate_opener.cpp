@@ -239,13 +239,15 @@ EvaluationReport NewReport(const EvaluationRequest& request, const std::vector<F
 
 Evaluation EvaluateOpener(const EvaluationRequest& request) {
   CheckSwitch(request);
-  const std::vector<FoundDoor> doors = FindDoorSet(request.doors, request.threads);
+  const DoorSet set = FindDoorSet(request.doors, request.threads);
+  const std::vector<FoundDoor>& doors = set.doors;
   DoorShelf shelf(doors);
   const TrialPlan trials([&](std::size_t door) { return shelf.Take(door); }, doors.size(),
                          request.config);
   Evaluation evaluation;
   EvaluationReport& report = evaluation.report;
   report = NewReport(request, doors);
+  evaluation.notes = set.notes;
   AddTraining(request, report);
 
   const Contender contender = ContenderOf(request);

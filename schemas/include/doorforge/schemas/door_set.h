@@ -46,7 +46,15 @@ DatasetDoor DatasetDoorOf(const DoorIdentity& identity);
 /// Throws Error(kFormat) on an unknown category or mechanism.
 DoorIdentity IdentityOf(const DatasetDoor& door);
 
-/// The doors of a selection, sorted by id; their meshes stay on the disk, see DoorShelf. Of doors
+/// The doors of a selection.
+struct DoorSet {
+  std::vector<FoundDoor> doors;  ///< Sorted by id.
+  /// What whoever asked may not expect, a sentence each: a category of which the split leaves no
+  /// door, or that has fewer doors than were asked for.
+  std::vector<std::string> notes;
+};
+
+/// The doors of a selection; their meshes stay on the disk, see DoorShelf. Of doors
 /// with an entry in the index beside them no mesh is read and the entry is believed until the door
 /// is taken from a shelf; the others are read in full, with a line of progress where they are many.
 /// The same door found twice counts once.
@@ -55,7 +63,7 @@ DoorIdentity IdentityOf(const DatasetDoor& door);
 ///     none; Error(kFormat) that lists every door that cannot be read, or names an index that
 ///     cannot; Error(kInvalidArgument) on an unknown side, a negative number, or two different
 ///     doors with one id; as ReadSplit().
-std::vector<FoundDoor> FindDoorSet(const DoorSelection& selection, int threads);
+DoorSet FindDoorSet(const DoorSelection& selection, int threads);
 
 /// Where the doors of a record lie, in its order; those that the selection does not find have an
 /// empty folder. What is found is compared with the record when it is taken from a DoorShelf.

@@ -46,6 +46,7 @@ struct EvaluationRequest {
 };
 
 struct Evaluation {
+  std::vector<std::string> notes;  ///< On the doors, see DoorSet.
   EvaluationReport report;
   ReportPictures pictures;
 };

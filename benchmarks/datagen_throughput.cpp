@@ -18,6 +18,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -31,6 +32,7 @@
 #include "doorforge/rollout/camera_observer.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/rollout/standing_place.h"
+#include "doorforge/schemas/door_set.h"
 #include "doorforge/schemas/episode_arrays.h"
 
 #include "robot_meshes.h"
@@ -175,7 +177,7 @@ Run MeasureRun(const std::string& doors, const fs::path& scratch, std::uint64_t 
   const double wall = WallSeconds();
   result.processor_s = SecondsOf([&] {
     StageRun run(RequestFor(doors, episodes));
-    result.doors = run.doors().doors.size();
+    result.doors = run.doors().size();
     CollectRequest request = run.Request();
     request.folder = folder;
     request.threads = threads;
@@ -274,20 +276,28 @@ void WritePlot(const std::string& path, const std::vector<Run>& runs) {
   if (!path.empty()) std::ofstream(path) << PlotOf(runs);
 }
 
+// Of each category in turn, of these as DrawDoors() draws them.
+std::vector<fs::path> DrawnFolders(const fs::path& doors, std::size_t count) {
+  std::map<Category, std::vector<fs::path>> categories;
+  const DoorSelection selection{.folders = {doors}, .per_category = static_cast<int>(count)};
+  for (const FoundDoor& door : FindDoorSet(selection, 0).doors)
+    categories[door.identity.category].push_back(door.folder);
+  std::vector<fs::path> drawn;
+  for (std::size_t turn = 0; turn < count; ++turn) {
+    for (const auto& [category, folders] : categories) {
+      if (turn < folders.size() && drawn.size() < count) drawn.push_back(folders[turn]);
+    }
+  }
+  return drawn;
+}
+
 // A folder of some of the doors, as links.
 std::string SomeDoors(const fs::path& doors, const fs::path& scratch, std::size_t count) {
   const fs::path some = scratch / ("doors" + std::to_string(count));
   fs::create_directories(some);
-  std::vector<fs::path> folders;
-  for (const auto& entry : fs::directory_iterator(doors)) {
-    if (fs::exists(entry.path() / "door.json")) folders.push_back(entry.path());
-  }
-  std::sort(folders.begin(), folders.end());
   const auto options = fs::copy_options::recursive | fs::copy_options::create_hard_links;
-  for (std::size_t i = 0; i < std::min(count, folders.size()); ++i) {
-    const fs::path& from = folders[i * folders.size() / std::min(count, folders.size())];
+  for (const fs::path& from : DrawnFolders(doors, count))
     fs::copy(from, some / from.filename(), options);
-  }
   if (fs::exists(doors / "pool")) fs::copy(doors / "pool", some / "pool", options);
   return some.string();
 }

@@ -305,6 +305,17 @@ class RecordCheck {
         Add("DST012", record, std::string("not in ") + RecordSums::kFileName, "listed there",
             record == kReadmeRecord || record == kCroissantRecord ? kCardAnew : kWriteAnew);
     }
+    for (const fs::path& path : index_paths_)
+      Try(path.lexically_relative(folder_).string(), [&] { RequireChecksum(path); });
+  }
+
+  // Indices are not in the sums, since each has a checksum of its own; builds that wrote none did
+  // not write sums.
+  void RequireChecksum(const fs::path& path) {
+    if (ReadFile(path).find("\"index_crc32c\"") != std::string::npos) return;
+    Add("DST012", path.lexically_relative(folder_).string(), "no index_crc32c",
+        std::string("a checksum of its own, as beside every ") + RecordSums::kFileName,
+        "delete it and give the datagen command again");
   }
 
   void CheckSum(const std::string& record, const std::string& sha256) {

@@ -238,6 +238,16 @@ TEST_F(DamagedDatasetTest, ChangesThatKeepARecordReadableAreFound) {
   }
 }
 
+// Earlier builds wrote indices without a checksum of their own, but no SHA256SUMS either.
+TEST_F(DamagedDatasetTest, AnIndexThatHasLostItsChecksumIsFound) {
+  nlohmann::ordered_json json = ReadJsonFile(index());
+  json.erase("index_crc32c");
+  Write(index(), json.dump(2) + "\n");
+  EXPECT_TRUE(Names(index()));
+  fs::remove(folder_ / "SHA256SUMS");
+  EXPECT_FALSE(Names(index()));
+}
+
 TEST_F(DamagedDatasetTest, AnUnfinishedDatasetIsVerifiedAsFarAsItIsThere) {
   fs::remove_all(folder_);
   CollectRequest request = RequestFor(folder_, 1);

@@ -64,6 +64,10 @@ void PrintHelp() {
 }
 
 const Verb& FindVerb(const std::string& name) {
+  if (name.starts_with('-'))
+    throw Error(ErrorCode::kInvalidArgument, "unknown option \"" + name + "\"; did you mean \"" +
+                                                 NearestName(name, {"--help", "--version"}) +
+                                                 "\"? `doorforge --help` lists all");
   std::vector<std::string> names;
   for (const Verb& verb : kVerbs) {
     if (name == verb.name) return verb;

@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "doorforge/core/command_line.h"
 #include "doorforge/core/error.h"
 
 #include "pipeline_graph.h"
@@ -49,7 +50,7 @@ void ParseOptions(int argc, char** argv, Options& options) {
   app.add_option("--threads", options.run.threads, "threads, 0: all; changes no byte")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  app.add_option("--set", options.settings, "key=value changes one of the preset's settings");
+  AddSettings(app, options.settings, "changes one of the preset's settings");
   app.add_flag("--dry-run", options.dry_run,
                "print the steps, why each would run, and the expected time and space");
   app.add_flag("--json", options.run.json, "the plan as one JSON document");
@@ -64,14 +65,7 @@ void ParseOptions(int argc, char** argv, Options& options) {
              "  doorforge pipeline plan quick --out run/quick\n"
              "  doorforge pipeline quick --out run/quick\n"
              "  doorforge pipeline paper --out run/paper --doors run/doors --set open_epochs=8");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& help) {
-    std::exit(app.exit(help));
-  } catch (const CLI::ParseError& error) {
-    throw Error(ErrorCode::kInvalidArgument,
-                std::string(error.what()) + "; see `doorforge pipeline --help`");
-  }
+  ParseVerb(app, argc, argv);
   if (options.preset.size() == 2) {
     if (options.preset[0] != "plan")
       throw Error(ErrorCode::kInvalidArgument,

@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "doorforge/core/command_line.h"
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/file_system.h"
@@ -37,17 +38,6 @@ struct Options {
   bool resume = false;
 };
 
-void Parse(CLI::App& app, int argc, char** argv) {
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& help) {
-    std::exit(app.exit(help));
-  } catch (const CLI::ParseError& error) {
-    throw Error(ErrorCode::kInvalidArgument,
-                std::string(error.what()) + "; see `doorforge quickstart --help`");
-  }
-}
-
 void ParseOptions(int argc, char** argv, Options& options) {
   CLI::App app(
       "The whole chain at small size: parts -> doors -> validation -> shards -> policy -> report.\n"
@@ -69,7 +59,7 @@ void ParseOptions(int argc, char** argv, Options& options) {
   app.add_flag("--overwrite", options.overwrite, "replace the folder --out");
   app.add_flag("--resume", options.resume, "keep the steps that are done in --out");
   app.footer("example:\n  doorforge quickstart --out run/quickstart");
-  Parse(app, argc, argv);
+  ParseVerb(app, argc, argv);
 }
 
 void ComposeDoors(const std::vector<DoorPair>& pairs, const fs::path& out, int threads) {
@@ -140,7 +130,7 @@ int RunDoors(int argc, char** argv) {
   app.add_option("--out", out, "folder of the doors")->required();
   app.add_option("--seed", seed, "decides which pairs")->capture_default_str();
   app.add_option("--threads", threads, "threads, 0: all")->check(CLI::Range(0, 1024));
-  Parse(app, argc, argv);
+  ParseVerb(app, argc, argv);
   ComposeDoors(SplitIntoDoors(parts, seed), out, threads);
   return 0;
 }

@@ -71,7 +71,7 @@ void AddOptions(CLI::App& app, Options& options) {
                  "handle; config: learner_decisions), or whose grasps are tried (grasp)");
   app.add_option("--robot", options.robot, "URDF of the robot; the embedded one if left out");
   app.add_option("--config", options.config, "YAML file with settings");
-  app.add_option("--set", options.settings, "a.b=c overrides one setting, e.g. cloud.point_count");
+  AddSettings(app, options.settings, "a.b=c overrides one setting, e.g. cloud.point_count");
   app.add_option("-j,--threads", options.threads, "threads, 0: all; does not change the bytes")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
@@ -309,7 +309,7 @@ int RunDatagenVerb(int argc, char** argv) {
       "angle");
   const CLI::App* plan = AddPlan(app, options);
   app.footer("example:\n  doorforge datagen open --doors doors/train --out data --episodes 200");
-  ParseVerb(app, argc, argv);
+  ParseDataVerb(app, argc, argv);
   if (options.policies.Any() && !RunsTrainedPolicies()) BecomeTrainedProgram(argc, argv);
   if (!options.slurm.file.empty()) return GiveToSlurm(options, {argv, argv + argc});
   return NamingConfig(options.config,

@@ -122,7 +122,7 @@ int RunDatasetVerb(int argc, char** argv) {
       "  doorforge dataset merge data node1/data node2/data");
   app.footer("examples:\n  doorforge dataset verify data/open\n  doorforge dataset info data/open");
   const std::vector<std::function<int()>> downstream = {AddInfo(app), AddExport(app), AddCard(app)};
-  ParseVerb(app, argc, argv);
+  ParseDataVerb(app, argc, argv);
   if (!options.regenerate.share.empty()) PrepareRegenerate(options.regenerate, argc, argv);
   if (merge->parsed()) return Merge(options);
   if (reobserve->parsed()) return RunReobserve(options.reobserve);

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "doorforge/core/command_line.h"
 #include "doorforge/core/folder_lock.h"
 #include "doorforge/datagen/describe_dataset.h"
 
@@ -17,8 +18,8 @@ CLI::App* AddReobserve(CLI::App& app, ReobserveRequest& request) {
   verb->add_option("--out", request.out, "folder of the new dataset")->required();
   verb->add_option("--doors", request.doors, "folders with the doors of the dataset")->required();
   verb->add_option("--config", request.config, "YAML file with settings");
-  verb->add_option("--set", request.settings,
-                   "a.b=c overrides one setting: cloud.* and camera.* as of `datagen`");
+  AddSettings(*verb, request.settings,
+              "a.b=c overrides one setting: cloud.* and camera.* as of `datagen`");
   verb->add_option("--robot", request.robot,
                    "URDF of the dataset's robot; needed where its config.yaml names a file that is "
                    "not in the dataset's folder");

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdlib>
 #include <string>
 
 #include <CLI/CLI.hpp>
 
+#include "doorforge/core/command_line.h"
 #include "doorforge/core/error.h"
 
 namespace doorforge {
@@ -24,18 +24,10 @@ inline void RefuseEmptyValues(const CLI::App& app) {
   for (const CLI::App* verb : app.get_subcommands()) RefuseEmptyValues(*verb);
 }
 
-/// Parses the arguments of a verb (argv[0] is its name). Prints the help and ends the process where
-/// it was asked for; throws Error(kInvalidArgument) on wrong use.
-inline void ParseVerb(CLI::App& app, int argc, char** argv) {
-  try {
-    app.parse(argc, argv);
-    RefuseEmptyValues(app);
-  } catch (const CLI::CallForHelp& help) {
-    std::exit(app.exit(help));
-  } catch (const CLI::ParseError& error) {
-    throw Error(ErrorCode::kInvalidArgument,
-                std::string(error.what()) + "; see `" + app.get_name() + " --help`");
-  }
+/// As ParseVerb(), and refuses empty values.
+inline void ParseDataVerb(CLI::App& app, int argc, char** argv) {
+  ParseVerb(app, argc, argv);
+  RefuseEmptyValues(app);
 }
 
 }  // namespace doorforge

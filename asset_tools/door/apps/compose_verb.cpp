@@ -116,7 +116,7 @@ void AddOptions(CLI::App& app, Options& options) {
          "--handle-mount, else seat")
       ->check(CLI::IsMember({"auto", "seat", "plane", "axis", "author"}));
   app.add_option("--config", options.config, "YAML file with body, handle and all settings");
-  app.add_option("--set", options.settings, "key=value overrides one setting");
+  AddSettings(app, options.settings, "overrides one setting");
   app.add_flag("--standalone", options.standalone,
                "many doors: each with its own copy of the meshes");
   app.add_flag("--validate", options.validate,

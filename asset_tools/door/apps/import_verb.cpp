@@ -67,7 +67,7 @@ Options Parse(int argc, char** argv) {
       ->allow_extra_args(false);
   AddReadOptions(app, options.read);
   app.add_option("--config", options.config, "YAML file with the settings of import");
-  app.add_option("--set", options.settings, "a.b=c overrides one setting");
+  AddSettings(app, options.settings, "a.b=c overrides one setting");
   app.add_option("--threads", options.threads, "0: all processors");
   AddMaxSeconds(app, options.max_seconds);
   app.add_flag("--overwrite", options.overwrite, "replace parts that are there already");

@@ -13,6 +13,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "doorforge/core/command_line.h"
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/error.h"
@@ -43,17 +44,6 @@ struct Options {
   bool overwrite = false;
 };
 
-void Parse(CLI::App& app, int argc, char** argv) {
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& help) {
-    std::exit(app.exit(help));
-  } catch (const CLI::ParseError& error) {
-    throw Error(ErrorCode::kInvalidArgument,
-                std::string(error.what()) + "; see `doorforge repair --help`");
-  }
-}
-
 Options OptionsOf(int argc, char** argv) {
   Options options;
   CLI::App app("Turns any mesh into a closed, oriented one and measures what that changed.",
@@ -65,8 +55,7 @@ Options OptionsOf(int argc, char** argv) {
   app.add_option("--report", options.report, "where to write the report (OUT.report.json)");
   app.add_flag("--overwrite", options.overwrite, "replace OUT and its report");
   app.add_option("--config", options.config, "YAML file with settings of the repair");
-  app.add_option("--set", options.settings, "one setting, such as max_triangles=2000; repeatable")
-      ->allow_extra_args(false);
+  AddSettings(app, options.settings, "one setting, such as max_triangles=2000");
   app.add_option("--wrap", options.wrap,
                  "alpha wrap: never, auto (where exact repair fails) or always")
       ->check(CLI::IsMember({"never", "auto", "always"}));
@@ -79,7 +68,7 @@ Options OptionsOf(int argc, char** argv) {
       "exit code: 0 closed, 1 the mesh cannot be closed, 2 wrong use, 3 IN cannot be read\n"
       "example:\n"
       "  doorforge repair handle.stl handle.obj --set max_triangles=2000");
-  Parse(app, argc, argv);
+  ParseVerb(app, argc, argv);
   if (options.report.empty()) options.report = options.output + ".report.json";
   return options;
 }

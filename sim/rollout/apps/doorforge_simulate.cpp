@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
 
+#include "doorforge/core/command_line.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/program.h"
 
@@ -39,13 +40,9 @@ int Main(int argc, char** argv) {
   app.add_flag("--overwrite", options.overwrite, "replace pictures that are in --film");
   app.add_option("--threads", options.threads, "0: all processors")->check(CLI::Range(0, 4096));
   app.add_option("--config", config, "YAML file with the settings of scene and expert");
-  app.add_option("--set", settings, "a.b=c overrides one setting");
+  AddSettings(app, settings, "a.b=c overrides one setting");
   app.add_flag("--json", options.json, "print one JSON document");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
+  ParseVerb(app, argc, argv);
   options.config = LoadConfig<SimulateConfig>(config, settings);
   if (!robot.empty()) options.config.scene.robot = robot;
   return NamingConfig(config, [&] { return Simulate(options); });

@@ -16,6 +16,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "doorforge/core/command_line.h"
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/error.h"
@@ -97,7 +98,7 @@ void AddOptions(CLI::App& app, Options& options) {
   app.add_option("--candidates", options.candidates,
                  "actions among which the critic chooses (config: policy.candidates, 1)");
   app.add_option("--config", options.config, "YAML file with settings")->check(CLI::ExistingFile);
-  app.add_option("--set", options.settings, "a.b=c overrides one setting, e.g. cloud.max_depth_m");
+  AddSettings(app, options.settings, "a.b=c overrides one setting, e.g. cloud.max_depth_m");
   app.footer(
       "Prints the hand's next pose as JSON. docs/act.md has the files of camera and state.\n\n"
       "examples:\n"
@@ -112,14 +113,7 @@ Options Parse(int argc, char** argv) {
   CLI::App app("From a depth picture and the robot's state to the hand's next pose.",
                "doorforge act");
   AddOptions(app, options);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& help) {
-    std::exit(app.exit(help));
-  } catch (const CLI::ParseError& error) {
-    throw Error(ErrorCode::kInvalidArgument,
-                std::string(error.what()) + "; see `doorforge act --help`");
-  }
+  ParseVerb(app, argc, argv);
   const bool one = !options.depth.empty() && options.state.empty() != options.handle.empty();
   const bool none = options.depth.empty() && options.state.empty() && options.handle.empty();
   if (options.stream ? !none : !one)

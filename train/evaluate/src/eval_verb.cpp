@@ -13,6 +13,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "doorforge/core/command_line.h"
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/error.h"
@@ -79,7 +80,7 @@ void AddOptions(CLI::App& app, Options& options) {
                  "0: all processors; the result does not depend on it")
       ->check(CLI::Range(0, 1024));
   app.add_option("--config", options.config, "YAML file with settings")->check(CLI::ExistingFile);
-  app.add_option("--set", options.settings, "a.b=c overrides one setting");
+  AddSettings(app, options.settings, "a.b=c overrides one setting");
   app.add_flag("--allow-seen", options.request.allow_seen,
                "evaluate on doors with parts that the policy was trained on, too");
   app.add_flag("--json", options.json, "print report.json's document instead of a table");
@@ -107,15 +108,7 @@ Options Parse(int argc, char** argv, const OwnPolicies& own) {
         "  doorforge eval --policy expert --doors run/doors --split full:test -n 50 --seeds 3 "
         "--out "
         "run/expert");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& help) {
-    std::exit(app.exit(help));
-  } catch (const CLI::ParseError& error) {
-    throw Error(ErrorCode::kInvalidArgument, std::string(error.what()) + "; see " +
-                                                 (own.make_open ? "" : "`doorforge eval ") +
-                                                 "--help" + (own.make_open ? "" : "`"));
-  }
+  ParseVerb(app, argc, argv);
   return options;
 }
 

@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "doorforge/core/command_line.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
@@ -29,14 +30,7 @@ bool ParseJsonFlag(int argc, char** argv) {
                "doorforge doctor");
   app.add_flag("--json", json, "print one JSON document");
   app.footer("example:\n  doorforge doctor");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& help) {
-    std::exit(app.exit(help));
-  } catch (const CLI::ParseError& error) {
-    throw Error(ErrorCode::kInvalidArgument,
-                std::string(error.what()) + "; see `doorforge doctor --help`");
-  }
+  ParseVerb(app, argc, argv);
   return json;
 }
 

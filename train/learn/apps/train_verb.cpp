@@ -18,6 +18,7 @@
 #include <malloc.h>
 #endif
 
+#include "doorforge/core/command_line.h"
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/config_io.h"
@@ -76,7 +77,7 @@ Options Parse(int argc, char** argv) {
       ->check(CLI::PositiveNumber);
   app.add_option("--config", options.config, "YAML file with training settings")
       ->check(CLI::ExistingFile);
-  app.add_option("--set", options.settings, "key=value overrides one setting");
+  AddSettings(app, options.settings, "overrides one setting");
   app.add_option("--seed", options.seed, "decides every random choice (config: seed)");
   app.add_option("--threads", options.threads, "threads, 0: all; the result does not depend on it")
       ->check(CLI::Range(0, 1024))
@@ -100,14 +101,7 @@ Options Parse(int argc, char** argv) {
       "  doorforge train open --data run/data --out run/policy --epochs 10 --set batch_size=32\n"
       "  torchrun --nproc-per-node 2 --no-python doorforge train open --data run/data \\\n"
       "      --out run/policy --threads 1 --nodes");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& help) {
-    std::exit(app.exit(help));
-  } catch (const CLI::ParseError& error) {
-    throw Error(ErrorCode::kInvalidArgument,
-                std::string(error.what()) + "; see `doorforge train --help`");
-  }
+  ParseVerb(app, argc, argv);
   return options;
 }
 

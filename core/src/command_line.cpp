@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/core/command_line.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include <CLI/CLI.hpp>
+
+#include "doorforge/core/error.h"
+#include "doorforge/core/nearest_name.h"
+
+namespace doorforge {
+namespace {
+
+constexpr const char* kSet = "--set";
+
+bool IsOption(const std::string& word) { return word.size() > 1 && word.starts_with('-'); }
+
+// As they are typed, "--body" and "-n" alike.
+std::vector<std::string> OptionNames(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+  return names;
+}
+
+std::vector<std::string> SubcommandNames(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(verb->get_name());
+  return names;
+}
+
+std::string Joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+std::string UnknownName(const std::string& kind, const std::string& name,
+                        const std::vector<std::string>& known) {
+  return "unknown " + kind + " \"" + name + "\"; did you mean \"" + NearestName(name, known) +
+         "\"?";
+}
+
+bool LacksSubcommand(const CLI::App& app) {
+  return app.get_require_subcommand_min() > 0 && app.get_subcommands().empty();
+}
+
+std::string FaultOfWord(const CLI::App& app, const std::string& word) {
+  if (IsOption(word))
+    return UnknownName("option", word.substr(0, word.find('=')), OptionNames(app));
+  if (LacksSubcommand(app)) return UnknownName("subcommand", word, SubcommandNames(app));
+  if (word.find('=') != std::string::npos && app.get_option_no_throw(kSet) != nullptr)
+    return "\"" + word + "\" was not expected; each " + kSet + " takes one setting: " + kSet + " " +
+           word;
+  return "\"" + word + "\" was not expected";
+}
+
+// What is wrong with the words that nobody took; empty if all were taken. The options behind a
+// misspelled subcommand are not the verb's, otherwise options come first: their values are among
+// the words.
+std::string FaultOfLeftOver(const CLI::App& app) {
+  for (const CLI::App* verb : app.get_subcommands()) {
+    const std::string fault = FaultOfLeftOver(*verb);
+    if (!fault.empty()) return fault;
+  }
+  std::vector<std::string> words = app.remaining();
+  words.erase(std::remove(words.begin(), words.end(), "--"), words.end());
+  if (words.empty()) return "";
+  if (LacksSubcommand(app) && !IsOption(words.front())) return FaultOfWord(app, words.front());
+  const auto option = std::find_if(words.begin(), words.end(), IsOption);
+  return FaultOfWord(app, option != words.end() ? *option : words.front());
+}
+
+std::string FaultOf(const CLI::App& app, const CLI::ParseError& error) {
+  const std::string left_over = FaultOfLeftOver(app);
+  if (!left_over.empty()) return left_over;
+  if (LacksSubcommand(app)) return "a subcommand is required: " + Joined(SubcommandNames(app));
+  return error.what();
+}
+
+// "doorforge dataset info", as far as the words were understood.
+std::string CommandOf(const CLI::App& app) {
+  std::string command = app.get_name();
+  for (const CLI::App* verb : app.get_subcommands()) command += " " + CommandOf(*verb);
+  return command;
+}
+
+}  // namespace
+
+CLI::Option* AddSettings(CLI::App& app, std::vector<std::string>& settings,
+                         const std::string& about) {
+  return app.add_option(kSet, settings, about + "; repeatable")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+void ParseVerb(CLI::App& app, int argc, char** argv) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& asked) {  // for the help
+    std::exit(app.exit(asked));
+  } catch (const CLI::ParseError& error) {
+    const std::string fault = FaultOf(app, error);
+    throw Error(ErrorCode::kInvalidArgument, fault + (fault.ends_with('?') ? " see `" : "; see `") +
+                                                 CommandOf(app) + " --help`");
+  }
+}
+
+}  // namespace doorforge

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/core/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <gtest/gtest.h>
+
+#include "doorforge/core/error.h"
+
+namespace doorforge {
+namespace {
+
+// A verb as the programs make them: two files, an option that must be there, and settings.
+struct Verb {
+  CLI::App app{"", "doorforge try"};
+  std::vector<std::string> files;
+  std::string body;
+  std::vector<std::string> settings;
+
+  Verb() {
+    app.add_option("files", files)->required();
+    app.add_option("-b,--body", body)->required();
+    AddSettings(app, settings, "overrides one setting");
+  }
+};
+
+void Parse(CLI::App& app, std::vector<std::string> words) {
+  words.insert(words.begin(), "try");
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  ParseVerb(app, static_cast<int>(pointers.size()), pointers.data());
+}
+
+std::string RefusalOf(CLI::App& app, const std::vector<std::string>& words) {
+  try {
+    Parse(app, words);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kInvalidArgument);
+    return error.what();
+  }
+  return "";
+}
+
+TEST(CommandLine, ASettingLeavesWhatFollowsItToTheOthers) {
+  Verb verb;
+  Parse(verb.app, {"--set", "a=1", "x.stl", "--set=b=2", "y.stl", "--body", "c"});
+  EXPECT_EQ(verb.settings, (std::vector<std::string>{"a=1", "b=2"}));
+  EXPECT_EQ(verb.files, (std::vector<std::string>{"x.stl", "y.stl"}));
+}
+
+TEST(CommandLine, ASecondSettingWithoutItsSetIsToldHowToBeGiven) {
+  CLI::App app{"", "doorforge try"};
+  std::vector<std::string> settings;
+  AddSettings(app, settings, "overrides one setting");
+  EXPECT_EQ(RefusalOf(app, {"--set", "a=1", "b=2"}),
+            "\"b=2\" was not expected; each --set takes one setting: --set b=2; see `doorforge try "
+            "--help`");
+}
+
+TEST(CommandLine, AnUnknownOptionIsToldTheNearestOneThoughARequiredOneIsMissing) {
+  Verb verb;
+  EXPECT_EQ(RefusalOf(verb.app, {"x.stl", "--bodi", "c"}),
+            "unknown option \"--bodi\"; did you mean \"--body\"? see `doorforge try --help`");
+  Verb other;
+  EXPECT_EQ(RefusalOf(other.app, {"x.stl", "--hlep=3", "--body", "c"}),
+            "unknown option \"--hlep\"; did you mean \"--help\"? see `doorforge try --help`");
+}
+
+TEST(CommandLine, SubcommandsAreSuggestedAndTheirOptionsToo) {
+  const auto refusal = [](const std::vector<std::string>& words) {
+    CLI::App app{"", "doorforge try"};
+    app.require_subcommand(1);
+    std::string size;
+    app.add_subcommand("list")->add_option("--size", size);
+    app.add_subcommand("show");
+    return RefusalOf(app, words);
+  };
+  EXPECT_EQ(refusal({"lst"}),
+            "unknown subcommand \"lst\"; did you mean \"list\"? see `doorforge try --help`");
+  EXPECT_EQ(refusal({"list", "--sise", "3"}),
+            "unknown option \"--sise\"; did you mean \"--size\"? see `doorforge try list --help`");
+  EXPECT_EQ(refusal({}), "a subcommand is required: list, show; see `doorforge try --help`");
+  EXPECT_EQ(refusal({"list", "--size", "3"}), "");
+}
+
+TEST(CommandLine, WhatIsMissingIsStillTold) {
+  Verb verb;
+  const std::string refusal = RefusalOf(verb.app, {"x.stl"});
+  EXPECT_NE(refusal.find("--body"), std::string::npos) << refusal;
+}
+
+}  // namespace
+}  // namespace doorforge

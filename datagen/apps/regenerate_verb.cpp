@@ -3,9 +3,9 @@
 #include "regenerate_verb.h"
 
 #include <cstdio>
-#include <sstream>
 
 #include "doorforge/core/committed_file.h"
+#include "doorforge/core/config_difference.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
@@ -35,18 +35,11 @@ Stage StageOf(const fs::path& folder) {
 void RequireSameConfig(const fs::path& path, const std::string& now) {
   const std::string text = ReadFile(path);
   if (text == now) return;
-  std::istringstream there(text);
-  std::istringstream here(now);
-  std::string line_there;
-  std::string line_here;
-  while (std::getline(there, line_there) && std::getline(here, line_here) &&
-         line_there == line_here) {
-  }
   throw Error(ErrorCode::kInvalidArgument,
               path.string() +
                   ": made with another build, other doors or policies, so its bytes are not "
-                  "expected again\nthere: " +
-                  line_there + "\nnow:   " + line_here);
+                  "expected again" +
+                  ConfigDifference(text, now));
 }
 
 }  // namespace

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <set>
-#include <sstream>
 
 #include "doorforge/core/committed_file.h"
+#include "doorforge/core/config_difference.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
@@ -18,27 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The first line in which two texts differ, for a message.
-std::string FirstDifference(const std::string& there, const std::string& here) {
-  std::istringstream a(there);
-  std::istringstream b(here);
-  std::string line_a;
-  std::string line_b;
-  while (line_a == line_b && (a || b)) {
-    if (!std::getline(a, line_a)) line_a = "(end)";
-    if (!std::getline(b, line_b)) line_b = "(end)";
-  }
-  return "there: " + line_a + "\nnow:   " + line_b;
-}
-
 void CompareConfig(const fs::path& path, const std::string& text) {
   const std::string there = ReadFile(path);
   if (there == text) return;
   throw Error(ErrorCode::kInvalidArgument, path.string() +
                                                ": the folder holds episodes of another config; "
-                                               "give the same settings to go on, or another "
-                                               "--out\n" +
-                                               FirstDifference(there, text));
+                                               "give the recorded settings to go on, another "
+                                               "--out, or --overwrite to begin anew" +
+                                               ConfigDifference(there, text));
 }
 
 void CommitConfig(FileSystem& files, const fs::path& path, const std::string& text) {

@@ -335,6 +335,36 @@ TEST(TrainProgram, ALossThatIsNoNumberEndsTheRunAndTheLastGoodPolicyIsKept) {
   EXPECT_EQ(kept.provenance.step, good.step);
 }
 
+TEST(TrainProgram, ARefusalToGoOnNamesTheSettingsThatDifferAndTheWaysOut) {
+  const fs::path folder = EmptyFolder("other_settings");
+  WriteDataset(folder / "data", "train", 4);
+  WriteDataset(folder / "more", "train", 5);
+  const std::string out = (folder / "out").string();
+  const std::string common = " --set batch_size=4 --set warmup_steps=1 --threads 1 --out " + out;
+  const std::string data = "open --data " + (folder / "data").string();
+  ASSERT_EQ(RunTraining(data + common + " --epochs 1").code, 0);
+  const std::string state = ReadFile(out + "/training.safetensors");
+  const std::string ways =
+      "; give what is recorded to go on, --overwrite to begin anew, or "
+      "another --out, there with --from " +
+      out + " to begin with these weights\n  ";
+
+  const ProgramAnswer longer =
+      RunTraining(data + common + " --epochs 3 --set learning_rate=0.5 --resume");
+  EXPECT_EQ(longer.code, 2);
+  EXPECT_EQ(longer.text.substr(longer.text.find("doorforge: ")),
+            "doorforge: " + out + "/training.safetensors: this training has other settings" + ways +
+                "epochs: recorded 1, given 3\n  learning_rate: recorded 0.001, given 0.5\n");
+
+  const ProgramAnswer other =
+      RunTraining("open --data " + (folder / "more").string() + common + " --epochs 1 --resume");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.text.find("this training has other data than --data" + ways + "sha256: "),
+            std::string::npos)
+      << other.text;
+  EXPECT_EQ(ReadFile(out + "/training.safetensors"), state);
+}
+
 TEST(TrainProgram, RefusesAbsurdPlacesInAGroup) {
   const fs::path folder = EmptyFolder("places");
   fs::create_directories(folder);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "doorforge/core/committed_file.h"
+#include "doorforge/core/config_difference.h"
 #include "doorforge/core/config_io.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
@@ -211,13 +212,32 @@ std::string StateHash(const TensorFile& file) {
   return hash.HexDigest();
 }
 
-void RequireSame(const TensorFile& file, const std::string& key, const std::string& expected,
-                 const std::string& path) {
-  const std::string& found = MetadataOf(file, key, path);
-  if (found != expected)
-    throw Error(ErrorCode::kInvalidArgument, path + ": was written with another " + key + ": " +
-                                                 found + " instead of " + expected +
-                                                 "; train into another folder");
+// A training goes on only from what it would have come to by itself.
+void RequireSameTraining(const TensorFile& file, const PolicyProvenance& given,
+                         const std::string& path) {
+  const auto refuse = [&](const std::string& what, const std::string& difference) {
+    throw Error(ErrorCode::kInvalidArgument,
+                path + ": " + what +
+                    "; give what is recorded to go on, --overwrite to begin anew, or another "
+                    "--out, there with --from " +
+                    fs::path(path).parent_path().string() + " to begin with these weights" +
+                    difference);
+  };
+  const std::string& config = MetadataOf(file, "config", path);
+  if (config != ConfigText(given.config))
+    refuse("this training has other settings", ConfigDifference(config, ConfigText(given.config)));
+  const std::string& data = MetadataOf(file, "dataset_sha256", path);
+  if (data != given.dataset_sha256)
+    refuse("this training has other data than --data",
+           "\n  sha256: recorded " + data + ", given " + given.dataset_sha256);
+  const std::string& from = MetadataOf(file, "from_weights_sha256", path);
+  const auto weights = [](const std::string& sha256) {
+    return sha256.empty() ? "none" : "those of sha256 " + sha256;
+  };
+  if (from != given.from_weights_sha256)
+    refuse(
+        "this training began with other weights than --from says",
+        "\n  weights: recorded " + weights(from) + ", given " + weights(given.from_weights_sha256));
 }
 
 Json ProvenanceToJson(const PolicyProvenance& provenance) {
@@ -394,9 +414,7 @@ TrainerState ReadTrainerState(const fs::path& folder, const PolicyProvenance& ex
                 path +
                     ": damaged: its content is not what its own SHA-256 says; put back a copy, or "
                     "train again with --overwrite");
-  RequireSame(file, "dataset_sha256", expected.dataset_sha256, path);
-  RequireSame(file, "config", ConfigText(expected.config), path);
-  RequireSame(file, "from_weights_sha256", expected.from_weights_sha256, path);
+  RequireSameTraining(file, expected, path);
   TrainerState state;
   state.networks.family = FamilyOf(expected.stage);
   state.networks.linear_branches = expected.config.linear_branches;

@@ -79,8 +79,8 @@ struct CollectSummary {
 /// One task of several writes no failures.jsonl, README.md and dataset.json; see MergeDataset().
 ///
 /// @throws Error(kInvalidArgument) if the folder's config.yaml is there and differs from
-///     config_text (two lines show where), or another process writes the same shards; Error(kIo),
-///     and what the runner throws as environment's fault; what is committed stays.
+///     config_text (the message names the settings), or another process writes the same shards;
+///     Error(kIo), and what the runner throws as environment's fault; what is committed stays.
 CollectSummary Collect(const CollectionPlan& plan, const EpisodeRunner& runner,
                        const CollectRequest& request);
 

@@ -3,8 +3,11 @@
 #include "doorforge/datagen/export_robomimic.h"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <map>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include <fcntl.h>
@@ -19,6 +22,7 @@
 #include "doorforge/schemas/dataset.h"
 #include "doorforge/schemas/npy.h"
 
+#include "action_scaling.h"
 #include "hdf5_file.h"
 
 namespace doorforge {
@@ -30,6 +34,54 @@ using Json = nlohmann::ordered_json;
 
 // Beside the arrays: groups, headers and meta data of an episode.
 constexpr std::uint64_t kOverheadPerEpisode = 32768;
+
+// What a robot knows of itself and its camera shows; all else is the answer, or known to the
+// simulator alone.
+constexpr std::array<std::string_view, 2> kObserved = {"cloud", "proprio"};
+
+bool IsObserved(std::string_view name) {
+  return std::find(kObserved.begin(), kObserved.end(), name) != kObserved.end();
+}
+
+// An array of an episode. The bytes are a copy: a write straight from the map would fail as if the
+// disk were full where another program has cut the shard.
+struct CopiedArray {
+  NpyHeader header;
+  std::vector<std::byte> bytes;
+
+  std::span<const std::byte> data() const { return std::span(bytes).subspan(header.data_offset); }
+};
+
+CopiedArray CopyArray(const ShardReader& shard, std::size_t episode, const std::string& member) {
+  const std::span<const std::byte> mapped = shard.Read(episode, member);
+  CopiedArray array{{}, {mapped.begin(), mapped.end()}};
+  shard.RequireWhole();
+  array.header = ParseNpyHeader(array.bytes, shard.Describe(episode, member));
+  return array;
+}
+
+std::vector<float> ActionsOf(const ShardReader& shard, std::size_t episode) {
+  const std::string member = "action.npy";
+  const CopiedArray array = CopyArray(shard, episode, member);
+  const std::vector<std::size_t>& shape = array.header.shape;
+  Require(array.header.type == "<f4" && shape.size() == 2 && shape[1] == internal::kActionNumbers,
+          ErrorCode::kFormat,
+          shard.Describe(episode, member) + ": expected T x 9 numbers of the type <f4");
+  std::vector<float> actions(array.data().size() / sizeof(float));
+  std::memcpy(actions.data(), array.data().data(), array.data().size());
+  return actions;
+}
+
+internal::ActionScaling ScalingOf(const fs::path& folder, const std::vector<DatasetPart>& parts) {
+  internal::ActionRange range;
+  for (const DatasetPart& part : parts) {
+    const DatasetReader reader(folder, part.stage, part.split);
+    for (const ShardReader& shard : reader.shards())
+      for (std::size_t i = 0; i < shard.index().episodes.size(); ++i)
+        range.Add(ActionsOf(shard, i));
+  }
+  return range.Scaling();
+}
 
 std::vector<DatasetPart> PartsOfStage(const fs::path& folder, const std::string& stage) {
   std::vector<DatasetPart> parts;
@@ -110,8 +162,12 @@ class PartialFile {
 
 class Exporter {
  public:
-  Exporter(const RobomimicRequest& request, const fs::path& path)
-      : request_(request), provenance_(ProvenanceIn(request.folder)), file_(path) {
+  Exporter(const RobomimicRequest& request, const internal::ActionScaling& scaling,
+           const fs::path& path)
+      : request_(request),
+        scaling_(scaling),
+        provenance_(ProvenanceIn(request.folder)),
+        file_(path) {
     for (const DatasetDoor& door : provenance_.doors) doors_[door.id] = &door;
     file_.MakeGroup("data");
   }
@@ -137,7 +193,9 @@ class Exporter {
                       {"env_kwargs", {{"stage", request_.stage}, {"seed", provenance_.seed}}}};
     file_.SetAttribute("data", "total", static_cast<std::int64_t>(summary_.samples));
     file_.SetAttribute("data", "env_args", JsonText(env));
-    file_.SetAttribute("data", "schema", "doorforge.robomimic 1");
+    file_.SetAttribute("data", "schema", "doorforge.robomimic 2");
+    file_.SetAttribute("data", "action_scale", scaling_.scale);
+    file_.SetAttribute("data", "action_offset", scaling_.offset);
     file_.SetAttribute("data", "config_sha256", provenance_.config_sha256);
     file_.Close();
     return summary_;
@@ -147,11 +205,9 @@ class Exporter {
   void AddEpisode(const ShardReader& shard, std::size_t episode, const std::string& split) {
     const std::string demo = "demo_" + std::to_string(summary_.demos);
     const std::string group = "data/" + demo;
-    std::size_t decisions = 0;
-    for (const ShardMember& member : shard.index().episodes[episode].members) {
-      if (member.name.ends_with(".npy"))
-        decisions = AddArray(shard, episode, member.name, group + "/");
-    }
+    for (const ShardMember& member : shard.index().episodes[episode].members)
+      if (member.name.ends_with(".npy")) AddArray(shard, episode, member.name, group + "/");
+    const std::size_t decisions = AddActions(shard, episode, group);
     std::vector<std::uint8_t> dones(decisions, 0);
     if (decisions > 0) dones.back() = 1;
     file_.WriteArray(group + "/dones", "|u1", {decisions}, std::as_bytes(std::span(dones)));
@@ -163,25 +219,26 @@ class Exporter {
     summary_.samples += decisions;
   }
 
-  std::size_t AddArray(const ShardReader& shard, std::size_t episode, const std::string& member,
-                       const std::string& group) {
-    // A copy: a write straight from the map would fail as if the disk were full where another
-    // program has cut the shard.
-    const std::span<const std::byte> mapped = shard.Read(episode, member);
-    const std::vector<std::byte> copy(mapped.begin(), mapped.end());
-    shard.RequireWhole();
-    const std::span<const std::byte> bytes(copy);
-    const NpyHeader header = ParseNpyHeader(bytes, shard.Describe(episode, member));
+  // Returns the number of decisions.
+  std::size_t AddActions(const ShardReader& shard, std::size_t episode, const std::string& group) {
+    const std::vector<float> scaled = scaling_.Scaled(ActionsOf(shard, episode));
+    const std::size_t decisions = scaled.size() / internal::kActionNumbers;
+    file_.WriteArray(group + "/actions", "<f4", {decisions, internal::kActionNumbers},
+                     std::as_bytes(std::span(scaled)));
+    return decisions;
+  }
+
+  void AddArray(const ShardReader& shard, std::size_t episode, const std::string& member,
+                const std::string& group) {
+    const CopiedArray array = CopyArray(shard, episode, member);
     const std::string name = member.substr(0, member.size() - 4);
-    std::vector<std::size_t> shape = header.shape;
-    std::string path = group + "obs/" + name;
-    if (name == "action") path = group + "actions";
+    std::vector<std::size_t> shape = array.header.shape;
+    std::string path = group + (IsObserved(name) ? "obs/" : "extras/") + name;
     if (name == "score") {
       path = group + "rewards";
       shape.resize(1);
     }
-    file_.WriteArray(path, header.type, shape, bytes.subspan(header.data_offset));
-    return shape.empty() ? 0 : shape[0];
+    file_.WriteArray(path, array.header.type, shape, array.data());
   }
 
   void DescribeEpisode(const ShardReader& shard, std::size_t episode, const std::string& group) {
@@ -200,6 +257,7 @@ class Exporter {
   }
 
   const RobomimicRequest& request_;
+  internal::ActionScaling scaling_;
   DatasetProvenance provenance_;
   std::map<std::string, const DatasetDoor*> doors_;
   Hdf5Writer file_;
@@ -223,7 +281,7 @@ RobomimicSummary ExportRobomimic(const RobomimicRequest& request) {
   if (request.out.has_parent_path()) SystemFiles().CreateFolder(request.out.parent_path());
   RequireSpaceForFile(request.out, parts);
   PartialFile partial(request.out);
-  Exporter exporter(request, partial.path());
+  Exporter exporter(request, ScalingOf(request.folder, parts), partial.path());
   for (const DatasetPart& part : parts) {
     if (!exporter.AddPart(part)) return {.stopped_by_signal = StopRequested()};
   }

@@ -107,20 +107,28 @@ void Hdf5Writer::MakeGroup(const std::string& path) {
   Checked(group.id(), path + " cannot be created");
 }
 
-void Hdf5Writer::Attach(const std::string& object, const std::string& name, std::int64_t type,
+void Hdf5Writer::Attach(const std::string& object, const std::string& name, AttributeType type,
                         const void* bytes) {
-  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Hdf5Handle attribute(H5Acreate_by_name(file_.id(), object.c_str(), name.c_str(), type,
-                                               space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                             H5Aclose);
+  const Hdf5Handle attribute(
+      H5Acreate_by_name(file_.id(), object.c_str(), name.c_str(), type.element, type.space,
+                        H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+      H5Aclose);
   Checked(attribute.id(), "attribute " + name + " of " + object + " cannot be created");
-  Checked(H5Awrite(attribute.id(), type, bytes),
+  Checked(H5Awrite(attribute.id(), type.element, bytes),
           "attribute " + name + " of " + object + " cannot be written");
 }
 
 void Hdf5Writer::SetAttribute(const std::string& object, const std::string& name,
                               std::int64_t value) {
-  Attach(object, name, H5T_STD_I64LE, &value);
+  const Hdf5Handle one(H5Screate(H5S_SCALAR), H5Sclose);
+  Attach(object, name, {H5T_STD_I64LE, one.id()}, &value);
+}
+
+void Hdf5Writer::SetAttribute(const std::string& object, const std::string& name,
+                              std::span<const double> values) {
+  const hsize_t length = values.size();
+  const Hdf5Handle many(H5Screate_simple(1, &length, nullptr), H5Sclose);
+  Attach(object, name, {H5T_IEEE_F64LE, many.id()}, values.data());
 }
 
 // Of variable length: h5py gives such text as str, and robomimic expects that.
@@ -131,7 +139,8 @@ void Hdf5Writer::SetAttribute(const std::string& object, const std::string& name
   H5Tset_cset(type.id(), H5T_CSET_UTF8);
   const std::string terminated(text);
   const char* pointer = terminated.c_str();
-  Attach(object, name, type.id(), &pointer);
+  const Hdf5Handle one(H5Screate(H5S_SCALAR), H5Sclose);
+  Attach(object, name, {type.id(), one.id()}, &pointer);
 }
 
 void Hdf5Writer::Close() {

@@ -48,6 +48,8 @@ class Hdf5Writer {
   void MakeGroup(const std::string& path);
   void SetAttribute(const std::string& object, const std::string& name, std::int64_t value);
   void SetAttribute(const std::string& object, const std::string& name, std::string_view text);
+  void SetAttribute(const std::string& object, const std::string& name,
+                    std::span<const double> values);
 
   /// Writes everything out; the file is closed.
   void Close();
@@ -56,7 +58,11 @@ class Hdf5Writer {
   std::int64_t Checked(std::int64_t id, const std::string& what) const;
   void Write(const std::string& path, std::int64_t type, const std::vector<std::size_t>& shape,
              const void* bytes);
-  void Attach(const std::string& object, const std::string& name, std::int64_t type,
+  struct AttributeType {
+    std::int64_t element;
+    std::int64_t space;
+  };
+  void Attach(const std::string& object, const std::string& name, AttributeType type,
               const void* bytes);
 
   std::string name_;

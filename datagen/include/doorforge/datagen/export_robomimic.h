@@ -32,13 +32,17 @@ std::uint64_t CountEpisodes(const std::filesystem::path& folder, const std::stri
 /// Copies a stage's episodes into one HDF5 file as robomimic lays it out
 /// (https://robomimic.github.io/docs/datasets/overview.html):
 ///
-///     data                 attributes total, env_args (JSON), schema, config_sha256
+///     data                 attributes total, env_args (JSON), schema, config_sha256, and
+///                          action_scale, action_offset: 9 numbers each
 ///     data/demo_N          attributes num_samples, success, and key, split, door_id, category,
 ///                          mechanism; N counts all splits, in the order of dataset.json
-///       actions            T x 9 float32, as action.npy
+///       actions            T x 9 float32 within [-1, 1]: action.npy is
+///                          action_offset + action_scale * actions
 ///       rewards            T float32, as score.npy
 ///       dones              T uint8, 1 at the last decision
-///       obs/<name>         every other array, as it is in the shard
+///       obs/<name>         what a policy may see, as it is in the shard: cloud, proprio
+///       extras/<name>      every other array, as it is in the shard, and action: what a robot
+///                          does not know, and what it was told to do
 ///       meta               meta.json as text
 ///     mask/<split>         names of the split's demos
 ///

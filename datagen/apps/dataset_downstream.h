@@ -11,6 +11,9 @@ namespace doorforge {
 // The subcommands of `doorforge dataset` for those who use a finished dataset. Each function adds
 // its subcommand to the verb and returns what runs it if it was parsed: its exit code, else -1.
 
+/// `dataset status DIR [--tasks N] [--json] [--watch]`
+std::function<int()> AddStatus(CLI::App& verb);
+
 /// `dataset info DIR [--json] [--png FILE] [--html FILE]`
 std::function<int()> AddInfo(CLI::App& verb);
 

@@ -121,7 +121,8 @@ int RunDatasetVerb(int argc, char** argv) {
       "examples:\n  doorforge dataset merge data\n"
       "  doorforge dataset merge data node1/data node2/data");
   app.footer("examples:\n  doorforge dataset verify data/open\n  doorforge dataset info data/open");
-  const std::vector<std::function<int()>> downstream = {AddInfo(app), AddExport(app), AddCard(app)};
+  const std::vector<std::function<int()>> downstream = {AddStatus(app), AddInfo(app),
+                                                        AddExport(app), AddCard(app)};
   ParseDataVerb(app, argc, argv);
   if (!options.regenerate.share.empty()) PrepareRegenerate(options.regenerate, argc, argv);
   if (merge->parsed()) return Merge(options);

@@ -147,6 +147,16 @@ Json JournalEntryOf(const FailedEpisode& failure) {
   return {{"failure", FailedEpisodeToJson(failure)}};
 }
 
+std::vector<Json> JournalEntries(std::string_view journal) {
+  std::vector<Json> entries;
+  std::uint64_t at = 0;
+  while (std::optional<Json> entry = EntryAt(journal, at)) {
+    entries.push_back(std::move(*entry));
+    at = journal.find('\n', at) + 1;
+  }
+  return entries;
+}
+
 RecoveredJournal RecoverJournal(const fs::path& folder, const ShardHeader& header) {
   const fs::path path = JournalPath(folder, header.number);
   const fs::path tar = PartialTarPath(folder, header.number);

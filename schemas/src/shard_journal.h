@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -25,6 +26,9 @@ std::string JournalLine(const nlohmann::ordered_json& entry);
 
 nlohmann::ordered_json JournalEntryOf(const ShardEpisode& episode);
 nlohmann::ordered_json JournalEntryOf(const FailedEpisode& failure);
+
+/// The entries of a journal up to the first line that is damaged or cut; the header is the first.
+std::vector<nlohmann::ordered_json> JournalEntries(std::string_view journal);
 
 /// What holds of an unfinished shard.
 struct RecoveredJournal {

@@ -12,6 +12,8 @@
 
 #include "doorforge/core/error.h"
 
+#include "../../sim/sensor/src/caption_lines.h"
+
 namespace doorforge {
 namespace {
 
@@ -120,8 +122,7 @@ TEST(DepthPreview, ColorsNearAndFarDifferentlyAndLeavesTheUnseenGrey) {
 
 TEST(ContactSheet, PlacesPicturesInRows) {
   std::vector<Picture> pictures(5, Gradient(40, 30));
-  const std::vector<std::string> captions(5,
-                                          "a door with a name that is far too long for its tile");
+  const std::vector<std::string> captions(5, "a door");
   const Picture sheet =
       ContactSheet(pictures, captions, {.columns = 3, .tile_width = 80, .tile_height = 60});
   EXPECT_EQ(sheet.width, 3 * 90 + 10);
@@ -129,6 +130,33 @@ TEST(ContactSheet, PlacesPicturesInRows) {
   EXPECT_EQ(sheet.rgb[0], 255);
   EXPECT_THROW(ContactSheet({}, {}), Error);
   EXPECT_THROW(ContactSheet(pictures, std::vector<std::string>(2, "x")), Error);
+}
+
+TEST(ContactSheet, ShowsCaptionsToTheirEnd) {
+  const std::vector<Picture> pictures(1, Gradient(40, 30));
+  const auto sheet = [&](const std::string& caption) {
+    return ContactSheet(pictures, std::vector<std::string>{caption},
+                        {.columns = 1, .tile_width = 160, .tile_height = 120});
+  };
+  const Picture first = sheet("interior_four_panel_02__interior_lever_tube_01");
+  const Picture second = sheet("interior_four_panel_02__interior_lever_tube_02");
+  EXPECT_EQ(first.height, second.height);
+  EXPECT_NE(first.rgb, second.rgb) << "both captions read the same";
+  EXPECT_EQ(first.height, sheet("short").height + 2 * 16);
+}
+
+TEST(CaptionLines, BreakBehindUnderscoresAndBlanksAndLoseNoLetter) {
+  const auto at_most_ten = [](const std::string& line) { return line.size() <= 10; };
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(internal::CaptionLines("short", at_most_ten), Lines{"short"});
+  EXPECT_EQ(internal::CaptionLines("four_panel_02__lever", at_most_ten),
+            (Lines{"four_", "panel_02__", "lever"}));
+  EXPECT_EQ(internal::CaptionLines("panel_0123__lever", at_most_ten),
+            (Lines{"panel_", "0123__", "lever"}));
+  EXPECT_EQ(internal::CaptionLines("it opens  the door", at_most_ten),
+            (Lines{"it opens", "the door"}));
+  EXPECT_EQ(internal::CaptionLines("abcdefghijklm", at_most_ten), (Lines{"abcdefghij", "klm"}));
+  EXPECT_EQ(internal::CaptionLines("", at_most_ten), Lines{});
 }
 
 TEST(MaskPng, ComesBackAsItWasWrittenAndAlsoFromSixteenBits) {

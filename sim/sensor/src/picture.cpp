@@ -13,13 +13,16 @@
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 
+#include "caption_lines.h"
 #include "picture_mat.h"
 #include "png_pixels.h"
 
 namespace doorforge {
 namespace {
 
-constexpr int kCaptionHeight = 26;
+constexpr int kCaptionHeight = 26;  // of one line
+constexpr int kLineHeight = 16;
+constexpr double kCaptionScale = 0.45;
 constexpr int kGap = 10;
 
 std::string Encode(const cv::Mat& mat) {
@@ -60,17 +63,35 @@ cv::Mat FitInto(const Picture& picture, const cv::Size& tile) {
   return result;
 }
 
-void DrawCaption(cv::Mat& sheet, const std::string& caption, const cv::Rect& box) {
-  constexpr double kScale = 0.45;
-  std::string text = caption;
-  cv::Size size = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kScale, 1, nullptr);
-  while (size.width > box.width && text.size() > 3) {
-    text = text.substr(0, text.size() - 4) + "...";
-    size = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kScale, 1, nullptr);
+int CaptionWidth(const std::string& text) {
+  return cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kCaptionScale, 1, nullptr).width;
+}
+
+using Caption = std::vector<std::string>;  // its lines
+
+std::vector<Caption> Wrapped(std::span<const std::string> captions, int width) {
+  std::vector<Caption> wrapped;
+  for (const std::string& caption : captions)
+    wrapped.push_back(internal::CaptionLines(
+        caption, [&](const std::string& line) { return CaptionWidth(line) <= width; }));
+  return wrapped;
+}
+
+// Below a sheet's pictures; as high as the longest caption needs.
+int CaptionHeight(const std::vector<Caption>& captions) {
+  std::size_t lines = 1;
+  for (const Caption& caption : captions) lines = std::max(lines, caption.size());
+  return captions.empty() ? 0 : kCaptionHeight + (static_cast<int>(lines) - 1) * kLineHeight;
+}
+
+void DrawCaption(cv::Mat& sheet, const Caption& caption, const cv::Rect& box) {
+  int baseline = box.y + (kCaptionHeight + 10) / 2;
+  for (const std::string& line : caption) {
+    const cv::Point origin(box.x + (box.width - CaptionWidth(line)) / 2, baseline);
+    cv::putText(sheet, line, origin, cv::FONT_HERSHEY_SIMPLEX, kCaptionScale,
+                cv::Scalar(60, 60, 60), 1, cv::LINE_AA);
+    baseline += kLineHeight;
   }
-  const cv::Point origin(box.x + (box.width - size.width) / 2, box.y + (box.height + 10) / 2);
-  cv::putText(sheet, text, origin, cv::FONT_HERSHEY_SIMPLEX, kScale, cv::Scalar(60, 60, 60), 1,
-              cv::LINE_AA);
 }
 
 constexpr std::uint32_t kMostPixels = 8192;  // a side
@@ -226,15 +247,17 @@ Picture ContactSheet(std::span<const Picture> pictures, std::span<const std::str
   const int columns = std::min(config.columns, count);
   const int rows = (count + columns - 1) / columns;
   const int step_x = config.tile_width + kGap;
-  const int step_y = config.tile_height + kGap + (captions.empty() ? 0 : kCaptionHeight);
+  const std::vector<Caption> lines = Wrapped(captions, config.tile_width);
+  const int caption_height = CaptionHeight(lines);
+  const int step_y = config.tile_height + kGap + caption_height;
   cv::Mat sheet(rows * step_y + kGap, columns * step_x + kGap, CV_8UC3, cv::Scalar(255, 255, 255));
   for (int i = 0; i < count; ++i) {
     const cv::Rect tile(kGap + i % columns * step_x, kGap + i / columns * step_y, config.tile_width,
                         config.tile_height);
     FitInto(pictures[static_cast<std::size_t>(i)], tile.size()).copyTo(sheet(tile));
     if (captions.empty()) continue;
-    DrawCaption(sheet, captions[static_cast<std::size_t>(i)],
-                cv::Rect(tile.x, tile.y + tile.height, tile.width, kCaptionHeight));
+    DrawCaption(sheet, lines[static_cast<std::size_t>(i)],
+                cv::Rect(tile.x, tile.y + tile.height, tile.width, caption_height));
   }
   return FromMat(sheet);
 }

@@ -59,7 +59,8 @@ void WriteDepthPng(const std::filesystem::path& path, const DepthImage& image);
 Picture DepthPreview(const DepthImage& image, double max_depth_m = 2.5);
 
 /// Pictures side by side, row by row, each scaled to fit a tile of the given size and centred on
-/// white, with its caption (ASCII) below; `captions` is empty or as long as `pictures`.
+/// white, with its caption (ASCII) below, in as many lines as the tile's width asks for;
+/// `captions` is empty or as long as `pictures`.
 struct ContactSheetConfig {
   int columns = 4;
   int tile_width = 320;

@@ -182,11 +182,16 @@ TEST(Checkpoint, AStateOfAnotherRunIsNotResumed) {
   PolicyProvenance provenance{"open", "abc", "v", {}, 0};
   WriteTrainerState(folder, SomeState(), provenance);
   provenance.dataset_sha256 = "def";
-  ExpectError(ErrorCode::kInvalidArgument, "dataset_sha256",
+  ExpectError(ErrorCode::kInvalidArgument, "sha256: recorded abc, given def",
               [&] { ReadTrainerState(folder, provenance); });
   provenance.dataset_sha256 = "abc";
+  provenance.from_weights_sha256 = "123";
+  ExpectError(ErrorCode::kInvalidArgument, "weights: recorded none, given those of sha256 123",
+              [&] { ReadTrainerState(folder, provenance); });
+  provenance.from_weights_sha256 = "";
   provenance.config.learning_rate = 2e-3;
-  ExpectError(ErrorCode::kInvalidArgument, "config", [&] { ReadTrainerState(folder, provenance); });
+  ExpectError(ErrorCode::kInvalidArgument, "learning_rate: recorded 0.001, given 0.002",
+              [&] { ReadTrainerState(folder, provenance); });
 }
 
 TEST(Checkpoint, ADamagedStateIsNotGoneOnFrom) {
@@ -215,19 +220,31 @@ TEST(Checkpoint, TheGraspsLossesHaveTheirOwnNamesAndGapsUntilTheyAreKnown) {
   state.steps[0].score_rad = 0.5;
   state.steps[1].score_rad = 0.25;
   state.steps[1].affordance_rad = 0.125;
-  WriteLosses(folder, state);
+  TrainConfig config;
+  config.family = NetworkFamily::kGrasp;
+  config.epochs = 1;
+  config.warmup_steps = 0;
+  WriteLosses(folder, state, {config, 1});  // each network has its own schedule
   EXPECT_EQ(ReadFile(folder / "losses.jsonl"),
-            "{\"step\": 1, \"discriminator.score_rad\": 0.5}\n"
-            "{\"step\": 2, \"discriminator.score_rad\": 0.25, \"affordance.score_rad\": 0.125}\n");
+            "{\"step\": 1, \"epoch\": 1, \"learning_rate\": 0.001, "
+            "\"discriminator.score_rad\": 0.5}\n"
+            "{\"step\": 2, \"epoch\": 2, \"learning_rate\": 0.001, "
+            "\"discriminator.score_rad\": 0.25, \"affordance.score_rad\": 0.125}\n");
 }
 
 TEST(Checkpoint, LossCurvesAreWrittenForPeopleAndPrograms) {
   const fs::path folder = EmptyFolder("losses");
-  WriteLosses(folder, SomeState());
+  TrainConfig config;
+  config.epochs = 1;
+  config.warmup_steps = 4;
+  config.schedule = "constant";
+  WriteLosses(folder, SomeState(), {config, 2});
   EXPECT_EQ(ReadFile(folder / "losses.jsonl"),
-            "{\"step\": 1, \"actor.position_m\": 0.1, \"actor.rotation_rad\": 0.2, "
+            "{\"step\": 1, \"epoch\": 1, \"learning_rate\": 0.00025, \"actor.position_m\": 0.1, "
+            "\"actor.rotation_rad\": 0.2, "
             "\"actor.divergence\": 0.3, \"critic.score_rad\": 0.4}\n"
-            "{\"step\": 2, \"actor.position_m\": 0.01, \"actor.rotation_rad\": 0.333333333, "
+            "{\"step\": 2, \"epoch\": 1, \"learning_rate\": 0.0005, \"actor.position_m\": 0.01, "
+            "\"actor.rotation_rad\": 0.333333333, "
             "\"actor.divergence\": 0.03, \"critic.score_rad\": 0.04}\n");
   const std::vector<TrainingCurve> curves = ReadTrainingCurves(folder);
   ASSERT_EQ(curves.size(), 4U);

@@ -3,97 +3,9 @@
 #include "html_text.h"
 
 #include <algorithm>
-#include <charconv>
 #include <numbers>
 
-#include "doorforge/core/error.h"
-
 namespace doorforge::internal {
-namespace {
-
-constexpr std::string_view kBase64Digits =
-    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-
-bool IsName(std::string_view text) {
-  return !text.empty() &&
-         text.find_first_not_of("abcdefghijklmnopqrstuvwxyz_0123456789") == std::string_view::npos;
-}
-
-}  // namespace
-
-std::string Escape(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      case '\'':
-        escaped += "&#39;";
-        break;
-      default:
-        // control characters may stand neither in HTML nor in XML
-        if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t') escaped += c;
-    }
-  }
-  return escaped;
-}
-
-std::string Fill(std::string_view pattern,
-                 std::initializer_list<std::pair<std::string_view, std::string>> values) {
-  std::string filled;
-  while (!pattern.empty()) {
-    const std::size_t open = std::min(pattern.find('{'), pattern.size());
-    filled += pattern.substr(0, open);
-    pattern.remove_prefix(open);
-    if (pattern.empty()) break;
-    const std::size_t close = std::min(pattern.find('}'), pattern.size());
-    const std::string_view name = pattern.substr(1, close - 1);
-    if (close == pattern.size() || !IsName(name)) {  // a brace of its own
-      filled += pattern.front();
-      pattern.remove_prefix(1);
-      continue;
-    }
-    const std::string* value = nullptr;
-    for (const auto& [known, text] : values) value = known == name ? &text : value;
-    Require(value != nullptr, ErrorCode::kInvalidArgument,
-            "no value for {" + std::string(name) + "}");
-    filled += *value;
-    pattern.remove_prefix(close + 1);
-  }
-  return filled;
-}
-
-std::string PngUri(std::string_view png) {
-  std::string uri = "data:image/png;base64,";
-  uri.reserve(uri.size() + png.size() * 4 / 3 + 4);
-  for (std::size_t i = 0; i < png.size(); i += 3) {
-    const auto byte = [&](std::size_t k) {
-      return i + k < png.size() ? static_cast<unsigned char>(png[i + k]) : 0U;
-    };
-    const unsigned three = byte(0) << 16 | byte(1) << 8 | byte(2);
-    uri += kBase64Digits[three >> 18 & 63];
-    uri += kBase64Digits[three >> 12 & 63];
-    uri += i + 1 < png.size() ? kBase64Digits[three >> 6 & 63] : '=';
-    uri += i + 2 < png.size() ? kBase64Digits[three & 63] : '=';
-  }
-  return uri;
-}
-
-std::string Fixed(double value, int digits) {
-  char text[64];
-  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, digits);
-  return end.ec == std::errc() ? std::string(text, end.ptr) : "?";
-}
 
 std::string Degrees(double angle_rad) { return Fixed(angle_rad * 180 / std::numbers::pi, 1) + "°"; }
 
@@ -111,10 +23,6 @@ std::string Percent(double share) { return PercentNumber(share) + "\u00a0%"; }
 
 std::string IntervalText(const SuccessRate& rate) {
   return PercentNumber(rate.low) + "\u2060–\u2060" + Percent(rate.high);
-}
-
-std::string Plural(std::size_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
 }  // namespace doorforge::internal

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "doorforge/core/epoch_chart.h"
+#include "doorforge/core/svg_plot.h"
+
 #include "html_text.h"
-#include "svg_plot.h"
 
 namespace doorforge::internal {
 namespace {
@@ -57,58 +59,6 @@ std::string ThresholdMark(const SvgPlot& plot, const AngleSuccess& angle) {
        {"high", Fixed(plot.Y(angle.success.high), 1)}});
 }
 
-double Largest(const LossCurve& loss) {
-  double largest = 0;
-  for (const auto* values : {&loss.train, &loss.validation}) {
-    for (const double value : *values) {
-      if (std::isfinite(value)) largest = std::max(largest, value);
-    }
-  }
-  return largest > 0 ? largest : 1;
-}
-
-double Smallest(const LossCurve& loss) {
-  double smallest = 0;
-  for (const auto* values : {&loss.train, &loss.validation}) {
-    for (const double value : *values) {
-      if (std::isfinite(value)) smallest = std::min(smallest, value);
-    }
-  }
-  return smallest;
-}
-
-// epochs are whole numbers, and so are their ticks
-std::vector<PlotTick> EpochTicks(const LossCurve& loss) {
-  std::vector<PlotTick> ticks;
-  for (const auto& [value, label] : RoundTicks(loss.epoch.front(), loss.epoch.back(), 5)) {
-    if (value == std::floor(value)) ticks.emplace_back(value, Fixed(value, 0));
-  }
-  return ticks;
-}
-
-PlotPoints PointsOf(const std::vector<double>& x, const std::vector<double>& y) {
-  PlotPoints points;
-  for (std::size_t i = 0; i < x.size(); ++i) points.emplace_back(x[i], y[i]);
-  return points;
-}
-
-std::string LossDots(const SvgPlot& plot, const LossCurve& loss, std::size_t i) {
-  std::string dots;
-  for (const auto& [values, name] :
-       {std::pair(&loss.train, "training"), std::pair(&loss.validation, "validation")}) {
-    const double value = (*values)[i];
-    if (!std::isfinite(value)) continue;
-    dots += Fill(
-        R"(<circle class="dot {name}" cx="{x}" cy="{y}" r="2.6"><title>epoch {epoch}, {name}: {value}</title></circle>)",
-        {{"name", name},
-         {"x", Fixed(plot.X(loss.epoch[i]), 1)},
-         {"y", Fixed(plot.Y(value), 1)},
-         {"epoch", Fixed(loss.epoch[i], 0)},
-         {"value", Fixed(value, 4)}});
-  }
-  return dots;
-}
-
 }  // namespace
 
 std::string RateBar(const SuccessRate& rate, const SuccessRate& reference) {
@@ -151,18 +101,7 @@ std::string AngleChart(Episodes episodes, Episodes reference) {
 }
 
 std::string LossChart(const LossCurve& loss) {
-  if (loss.epoch.empty()) return {};
-  SvgPlot plot;
-  plot.width = 460;
-  plot.height = 230;
-  plot.x_range = {loss.epoch.front(), loss.epoch.back()};
-  plot.y_range = {Smallest(loss), Largest(loss) * 1.05};
-  std::string svg = HorizontalGrid(plot, RoundTicks(plot.y_range.first, plot.y_range.second, 4)) +
-                    VerticalTicks(plot, EpochTicks(loss)) + AxisTitles(plot, "epoch", loss.unit);
-  svg += Line(plot, PointsOf(loss.epoch, loss.train), "training");
-  svg += Line(plot, PointsOf(loss.epoch, loss.validation), "validation");
-  for (std::size_t i = 0; i < loss.epoch.size(); ++i) svg += LossDots(plot, loss, i);
-  return SvgElement(plot, "Loss " + loss.name + " over the epochs", svg);
+  return EpochChart({loss.name, loss.unit, loss.epoch, loss.train, loss.validation});
 }
 
 }  // namespace doorforge::internal

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/evaluate/report_page.h"
 
+#include "doorforge/core/page_style.h"
+
 #include "html_text.h"
 #include "report_sections.h"
 #include "report_style.h"
@@ -36,7 +38,7 @@ std::string ReportPage(const EvaluationReport& report, const ReportPictures& pic
 </html>
 )",
       {{"policy", Escape(report.provenance.policy)},
-       {"style", std::string(kReportStyle)},
+       {"style", std::string(kPageStyle) + std::string(kReportStyle)},
        {"headline", HeadlineSection(report, pictures)},
        {"sections", sections},
        {"version", Escape(report.provenance.code_version)},

@@ -9,6 +9,7 @@
 
 namespace doorforge::internal {
 
+/// What a report has beside kPageStyle, which comes before it.
 extern const std::string_view kReportStyle;
 
 /// Filters the table of episodes; the page reads without it.

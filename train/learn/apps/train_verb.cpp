@@ -31,6 +31,7 @@
 #include "doorforge/learn/linear_algebra.h"
 #include "doorforge/learn/stage_dataset.h"
 #include "doorforge/learn/train_stage.h"
+#include "doorforge/learn/training_page.h"
 #include "doorforge/learn/turned_classifier.h"
 
 namespace doorforge {
@@ -38,6 +39,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
+
+constexpr const char* kCurvesPage = "training.html";
 
 struct Options {
   std::string stage;
@@ -94,8 +97,9 @@ Options Parse(int argc, char** argv) {
   app.footer(
       "Writes policy.safetensors and policy.json (the policy), best/ (as it was when it erred "
       "least\n"
-      "on the validation set), losses.jsonl, losses.json and an\n"
-      "event file for TensorBoard (the curves), config.yaml and training.safetensors (what\n"
+      "on the validation set), training.html (the curves and\n"
+      "settings, to look at while it runs), losses.jsonl, losses.json and an event file for\n"
+      "TensorBoard (the same for programs), config.yaml and training.safetensors (what\n"
       "--resume reads).\n\n"
       "examples:\n"
       "  doorforge train open --data run/data --out run/policy --epochs 10 --set batch_size=32\n"
@@ -207,6 +211,12 @@ void CheckFolder(const Options& options) {
   }
 }
 
+// For programs, TensorBoard and people.
+void WriteCurves(const fs::path& out, const TrainerState& state, const TrainingRun& run) {
+  WriteLosses(out, state, run.pace);
+  CommitFile(out / kCurvesPage, TrainingPage(state, run));
+}
+
 // At "handle": of the decisions that turned the handle, how many it finds.
 void PrintTurned(const StageDataset& dataset, const fs::path& out) {
   const auto classifier = ReadTurnedClassifier(out, dataset.content_sha256);
@@ -219,6 +229,8 @@ void PrintTurned(const StageDataset& dataset, const fs::path& out) {
 
 void PrintSummary(const TrainerState& state, const StageDataset& dataset, const Options& options) {
   std::printf("policy:     %s\n", fs::absolute(options.out).lexically_normal().c_str());
+  std::printf("curves:     %s\n",
+              fs::absolute(fs::path(options.out) / kCurvesPage).lexically_normal().c_str());
   std::printf("samples:    %zu for training, %zu for validation\n", dataset.train.size(),
               dataset.validation.size());
   PrintTurned(dataset, options.out);
@@ -282,6 +294,8 @@ int Train(const Options& options) {
   if (!options.from.empty()) BeginWith(options, provenance, hooks);
   if (options.resume && HasTrainerState(out)) hooks.resume = ReadTrainerState(out, provenance);
   const std::uint64_t per_epoch = StepsPerEpoch(dataset.train.size(), config);
+  const TrainingRun run{
+      provenance, {config, per_epoch}, dataset.train.size(), dataset.validation.size()};
   PolicyOutput output{out, provenance, per_epoch, {}};
   if (first) {
     CommitFile(out / "config.yaml", JsonText(ToJson(config), 2) + "\n");
@@ -306,7 +320,7 @@ int Train(const Options& options) {
       };
       hooks.on_epoch = [&](const TrainerState& now) {
         WriteTrainerState(out, now, provenance);
-        WriteLosses(out, now);
+        WriteCurves(out, now, run);
         WriteBest(output, now.best);
       };
     }
@@ -325,7 +339,7 @@ int Train(const Options& options) {
   }
   if (!first) return state.step < total && StopRequested() != 0 ? 128 + StopRequested() : 0;
   WriteTrainerState(out, state, provenance);
-  WriteLosses(out, state);
+  WriteCurves(out, state, run);
   WriteBest(output, state.best);
   const bool finished = state.step >= total;
   if (!finished)

@@ -284,32 +284,22 @@ PolicyProvenance ProvenanceFromJson(const Json& json, NetworkFamily family,
   return provenance;
 }
 
-std::vector<TrainingCurve> CurvesOf(const TrainerState& state) {
-  std::vector<TrainingCurve> curves;
-  for (const LossColumn& column : LossColumnsOf(state.networks.family)) {
-    TrainingCurve& curve = curves.emplace_back();
-    curve.name = column.name;
-    for (std::size_t e = 0; e < state.epochs.size(); ++e) {
-      curve.epoch.push_back(static_cast<double>(e + 1));
-      curve.train.push_back(state.epochs[e].train.*(column.value));
-      curve.validation.push_back(state.epochs[e].validation.*(column.value));
-    }
-  }
-  return curves;
-}
-
 // A line a step; a loss that is not known yet is left out.
-std::string LossLines(const TrainerState& state) {
+std::string LossLines(const TrainerState& state, const TrainingPace& pace) {
   const std::vector<LossColumn> columns = LossColumnsOf(state.networks.family);
   std::string text;
+  const auto add = [&](const char* name, double value) {
+    char number[64];
+    std::snprintf(number, sizeof number, "\": %.9g", value);
+    text.append(", \"").append(name).append(number);
+  };
   for (std::size_t i = 0; i < state.steps.size(); ++i) {
-    text += "{\"step\": " + std::to_string(i + 1);
+    text += "{\"step\": " + std::to_string(i + 1) +
+            ", \"epoch\": " + std::to_string(i / pace.steps_per_epoch + 1);
+    add("learning_rate", LearningRateAt(pace.config, {i, pace.steps_per_epoch}));
     for (const LossColumn& column : columns) {
       const double value = state.steps[i].*(column.value);
-      if (!std::isfinite(value)) continue;
-      char number[64];
-      std::snprintf(number, sizeof number, "\": %.9g", value);
-      text.append(", \"").append(column.name).append(number);
+      if (std::isfinite(value)) add(column.name, value);
     }
     text += "}\n";
   }
@@ -434,8 +424,22 @@ TrainerState ReadTrainerState(const fs::path& folder, const PolicyProvenance& ex
   return state;
 }
 
-void WriteLosses(const fs::path& folder, const TrainerState& state) {
-  CommitFile(folder / "losses.jsonl", LossLines(state));
+std::vector<TrainingCurve> CurvesOf(const TrainerState& state) {
+  std::vector<TrainingCurve> curves;
+  for (const LossColumn& column : LossColumnsOf(state.networks.family)) {
+    TrainingCurve& curve = curves.emplace_back();
+    curve.name = column.name;
+    for (std::size_t e = 0; e < state.epochs.size(); ++e) {
+      curve.epoch.push_back(static_cast<double>(e + 1));
+      curve.train.push_back(state.epochs[e].train.*(column.value));
+      curve.validation.push_back(state.epochs[e].validation.*(column.value));
+    }
+  }
+  return curves;
+}
+
+void WriteLosses(const fs::path& folder, const TrainerState& state, const TrainingPace& pace) {
+  CommitFile(folder / "losses.jsonl", LossLines(state, pace));
   CommitFile(folder / "events.out.tfevents.doorforge", TensorboardEvents(EventsOf(state)));
   Json curves = Json::array();
   for (const TrainingCurve& curve : CurvesOf(state))

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -17,6 +19,18 @@ namespace {
 void RequireConfig(bool condition, const char* key, const char* allowed) {
   if (!condition)
     throw Error(ErrorCode::kInvalidConfig, std::string("config.") + key + ": must be " + allowed);
+}
+
+double LearningRateInLesson(const TrainConfig& config, std::uint64_t step, std::uint64_t total) {
+  const double warmup = config.warmup_steps > 0
+                            ? std::min(1.0, static_cast<double>(step + 1) / config.warmup_steps)
+                            : 1.0;
+  const auto s = static_cast<double>(step);
+  double decay = 1;
+  if (config.schedule == "cosine")
+    decay = 0.01 + 0.99 * 0.5 * (1 + std::cos(std::numbers::pi * s / static_cast<double>(total)));
+  if (config.schedule == "step") decay = std::pow(0.9, std::floor(s / 5000));
+  return config.learning_rate * warmup * decay;
 }
 
 }  // namespace
@@ -77,6 +91,18 @@ int EpochsOf(const TrainConfig& config) {
   for (int lesson = 0; lesson < internal::LessonsOf(config.family); ++lesson)
     epochs += internal::EpochsOfLesson(config, lesson);
   return epochs;
+}
+
+double LearningRateAt(const TrainConfig& config, TrainingPlace place) {
+  std::uint64_t begin = 0;
+  for (int lesson = 0; lesson < internal::LessonsOf(config.family); ++lesson) {
+    const std::uint64_t steps =
+        place.steps_per_epoch *
+        static_cast<std::uint64_t>(internal::EpochsOfLesson(config, lesson));
+    if (place.step < begin + steps) return LearningRateInLesson(config, place.step - begin, steps);
+    begin += steps;
+  }
+  return 0;
 }
 
 StageLosses UnknownLosses() {

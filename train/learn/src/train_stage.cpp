@@ -61,18 +61,6 @@ void SumAsTree(std::span<std::span<float>> parts) {
   }
 }
 
-double LearningRate(const TrainConfig& config, std::uint64_t step, std::uint64_t total) {
-  const double warmup = config.warmup_steps > 0
-                            ? std::min(1.0, static_cast<double>(step + 1) / config.warmup_steps)
-                            : 1.0;
-  const auto s = static_cast<double>(step);
-  double decay = 1;
-  if (config.schedule == "cosine")
-    decay = 0.01 + 0.99 * 0.5 * (1 + std::cos(std::numbers::pi * s / static_cast<double>(total)));
-  if (config.schedule == "step") decay = std::pow(0.9, std::floor(s / 5000));
-  return config.learning_rate * warmup * decay;
-}
-
 constexpr std::array<double StageLosses::*, 5> kLosses = {
     &StageLosses::position_m, &StageLosses::rotation_rad, &StageLosses::divergence,
     &StageLosses::score_rad, &StageLosses::affordance_rad};
@@ -312,7 +300,7 @@ class Trainer {
     for (Network* network : learning) network->gradient.assign(network->layout->size(), 0.0F);
     const StageLosses losses = task_->ReadsClouds(lesson.number) ? ThroughClouds(lesson, learning)
                                                                  : HeadsAlone(lesson, learning);
-    const internal::AdamRates rates{LearningRate(config_, lesson_step, lesson.end - lesson.begin),
+    const internal::AdamRates rates{LearningRateAt(config_, {state_.step, lesson.per_epoch}),
                                     config_.weight_decay};
     ParallelFor(learning.size(), threads_, [&](std::size_t n) {
       Network& network = *learning[n];

@@ -68,9 +68,20 @@ struct TrainingCurve {
   std::vector<double> validation;
 };
 
-/// Writes `losses.jsonl` (a line a step), `losses.json` (schema doorforge.losses: the curves) and
-/// `events.out.tfevents.doorforge` (both, for TensorBoard).
-void WriteLosses(const std::filesystem::path& folder, const TrainerState& state);
+/// When a training's steps come.
+struct TrainingPace {
+  TrainConfig config;
+  std::uint64_t steps_per_epoch = 1;
+};
+
+/// Writes `losses.jsonl` (a line a step: step, epoch and learning rate, then the losses),
+/// `losses.json` (schema doorforge.losses: the curves) and `events.out.tfevents.doorforge` (both,
+/// for TensorBoard).
+void WriteLosses(const std::filesystem::path& folder, const TrainerState& state,
+                 const TrainingPace& pace);
+
+/// The losses over the epochs done, one curve a loss.
+std::vector<TrainingCurve> CurvesOf(const TrainerState& state);
 
 /// Reads `losses.json`. Throws Error(kMissing or kFormat).
 std::vector<TrainingCurve> ReadTrainingCurves(const std::filesystem::path& folder);

@@ -202,6 +202,15 @@ std::uint64_t StepsPerEpoch(std::size_t samples, const TrainConfig& config);
 /// Epochs of the whole run: the grasp's two networks learn one after the other.
 int EpochsOf(const TrainConfig& config);
 
+/// A step of a run, counted from 0.
+struct TrainingPlace {
+  std::uint64_t step = 0;
+  std::uint64_t steps_per_epoch = 1;
+};
+/// The rate at which the networks learn there; the two of the grasp each have a schedule of their
+/// own. 0 behind the last step.
+double LearningRateAt(const TrainConfig& config, TrainingPlace place);
+
 /// Trains a stage's networks (UniDoorManip, Section 4; departures and their reasons are
 /// in docs/design/learn.md): Adam, the losses above, batches that are a pure function of (seed,
 /// epoch, step). Gradients are summed over fixed parts of the batch in a fixed order. Actor and

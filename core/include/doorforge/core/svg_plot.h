@@ -8,7 +8,7 @@
 
 // Line charts as SVG. Colours and fonts come from the page's style sheet by class.
 
-namespace doorforge::internal {
+namespace doorforge::page {
 
 using PlotPoints = std::vector<std::pair<double, double>>;
 
@@ -45,4 +45,4 @@ std::vector<PlotTick> RoundTicks(double low, double high, int count);
 std::string SvgElement(const SvgPlot& plot, const std::string& description,
                        const std::string& content);
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::page

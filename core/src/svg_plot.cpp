@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "svg_plot.h"
+#include "doorforge/core/svg_plot.h"
 
+#include <algorithm>
 #include <cmath>
 
-#include "html_text.h"
+#include "doorforge/core/html_text.h"
 
-namespace doorforge::internal {
+namespace doorforge::page {
 namespace {
 
 double Along(double value, std::pair<double, double> range) {
@@ -97,4 +98,4 @@ std::string SvgElement(const SvgPlot& plot, const std::string& description,
        {"content", content}});
 }
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::page

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline_verb.h"
 
-#include <cstdlib>
 #include <string>
 #include <vector>
 

@@ -3,7 +3,6 @@
 #include "repair_verb.h"
 
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <new>

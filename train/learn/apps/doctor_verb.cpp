@@ -3,7 +3,6 @@
 #include "doctor_verb.h"
 
 #include <cstdio>
-#include <cstdlib>
 #include <iostream>
 #include <string>
 #include <thread>
@@ -13,7 +12,6 @@
 #include <nlohmann/json.hpp>
 
 #include "doorforge/core/command_line.h"
-#include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/learn/instruction_set.h"

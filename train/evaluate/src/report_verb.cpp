@@ -3,14 +3,13 @@
 #include "doorforge/evaluate/report_verb.h"
 
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
-#include "doorforge/core/error.h"
+#include "doorforge/core/command_line.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/evaluate/over_trainings.h"
@@ -37,14 +36,7 @@ Options Parse(int argc, char** argv) {
       ->check(CLI::ExistingPath);
   app.add_flag("--json", options.json, "print one JSON document");
   app.footer("example:\n  doorforge report run1/report run2/report run3/report");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& help) {
-    std::exit(app.exit(help));
-  } catch (const CLI::ParseError& error) {
-    throw Error(ErrorCode::kInvalidArgument,
-                std::string(error.what()) + "; see `doorforge report --help`");
-  }
+  ParseVerb(app, argc, argv);
   return options;
 }
 

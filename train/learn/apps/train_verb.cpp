@@ -27,6 +27,7 @@
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
 #include "doorforge/learn/checkpoint.h"
+#include "doorforge/learn/familiarity.h"
 #include "doorforge/learn/linear_algebra.h"
 #include "doorforge/learn/stage_dataset.h"
 #include "doorforge/learn/train_stage.h"
@@ -177,7 +178,13 @@ struct PolicyOutput {
   PolicyProvenance provenance;
   std::uint64_t steps_per_epoch;
   std::optional<TurnedClassifier> turned;
+  std::optional<Familiarity> familiarity;
 };
+
+void WriteBesides(const PolicyOutput& output, const fs::path& folder) {
+  WriteTurnedClassifier(folder, output.turned, output.provenance.dataset_sha256);
+  WriteFamiliarity(folder, output.familiarity, output.provenance.dataset_sha256);
+}
 
 // Where both networks have been validated, what they were at their best: a policy below the last.
 void WriteBest(const PolicyOutput& output, const BestNetworks& best) {
@@ -187,13 +194,14 @@ void WriteBest(const PolicyOutput& output, const BestNetworks& best) {
   provenance.best = epochs;
   provenance.step =
       output.steps_per_epoch * static_cast<std::uint64_t>(std::max(epochs.actor, epochs.critic));
-  WriteTurnedClassifier(output.folder / "best", output.turned, provenance.dataset_sha256);
+  WriteBesides(output, output.folder / "best");
   WritePolicy(output.folder / "best", best.networks, provenance);
 }
 
 // Only what WriteBest() writes: whatever else lies there is the user's.
 void RemoveBest(const fs::path& out) {
-  for (const char* file : {"policy.json", "policy.safetensors", "turned.safetensors"})
+  for (const char* file :
+       {"policy.json", "policy.safetensors", "turned.safetensors", "familiar.safetensors"})
     fs::remove(out / "best" / file);
   if (fs::is_directory(out / "best") && fs::is_empty(out / "best")) fs::remove(out / "best");
 }
@@ -295,11 +303,12 @@ int Train(const Options& options) {
   const std::uint64_t per_epoch = StepsPerEpoch(dataset.train.size(), config);
   const TrainingRun run{
       provenance, {config, per_epoch}, dataset.train.size(), dataset.validation.size()};
-  PolicyOutput output{out, provenance, per_epoch, {}};
+  PolicyOutput output{out, provenance, per_epoch, {}, {}};
   if (first) {
     CommitFile(out / "config.yaml", JsonText(ToJson(config), 2) + "\n");
     output.turned = FitTurnedClassifier(dataset.turned_train);
-    WriteTurnedClassifier(out, output.turned, dataset.content_sha256);
+    output.familiarity = FitFamiliarity(dataset.train, dataset.validation, config.family);
+    WriteBesides(output, out);
     if (!hooks.resume) RemoveBest(out);  // of an earlier training
   }
 

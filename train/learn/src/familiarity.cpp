@@ -110,6 +110,20 @@ void AppendHandle(const Points& points, std::span<const std::uint8_t> label, Sig
   }
 }
 
+// The middle of what the mask says is the handle: a contact may be anywhere on it.
+Eigen::Vector3f MiddleOfHandle(const SightCloud& cloud) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  int count = 0;
+  for (std::size_t i = 0; i < cloud.label.size(); ++i) {
+    if (cloud.label[i] != static_cast<std::uint8_t>(PointLabel::kHandle)) continue;
+    sum += Eigen::Vector3f(cloud.xyz[3 * i], cloud.xyz[3 * i + 1], cloud.xyz[3 * i + 2])
+               .cast<double>();
+    ++count;
+  }
+  if (count == 0) return {cloud.xyz[0], cloud.xyz[1], cloud.xyz[2]};
+  return (sum / count).cast<float>();
+}
+
 std::vector<std::size_t> EvenlyTaken(std::size_t count, std::size_t most) {
   const std::size_t taken = std::min(count, most);
   std::vector<std::size_t> indices(taken);
@@ -189,8 +203,7 @@ SightNumbers SightNumbersOf(const SightCloud& cloud, const Proprioception& propr
   Require(cloud.xyz.size() >= 3, ErrorCode::kInvalidArgument, "a sight without a point");
   Require(!grasps || cloud.label.size() == cloud.xyz.size() / 3, ErrorCode::kInvalidArgument,
           "the sight of a grasp without a label for each point");
-  const Eigen::Vector3f place = grasps ? Eigen::Vector3f(cloud.xyz[0], cloud.xyz[1], cloud.xyz[2])
-                                       : HandPositionOf(proprioception);
+  const Eigen::Vector3f place = grasps ? MiddleOfHandle(cloud) : HandPositionOf(proprioception);
   const Points points = PointsFrom(cloud, place);
   SightNumbers numbers;
   numbers.reserve(SightSize(family));

@@ -23,12 +23,12 @@ std::size_t SightSize(NetworkFamily family);
 
 /// A cloud as a policy is given it.
 struct SightCloud {
-  std::span<const float> xyz;           ///< n x 3, world [m]; point 0 is nearest to the place.
+  std::span<const float> xyz;           ///< n x 3, world [m]; point 0 as in TrainingSample.
   std::span<const std::uint8_t> label;  ///< PointLabel, n; read where a grasp is chosen.
 };
 
-/// At the place at which a policy of this family decides: the hand, or where a grasp is chosen
-/// point 0, whose neighbours are then counted apart by whether they are the handle's.
+/// As seen from the hand, or where a grasp is chosen from the middle of the handle's points, which
+/// are then counted apart from the others as well.
 ///
 /// @throws Error(kInvalidArgument) without a point, or a grasp's labels.
 SightNumbers SightNumbersOf(const SightCloud& cloud, const Proprioception& proprioception,

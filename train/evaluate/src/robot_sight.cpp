@@ -28,6 +28,23 @@ constexpr double kBeyondLimit = 0.05;  // of a joint's range
 constexpr double kHandApart = 0.02;    // [m]
 constexpr double kHandTurned = 5 * std::numbers::pi / 180;
 
+// Poses are typed by hand, with three or four decimals: what is so near to a unit quaternion means
+// one. What is not is left to be refused.
+Json WithUnitQuaternion(Json pose) {
+  constexpr double kRounding = 1e-3;
+  if (!pose.is_object() || !pose.contains("quaternion_xyzw")) return pose;
+  Json& quaternion = pose["quaternion_xyzw"];
+  double squares = 0;
+  for (const Json& element : quaternion) {
+    if (!element.is_number()) return pose;
+    squares += std::pow(element.get<double>(), 2);
+  }
+  const double length = std::sqrt(squares);
+  if (!(std::fabs(length - 1) <= kRounding)) return pose;
+  for (Json& element : quaternion) element = element.get<double>() / length;
+  return pose;
+}
+
 // A file of named numbers; whatever is wrong with it names the file and the key.
 class NamedNumbers {
  public:
@@ -77,12 +94,13 @@ class NamedNumbers {
 
   RigidTransform Pose(const std::string& key) const {
     try {
-      return TransformFromJson(At(key), name_ + ": " + key);
+      return TransformFromJson(WithUnitQuaternion(At(key)), name_ + ": " + key);
     } catch (const Error& error) {
       if (error.code() == ErrorCode::kInvalidConfig) throw;
       throw Error(ErrorCode::kInvalidConfig,
                   std::string(error.what()) +
-                      "; a pose is {position_m: [x, y, z], quaternion_xyzw: [x, y, z, w]}");
+                      "; a pose is {position_m: [x, y, z], quaternion_xyzw: [x, y, z, w]}, the "
+                      "quaternion of length 1 within 0.001");
     }
   }
 
@@ -123,6 +141,27 @@ void RequireSameHand(const NamedNumbers& file, const RigidTransform& by_joints) 
             "world_from_base, at the order of the joints, and whether it is the frame panda_hand");
 }
 
+// Why a picture gives so few points.
+std::string FewPoints(const DepthImage& depth, std::size_t found, const CloudConfig& config) {
+  const std::string head = "the depth picture gives " + std::to_string(found) +
+                           " points, needed are " + std::to_string(config.point_count) + ": ";
+  const auto has_depth = [](float metres) { return std::isfinite(metres); };
+  const auto with_depth = std::ranges::count_if(depth.depth_m, has_depth);
+  if (with_depth == 0)
+    return head + "each of its " + std::to_string(depth.depth_m.size()) +
+           " pixels is 0, which means no depth; the camera sent no picture, or one of another kind";
+  const auto near = std::ranges::count_if(depth.depth_m, [&](float metres) {
+    return static_cast<double>(metres) < config.max_depth_m;
+  });
+  const float nearest = *std::ranges::min_element(depth.depth_m);
+  return head + std::to_string(with_depth) + " of " + std::to_string(depth.depth_m.size()) +
+         " pixels have a depth, " + std::to_string(near) +
+         Format(" of them are nearer than %.2f m (the nearest is at %.2f m), and ",
+                config.max_depth_m, static_cast<double>(nearest)) +
+         std::to_string(found) + Format(" of these higher than %.2f m", config.min_height_m) +
+         "; look at depth_unit_m and world_from_camera in the camera file";
+}
+
 // Every point inside the crop, of which there must be enough.
 LabelledCloud VisiblePoints(const DepthImage& depth, const CalibratedCamera& camera,
                             const CloudConfig& config) {
@@ -133,18 +172,8 @@ LabelledCloud VisiblePoints(const DepthImage& depth, const CalibratedCamera& cam
                     std::to_string(camera.view.width) + " x " + std::to_string(camera.view.height));
   LabelledCloud visible = CropCloud(depth, camera.view, config);
   const std::size_t found = visible.label.size();
-  if (found < static_cast<std::size_t>(config.point_count)) {
-    const auto with_depth =
-        std::ranges::count_if(depth.depth_m, [](float metres) { return std::isfinite(metres); });
-    throw Error(ErrorCode::kInvalidArgument,
-                "the depth picture gives " + std::to_string(found) + " points, needed are " +
-                    std::to_string(config.point_count) + ": " + std::to_string(with_depth) +
-                    " of " + std::to_string(depth.depth_m.size()) +
-                    " pixels have a depth, and kept are those " +
-                    Format("nearer than %.2f m and higher than %.2f m", config.max_depth_m,
-                           config.min_height_m) +
-                    "; look at depth_unit_m and world_from_camera in the camera file");
-  }
+  if (found < static_cast<std::size_t>(config.point_count))
+    throw Error(ErrorCode::kInvalidArgument, FewPoints(depth, found, config));
   return visible;
 }
 
@@ -215,6 +244,10 @@ HandleSight ObserveHandle(DepthImage depth, const PixelMask& handle, const Calib
                     std::to_string(handle.height) + " pixels, the depth picture " +
                     std::to_string(depth.width) + " x " + std::to_string(depth.height));
   constexpr auto kHandle = static_cast<std::uint8_t>(PointLabel::kHandle);
+  if (std::ranges::count(handle.set, 1) == 0)
+    throw Error(ErrorCode::kInvalidArgument,
+                "the handle's mask is empty: 0 pixels of the mask are set, so there is nothing to "
+                "take hold of; pixels that show the handle are to be other than 0");
   for (std::size_t i = 0; i < depth.label.size(); ++i)
     depth.label[i] = handle.set[i] != 0 ? kHandle : static_cast<std::uint8_t>(PointLabel::kOther);
   HandleSight sight;

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "doorforge/sensor/picture.h"
+#include "doorforge/sensor/point_cloud.h"
+
+#include "act_answer.h"
+#include "decider.h"
+
+namespace doorforge {
+
+/// The depth picture in colours, what the crop leaves out washed out; the mask of a handle
+/// outlined; the hand where it is in white and where it is to go in red, with its fingers; a
+/// grasp's contact as a ring. Below it what AnswerText() says in a line.
+///
+/// `deciders` robot says where the fingers are in the hand's frame.
+Picture AnswerPicture(const ActAnswer& answer, const SeenPicture& seen, const Decider& decider,
+                      const CloudConfig& cloud);
+
+}  // namespace doorforge

@@ -47,6 +47,7 @@ constexpr std::array kVerbs = {
     Verb{"eval", "doorforge-eval", "success of a policy per category, with a report"},
     Verb{"report", "doorforge-eval", "one table of the reports of several trainings"},
     Verb{"act", "doorforge-act", "a real depth picture -> the hand's next pose"},
+    Verb{"sight", "doorforge-sight", "a simulated door as the pictures and states that act reads"},
     Verb{"doctor", "doorforge-train", "what is installed, and what to do about it"},
 };
 

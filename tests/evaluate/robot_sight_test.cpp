@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <limits>
+#include <span>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -19,7 +20,10 @@
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
+#include "doorforge/evaluate/record_sight.h"
 #include "doorforge/learn/checkpoint.h"
+#include "doorforge/learn/familiarity.h"
+#include "doorforge/learn/gain_critic.h"
 #include "doorforge/learn/grasp_policy.h"
 #include "doorforge/learn/stage_policy.h"
 #include "doorforge/learn/turned_classifier.h"
@@ -150,8 +154,54 @@ class RobotSightTest : public testing::Test {
     return ObserveCloud(depth, scene_.camera, tcp.translation()).cloud;
   }
 
+  // What a training on other episodes of the door would have written.
+  static void WriteFamiliar(const fs::path& folder) {
+    const DoorAsset door = MakePrimitiveDoor({});
+    SceneConfig config;
+    config.physics.max_opening_actions = kActions;
+    const auto policy = MakePolicy(UntrainedNetworks());
+    std::vector<Episode> episodes;
+    std::vector<TrainingSample> samples;
+    for (std::uint64_t e = 1; e <= 24; ++e) {
+      const Scene scene = SampleScene(door, 7, e, config);
+      Photographer photographer(scene, door, robot_);
+      episodes.push_back(RunEpisode(scene, door, robot_, *policy, &photographer));
+    }
+    for (const Episode& episode : episodes) {
+      for (const Decision& decision : episode.decisions) {
+        TrainingSample& sample = samples.emplace_back();
+        sample.cloud = decision.cloud.xyz;
+        sample.proprioception = decision.proprioception;
+      }
+    }
+    const std::span<const TrainingSample> all(samples);
+    const std::size_t fitted = all.size() * 2 / 3;
+    WriteFamiliarity(folder,
+                     FitFamiliarity(all.first(fitted), all.subspan(fitted), NetworkFamily::kMotion),
+                     std::string(64, 'a'));
+  }
+
+  // The first picture with other depths, as a file.
+  template <class Depth>
+  static fs::path WriteOther(const std::string& name, const Depth& depth_at) {
+    DepthImage other = pictures_[0];
+    for (std::size_t i = 0; i < other.depth_m.size(); ++i)
+      other.depth_m[i] = static_cast<float>(depth_at(i));
+    WriteDepthPng(folder_ / name, other);
+    return folder_ / name;
+  }
+
+  static ProgramAnswer Open(const fs::path& policy, const fs::path& depth,
+                            const std::string& more = "", const std::string& errors = "2>&1") {
+    return RunAct("--camera " + (folder_ / "camera.yaml").string() + " --policy " +
+                      policy.string() + " --stage open --depth " + depth.string() + " --state " +
+                      State(0).string() + " " + more,
+                  errors);
+  }
+
   static std::string With(const std::string& camera, const std::string& more) {
-    return "--camera " + (folder_ / camera).string() + " --policy " +
+    // what untrained networks expect is arbitrary
+    return "--least-gain off --camera " + (folder_ / camera).string() + " --policy " +
            (folder_ / "opener").string() + " " + more;
   }
 
@@ -295,7 +345,7 @@ TEST_F(RobotSightTest, TheProgramTakesHoldAsTheGrasperDoesInTheSimulator) {
   ASSERT_TRUE(expected);
   const double yaw = std::atan2(-onlooker.approach.y(), -onlooker.approach.x());
   const std::string common =
-      "--camera " + (folder_ / "camera.yaml").string() +
+      "--least-gain off --camera " + (folder_ / "camera.yaml").string() +
       " --set grasp.orientations=5 --set door_yaw_rad=" + std::to_string(yaw);
   const std::string grasper = " --grasper " + (folder_ / "grasper").string();
   const std::string look = " --depth " + (folder_ / "closed.png").string() + " --handle " +
@@ -311,6 +361,11 @@ TEST_F(RobotSightTest, TheProgramTakesHoldAsTheGrasperDoesInTheSimulator) {
   const Eigen::Vector3d tcp = (hand * robot_.hand_from_tcp()).translation();
   EXPECT_NEAR((tcp - expected->contact_m).dot(hand.linear().col(2)), kGraspInsertion, 1e-5);
   EXPECT_NEAR(decision["expected_door_angle_rad"].get<double>(), expected->score_rad, 1e-4);
+  EXPECT_EQ(decision["expected_gain_rad"], decision["expected_door_angle_rad"]);
+  EXPECT_TRUE(decision["foreign"].is_null());
+  EXPECT_EQ(
+      RunAct(common.substr(sizeof "--least-gain off") + " --least-gain 3.1" + grasper + look).code,
+      1);
 
   const auto refused = [&](const std::string& arguments, int code, const std::string& reason) {
     const ProgramAnswer refusal = RunAct(common + arguments);
@@ -323,7 +378,7 @@ TEST_F(RobotSightTest, TheProgramTakesHoldAsTheGrasperDoesInTheSimulator) {
   CommitFile(folder_ / "mask.png",
              EncodeMaskPng(
                  {handle.width, handle.height, std::vector<std::uint8_t>(handle.set.size(), 0)}));
-  refused(grasper + look, 2, "0 pixels of the mask are set");
+  refused(grasper + look, 2, "mask is empty");
   CommitFile(folder_ / "mask.png", EncodeMaskPng({2, 1, {1, 0}}));
   refused(grasper + look, 2, "2 x 1 pixels");
   WritePng(folder_ / "mask.png", DepthPreview(depth));
@@ -431,6 +486,188 @@ TEST_F(RobotSightTest, ACameraFileWithAMissingKeyAndAPolicyOfAnotherStageAreRefu
                                       Depth(0).string() + " --state " + State(0).string());
   EXPECT_EQ(answer.code, 3) << answer.text;
   EXPECT_NE(answer.text.find("handle"), std::string::npos) << answer.text;
+}
+
+TEST_F(RobotSightTest, AnAnswerSaysWhatTheCriticExpectsOfItsAction) {
+  const ProgramAnswer answer =
+      Open(folder_ / "opener", Depth(1), "--least-gain off", "2>/dev/null");
+  ASSERT_EQ(answer.code, 0);
+  const Json decision = Json::parse(answer.text);
+  Observation rounded;
+  rounded.cloud = Sampled(Rounded(1), 0);
+  rounded.proprioception = episode_.decisions[0].proprioception;
+  const Action action = MakePolicy(UntrainedNetworks())->Act(rounded);
+  const double gain = GainCritic(UntrainedNetworks()).GainOf(rounded, action);
+  EXPECT_NEAR(decision["expected_gain_rad"].get<double>(), gain, 1e-4);
+  const ProgramAnswer text = Open(folder_ / "opener", Depth(1), "--least-gain off --text");
+  char expected[40];
+  std::snprintf(expected, sizeof expected, "turns %.4f rad", gain);
+  EXPECT_NE(text.text.find(expected), std::string::npos) << text.text;
+  EXPECT_NE(text.text.find("hold:     no"), std::string::npos) << text.text;
+}
+
+TEST_F(RobotSightTest, WhereLessIsExpectedThanAskedForItSaysHold) {
+  const fs::path opener = folder_ / "opener";
+  const ProgramAnswer held = Open(opener, Depth(0), "--least-gain 3", "2>/dev/null");
+  EXPECT_EQ(held.code, 1);
+  const Json decision = Json::parse(held.text);
+  EXPECT_EQ(decision["hold"], true);
+  EXPECT_NE(decision["hold_reasons"][0].get<std::string>().find("least is 3"), std::string::npos);
+  EXPECT_TRUE(decision.contains("world_from_hand"));
+  EXPECT_EQ(Open(opener, Depth(0), "--least-gain -3").code, 0);
+  EXPECT_EQ(Open(opener, Depth(0), "--set hold.gain=false").code, 0);
+  const ProgramAnswer wrong = Open(opener, Depth(0), "--least-gain much");
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_NE(wrong.text.find("a number or off"), std::string::npos) << wrong.text;
+  EXPECT_EQ(Open(opener, Depth(0), "--foreign-limit 101").code, 2);
+  const std::vector<Json> answers =
+      Stream("--camera " + (folder_ / "camera.yaml").string() + " --policy " + opener.string() +
+                 " --stage open --least-gain 3",
+             Line(Depth(0), State(0)) + "{}\n", 1);
+  EXPECT_EQ(answers.at(0)["hold"], true);
+  EXPECT_EQ(answers.at(1)["hold"], true) << "what was refused must not be waited for";
+}
+
+TEST_F(RobotSightTest, AWallARoomAndAPictureUpsideDownAreForeignAndHeld) {
+  WriteUntrained(folder_ / "familiar", "open");
+  WriteFamiliar(folder_ / "familiar");
+  const auto look = [&](const fs::path& depth, const std::string& more, int code) {
+    const ProgramAnswer answer =
+        Open(folder_ / "familiar", depth, "--least-gain off " + more, "2>/dev/null");
+    EXPECT_EQ(answer.code, code) << depth << answer.text;
+    return Json::parse(answer.text);
+  };
+  for (std::size_t i = 0; i < pictures_.size(); ++i) {
+    const ProgramAnswer answer =
+        RunAct("--camera " + (folder_ / "camera.yaml").string() + " --policy " +
+                   (folder_ / "familiar").string() + " --stage open --least-gain off --depth " +
+                   Depth(i).string() + " --state " + State(i).string(),
+               "2>/dev/null");
+    EXPECT_EQ(answer.code, 0) << answer.text;
+    EXPECT_EQ(Json::parse(answer.text)["hold"], false);
+  }
+  // a camera 1.8 m above the floor that looks slightly down: a floor below, a wall above
+  const auto width = static_cast<std::size_t>(pictures_[0].width);
+  const double focal = IntrinsicMatrix(scene_.camera)(0, 0);
+  const auto room = [&](std::size_t i) {
+    const double down = (static_cast<double>(i / width) - 0.5 * static_cast<double>(width)) / focal;
+    return std::min(2.2, down > 0 ? 1.6 / (down + 0.17) : 2.2);
+  };
+  const std::vector<fs::path> foreign = {
+      WriteOther("wall.png", [](std::size_t) { return 1.4; }),
+      WriteOther("far_wall.png", [](std::size_t) { return 2.3; }), WriteOther("room.png", room),
+      WriteOther("upside_down.png", [&](std::size_t i) {
+        return pictures_[0].depth_m[pictures_[0].depth_m.size() - 1 - i];
+      })};
+  for (const fs::path& depth : foreign) {
+    const Json decision = look(depth, "", 1);
+    EXPECT_EQ(decision["hold"], true) << depth;
+    EXPECT_NE(decision["hold_reasons"][0].get<std::string>().find("foreign"), std::string::npos);
+    EXPECT_EQ(decision["foreign"]["percentile"], 100);
+    EXPECT_GT(decision["foreign"]["distance"], decision["foreign"]["limit"]);
+    EXPECT_EQ(look(depth, "--foreign-limit off", 0)["hold"], false);
+  }
+}
+
+TEST_F(RobotSightTest, APolicyThatCannotTellHowForeignAPictureIsSaysSoAndGoesOn) {
+  const ProgramAnswer answer = Open(folder_ / "opener", Depth(0), "--least-gain off");
+  EXPECT_EQ(answer.code, 0);
+  EXPECT_NE(answer.text.find("no familiar.safetensors"), std::string::npos) << answer.text;
+  EXPECT_NE(answer.text.find("--resume"), std::string::npos) << answer.text;
+  EXPECT_NE(answer.text.find("\"foreign\": null"), std::string::npos) << answer.text;
+}
+
+TEST_F(RobotSightTest, PicturesWithoutUseAreRefusedWithTheirNumbers) {
+  const auto refused = [&](const fs::path& depth, const std::string& reason) {
+    const ProgramAnswer answer = Open(folder_ / "opener", depth);
+    EXPECT_EQ(answer.code, 2) << answer.text;
+    EXPECT_NE(answer.text.find(reason), std::string::npos) << answer.text;
+    EXPECT_NE(answer.text.find(depth.string()), std::string::npos) << answer.text;
+  };
+  refused(WriteOther("zeros.png", [](std::size_t) { return HUGE_VAL; }),
+          "each of its 65536 pixels is 0");
+  refused(WriteOther("far.png", [](std::size_t) { return 9; }),
+          "0 of them are nearer than 2.50 m (the nearest is at 9.00 m)");
+  DepthImage small = pictures_[0];
+  small.width = 128;
+  small.height = 512;
+  WriteDepthPng(folder_ / "small.png", small);
+  refused(folder_ / "small.png", "128 x 512 pixels, the camera file says 256 x 256");
+}
+
+TEST_F(RobotSightTest, AQuaternionOfFourDecimalsIsTakenAndOneFartherFromUnitIsNot) {
+  const auto with = [&](double factor) {
+    Json camera = CameraFile(scene_.camera, 0);
+    for (Json& q : camera["world_from_camera"]["quaternion_xyzw"]) q = q.get<double>() * factor;
+    WriteJsonFile(folder_ / "scaled.yaml", camera);
+    return ReadCalibratedCamera(folder_ / "scaled.yaml");
+  };
+  const RigidTransform expected = WorldFromCamera(scene_.camera);
+  for (const double factor : {0.9991, 1.0009})
+    EXPECT_LT((with(factor).view.world_from_camera.matrix() - expected.matrix()).norm(), 1e-9);
+  for (const double factor : {0.9985, 1.0015}) {
+    try {
+      with(factor);
+      ADD_FAILURE() << factor;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kInvalidConfig);
+      EXPECT_NE(std::string(error.what()).find("within 0.001"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST_F(RobotSightTest, ThePictureOfAnAnswerIsNotReplacedUnasked) {
+  const fs::path picture = folder_ / "answer.png";
+  const std::string draw = "--least-gain off --picture " + picture.string();
+  EXPECT_EQ(Open(folder_ / "opener", Depth(0), draw).code, 0);
+  const std::string first = ReadFile(picture);
+  EXPECT_EQ(first.substr(1, 3), "PNG");
+  const ProgramAnswer again = Open(folder_ / "opener", Depth(1), draw);
+  EXPECT_EQ(again.code, 2);
+  EXPECT_NE(again.text.find("--overwrite"), std::string::npos) << again.text;
+  EXPECT_EQ(ReadFile(picture), first);
+  EXPECT_EQ(Open(folder_ / "opener", Depth(1), draw + " --overwrite").code, 0);
+  EXPECT_NE(ReadFile(picture), first);
+}
+
+// What is recorded for a user is what the policies are given in the simulator.
+TEST_F(RobotSightTest, ARecordedEpisodeIsReadByTheProgram) {
+  const DoorAsset door = MakePrimitiveDoor({});
+  SightRequest request;
+  request.seed = 7;
+  request.all_decisions = true;
+  const fs::path out = folder_ / "recorded";
+  const RecordedSight recorded = RecordSight(door, request, out);
+  EXPECT_GE(recorded.open_decisions, 3);
+  const std::string lines = ReadFile(out / "lines");
+  const std::vector<Json> answers =
+      Stream(With("recorded/open/camera.yaml", "--handler " + (folder_ / "handler").string()),
+             lines.substr(0, lines.rfind('\n', lines.size() - 2) + 1));
+  ASSERT_EQ(static_cast<int>(answers.size()), recorded.handle_decisions + recorded.open_decisions);
+  for (const Json& answer : answers) EXPECT_EQ(answer.value("error", ""), "");
+  const ProgramAnswer grasp =
+      RunAct("--least-gain off --camera " + (out / "grasp/camera.yaml").string() + " --depth " +
+             (out / "grasp/depth.png").string() + " --handle " + (out / "grasp/mask.png").string() +
+             " --grasper " + (folder_ / "grasper").string());
+  EXPECT_EQ(grasp.code, 0) << grasp.text;
+}
+
+// From the folder of the sources, as the help has them.
+TEST(ActHelp, TheExamplesWithSampleInputsWorkAsTyped) {
+  std::string help = AnswerOf(DOORFORGE_BINARY_DIR "/bin/doorforge act --help").text;
+  for (std::size_t at; (at = help.find("\\\n")) != std::string::npos;) help.erase(at, 2);
+  std::istringstream lines(help);
+  int tried = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t begin = line.find("doorforge act --depth data/sight");
+    if (begin == std::string::npos) continue;
+    const ProgramAnswer answer =
+        AnswerOf("cd " DOORFORGE_SOURCE_DIR " && PATH=" DOORFORGE_BINARY_DIR "/bin:$PATH " +
+                 line.substr(begin) + " 2>&1");
+    EXPECT_EQ(answer.code, 0) << line << answer.text;
+    ++tried;
+  }
+  EXPECT_EQ(tried, 2);
 }
 
 }  // namespace

@@ -147,10 +147,10 @@ def dataset_targets() -> list[Target]:
 
 
 def act_targets() -> list[Target]:
-    opener = ("act", "--depth", "IN/tested_depth.png", "--camera", "IN/tested_camera.yaml", "--state",
+    opener = ("act", "--least-gain", "off", "--depth", "IN/tested_depth.png", "--camera", "IN/tested_camera.yaml", "--state",
               "IN/tested_state.yaml", "--policy", "IN/tested_opener")
     handler = opener + ("--handler", "IN/tested_handler", "--stage", "handle")
-    grasper = ("act", "--depth", "IN/tested_depth.png", "--camera", "IN/tested_camera.yaml", "--handle",
+    grasper = ("act", "--least-gain", "off", "--depth", "IN/tested_depth.png", "--camera", "IN/tested_camera.yaml", "--handle",
                "IN/tested_mask.png", "--grasper", "IN/tested_grasper")
     return [
         Target("act depth", "sight", ("tested_depth.png",), opener, weight=3),

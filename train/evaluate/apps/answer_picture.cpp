@@ -47,14 +47,13 @@ class Canvas {
   void Line(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Color& color,
             double width) {
     constexpr int kSteps = 400;
-    for (int i = 0; i <= kSteps; ++i)
-      Disc(from + (to - from) * i / kSteps, color, width * scale_ / 2);
+    for (int i = 0; i <= kSteps; ++i) Disc(from + (to - from) * i / kSteps, color, width / 2);
   }
 
   void Ring(const Eigen::Vector3d& centre, const Color& color) {
-    Disc(centre, kOutline, 4.0 * scale_);
-    Disc(centre, color, 3.0 * scale_);
-    Disc(centre, kOutline, 1.0 * scale_);
+    Disc(centre, kOutline, 8);
+    Disc(centre, color, 6);
+    Disc(centre, kOutline, 2);
   }
 
   void Outline(const PixelMask& mask) {
@@ -133,7 +132,7 @@ void DrawHand(Canvas& canvas, const RigidTransform& world_from_tcp, const Color&
   const auto at = [&](double y, double z) -> Eigen::Vector3d {
     return world_from_tcp * Eigen::Vector3d(0, y, z);
   };
-  for (const auto& [paint, width] : {std::pair{kOutline, 3.5}, std::pair{color, 1.8}}) {
+  for (const auto& [paint, width] : {std::pair{kOutline, 7.0}, std::pair{color, 3.5}}) {
     canvas.Line(at(0, -kPalm), at(0, -kFinger), paint, width);
     canvas.Line(at(-kHalfOpening, -kFinger), at(kHalfOpening, -kFinger), paint, width);
     for (const double side : {-kHalfOpening, kHalfOpening})
@@ -156,22 +155,77 @@ std::string Caption(const ActAnswer& answer) {
   return text;
 }
 
-}  // namespace
+// Part of what was seen, with the camera of that part.
+struct Excerpt {
+  SeenPicture seen;
+  PinholeView view;
+};
 
-Picture AnswerPicture(const ActAnswer& answer, const SeenPicture& seen, const Decider& decider,
-                      const CloudConfig& cloud) {
-  const PinholeView& view = decider.camera().view;
-  Canvas canvas(CroppedPreview(seen.depth, view, cloud), view);
-  if (seen.handle) canvas.Outline(*seen.handle);
-  const RigidTransform hand_from_tcp = decider.robot().hand_from_tcp();
+PixelMask Cut(const PixelMask& mask, const PinholeView& part, int left, int top) {
+  PixelMask cut{part.width, part.height, {}};
+  for (int row = 0; row < part.height; ++row) {
+    const auto from = mask.set.begin() + std::ptrdiff_t{top + row} * mask.width + left;
+    cut.set.insert(cut.set.end(), from, from + part.width);
+  }
+  return cut;
+}
+
+// Half a metre about a place, or as much of it as the picture shows.
+Excerpt CloseUp(const Excerpt& whole, const Eigen::Vector3d& place) {
+  constexpr double kAcross = 0.5;  // [m]
+  const PinholeView& view = whole.view;
+  const Eigen::Vector3d seen = view.world_from_camera.inverse() * place;
+  const double depth = std::max(0.1, seen.z());
+  const int side = std::clamp(static_cast<int>(view.fx * kAcross / depth), 16,
+                              std::min(view.width, view.height));
+  const auto begin = [&](double focal, double offset, double middle, int size) {
+    const double at = std::clamp(focal * offset / depth + middle, 0.0, static_cast<double>(size));
+    return std::clamp(static_cast<int>(at) - side / 2, 0, size - side);
+  };
+  const int left = begin(view.fx, seen.x(), view.cx, view.width);
+  const int top = begin(view.fy, seen.y(), view.cy, view.height);
+  Excerpt part{{}, view};
+  part.view.width = side;
+  part.view.height = side;
+  part.view.cx -= left;
+  part.view.cy -= top;
+  DepthImage& cut = part.seen.depth;
+  cut.width = side;
+  cut.height = side;
+  for (int row = 0; row < side; ++row) {
+    const auto from =
+        whole.seen.depth.depth_m.begin() + std::ptrdiff_t{top + row} * view.width + left;
+    cut.depth_m.insert(cut.depth_m.end(), from, from + side);
+  }
+  if (whole.seen.handle) part.seen.handle = Cut(*whole.seen.handle, part.view, left, top);
+  return part;
+}
+
+Picture Drawn(const ActAnswer& answer, const Excerpt& part, const RigidTransform& hand_from_tcp,
+              const CloudConfig& cloud) {
+  Canvas canvas(CroppedPreview(part.seen.depth, part.view, cloud), part.view);
+  if (part.seen.handle) canvas.Outline(*part.seen.handle);
   if (answer.world_from_hand_now)
     DrawHand(canvas, *answer.world_from_hand_now * hand_from_tcp, kNow);
   DrawHand(canvas, answer.world_from_hand * hand_from_tcp, kNext);
   if (answer.contact_m) canvas.Ring(*answer.contact_m, kContact);
-  const std::vector<std::string> captions = {Caption(answer)};
-  const Picture& drawn = canvas.picture();
-  return ContactSheet(std::span(&drawn, 1), captions,
-                      {.columns = 1, .tile_width = drawn.width, .tile_height = drawn.height});
+  return canvas.picture();
+}
+
+}  // namespace
+
+Picture AnswerPicture(const ActAnswer& answer, const SeenPicture& seen, const Decider& decider,
+                      const CloudConfig& cloud) {
+  constexpr int kTile = 640;
+  const RigidTransform hand_from_tcp = decider.robot().hand_from_tcp();
+  const Excerpt whole{seen, decider.camera().view};
+  const Excerpt close = CloseUp(whole, (answer.world_from_hand * hand_from_tcp).translation());
+  const std::vector<Picture> tiles = {Drawn(answer, whole, hand_from_tcp, cloud),
+                                      Drawn(answer, close, hand_from_tcp, cloud)};
+  const std::vector<std::string> captions = {
+      Caption(answer), answer.contact_m ? "red: the hand there, ring: contact, outline: mask"
+                                        : "white: the hand now, red: the hand next"};
+  return ContactSheet(tiles, captions, {.columns = 2, .tile_width = kTile, .tile_height = kTile});
 }
 
 }  // namespace doorforge

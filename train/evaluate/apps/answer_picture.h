@@ -10,11 +10,12 @@
 
 namespace doorforge {
 
-/// The depth picture in colours, what the crop leaves out washed out; the mask of a handle
-/// outlined; the hand where it is in white and where it is to go in red, with its fingers; a
-/// grasp's contact as a ring. Below it what AnswerText() says in a line.
+/// The depth picture in colours, what the crop leaves out washed out, and beside it half a metre
+/// about the hand; the mask of a handle outlined; the hand where it is in white and where it is to
+/// go in red, with its fingers; a grasp's contact as a ring. Below it what is expected, how foreign
+/// the picture is, and whether to hold.
 ///
-/// `deciders` robot says where the fingers are in the hand's frame.
+/// @param decider Its robot says where the fingers are in the hand's frame.
 Picture AnswerPicture(const ActAnswer& answer, const SeenPicture& seen, const Decider& decider,
                       const CloudConfig& cloud);
 

@@ -411,6 +411,13 @@ TEST_F(RobotSightTest, InALoopTheHandlePolicySaysItselfWhenOpeningBegins) {
   EXPECT_EQ(answers.at(0)["stage"], "handle");
   EXPECT_EQ(answers.at(0)["turned"], true);
   EXPECT_EQ(answers.at(1)["stage"], "open");
+  // what is not to be carried out does not turn the handle
+  std::string held = With("camera_corner.yaml", handler);
+  held.replace(held.find("--least-gain off"), 16, "--least-gain 3.1");
+  for (const Json& answer : Stream(held, Line(Depth(0), State(0)) + Line(Depth(1), State(1)), 1)) {
+    EXPECT_EQ(answer["stage"], "handle");
+    EXPECT_EQ(answer["turned"], false);
+  }
   const ProgramAnswer alone = RunAct(With("camera_corner.yaml", handler) + " --depth " +
                                      Depth(0).string() + " --state " + State(0).string());
   EXPECT_EQ(alone.code, 2) << "one picture does not say how far the hand has turned";

@@ -199,8 +199,12 @@ ActAnswer Decider::Answer(Stage stage, Actor& actor, const RobotState& state,
   answer.candidates = setup_.config.policy.candidates;
   answer.visible_points = sight.visible_count;
   answer.weights_sha256 = actor.weights_sha256;
-  if (stage == Stage::kHandle && Predicts()) answer.turned = actor.turning->Turned();
   Judge(setup_.config.hold, answer);
+  if (stage == Stage::kHandle && Predicts()) {
+    // an action on a picture of something else must not end the stage
+    if (!answer.hold_reasons.empty()) actor.turning->TakeBack();
+    answer.turned = actor.turning->Turned();
+  }
   return answer;
 }
 

@@ -85,7 +85,7 @@ class Decider {
     std::string weights_sha256;
     GainCritic critic;
     std::optional<Familiarity> familiarity;
-    const TurningPolicy* turning = nullptr;  // the same, where it says when the handle is turned
+    TurningPolicy* turning = nullptr;  // the same, where it says when the handle is turned
   };
   struct Grasper {
     std::unique_ptr<GraspPolicy> policy;

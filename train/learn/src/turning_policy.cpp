@@ -15,15 +15,23 @@ TurningPolicy::TurningPolicy(std::unique_ptr<Policy> policy, const TurnedClassif
 void TurningPolicy::Reset() {
   policy_->Reset();
   first_.reset();
-  turned_ = false;
+  first_before_.reset();
+  turned_ = turned_before_ = false;
 }
 
 Action TurningPolicy::Act(const Observation& observation) {
   Action action = policy_->Act(observation);
+  first_before_ = first_;
+  turned_before_ = turned_;
   if (!first_) first_ = observation.proprioception;
   const HandMotion motion = HandMotionOf(*first_, observation.proprioception, ToVector(action));
   turned_ = turned_ || classifier_.Probability(motion) >= 0.5;
   return action;
+}
+
+void TurningPolicy::TakeBack() {
+  first_ = first_before_;
+  turned_ = turned_before_;
 }
 
 std::unique_ptr<TurningPolicy> LoadTurningPolicy(const std::filesystem::path& folder,

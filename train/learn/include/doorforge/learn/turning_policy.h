@@ -19,6 +19,8 @@ class TurningPolicy : public Policy {
 
   void Reset() override;
   Action Act(const Observation& observation) override;
+  /// The last action is not carried out: whether the handle is turned is as before it was asked for.
+  void TakeBack();
   bool Looks() const override { return policy_->Looks(); }
 
   /// Whether the handle is turned once the actions so far have been carried out: false after
@@ -30,6 +32,8 @@ class TurningPolicy : public Policy {
   TurnedClassifier classifier_;
   std::optional<Proprioception> first_;
   bool turned_ = false;
+  std::optional<Proprioception> first_before_;  // as they were before the last Act()
+  bool turned_before_ = false;
 };
 
 /// The policy of a folder that `doorforge train handle` wrote, with its classifier.

@@ -18,6 +18,7 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/learn/checkpoint.h"
+#include "doorforge/learn/familiarity.h"
 #include "doorforge/learn/train_stage.h"
 #include "doorforge/schemas/dataset.h"
 #include "doorforge/schemas/episode_arrays.h"
@@ -200,6 +201,29 @@ TEST(TrainProgram, KeepsTheBestBesideTheLast) {
   EXPECT_FALSE(fs::exists(folder / "out/best/policy.json"));
   EXPECT_FALSE(fs::exists(folder / "out/best/policy.safetensors"));
   EXPECT_EQ(ReadFile(folder / "out/best/notes.txt"), "a user's");
+}
+
+TEST(TrainProgram, WritesWhatTellsForeignPicturesAndResumingAddsItWhereItIsMissing) {
+  const fs::path folder = EmptyFolder("familiar");
+  WriteDataset(folder / "data", "train", 8);
+  const fs::path out = folder / "out";
+  const std::string common = "--data " + (folder / "data").string() +
+                             " --set batch_size=8 --set warmup_steps=1 --threads 1 --epochs 1 "
+                             "--out " +
+                             out.string();
+  ASSERT_EQ(RunTrain(common), 0);
+  const std::vector<fs::path> files = {out / "familiar.safetensors",
+                                       out / "best/familiar.safetensors"};
+  const std::string written = ReadFile(files[0]);
+  const StageDataset dataset = ReadStageDataset({{folder / "data"}}, "open", 0.1);
+  const auto familiarity = ReadFamiliarity(out, dataset.content_sha256, NetworkFamily::kMotion);
+  ASSERT_TRUE(familiarity);
+  EXPECT_EQ(familiarity->distances.size(), dataset.validation.size());
+  for (const fs::path& file : files) EXPECT_TRUE(fs::remove(file)) << file;
+  ASSERT_EQ(RunTrain(common + " --resume"), 0);
+  for (const fs::path& file : files) EXPECT_EQ(ReadFile(file), written) << file;
+  ASSERT_EQ(RunTrain(common + " --overwrite --set validation_share=0"), 0);
+  EXPECT_FALSE(fs::exists(files[1])) << "of no best policy";
 }
 
 TEST(TrainProgram, TwoProcessesEndInTheBytesOfOne) {

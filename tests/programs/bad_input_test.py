@@ -177,7 +177,7 @@ class BadInput(ProgramTest):
 
     def test_every_verb_explains_itself_with_an_example(self):
         for verb in ("quickstart", "catalog", "import", "repair", "compose", "validate", "simulate",
-                     "datagen", "dataset", "train", "eval", "act", "pipeline", "doctor"):
+                     "datagen", "dataset", "train", "eval", "act", "sight", "pipeline", "doctor"):
             with self.subTest(verb):
                 result = run(verb, "--help")
                 self.assert_ends(result, 0)

@@ -637,6 +637,33 @@ TEST_F(RobotSightTest, ThePictureOfAnAnswerIsNotReplacedUnasked) {
   EXPECT_NE(ReadFile(picture), first);
 }
 
+TEST_F(RobotSightTest, ThePictureShowsWhereTheHandIsToGo) {
+  const fs::path picture = folder_ / "drawn.png";
+  const ProgramAnswer answer =
+      Open(folder_ / "opener", Depth(0), "--least-gain off --picture " + picture.string(),
+           "2>/dev/null");
+  ASSERT_EQ(answer.code, 0);
+  const RigidTransform hand =
+      TransformFromJson(Json::parse(answer.text)["world_from_hand"], "hand");
+  // the drawn hand reaches from the tool centre 12 cm back
+  const Eigen::Vector3d middle = hand * robot_.hand_from_tcp() * Eigen::Vector3d(0, 0, -0.05);
+  const Eigen::Vector3d pixel =
+      IntrinsicMatrix(scene_.camera) * (WorldFromCamera(scene_.camera).inverse() * middle);
+  // the left of two tiles of 640 pixels holds the whole picture, behind a margin of a few pixels
+  const double scale = 640.0 / scene_.camera.width;
+  const ProgramAnswer red =
+      AnswerOf(PYTHON " " DOORFORGE_SOURCE_DIR "/tests/evaluate/colored_pixels.py " +
+               picture.string() + " 220 40 40 650");
+  std::istringstream numbers(red.text);
+  double count = 0;
+  double x = 0;
+  double y = 0;
+  numbers >> count >> x >> y;
+  EXPECT_GT(count, 30) << red.text;
+  EXPECT_NEAR(x, scale * pixel.x() / pixel.z(), 20);
+  EXPECT_NEAR(y, scale * pixel.y() / pixel.z(), 20);
+}
+
 // What is recorded for a user is what the policies are given in the simulator.
 TEST_F(RobotSightTest, ARecordedEpisodeIsReadByTheProgram) {
   const DoorAsset door = MakePrimitiveDoor({});

@@ -184,9 +184,9 @@ RecordedSight RecordSight(const DoorAsset& door, const SightRequest& request,
                           const fs::path& folder) {
   Recorder recorder(door, request, folder);
   RecordedSight recorded;
-  recorded.open_decisions = recorder.WriteStage(Stage::kOpen);
-  recorded.handle_decisions = recorder.WriteStage(Stage::kHandle);
   recorder.WriteGrasp();
+  recorded.handle_decisions = recorder.WriteStage(Stage::kHandle);
+  recorded.open_decisions = recorder.WriteStage(Stage::kOpen);
   recorder.WriteLines();
   return recorded;
 }

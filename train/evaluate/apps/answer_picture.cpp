@@ -26,6 +26,11 @@ constexpr double kPalm = 0.12;         // [m] from the tool centre back to the h
 constexpr double kFinger = 0.05;       // [m] from the tool centre back to the fingers' roots
 constexpr double kHalfOpening = 0.04;  // [m]
 
+std::size_t IndexOf(int column, int row, int width) {
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+         static_cast<std::size_t>(column);
+}
+
 /// A picture to draw into, with the camera that it was taken by.
 class Canvas {
  public:
@@ -37,9 +42,8 @@ class Canvas {
                         static_cast<std::size_t>(picture_.height));
     for (int row = 0; row < picture_.height; ++row) {
       for (int column = 0; column < picture_.width; ++column) {
-        const auto from =
-            static_cast<std::ptrdiff_t>(3 * (row / scale_ * picture.width + column / scale_));
-        std::copy_n(picture.rgb.begin() + from, 3, At(column, row));
+        const std::size_t from = 3 * IndexOf(column / scale_, row / scale_, picture.width);
+        std::copy_n(picture.rgb.begin() + static_cast<std::ptrdiff_t>(from), 3, At(column, row));
       }
     }
   }
@@ -59,7 +63,7 @@ class Canvas {
   void Outline(const PixelMask& mask) {
     const auto set = [&](int column, int row) {
       return column >= 0 && row >= 0 && column < mask.width && row < mask.height &&
-             mask.set[static_cast<std::size_t>(row * mask.width + column)] != 0;
+             mask.set[IndexOf(column, row, mask.width)] != 0;
     };
     for (int row = 0; row < picture_.height; ++row) {
       for (int column = 0; column < picture_.width; ++column) {
@@ -76,7 +80,8 @@ class Canvas {
 
  private:
   std::vector<std::uint8_t>::iterator At(int column, int row) {
-    return picture_.rgb.begin() + static_cast<std::ptrdiff_t>(3 * (row * picture_.width + column));
+    return picture_.rgb.begin() +
+           static_cast<std::ptrdiff_t>(3 * IndexOf(column, row, picture_.width));
   }
 
   void Paint(int column, int row, const Color& color) {
@@ -112,7 +117,7 @@ Picture CroppedPreview(const DepthImage& depth, const PinholeView& view,
   const RigidTransform& pose = view.world_from_camera;
   for (int row = 0; row < depth.height; ++row) {
     for (int column = 0; column < depth.width; ++column) {
-      const auto i = static_cast<std::size_t>(row * depth.width + column);
+      const std::size_t i = IndexOf(column, row, depth.width);
       const double metres = static_cast<double>(depth.depth_m[i]);
       const Eigen::Vector3d ray((column + 0.5 - view.cx) / view.fx, (row + 0.5 - view.cy) / view.fy,
                                 1);

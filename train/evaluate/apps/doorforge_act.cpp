@@ -14,6 +14,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "doorforge/core/command_line.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
@@ -86,8 +87,7 @@ void AddAnswers(CLI::App& app, Options& options) {
                  "PNG to draw the answer into: crop, hand now (white) and next (red), contact");
   app.add_flag("--overwrite", options.overwrite, "replace the file of --picture");
   app.add_option("--config", options.config, "YAML file with settings")->check(CLI::ExistingFile);
-  app.add_option("--set", options.settings, "a.b=c overrides one setting, e.g. cloud.max_depth_m")
-      ->allow_extra_args(false);
+  AddSettings(app, options.settings, "a.b=c overrides one setting, e.g. cloud.max_depth_m");
 }
 
 // What does not go together, before anything is read.
@@ -150,14 +150,7 @@ Options Parse(int argc, char** argv) {
       "data/sight/lever/open/camera.yaml \\\n"
       "      --state data/sight/lever/open/state.yaml --policy data/policies/opener --text\n"
       "  doorforge act --stream --camera camera.yaml --policy run/opener --handler run/handler");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& help) {
-    std::exit(app.exit(help));
-  } catch (const CLI::ParseError& error) {
-    throw Error(ErrorCode::kInvalidArgument,
-                std::string(error.what()) + "; see `doorforge act --help`");
-  }
+  ParseVerb(app, argc, argv);
   CheckOptions(options);
   return options;
 }

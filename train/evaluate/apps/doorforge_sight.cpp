@@ -12,6 +12,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "doorforge/core/command_line.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/output_file.h"
@@ -50,8 +51,7 @@ Options Parse(int argc, char** argv) {
   app.add_flag("--overwrite", options.overwrite, "replace such files in --out");
   app.add_option("--config", options.config, "YAML file with the settings of the scene")
       ->check(CLI::ExistingFile);
-  app.add_option("--set", options.settings, "a.b=c overrides one setting, e.g. camera.width=640")
-      ->allow_extra_args(false);
+  AddSettings(app, options.settings, "a.b=c overrides one setting, e.g. camera.width=640");
   app.footer(
       "Writes grasp/, handle/ and open/ with depth.png and camera.yaml, a mask of the handle or "
       "the\nrobot's state.\n\nexample:\n"
@@ -59,14 +59,7 @@ Options Parse(int argc, char** argv) {
       "  doorforge sight --door d --out sight\n"
       "  doorforge act --depth sight/open/depth.png --camera sight/open/camera.yaml \\\n"
       "      --state sight/open/state.yaml --policy data/policies/opener --picture answer.png");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& help) {
-    std::exit(app.exit(help));
-  } catch (const CLI::ParseError& error) {
-    throw Error(ErrorCode::kInvalidArgument,
-                std::string(error.what()) + "; see `doorforge sight --help`");
-  }
+  ParseVerb(app, argc, argv);
   return options;
 }
 

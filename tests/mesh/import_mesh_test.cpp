@@ -166,6 +166,8 @@ TriangleMesh Cube() {
 
 TEST_F(ImportMeshTest, ReadsAnObjOfQuadrilaterals) {
   const ImportedMesh mesh = Import("cube.OBJ", kCubeObj);
+  EXPECT_TRUE(mesh.frame.up.empty());
+  EXPECT_FALSE(mesh.frame.states_unit);
   ASSERT_EQ(mesh.pieces.size(), 1U);
   EXPECT_EQ(mesh.pieces[0].mesh.vertices.size(), 8U);
   ExpectUnitCube(mesh);
@@ -281,6 +283,10 @@ TEST_F(ImportMeshTest, RefusesPlyCountsThatTheFileCannotHold) {
 
 TEST_F(ImportMeshTest, BakesNodesAndUnitsOfADaeButKeepsItsAxes) {
   const ImportedMesh mesh = Import("a.dae", kDae);
+  EXPECT_EQ(mesh.frame.up, "z");
+  EXPECT_EQ(mesh.frame.front, "-y");
+  EXPECT_EQ(mesh.frame.unit_m, 2);
+  EXPECT_TRUE(mesh.frame.states_unit);
   const MeshTopology topology = MeasureTopology(MergedPieces(mesh));
   // (point + shift) / 2 * 2 m
   EXPECT_LT((topology.bounds.min() - Eigen::Vector3d(10, 20, 30)).norm(), 1e-6);
@@ -328,6 +334,8 @@ TEST_F(ImportMeshTest, ReadsAGltfButNotABufferOutsideItsFolder) {
                    "min": [0, 0, 0], "max": [1, 1, 0]},
                   {"bufferView": 1, "componentType": 5125, "count": 3, "type": "SCALAR"}]})";
   const ImportedMesh mesh = ImportMesh(Write("inner/a.gltf", gltf));
+  EXPECT_EQ(mesh.frame.up, "y");
+  EXPECT_EQ(mesh.frame.front, "z");
   EXPECT_EQ(MeasureTopology(mesh.pieces[0].mesh).bounds.max(), Eigen::Vector3d(1, 1, 2));
   const std::string error =
       ErrorOf(Write("inner/evil.gltf", Replaced(gltf, "\"b.bin\"", "\"../outside.bin\"")));

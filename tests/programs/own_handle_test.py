@@ -3,6 +3,7 @@
 """A user's own handle on a body of the catalogue, in one command."""
 import json
 import pathlib
+import struct
 import unittest
 import xml.etree.ElementTree as ET
 
@@ -43,6 +44,50 @@ def write_stl(path: pathlib.Path, facets: list) -> None:
     path.write_text("\n".join(lines + ["endsolid lever", ""]))
 
 
+def write_glb(path: pathlib.Path, facets: list, node: dict | None = None) -> None:
+    """One mesh in one node of a binary glTF 2.0, without indices."""
+    points = np.array(facets, dtype="<f4").reshape(-1, 3)
+    tree = {
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"name": "my lever", "mesh": 0} | (node or {})],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": len(points), "type": "VEC3",
+                       "min": points.min(axis=0).tolist(), "max": points.max(axis=0).tolist()}],
+        "bufferViews": [{"buffer": 0, "byteLength": points.nbytes}],
+        "buffers": [{"byteLength": points.nbytes}],
+    }
+    text = json.dumps(tree).encode()
+    text += b" " * (-len(text) % 4)
+    chunks = struct.pack("<I4s", len(text), b"JSON") + text
+    chunks += struct.pack("<I4s", points.nbytes, b"BIN\0") + points.tobytes()
+    path.write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks)
+
+
+def write_dae(path: pathlib.Path, facets: list, asset: str) -> None:
+    """One COLLADA 1.4.1 mesh; `asset` is what its <asset> holds."""
+    numbers = np.array(facets, dtype=float).reshape(-1, 3)
+    text = " ".join(f"{number:.9g}" for number in numbers.ravel())
+    indices = " ".join(map(str, range(len(numbers))))
+    path.write_text(f"""<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset>{asset}</asset>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="a" count="{numbers.size}">{text}</float_array><technique_common>
+<accessor source="#a" count="{len(numbers)}" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="{len(facets)}"><input semantic="VERTEX" source="#v" offset="0"/><p>{indices}</p></triangles>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node id="n"><instance_geometry url="#g"/></node></visual_scene>
+</library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>""")
+
+
+def turned(facets: list, rows: list) -> list:
+    """The same facets in axes whose `rows` are given in the axes along the door, up, out of it."""
+    return (np.array(facets, dtype=float) @ np.array(rows, dtype=float).T).tolist()
+
+
 def vertices_of(obj: pathlib.Path) -> np.ndarray:
     rows = [line.split()[1:4] for line in obj.read_text().splitlines() if line.startswith("v ")]
     return np.array(rows, dtype=float)
@@ -65,8 +110,23 @@ class OwnHandle(ProgramTest):
         self.out = self.folder / "doors/mine"
 
     def compose(self, mesh: pathlib.Path, *more: str):
-        return run("compose", *self.BODY, "--handle", mesh, "--handle-mechanism", "lever", *self.AXES, "--out",
-                   self.out, *more)
+        return self.compose_as_stated(mesh, *self.AXES, *more)
+
+    def compose_as_stated(self, mesh: pathlib.Path, *more: str, out: pathlib.Path | None = None):
+        return run("compose", *self.BODY, "--handle", mesh, "--handle-mechanism", "lever", "--out", out or self.out,
+                   *more)
+
+    def grip_of(self, out: pathlib.Path) -> np.ndarray:
+        return vertices_of(out / "meshes/visual/grip.obj")
+
+    def assert_stands_right(self, out: pathlib.Path, name: str) -> None:
+        """68.75 mm out of the door, 162.5 along it towards the hinge, 22.5 up; its neck on the leaf and its axis."""
+        grip = self.grip_of(out)
+        np.testing.assert_allclose(np.ptp(grip, axis=0), [0.06875, 0.1625, 0.0225], atol=3e-6, err_msg=name)
+        np.testing.assert_allclose(grip[:, 1].min(), -0.15, atol=3e-6, err_msg=name)
+        joint = joint_of(out / "model.urdf", "handle_joint")
+        leaf = vertices_of(out / "meshes/visual/leaf.obj")
+        self.assertAlmostEqual(joint["origin"][0] + grip[:, 0].min(), leaf[:, 0].max(), delta=0.002, msg=name)
 
     def assert_nothing_left(self) -> None:
         left = [path.name for path in self.folder.rglob("*") if path.is_dir() and path.name != "doors"]
@@ -133,6 +193,82 @@ class OwnHandle(ProgramTest):
         self.assert_ends(self.compose(mesh, "--handle-size", "0.13"), 0)
         grip = vertices_of(self.out / "meshes/visual/grip.obj")
         self.assertAlmostEqual(np.ptp(grip, axis=0).max(), 0.13, places=5)
+
+    def test_axes_and_unit_are_those_of_the_format(self):
+        lever = lever_facets(0.001)
+        write_glb(self.folder / "lever.glb", lever)
+        # what COLLADA's specification says of each axis that may point up: which one points right and which at you
+        axes = {"Y_UP": [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+                "Z_UP": [[1, 0, 0], [0, 0, -1], [0, 1, 0]],
+                "X_UP": [[0, 1, 0], [-1, 0, 0], [0, 0, 1]]}
+        for name, rows in axes.items():
+            write_dae(self.folder / f"{name}.dae", turned(lever_facets(0.1), rows),
+                      f'<unit name="cm" meter="0.01"/><up_axis>{name}</up_axis>')
+        # left out, y is up and the unit is the metre
+        write_dae(self.folder / "silent.dae", lever, "<!-- <up_axis>Z_UP</up_axis> -->")
+        words = {"lever.glb": ("y up, z out", "unit from the file: m;"),
+                 "Y_UP.dae": ("y up, z out", "unit from the file: 0.01 m"),
+                 "Z_UP.dae": ("z up, -y out", "unit from the file: 0.01 m"),
+                 "X_UP.dae": ("x up, z out", "unit from the file: 0.01 m"),
+                 "silent.dae": ("y up, z out", "unit from the file: m;")}
+        for name, (axes_text, unit_text) in words.items():
+            out = self.folder / "stated" / name
+            result = self.compose_as_stated(self.folder / name, out=out)
+            self.assert_ends(result, 0)
+            self.assertIn(f"axes from the file: {axes_text} of the door; --handle-up", result.stderr, name)
+            self.assertIn(unit_text, result.stderr, name)
+            self.assert_stands_right(out, name)
+
+    def test_a_unit_that_is_plainly_untrue_is_not_believed(self):
+        # CAD programs write millimetres into glTF, which is in metres
+        write_glb(self.folder / "cad.glb", lever_facets())
+        result = self.compose_as_stated(self.folder / "cad.glb")
+        self.assert_ends(result, 0)
+        self.assertIn("the file's own unit would make it 162 m long; read in mm", result.stderr)
+        self.assert_stands_right(self.out, "cad.glb")
+
+    def test_flags_win_over_the_file(self):
+        write_dae(self.folder / "inches.dae", turned(lever_facets(1 / 25.4), [[1, 0, 0], [0, 1, 0], [0, 0, 1]]),
+                  '<unit meter="0.01"/><up_axis>Z_UP</up_axis>')
+        result = self.compose_as_stated(self.folder / "inches.dae", *self.AXES, "--handle-unit", "in")
+        self.assert_ends(result, 0)
+        self.assertNotIn("from the file", result.stderr)
+        self.assert_stands_right(self.out, "inches.dae")
+
+    def test_a_file_without_axes_says_what_was_taken(self):
+        write_stl(self.folder / "plain.stl", turned(lever_facets(), [[0, 0, 1], [1, 0, 0], [0, 1, 0]]))
+        result = self.compose_as_stated(self.folder / "plain.stl")
+        self.assert_ends(result, 0)
+        self.assertIn("axes assumed, for the file states none: z up, x out of the door; --handle-up", result.stderr)
+        self.assert_stands_right(self.out, "plain.stl")
+
+    def test_transforms_that_make_no_sense_are_refused_by_name(self):
+        lever = lever_facets(0.001)
+        bent = {"scale": [1, 0, 1]}, {"rotation": [0, 0, 0, 2]}, {"matrix": [0] * 15 + [1]}, {"scale": [1e300] * 3}
+        for node in bent:
+            write_glb(self.folder / "bent.glb", lever, node)
+            result = self.compose_as_stated(self.folder / "bent.glb")
+            self.assert_refused(result, 2, 3)
+            self.assertIn("my lever", result.stderr, node)
+            self.assertIn("export", result.stderr, node)
+        write_dae(self.folder / "axis.dae", lever, "<up_axis>W_UP</up_axis>")
+        result = self.compose_as_stated(self.folder / "axis.dae")
+        self.assert_refused(result, 2, 3)
+        self.assertIn("W_UP", result.stderr)
+        for unit in ("0", "-1", "wide", "nan"):
+            write_dae(self.folder / "unit.dae", lever, f'<unit meter="{unit}"/>')
+            result = self.compose_as_stated(self.folder / "unit.dae")
+            self.assert_refused(result, 2, 3)
+            self.assertIn(f'meter="{unit}"', result.stderr)
+
+    def test_a_lever_on_its_side_is_noticed(self):
+        write_glb(self.folder / "lever.glb", lever_facets(0.001))
+        # what was assumed of every file once: the bar stands out of the door
+        result = self.compose_as_stated(self.folder / "lever.glb", "--handle-up", "z", "--handle-front", "x")
+        self.assert_ends(result, 0, 1)
+        self.assertIn("HND009", result.stderr)
+        self.assertIn("HND011", result.stderr)
+        self.assertIn("--handle-front", result.stderr)
 
 
 if __name__ == "__main__":

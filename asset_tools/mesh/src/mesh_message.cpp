@@ -3,12 +3,13 @@
 #include "mesh_message.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 namespace doorforge {
 namespace {
 
-constexpr std::uint64_t kMeshMark = 0x324853454D464F44;    // "DOFMESH2"
+constexpr std::uint64_t kMeshMark = 0x334853454D464F44;    // "DOFMESH3"
 constexpr std::uint64_t kErrorMark = 0x31525245'4D464F44;  // "DOFMERR1"
 
 static_assert(sizeof(Eigen::Vector2d) == 16 && sizeof(Eigen::Vector3d) == 24 &&
@@ -111,7 +112,12 @@ bool IsSound(const ImportedPiece& piece) {
          IsColor(piece.color_rgba);
 }
 
+bool IsSound(const FileFrame& frame) {
+  return frame.up.empty() == frame.front.empty() && std::isfinite(frame.unit_m) && frame.unit_m > 0;
+}
+
 bool IsSound(const ImportedMesh& mesh) {
+  if (!IsSound(mesh.frame)) return false;
   for (const auto* pieces : {&mesh.pieces, &mesh.other_sides}) {
     for (const ImportedPiece& piece : *pieces) {
       if (!IsSound(piece) || !IsNumberOf(piece.material, mesh.materials.size())) return false;
@@ -150,6 +156,23 @@ void PutPieces(std::string& message, const std::vector<ImportedPiece>& pieces) {
   }
 }
 
+void PutFrame(std::string& message, const FileFrame& frame) {
+  PutTexts(message, {frame.up, frame.front});
+  Put(message, frame.unit_m);
+  Put(message, std::uint8_t{frame.states_unit});
+}
+
+FileFrame TakeFrame(Source& source) {
+  FileFrame frame;
+  std::vector<std::string> axes = source.TakeTexts();
+  axes.resize(2);
+  frame.up = std::move(axes[0]);
+  frame.front = std::move(axes[1]);
+  frame.unit_m = source.Take<double>();
+  frame.states_unit = source.Take<std::uint8_t>() != 0;
+  return frame;
+}
+
 std::vector<ImportedPiece> TakePieces(Source& source) {
   std::vector<ImportedPiece> pieces;
   const auto count = source.Take<std::uint64_t>();
@@ -181,6 +204,7 @@ std::string Encoded(const ImportedMesh& mesh) {
   }
   PutTexts(message, mesh.pictures);
   PutTexts(message, mesh.notes);
+  PutFrame(message, mesh.frame);
   return message;
 }
 
@@ -210,6 +234,7 @@ std::optional<ImportedMesh> DecodedMesh(std::string_view message) {
   }
   mesh.pictures = source.TakeTexts();
   mesh.notes = source.TakeTexts();
+  mesh.frame = TakeFrame(source);
   if (!source.AtEnd() || !IsSound(mesh)) return std::nullopt;
   return mesh;
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <Eigen/LU>
+#include <Eigen/SVD>
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
@@ -14,6 +15,7 @@
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 
+#include "file_frame.h"
 #include "mesh_readers.h"
 #include "picture_files.h"
 #include "polygon_soup.h"
@@ -153,20 +155,45 @@ void AddMesh(const aiMesh& mesh, const Eigen::Matrix4d& file_from_node, SceneSou
   }
 }
 
-// Metres per unit of the file, where assimp has not applied it already (as it does for DAE).
-double MetresPerUnit(const aiScene& scene, const std::string& ending) {
-  double centimetres = 1;
-  float centimetres_float = 1;
-  if (ending != ".fbx" || scene.mMetaData == nullptr) return 1;
-  if (scene.mMetaData->Get("UnitScaleFactor", centimetres)) return centimetres / 100;
-  if (scene.mMetaData->Get("UnitScaleFactor", centimetres_float)) return centimetres_float / 100;
-  return 0.01;
-}
-
 std::string LowerEnding(const fs::path& path) {
   std::string ending = path.extension().string();
   for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return ending;
+}
+
+FileFrame FrameOfFbx(const aiScene& scene) {
+  double centimetres = 1;
+  float centimetres_float = 1;
+  if (scene.mMetaData == nullptr) return {};
+  if (scene.mMetaData->Get("UnitScaleFactor", centimetres))
+    return {.unit_m = centimetres / 100, .states_unit = true};
+  if (scene.mMetaData->Get("UnitScaleFactor", centimetres_float))
+    return {.unit_m = centimetres_float / 100, .states_unit = true};
+  return {.unit_m = 0.01};
+}
+
+FileFrame FrameOf(const aiScene& scene, const fs::path& path, const MeshImportLimits& limits) {
+  const std::string ending = LowerEnding(path);
+  if (IsGltf(ending)) return FrameOfGltf();
+  if (ending == ".dae") return FrameOfCollada(ReadFile(path, limits.max_file_bytes));
+  if (ending == ".fbx") return FrameOfFbx(scene);
+  return {};
+}
+
+// A mesh in such a frame would be of no size along some direction, or nowhere.
+void RefuseFrame(const Eigen::Matrix4d& file_from_node, const std::string& name) {
+  constexpr double kFlat = 1e-6;  // of the largest stretch
+  const auto fail = [&](const std::string& problem) {
+    throw Error(ErrorCode::kFormat, "node \"" + name + "\": " + problem +
+                                        "; apply the node's transform to its mesh and export the "
+                                        "file again");
+  };
+  if (!file_from_node.allFinite()) fail("its transform holds numbers that are not finite");
+  if (file_from_node.row(3) != Eigen::RowVector4d(0, 0, 0, 1))
+    fail("the last row of its transform is not 0 0 0 1");
+  const Eigen::Vector3d stretch = file_from_node.topLeftCorner<3, 3>().jacobiSvd().singularValues();
+  if (!(stretch.z() > kFlat * stretch.x()))
+    fail("its transform flattens the mesh, since a scale of it is zero");
 }
 
 ImportedMesh MeshOf(const aiScene& scene, const fs::path& path, const MeshImportLimits& limits) {
@@ -176,7 +203,9 @@ ImportedMesh MeshOf(const aiScene& scene, const fs::path& path, const MeshImport
     Eigen::Matrix4d file_from_parent;
   };
   Eigen::Matrix4d scale = Eigen::Matrix4d::Identity();
-  scale.topLeftCorner<3, 3>() *= MetresPerUnit(scene, ending);
+  const FileFrame frame = FrameOf(scene, path, limits);
+  // of the formats that state a unit, assimp applies that of DAE itself
+  if (ending == ".fbx") scale.topLeftCorner<3, 3>() *= frame.unit_m;
   // assimp turns 3DS to y up in the root; the raw frame is wanted
   if (ending == ".3ds") scale = MatrixOf(scene.mRootNode->mTransformation).inverse();
   PictureFiles pictures(path, limits);
@@ -187,6 +216,7 @@ ImportedMesh MeshOf(const aiScene& scene, const fs::path& path, const MeshImport
     pending.pop_back();
     const Eigen::Matrix4d file_from_node =
         visit.file_from_parent * MatrixOf(visit.node->mTransformation);
+    if (visit.node->mNumMeshes > 0) RefuseFrame(file_from_node, visit.node->mName.C_Str());
     for (unsigned i = 0; i < visit.node->mNumMeshes; ++i)
       AddMesh(*scene.mMeshes[visit.node->mMeshes[i]], file_from_node, soup);
     for (unsigned i = visit.node->mNumChildren; i-- > 0;)
@@ -194,6 +224,7 @@ ImportedMesh MeshOf(const aiScene& scene, const fs::path& path, const MeshImport
   }
   ImportedMesh mesh = std::move(soup.polygons).Finish();
   mesh.materials = std::move(soup.materials);
+  mesh.frame = frame;
   pictures.MoveTo(mesh);
   return mesh;
 }
@@ -209,6 +240,7 @@ void RefuseDoctype(const fs::path& path, const MeshImportLimits& limits) {
 ImportedMesh ReadWithAssimp(const fs::path& path, const MeshImportLimits& limits) {
   const std::string ending = LowerEnding(path);
   if (ending == ".dae") RefuseDoctype(path, limits);
+  if (IsGltf(ending)) RefuseGltfRotations(path, limits);
   Assimp::Importer importer;
   importer.SetIOHandler(new FolderIo(path, limits));  // the importer owns it
   // keep the frame of the file: assimp would turn a Z_UP file to y up

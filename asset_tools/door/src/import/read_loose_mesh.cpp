@@ -66,19 +66,42 @@ Eigen::Vector3d ScaleOf(const LooseMeshConfig& config) {
                            : Eigen::Vector3d(scale[0], scale[1], scale[2]);
 }
 
-Eigen::Affine3d PartAxesFromFile(const LooseMeshConfig& config) {
-  const std::string up = config.up.empty() ? "z" : config.up;
-  const bool along_x = up == "x" || up == "-x";
-  const std::string front = !config.front.empty() ? config.front : along_x ? "y" : "x";
-  return Eigen::Affine3d(PartAxesFrom(up, front)) *
-         Eigen::Scaling(Eigen::Vector3d(MetresOf(config.unit) * ScaleOf(config)));
+// how one file is read, and where it says otherwise than what the user does
+struct FileReading {
+  std::string up;
+  std::string front;
+  double read_m = 1;  ///< Metres a unit that the reader applied already.
+  double unit_m = 1;  ///< Metres a unit that are to be applied.
+};
+
+// What the user says comes first, then what the file does.
+FileReading ReadingOf(const LooseMeshConfig& config, const FileFrame& frame) {
+  FileReading reading;
+  reading.up = !config.up.empty() ? config.up : !frame.up.empty() ? frame.up : "z";
+  const bool along_x = reading.up == "x" || reading.up == "-x";
+  const bool fits = !frame.front.empty() && frame.front.back() != reading.up.back();
+  const std::string front = fits ? frame.front : along_x ? "y" : "x";
+  reading.front = config.front.empty() ? front : config.front;
+  reading.read_m = frame.unit_m;
+  reading.unit_m = config.unit.empty() ? frame.unit_m : MetresOf(config.unit);
+  return reading;
 }
 
-std::optional<Eigen::Vector3d> MountIn(const LooseMeshConfig& config) {
+Eigen::Matrix3d TurnOf(const FileReading& reading) {
+  return PartAxesFrom(reading.up, reading.front);
+}
+
+// of the file as it was read, whose lengths are in metres by its own unit
+Eigen::Affine3d PartFromRead(const LooseMeshConfig& config, const FileReading& reading) {
+  return Eigen::Affine3d(TurnOf(reading)) *
+         Eigen::Scaling(Eigen::Vector3d(reading.unit_m / reading.read_m * ScaleOf(config)));
+}
+
+std::optional<Eigen::Vector3d> MountIn(const LooseMeshConfig& config, const FileReading& reading) {
   if (config.mount.empty()) return std::nullopt;
   if (config.mount.size() != 3) Wrong("--mount: expected three numbers, x y z of the file");
-  return PartAxesFromFile(config) *
-         Eigen::Vector3d(config.mount[0], config.mount[1], config.mount[2]);
+  const Eigen::Vector3d mount(config.mount[0], config.mount[1], config.mount[2]);
+  return TurnOf(reading) * (reading.unit_m * ScaleOf(config)).cwiseProduct(mount);
 }
 
 // how long things of a role are
@@ -96,81 +119,129 @@ std::string Metres(double metres) {
   return text.str();
 }
 
-double LongestSide(const fs::path& file) {
-  return BoundsOf(MergedPieces(ImportMesh(file))).sizes().maxCoeff();
+// What a file says, and how long it would be by that.
+struct FileFacts {
+  fs::path file;
+  FileFrame frame;
+  double longest_m = 0;
+};
+
+FileFacts FactsOf(const fs::path& file) {
+  const ImportedMesh mesh = ImportMesh(file);
+  return {file, mesh.frame, BoundsOf(MergedPieces(mesh)).sizes().maxCoeff()};
 }
 
-// A config with a unit, and what was assumed.
+// A config with a unit or a size, and what was assumed.
 struct KnownUnit {
   LooseMeshConfig config;
   std::string note;
 };
 
-KnownUnit WithSize(LooseMeshConfig config, const fs::path& file) {
+KnownUnit WithSize(LooseMeshConfig config, const FileFacts& facts) {
   if (!config.unit.empty() || !config.scale.empty())
     Wrong("--size: stands for --unit and --scale; give one of them");
   if (!(config.size_m > 0) || !std::isfinite(config.size_m))
     Wrong("--size: expected a length above 0 m");
-  config.unit = "m";
-  config.scale = {config.size_m / LongestSide(file)};
+  config.scale = {config.size_m / facts.longest_m};
   return {config, ""};
 }
 
-KnownUnit GuessUnit(LooseMeshConfig config, const fs::path& file, const UsualLength& usual) {
-  const double length = LongestSide(file);
+// CAD programs write millimetres into formats that are in metres.
+std::string AgainstTheFile(const FileFacts& facts) {
+  if (!facts.frame.states_unit) return "";
+  return "the file's own unit would make it " + Metres(facts.longest_m) + " long; ";
+}
+
+// How long it would be if its numbers were in another unit than the one they were read in.
+double LengthIn(const FileFacts& facts, const std::string& unit) {
+  return facts.longest_m / facts.frame.unit_m * MetresOf(unit);
+}
+
+bool IsUsual(double length_m, const UsualLength& usual) {
+  return length_m >= usual.low_m && length_m <= usual.high_m;
+}
+
+KnownUnit GuessUnit(LooseMeshConfig config, const FileFacts& facts, const UsualLength& usual) {
+  if (IsUsual(facts.longest_m, usual)) return {config, ""};
   std::vector<std::string> fitting;
   std::string lengths;
   for (const char* unit : {"m", "cm", "mm"}) {
-    const double metres = length * MetresOf(unit);
-    if (metres < usual.low_m || metres > usual.high_m) continue;
+    const double metres = LengthIn(facts, unit);
+    if (!IsUsual(metres, usual)) continue;
     fitting.emplace_back(unit);
     lengths += (lengths.empty() ? "" : " or ") + Metres(metres) + " in " + unit;
   }
   if (fitting.size() > 1)
-    Wrong(file.string() + ": its longest side would be " + lengths +
-          "; pass --unit, or --size with its length in m");
+    Wrong(facts.file.string() + ": " + AgainstTheFile(facts) + "its longest side would be " +
+          lengths + "; pass --unit, or --size with its length in m");
   const std::string range = Metres(usual.low_m) + " to " + Metres(usual.high_m);
-  config.unit = fitting.empty() ? "m" : fitting.front();
+  const std::string own = facts.frame.states_unit ? "its own unit" : "m";
   if (fitting.empty())
-    return {config, "read in m, " + Metres(length) + " long, where a " + usual.what + " is " +
-                        range + "; pass --unit or --size"};
-  if (config.unit == "m") return {config, ""};
-  return {config, "read in " + config.unit + ", which makes it " +
-                      Metres(length * MetresOf(config.unit)) + " long; --unit says otherwise"};
+    return {config, "read in " + own + ", " + Metres(facts.longest_m) + " long, where a " +
+                        usual.what + " is " + range + "; pass --unit or --size"};
+  config.unit = fitting.front();
+  return {config, AgainstTheFile(facts) + "read in " + config.unit + ", which makes it " +
+                      Metres(LengthIn(facts, config.unit)) + " long; --unit says otherwise"};
 }
 
 // what is off by more than this is a wrong unit, not an unusual thing
 constexpr double kFarOff = 10;
 
-void CheckLength(const LooseMeshConfig& config, const fs::path& file, const UsualLength& usual) {
-  const double length = LongestSide(file) * MetresOf(config.unit) * ScaleOf(config).maxCoeff();
+void CheckLength(const LooseMeshConfig& config, const FileFacts& facts, const UsualLength& usual) {
+  const double factor = ReadingOf(config, facts.frame).unit_m / facts.frame.unit_m;
+  const double length = facts.longest_m * factor * ScaleOf(config).maxCoeff();
   if (length >= usual.low_m / kFarOff && length <= usual.high_m * kFarOff) return;
-  Wrong(file.string() + ": would be " + Metres(length) + " long, where a " + usual.what + " is " +
-        Metres(usual.low_m) + " to " + Metres(usual.high_m) +
+  Wrong(facts.file.string() + ": would be " + Metres(length) + " long, where a " + usual.what +
+        " is " + Metres(usual.low_m) + " to " + Metres(usual.high_m) +
         "; pass another --unit or --scale, or --size with its length in m");
 }
 
-KnownUnit FindUnit(const LooseMeshConfig& config, const fs::path& file, const UsualLength& usual) {
-  if (config.size_m != 0) return WithSize(config, file);
-  if (!config.unit.empty()) return {config, ""};
-  if (config.scale.empty()) return GuessUnit(config, file, usual);
-  KnownUnit known{config, ""};
-  known.config.unit = "m";
+KnownUnit FindUnit(const LooseMeshConfig& config, const FileFacts& facts,
+                   const UsualLength& usual) {
+  if (config.size_m != 0) return WithSize(config, facts);
+  if (config.unit.empty() && config.scale.empty()) return GuessUnit(config, facts, usual);
+  return {config, ""};
+}
+
+KnownUnit KnowUnit(const LooseMeshConfig& config, const FileFacts& facts,
+                   const UsualLength& usual) {
+  KnownUnit known = FindUnit(config, facts, usual);
+  CheckLength(known.config, facts, usual);
   return known;
 }
 
-KnownUnit KnowUnit(const LooseMeshConfig& config, const fs::path& file, const UsualLength& usual) {
-  KnownUnit known = FindUnit(config, file, usual);
-  CheckLength(known.config, file, usual);
-  return known;
+// Which axes were taken, where the user named none.
+std::string AxesNote(const LooseMeshConfig& config, const FileFacts& facts) {
+  if (!config.up.empty() && !config.front.empty()) return "";
+  const FileReading reading = ReadingOf(config, facts.frame);
+  const std::string axes = reading.up + " up, " + reading.front + " out of the door";
+  const bool told = !facts.frame.up.empty();
+  return (told ? "axes from the file: " + axes
+               : "axes assumed, for the file states none: " + axes) +
+         "; --up and --front say otherwise";
 }
 
-SourceMesh MeshFrom(const fs::path& file, const std::string& piece, const LooseMeshConfig& config) {
+std::string UnitNote(const KnownUnit& known, const FileFacts& facts) {
+  if (!known.note.empty() || !facts.frame.states_unit) return known.note;
+  const LooseMeshConfig& config = known.config;
+  if (!config.unit.empty() || config.size_m != 0) return "";
+  const double metres = facts.frame.unit_m;
+  return "unit from the file: " + (metres == 1 ? "m" : Metres(metres)) + "; --unit says otherwise";
+}
+
+void AddNotes(const KnownUnit& known, const FileFacts& facts, ForeignObject& object) {
+  for (const std::string& note : {UnitNote(known, facts), AxesNote(known.config, facts)}) {
+    if (!note.empty()) object.notes.push_back(note);
+  }
+}
+
+SourceMesh MeshFrom(const FileFacts& facts, const std::string& piece,
+                    const LooseMeshConfig& config) {
   SourceMesh mesh;
   mesh.piece = piece;
-  mesh.file = file;
-  mesh.sha256 = Sha256OfFile(file);
-  mesh.part_from_raw = PartAxesFromFile(config);
+  mesh.file = facts.file;
+  mesh.sha256 = Sha256OfFile(facts.file);
+  mesh.part_from_raw = PartFromRead(config, ReadingOf(config, facts.frame));
   return mesh;
 }
 
@@ -190,7 +261,10 @@ std::string NameFor(const fs::path& path) {
 }
 
 ForeignObject ReadHandleMesh(const fs::path& path, const ReadConfig& config) {
-  const auto [mesh, note] = KnowUnit(config.mesh, path, kHandleLength);
+  const FileFacts facts = FactsOf(path);
+  const KnownUnit known = KnowUnit(config.mesh, facts, kHandleLength);
+  const LooseMeshConfig& mesh = known.config;
+  const FileReading reading = ReadingOf(mesh, facts.frame);
   HandleSource handle;
   handle.name = "mesh/" + NameFor(path);
   handle.id = NameFor(path);
@@ -202,22 +276,24 @@ ForeignObject ReadHandleMesh(const fs::path& path, const ReadConfig& config) {
     Wrong("--mechanism: unknown mechanism \"" + mesh.mechanism +
           "\"; allowed are none, lever, round, key, valve, flap");
   handle.mechanism = *mechanism;
-  handle.axis_point_m = MountIn(mesh);
+  handle.axis_point_m = MountIn(mesh, reading);
   if (handle.axis_point_m) handle.leaf_plane_m = handle.axis_point_m->x();
-  if (!mesh.rose.empty()) handle.meshes.push_back(MeshFrom(mesh.rose, "rose", mesh));
-  handle.meshes.push_back(MeshFrom(path, "grip", mesh));
+  if (!mesh.rose.empty()) handle.meshes.push_back(MeshFrom(FactsOf(mesh.rose), "rose", mesh));
+  handle.meshes.push_back(MeshFrom(facts, "grip", mesh));
   ForeignObject object = ReadHandle(handle);
-  object.scale = MetresOf(mesh.unit) * ScaleOf(mesh).x();
-  if (!note.empty()) object.notes.push_back(note);
+  object.scale = reading.unit_m * ScaleOf(mesh).x();
+  AddNotes(known, facts, object);
   return object;
 }
 
 class BodyMeshReader {
  public:
-  BodyMeshReader(const fs::path& path, const ReadConfig& config) : path_(path), config_(config) {
-    KnownUnit known = KnowUnit(config.mesh, path, kLeafLength);
-    config_.mesh = std::move(known.config);
-    if (!known.note.empty()) object_.notes.push_back(std::move(known.note));
+  BodyMeshReader(const fs::path& path, const ReadConfig& config)
+      : path_(path), config_(config), facts_(FactsOf(path)) {
+    const KnownUnit known = KnowUnit(config.mesh, facts_, kLeafLength);
+    AddNotes(known, facts_, object_);
+    config_.mesh = known.config;
+    reading_ = ReadingOf(config_.mesh, facts_.frame);
   }
 
   ForeignObject Read() {
@@ -226,11 +302,11 @@ class BodyMeshReader {
       Wrong("--hinge: \"" + config.hinge + "\" is no side; allowed are left and right");
     object_.name = "mesh/" + NameFor(path_);
     object_.category = NameOf(CategoryFor(path_, config_));
-    object_.scale = MetresOf(config.unit) * ScaleOf(config).x();
+    object_.scale = reading_.unit_m * ScaleOf(config).x();
     object_.mirrored = config.hinge == "right";
     if (object_.mirrored) object_.notes.push_back("mirrored: the source's hinge is on the right");
-    if (!config.frame.empty()) meshes_.push_back(MeshFrom(config.frame, "frame", config));
-    meshes_.push_back(MeshFrom(path_, "leaf", config));
+    if (!config.frame.empty()) meshes_.push_back(MeshFrom(FactsOf(config.frame), "frame", config));
+    meshes_.push_back(MeshFrom(facts_, "leaf", config));
     if (object_.mirrored) {
       for (SourceMesh& mesh : meshes_)
         mesh.part_from_raw = Eigen::Scaling(1.0, -1.0, 1.0) * mesh.part_from_raw;
@@ -279,13 +355,15 @@ class BodyMeshReader {
   }
 
   Eigen::Vector3d Mount(const TriangleMesh& leaf) const {
-    std::optional<Eigen::Vector3d> mount = MountIn(config_.mesh);
+    std::optional<Eigen::Vector3d> mount = MountIn(config_.mesh, reading_);
     if (mount && object_.mirrored) mount->y() = -mount->y();
     return mount.value_or(DefaultMount(leaf, CategoryFor(path_, config_)));
   }
 
   fs::path path_;
   ReadConfig config_;
+  FileFacts facts_;
+  FileReading reading_;
   std::vector<SourceMesh> meshes_;
   ForeignObject object_;
 };

@@ -17,14 +17,18 @@ namespace doorforge {
 struct LooseMeshConfig {
   std::string role = {};           ///< "body" (a leaf) or "handle"; needed.
   std::string mechanism = "none";  ///< Of a handle, as in names.h.
-  /// Of the file's numbers: m, cm, mm, in or ft. Empty: m with a scale; else that of m, cm and mm
-  /// which makes it as long as handles (0.02 to 0.6 m) or leaves (0.2 to 3.5 m) are.
+  /// Of the file's numbers: m, cm, mm, in or ft. Empty: the file's own (glTF, DAE, FBX) or m; if
+  /// that makes it no handle (0.02 to 0.6 m) or leaf (0.2 to 3.5 m) and there is no scale, the one
+  /// of m, cm and mm which does.
   std::string unit = {};
   double size_m = 0;  ///< Length of its longest side; replaces unit and scale. 0: not set.
   std::vector<double> scale = {};  ///< One factor or three along the file's axes; empty: 1.
-  std::string up = {};  ///< Axis of the file: x, y, z, -x, -y or -z; empty: z (AKB-48: x).
-  std::string front =
-      {};  ///< Axis of the file that points out of the door; empty: x (y if up is x).
+  /// Axis of the file: x, y, z, -x, -y or -z; empty: as the file states (glTF, DAE), else z
+  /// (AKB-48: x).
+  std::string up = {};
+  /// Axis of the file that points out of the door; empty: as the file states, else x (y if up is
+  /// x).
+  std::string front = {};
   std::string hinge = "left";  ///< Of a leaf, as seen by who faces it: left or right.
   std::string frame = {};      ///< Mesh file of a leaf's frame, in the same axes and units.
   std::string rose = {};       ///< Mesh file of what stays fixed around a grip.

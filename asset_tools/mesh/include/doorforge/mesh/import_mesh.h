@@ -58,6 +58,15 @@ struct ImportedPiece {
   std::vector<Eigen::Vector3i> texcoord_triangles = {};
 };
 
+/// What a file, or the format it is in, says of the frame of its numbers.
+struct FileFrame {
+  std::string up = {};  ///< Axis that points up: "x", "y" or "z"; empty: nothing is said.
+  /// Axis that points at who looks at the thing's front, such as "z" or "-y"; empty with `up`.
+  std::string front = {};
+  double unit_m = 1;         ///< Metres a unit, by which the lengths were multiplied.
+  bool states_unit = false;  ///< Else that is what is assumed.
+};
+
 /// A mesh file's triangles in metres, in the raw frame of the file.
 struct ImportedMesh {
   std::vector<ImportedPiece> pieces;  ///< At least one, none empty, in the order of the file.
@@ -67,6 +76,7 @@ struct ImportedMesh {
   std::vector<ImportedMaterial> materials = {};
   std::vector<std::string> pictures = {};  ///< Bytes of PNG or JPEG files, without repetition.
   std::vector<std::string> notes = {};     ///< What of materials and textures was left out.
+  FileFrame frame = {};
 };
 
 /// Reads OBJ, STL, PLY, DAE, glTF, GLB, FBX, 3DS or OFF, chosen by the file's ending (any case).
@@ -76,7 +86,9 @@ struct ImportedMesh {
 /// (exporters repeat faces once per material). The transforms of nodes are baked in. Lengths become
 /// metres by the unit that the file states (DAE, FBX; glTF is in metres by definition); OBJ, STL,
 /// PLY, 3DS and OFF state none and are taken as metres. Axes stay exactly as in the file: a DAE
-/// with Z_UP stays z up.
+/// with Z_UP stays z up. ImportedMesh::frame says which axes these are, where the file (DAE: its
+/// up_axis) or its format (glTF: y up, z to the front) does. A node whose transform is not finite
+/// or flattens what it carries is refused by its name, and so is a unit that is no length.
 ///
 /// Materials and the textures of their diffuse colour come along from OBJ with its MTL and from
 /// everything that assimp reads, with the first set of texture coordinates. A fault in them costs

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/schemas/urdf.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -23,15 +24,56 @@ constexpr std::uint64_t kMaxBytes = 16ULL << 20;
 constexpr int kMaxDepth = 64;
 constexpr std::size_t kMaxElements = 2000;  // of links, and of joints; large objects have 200
 
-// Where in which file: every message begins with it.
+std::string TagOf(const XMLElement& element) { return '<' + std::string(element.Name()) + '>'; }
+
+// The element, and which link or joint it is or belongs to.
+std::string NameOf(const XMLElement& element) {
+  const auto name = [](const XMLElement& named) {
+    const char* text = named.Attribute("name");
+    return text == nullptr ? std::string() : " \"" + std::string(text) + '"';
+  };
+  const auto owns = [](const XMLElement& owner) {
+    const std::string_view tag = owner.Name();
+    return tag == "link" || tag == "joint";
+  };
+  if (owns(element)) return TagOf(element) + name(element);
+  const tinyxml2::XMLNode* node = element.Parent();
+  while (node != nullptr && node->ToElement() != nullptr && !owns(*node->ToElement()))
+    node = node->Parent();
+  if (node == nullptr || node->ToElement() == nullptr) return TagOf(element);
+  return TagOf(element) + " of " + node->ToElement()->Name() + name(*node->ToElement());
+}
+
+// The file that is read, and what is wrong with it so far.
 struct Source {
   std::string name;
+  std::vector<UrdfFault>& faults;
 
-  [[noreturn]] void Fail(int line, const std::string& problem) const {
+  // where reading on makes no sense
+  [[noreturn]] void Stop(int line, const std::string& problem) const {
     throw Error(ErrorCode::kFormat, name + ":" + std::to_string(line) + ": " + problem);
   }
-  [[noreturn]] void Fail(const XMLElement& element, const std::string& problem) const {
-    Fail(element.GetLineNum(), "<" + std::string(element.Name()) + ">: " + problem);
+  void Add(UrdfFaultKind kind, const XMLElement& element, const std::string& problem) const {
+    faults.push_back({kind, element.GetLineNum(), NameOf(element) + ": " + problem});
+  }
+  void Fail(const XMLElement& element, const std::string& problem) const {
+    Add(UrdfFaultKind::kUnusable, element, problem);
+  }
+  void RequirePositive(const XMLElement& element, const char* what, double found) const {
+    if (!(found > 0))
+      Add(UrdfFaultKind::kWrong, element,
+          std::string(what) + " is " + Shown(found) + ", allowed above 0");
+  }
+  void RequireNotNegative(const XMLElement& element, const char* what,
+                          const std::optional<double>& found) const {
+    if (found && *found < 0)
+      Add(UrdfFaultKind::kWrong, element,
+          std::string(what) + " is " + Shown(*found) + ", allowed 0 and more");
+  }
+
+  static std::string Shown(double number) {
+    char digits[40];
+    return {digits, std::to_chars(digits, digits + sizeof digits, number).ptr};
   }
 };
 
@@ -48,7 +90,7 @@ void RefuseDeclarations(std::string_view text, const Source& source) {
     const std::string_view rest = text.substr(at);
     const bool comment = rest.starts_with("<!--");
     if (!comment && !rest.starts_with("<![CDATA["))
-      source.Fail(LineAt(text, at), "a DOCTYPE or another declaration; remove it");
+      source.Stop(LineAt(text, at), "a DOCTYPE or another declaration; remove it");
     const std::size_t end = text.find(comment ? "-->" : "]]>", at);
     if (end == std::string_view::npos) return;  // the parser reports it
     at = end + 3;
@@ -56,14 +98,16 @@ void RefuseDeclarations(std::string_view text, const Source& source) {
 }
 
 void RefuseDepth(const XMLElement& element, int depth, const Source& source) {
-  if (depth > kMaxDepth) source.Fail(element, "more than 64 levels of elements");
+  if (depth > kMaxDepth)
+    source.Stop(element.GetLineNum(), TagOf(element) + ": more than 64 levels of elements");
   for (const XMLElement* child = element.FirstChildElement(); child != nullptr;
        child = child->NextSiblingElement())
     RefuseDepth(*child, depth + 1, source);
 }
 
-std::vector<double> Numbers(const XMLElement& element, const char* attribute,
-                            const Source& source) {
+// Nothing, and a fault, where one of them is no number.
+std::optional<std::vector<double>> Numbers(const XMLElement& element, const char* attribute,
+                                           const Source& source) {
   const std::string_view text = element.Attribute(attribute);
   std::vector<double> numbers;
   std::size_t at = 0;
@@ -71,53 +115,58 @@ std::vector<double> Numbers(const XMLElement& element, const char* attribute,
     if (text[at] == '+') ++at;
     double number = 0;
     const auto [end, error] = std::from_chars(text.data() + at, text.data() + text.size(), number);
-    if (error != std::errc{} || !std::isfinite(number))
+    if (error != std::errc{} || !std::isfinite(number)) {
       source.Fail(element, std::string(attribute) + "=\"" + std::string(text) +
                                "\" holds something that is not a finite number");
+      return std::nullopt;
+    }
     numbers.push_back(number);
     at = static_cast<std::size_t>(end - text.data());
   }
   return numbers;
 }
 
-std::vector<double> NumbersOfCount(const XMLElement& element, const char* attribute,
-                                   std::size_t count, const Source& source) {
-  std::vector<double> numbers = Numbers(element, attribute, source);
-  if (numbers.size() != count)
-    source.Fail(element, std::string(attribute) + " has " + std::to_string(numbers.size()) +
-                             " numbers, expected " + std::to_string(count));
-  return numbers;
+std::optional<std::vector<double>> NumbersOfCount(const XMLElement& element, const char* attribute,
+                                                  std::size_t count, const Source& source) {
+  auto numbers = Numbers(element, attribute, source);
+  if (!numbers || numbers->size() == count) return numbers;
+  source.Fail(element, std::string(attribute) + " has " + std::to_string(numbers->size()) +
+                           " numbers, expected " + std::to_string(count));
+  return std::nullopt;
 }
 
 std::optional<double> OptionalNumber(const XMLElement& element, const char* attribute,
                                      const Source& source) {
   if (element.Attribute(attribute) == nullptr) return std::nullopt;
-  return NumbersOfCount(element, attribute, 1, source)[0];
+  const auto numbers = NumbersOfCount(element, attribute, 1, source);
+  if (!numbers) return std::nullopt;
+  return numbers->front();
 }
 
+// 0, and a fault, where it is missing; so do all that must be there.
 double Number(const XMLElement& element, const char* attribute, const Source& source) {
-  const auto number = OptionalNumber(element, attribute, source);
-  if (!number) source.Fail(element, std::string("missing attribute ") + attribute);
-  return *number;
+  if (element.Attribute(attribute) == nullptr)
+    source.Fail(element, std::string("missing attribute ") + attribute);
+  return OptionalNumber(element, attribute, source).value_or(0);
 }
 
 Eigen::Vector3d Vector(const XMLElement& element, const char* attribute,
                        const Eigen::Vector3d& fallback, const Source& source) {
   if (element.Attribute(attribute) == nullptr) return fallback;
   const auto numbers = NumbersOfCount(element, attribute, 3, source);
-  return {numbers[0], numbers[1], numbers[2]};
+  return numbers ? Eigen::Vector3d((*numbers)[0], (*numbers)[1], (*numbers)[2]) : fallback;
 }
 
 std::string Text(const XMLElement& element, const char* attribute, const Source& source) {
-  const char* text = element.Attribute(attribute);
-  if (text == nullptr) source.Fail(element, std::string("missing attribute ") + attribute);
-  return text;
+  if (const char* text = element.Attribute(attribute)) return text;
+  source.Fail(element, std::string("missing attribute ") + attribute);
+  return {};
 }
 
-const XMLElement& Child(const XMLElement& element, const char* name, const Source& source) {
+const XMLElement* Child(const XMLElement& element, const char* name, const Source& source) {
   const XMLElement* child = element.FirstChildElement(name);
   if (child == nullptr) source.Fail(element, std::string("missing <") + name + ">");
-  return *child;
+  return child;
 }
 
 RigidTransform OriginOf(const XMLElement& element, const Source& source) {
@@ -127,37 +176,78 @@ RigidTransform OriginOf(const XMLElement& element, const Source& source) {
                     Vector(*origin, "rpy", {0, 0, 0}, source));
 }
 
+double ReadMass(const XMLElement& inertial, const Source& source) {
+  const XMLElement* mass = Child(inertial, "mass", source);
+  if (mass == nullptr) return 0;
+  const double value = Number(*mass, "value", source);
+  source.RequireNotNegative(*mass, "value", value);
+  return value;
+}
+
+Eigen::Matrix3d ReadInertia(const XMLElement& inertia, const Source& source) {
+  const auto at = [&](const char* name) { return Number(inertia, name, source); };
+  Eigen::Matrix3d matrix;
+  matrix << at("ixx"), at("ixy"), at("ixz"), 0, at("iyy"), at("iyz"), 0, 0, at("izz");
+  matrix.triangularView<Eigen::StrictlyLower>() = matrix.transpose();
+  const std::array<const char*, 3> names = {"ixx", "iyy", "izz"};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    source.RequireNotNegative(inertia, names.at(i), matrix(k, k));
+  }
+  return matrix;
+}
+
 MassProperties ReadInertial(const XMLElement& element, const Source& source) {
   MassProperties mass;
-  mass.mass_kg = Number(Child(element, "mass", source), "value", source);
+  mass.mass_kg = ReadMass(element, source);
   const RigidTransform link_from_center = OriginOf(element, source);
   mass.center_of_mass_m = link_from_center.translation();
   const XMLElement* inertia = element.FirstChildElement("inertia");
   if (inertia == nullptr) return mass;
-  const auto at = [&](const char* name) { return Number(*inertia, name, source); };
-  Eigen::Matrix3d matrix;
-  matrix << at("ixx"), at("ixy"), at("ixz"), at("ixy"), at("iyy"), at("iyz"), at("ixz"), at("iyz"),
-      at("izz");
   const Eigen::Matrix3d rotation = link_from_center.linear();
-  mass.inertia_kg_m2 = rotation * matrix * rotation.transpose();
+  mass.inertia_kg_m2 = rotation * ReadInertia(*inertia, source) * rotation.transpose();
   return mass;
+}
+
+double ReadLength(const XMLElement& shape, const char* attribute, const Source& source) {
+  const std::size_t before = source.faults.size();
+  const double length = Number(shape, attribute, source);
+  if (source.faults.size() == before) source.RequirePositive(shape, attribute, length);
+  return length;
+}
+
+UrdfMeshFile ReadMeshFile(const XMLElement& mesh, const Source& source) {
+  UrdfMeshFile file{Text(mesh, "filename", source), Vector(mesh, "scale", {1, 1, 1}, source),
+                    mesh.GetLineNum()};
+  if ((file.scale.array() == 0).any())
+    source.Add(UrdfFaultKind::kWrong, mesh,
+               "scale=\"" + std::string(mesh.Attribute("scale")) +
+                   "\", allowed three numbers other than 0");
+  return file;
+}
+
+UrdfBox ReadBox(const XMLElement& box, const Source& source) {
+  Text(box, "size", source);
+  const std::size_t before = source.faults.size();
+  const Eigen::Vector3d size = Vector(box, "size", {0, 0, 0}, source);
+  if (source.faults.size() == before && box.Attribute("size") != nullptr)
+    source.RequirePositive(box, "the least of size", size.minCoeff());
+  return {size};
 }
 
 UrdfGeometry ReadGeometry(const XMLElement& element, const Source& source) {
   const XMLElement* shape = element.FirstChildElement();
-  if (shape == nullptr) source.Fail(element, "no shape in it");
-  const std::string_view kind = shape->Name();
-  if (kind == "mesh")
-    return UrdfMeshFile{Text(*shape, "filename", source),
-                        Vector(*shape, "scale", {1, 1, 1}, source)};
-  if (kind == "box") {
-    Text(*shape, "size", source);
-    return UrdfBox{Vector(*shape, "size", {0, 0, 0}, source)};
-  }
+  const std::string_view kind = shape == nullptr ? "" : shape->Name();
+  if (kind == "mesh") return ReadMeshFile(*shape, source);
+  if (kind == "box") return ReadBox(*shape, source);
   if (kind == "cylinder")
-    return UrdfCylinder{Number(*shape, "radius", source), Number(*shape, "length", source)};
-  if (kind == "sphere") return UrdfSphere{Number(*shape, "radius", source)};
-  source.Fail(*shape, "unknown shape; expected mesh, box, cylinder or sphere");
+    return UrdfCylinder{ReadLength(*shape, "radius", source), ReadLength(*shape, "length", source)};
+  if (kind == "sphere") return UrdfSphere{ReadLength(*shape, "radius", source)};
+  if (shape == nullptr)
+    source.Fail(element, "no shape in it");
+  else
+    source.Fail(*shape, "unknown shape; expected mesh, box, cylinder or sphere");
+  return UrdfBox{Eigen::Vector3d::Ones()};
 }
 
 using Materials = std::map<std::string, Eigen::Vector4d>;
@@ -166,7 +256,8 @@ std::optional<Eigen::Vector4d> ColorOf(const XMLElement& material, const Source&
   const XMLElement* color = material.FirstChildElement("color");
   if (color == nullptr || color->Attribute("rgba") == nullptr) return std::nullopt;
   const auto rgba = NumbersOfCount(*color, "rgba", 4, source);
-  return Eigen::Vector4d(rgba[0], rgba[1], rgba[2], rgba[3]);
+  if (!rgba) return std::nullopt;
+  return Eigen::Vector4d((*rgba)[0], (*rgba)[1], (*rgba)[2], (*rgba)[3]);
 }
 
 Materials ReadMaterials(const XMLElement& robot, const Source& source) {
@@ -183,7 +274,8 @@ UrdfShape ReadShape(const XMLElement& element, const Materials& materials, const
   UrdfShape shape;
   if (const char* name = element.Attribute("name")) shape.name = name;
   shape.link_from_shape = OriginOf(element, source);
-  shape.geometry = ReadGeometry(Child(element, "geometry", source), source);
+  if (const XMLElement* geometry = Child(element, "geometry", source))
+    shape.geometry = ReadGeometry(*geometry, source);
   const XMLElement* material = element.FirstChildElement("material");
   if (material == nullptr) return shape;
   shape.color_rgba = ColorOf(*material, source);
@@ -217,8 +309,15 @@ UrdfJointType ReadJointType(const XMLElement& element, const Source& source) {
   for (const auto& [known, type] : kJointTypes) {
     if (name == known) return type;
   }
-  source.Fail(element,
-              "unknown type \"" + name + "\"; expected fixed, revolute, continuous or prismatic");
+  if (!name.empty())
+    source.Fail(element,
+                "unknown type \"" + name + "\"; expected fixed, revolute, continuous or prismatic");
+  return UrdfJointType::kFixed;
+}
+
+// the joints that the format wants limits of
+bool HasLimits(const UrdfJoint& joint) {
+  return joint.type == UrdfJointType::kRevolute || joint.type == UrdfJointType::kPrismatic;
 }
 
 void ReadLimit(const XMLElement& element, const Source& source, UrdfJoint& joint) {
@@ -226,25 +325,53 @@ void ReadLimit(const XMLElement& element, const Source& source, UrdfJoint& joint
   joint.upper = OptionalNumber(element, "upper", source).value_or(0);
   joint.effort = OptionalNumber(element, "effort", source);
   joint.velocity = OptionalNumber(element, "velocity", source);
+  source.RequireNotNegative(element, "effort", joint.effort);
+  source.RequireNotNegative(element, "velocity", joint.velocity);
+  if (!HasLimits(joint)) return;
+  if (joint.lower > joint.upper)
+    source.Add(UrdfFaultKind::kWrong, element,
+               "lower is " + Source::Shown(joint.lower) + ", allowed at most upper, which is " +
+                   Source::Shown(joint.upper));
+  for (const char* wanted : {"effort", "velocity"}) {
+    if (element.Attribute(wanted) == nullptr)
+      source.Add(UrdfFaultKind::kUnstated, element,
+                 std::string("no ") + wanted + ", which the format asks for");
+  }
+}
+
+void ReadDynamics(const XMLElement& element, const Source& source, UrdfJoint& joint) {
+  joint.damping = OptionalNumber(element, "damping", source).value_or(0);
+  joint.friction = OptionalNumber(element, "friction", source).value_or(0);
+  source.RequireNotNegative(element, "damping", joint.damping);
+  source.RequireNotNegative(element, "friction", joint.friction);
+}
+
+std::string LinkIn(const XMLElement& joint, const char* end, const Source& source) {
+  const XMLElement* child = Child(joint, end, source);
+  return child == nullptr ? "" : Text(*child, "link", source);
+}
+
+void ReadAxis(const XMLElement& element, const Source& source, UrdfJoint& joint) {
+  joint.axis = Vector(element, "xyz", joint.axis, source);
+  if (joint.type != UrdfJointType::kFixed && joint.axis.norm() < 1e-9)
+    source.Fail(element, "xyz=\"" + std::string(element.Attribute("xyz")) +
+                             "\" is an axis of zero length, allowed any direction");
 }
 
 UrdfJoint ReadJoint(const XMLElement& element, const Source& source) {
   UrdfJoint joint;
   joint.name = Text(element, "name", source);
   joint.type = ReadJointType(element, source);
-  joint.parent = Text(Child(element, "parent", source), "link", source);
-  joint.child = Text(Child(element, "child", source), "link", source);
+  joint.parent = LinkIn(element, "parent", source);
+  joint.child = LinkIn(element, "child", source);
   joint.parent_from_joint = OriginOf(element, source);
-  if (const XMLElement* axis = element.FirstChildElement("axis"))
-    joint.axis = Vector(*axis, "xyz", joint.axis, source);
-  if (joint.type != UrdfJointType::kFixed && joint.axis.norm() < 1e-9)
-    source.Fail(element, "axis of zero length");
+  if (const XMLElement* axis = element.FirstChildElement("axis")) ReadAxis(*axis, source, joint);
   if (const XMLElement* limit = element.FirstChildElement("limit"))
     ReadLimit(*limit, source, joint);
-  if (const XMLElement* dynamics = element.FirstChildElement("dynamics")) {
-    joint.damping = OptionalNumber(*dynamics, "damping", source).value_or(0);
-    joint.friction = OptionalNumber(*dynamics, "friction", source).value_or(0);
-  }
+  else if (HasLimits(joint))
+    source.Add(UrdfFaultKind::kUnstated, element, "no <limit>, which the format asks for");
+  if (const XMLElement* dynamics = element.FirstChildElement("dynamics"))
+    ReadDynamics(*dynamics, source, joint);
   if (const XMLElement* mimic = element.FirstChildElement("mimic"))
     joint.mimic = UrdfMimic{Text(*mimic, "joint", source),
                             OptionalNumber(*mimic, "multiplier", source).value_or(1),
@@ -252,33 +379,36 @@ UrdfJoint ReadJoint(const XMLElement& element, const Source& source) {
   return joint;
 }
 
-// Elements of `robot` with this name; refuses two of the same `name`.
+// Elements of `robot` with this name, the first of those that share a `name`.
 std::vector<const XMLElement*> NamedElements(const XMLElement& robot, const char* kind,
                                              const Source& source) {
   std::vector<const XMLElement*> elements;
   std::set<std::string> names;
   for (const XMLElement* element = robot.FirstChildElement(kind); element != nullptr;
        element = element->NextSiblingElement(kind)) {
-    const std::string name = Text(*element, "name", source);
-    if (!names.insert(name).second)
-      source.Fail(*element, "a second one named \"" + name + "\"; names must differ");
+    const char* name = element->Attribute("name");
+    if (name != nullptr && !names.insert(name).second) {
+      source.Fail(*element, "a second one of this name; names must differ");
+      continue;
+    }
     elements.push_back(element);
     if (elements.size() > kMaxElements)
-      source.Fail(*element, "more than the " + std::to_string(kMaxElements) +
-                                " allowed; leave out "
-                                "what the object does not need");
+      source.Stop(element->GetLineNum(), TagOf(*element) + ": more than the " +
+                                             std::to_string(kMaxElements) +
+                                             " allowed; leave out what the object does not need");
   }
   return elements;
 }
 
-void RefuseUnknownLinks(const UrdfModel& model, const XMLElement& robot, const Source& source) {
+void RefuseUnknownLinks(const UrdfModel& model, const std::vector<const XMLElement*>& joints,
+                        const Source& source) {
   std::set<std::string> links;
   for (const UrdfLink& link : model.links) links.insert(link.name);
-  for (const UrdfJoint& joint : model.joints) {
-    for (const std::string& name : {joint.parent, joint.child}) {
-      if (!links.contains(name))
-        source.Fail(robot, "joint \"" + joint.name + "\" names link \"" + name +
-                               "\", which does not exist");
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    for (const std::string& name : {model.joints[i].parent, model.joints[i].child}) {
+      // an empty one is a fault already
+      if (!name.empty() && !links.contains(name))
+        source.Fail(*joints[i], "names link \"" + name + "\", which does not exist");
     }
   }
 }
@@ -412,30 +542,61 @@ UrdfModel ReadUrdf(const std::filesystem::path& path) {
   return ParseUrdf(ReadFile(path, kMaxBytes), path.string());
 }
 
+UrdfModel ReadUrdf(const std::filesystem::path& path, std::vector<UrdfFault>& faults) {
+  return ParseUrdf(ReadFile(path, kMaxBytes), path.string(), faults);
+}
+
 UrdfModel ParseUrdf(const std::string& text, const std::string& name) {
-  const Source source{name};
+  std::vector<UrdfFault> faults;
+  UrdfModel model = ParseUrdf(text, name, faults);
+  const bool usable = std::none_of(faults.begin(), faults.end(), [](const UrdfFault& fault) {
+    return fault.kind == UrdfFaultKind::kUnusable;
+  });
+  if (!usable) throw Error(ErrorCode::kFormat, UrdfFaultsText(name, faults));
+  return model;
+}
+
+UrdfModel ParseUrdf(const std::string& text, const std::string& name,
+                    std::vector<UrdfFault>& faults) {
+  const Source source{name, faults};
   if (text.size() > kMaxBytes)
     throw Error(ErrorCode::kFormat, name + ": larger than the 16 MiB that a URDF may have");
   RefuseDeclarations(text, source);
   tinyxml2::XMLDocument document;
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS)
-    source.Fail(document.ErrorLineNum(),
+    source.Stop(document.ErrorLineNum(),
                 "not well-formed XML; each tag needs its end, each value its quotes");
   const XMLElement* robot = document.RootElement();
   if (robot == nullptr || std::string_view(robot->Name()) != "robot")
-    source.Fail(robot == nullptr ? 1 : robot->GetLineNum(), "the root element is not <robot>");
+    source.Stop(robot == nullptr ? 1 : robot->GetLineNum(), "the root element is not <robot>");
   RefuseDepth(*robot, 1, source);
 
+  const std::size_t known = faults.size();
   UrdfModel model;
   if (const char* robot_name = robot->Attribute("name")) model.name = robot_name;
   const Materials materials = ReadMaterials(*robot, source);
   for (const XMLElement* element : NamedElements(*robot, "link", source))
     model.links.push_back(ReadLink(*element, materials, source));
-  for (const XMLElement* element : NamedElements(*robot, "joint", source))
-    model.joints.push_back(ReadJoint(*element, source));
-  if (model.links.empty()) source.Fail(*robot, "no <link> in it");
-  RefuseUnknownLinks(model, *robot, source);
+  const std::vector<const XMLElement*> joints = NamedElements(*robot, "joint", source);
+  for (const XMLElement* element : joints) model.joints.push_back(ReadJoint(*element, source));
+  if (model.links.empty()) source.Stop(robot->GetLineNum(), "<robot>: no <link> in it");
+  RefuseUnknownLinks(model, joints, source);
+  std::stable_sort(faults.begin() + static_cast<std::ptrdiff_t>(known), faults.end(),
+                   [](const UrdfFault& a, const UrdfFault& b) { return a.line < b.line; });
   return model;
+}
+
+std::string UrdfFaultsText(const std::string& name, const std::vector<UrdfFault>& faults) {
+  constexpr std::size_t kShown = 50;
+  const auto line = [&](const UrdfFault& fault) {
+    return name + ":" + std::to_string(fault.line) + ": " + fault.text;
+  };
+  if (faults.size() == 1) return line(faults.front());
+  std::string text = name + ": " + std::to_string(faults.size()) + " faults";
+  for (std::size_t i = 0; i < std::min(faults.size(), kShown); ++i)
+    text += "\n  " + line(faults[i]);
+  if (faults.size() > kShown) text += "\n  and " + std::to_string(faults.size() - kShown) + " more";
+  return text;
 }
 
 namespace {

@@ -169,7 +169,7 @@ TEST(Urdf, RefusesWhatCouldHarmAndSaysWhere) {
   const std::string ends = "'><parent link='a'/><child link='b'/>";
   EXPECT_TRUE(contains(ProblemOf(two + "floating" + ends + "</joint></robot>"), "floating"));
   EXPECT_TRUE(contains(ProblemOf(two + "revolute" + ends + "<axis xyz='0 0 nan'/></joint></robot>"),
-                       "door.urdf:2: <axis>: xyz=\"0 0 nan\""));
+                       "door.urdf:2: <axis> of joint \"j\": xyz=\"0 0 nan\""));
   EXPECT_TRUE(contains(ProblemOf(two + "revolute" + ends + "<axis xyz='0 0 0'/></joint></robot>"),
                        "axis of zero length"));
   EXPECT_TRUE(

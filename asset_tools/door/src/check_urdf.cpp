@@ -237,7 +237,16 @@ UrdfModel ExpectedUrdf(const DoorAsset& door, const DoorFiles& files) {
 Findings CheckUrdf(const DoorAsset& door, const DoorFiles& files,
                    const std::filesystem::path& folder) {
   try {
-    return CheckModel(ReadUrdf(folder / kFile), ExpectedUrdf(door, files), folder);
+    std::vector<UrdfFault> faults;
+    const UrdfModel model = ReadUrdf(folder / kFile, faults);
+    Findings unusable;
+    for (const UrdfFault& fault : faults) {
+      if (fault.kind == UrdfFaultKind::kUnusable)
+        unusable.push_back(
+            Found("URD001", std::string(kFile) + ":" + std::to_string(fault.line), fault.text));
+    }
+    if (!unusable.empty()) return unusable;
+    return CheckModel(model, ExpectedUrdf(door, files), folder);
   } catch (const Error& error) {
     return {Found("URD001", kFile, error.what())};
   }

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "doorforge/core/error.h"
 
@@ -59,6 +61,73 @@ std::string NameInRoot(const fs::path& root, const fs::path& urdf_folder, const 
   return slash == std::string::npos ? rest : rest.substr(slash + 1);
 }
 
+// What the file a mesh element names is; what is wrong with it where it cannot be used.
+std::optional<UrdfFault> MeshFault(const HingedObject& object, const std::string& link,
+                                   const UrdfMeshFile& mesh) {
+  const std::string element = "<mesh> of link \"" + link + "\": ";
+  try {
+    object.find_mesh(mesh.filename);
+    return std::nullopt;
+  } catch (const Error& error) {
+    std::string problem = error.what();
+    if (problem.starts_with(object.where + ": ")) problem.erase(0, object.where.size() + 2);
+    if (error.code() == ErrorCode::kMissing)
+      problem = "filename=\"" + mesh.filename + "\" is missing; add the file";
+    return UrdfFault{
+        error.code() == ErrorCode::kMissing ? UrdfFaultKind::kUnstated : UrdfFaultKind::kUnusable,
+        mesh.line, element + problem};
+  }
+}
+
+// Of the meshes that an import loads: what is drawn, and of links that draw nothing what touches.
+std::vector<UrdfFault> MeshFaults(const HingedObject& object) {
+  std::vector<UrdfFault> faults;
+  for (const UrdfLink& link : object.model.links) {
+    for (const UrdfShape& shape : link.visuals.empty() ? link.collisions : link.visuals) {
+      const auto* mesh = std::get_if<UrdfMeshFile>(&shape.geometry);
+      if (mesh == nullptr) continue;
+      if (auto fault = MeshFault(object, link.name, *mesh)) faults.push_back(std::move(*fault));
+    }
+  }
+  return faults;
+}
+
+bool Refuses(const UrdfFault& fault) { return fault.kind != UrdfFaultKind::kUnstated; }
+
+bool AnyRefuses(const std::vector<UrdfFault>& faults) {
+  return std::any_of(faults.begin(), faults.end(), Refuses);
+}
+
+// Links that are no tree, if all else of the model can be used.
+void AddTreeFault(const UrdfModel& model, std::vector<UrdfFault>& faults) {
+  try {
+    if (!AnyRefuses(faults)) RootLinkOf(model);
+  } catch (const Error& error) {
+    faults.push_back({UrdfFaultKind::kUnusable, 1, error.what()});
+  }
+}
+
+// Everything that is wrong with a file at once. What the format asks for and an import does
+// without is left in `faults`.
+void RefuseFaults(const HingedObject& object, std::vector<UrdfFault>& faults) {
+  AddTreeFault(object.model, faults);
+  const std::vector<UrdfFault> meshes = MeshFaults(object);
+  const bool lacks = !meshes.empty() && !object.frame_may_miss;
+  if (!AnyRefuses(faults) && !AnyRefuses(meshes) && !lacks) return;
+  const bool only_lacks = !AnyRefuses(faults) && !AnyRefuses(meshes);
+  faults.insert(faults.end(), meshes.begin(), meshes.end());
+  std::stable_sort(faults.begin(), faults.end(),
+                   [](const UrdfFault& a, const UrdfFault& b) { return a.line < b.line; });
+  throw Error(only_lacks ? ErrorCode::kMissing : ErrorCode::kFormat,
+              UrdfFaultsText(object.where, faults));
+}
+
+void AddNotes(const std::vector<UrdfFault>& faults, const std::string& file,
+              std::vector<ForeignObject>& objects) {
+  if (faults.empty()) return;
+  for (ForeignObject& object : objects) object.notes.push_back(UrdfFaultsText(file, faults));
+}
+
 std::vector<ForeignObject> Read(const fs::path& path, const ReadConfig& config) {
   const fs::path urdf = IsUrdfFile(path) ? path : OnlyUrdfIn(path).value();
   if (config.category.empty())
@@ -72,7 +141,8 @@ std::vector<ForeignObject> Read(const fs::path& path, const ReadConfig& config) 
   object.where = urdf.string();
   object.source = "URDF " + urdf.filename().string();
   object.license = config.mesh.license;
-  object.model = ReadUrdf(urdf);
+  std::vector<UrdfFault> faults;
+  object.model = ReadUrdf(urdf, faults);
   object.upright_from_base = UprightFrom(config.mesh.up.empty() ? "z" : config.mesh.up);
   object.height_m = config.height_m;
   object.category = CategoryOr(config, Category::kInterior);
@@ -82,7 +152,10 @@ std::vector<ForeignObject> Read(const fs::path& path, const ReadConfig& config) 
     return FileInside(root, NameInRoot(root, folder, file), where);
   };
   object.frame_may_miss = config.allow_missing == "frame";
-  return ReadHingedObject(object);
+  RefuseFaults(object, faults);
+  std::vector<ForeignObject> objects = ReadHingedObject(object);
+  AddNotes(faults, urdf.filename().string(), objects);
+  return objects;
 }
 
 }  // namespace

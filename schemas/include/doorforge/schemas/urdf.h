@@ -16,6 +16,7 @@ namespace doorforge {
 struct UrdfMeshFile {
   std::string filename;  ///< As written; "package://" and "file://" prefixes are kept.
   Eigen::Vector3d scale{1, 1, 1};
+  int line = 0;  ///< Where the file names it, from 1; 0 in a model that was not read from one.
 };
 struct UrdfBox {
   Eigen::Vector3d size_m;
@@ -78,11 +79,35 @@ struct UrdfModel {
   bool mujoco_reads_visuals = true;
 };
 
+enum class UrdfFaultKind {
+  kUnusable,  ///< What is there cannot be read: an attribute is missing or no finite number.
+  kWrong,     ///< It can be read and cannot be meant: a negative mass, limits the wrong way round.
+  kUnstated,  ///< The format asks for it and some readers do without: the effort of a limit.
+};
+
+/// One fault of a URDF.
+struct UrdfFault {
+  UrdfFaultKind kind = UrdfFaultKind::kUnusable;
+  int line = 0;      ///< From 1.
+  std::string text;  ///< The element and whose it is, what is there and what is allowed.
+};
+
 /// Parses a URDF. Lenient where the released data sets are (missing inertia, effort, velocity),
 /// strict: a DOCTYPE, more than 64 levels, 16 MiB, 2000 links or 2000 joints, numbers that are not
-/// finite, joints that name no link. Throws Error(kMissing, kIo or kFormat) with file and line.
+/// finite, joints that name no link. Throws Error(kMissing, kIo or kFormat) with file and line; if
+/// anything is kUnusable the message holds every fault of every kind.
 UrdfModel ReadUrdf(const std::filesystem::path& path);
 UrdfModel ParseUrdf(const std::string& text, const std::string& name);
+
+/// The same, with every fault added to `faults` in the order of the file's lines in place of an
+/// error. The model is what could be read, and no more than that while anything is kUnusable.
+/// Throws where nothing can be: no well-formed XML, no <robot>, more than the limits above.
+UrdfModel ReadUrdf(const std::filesystem::path& path, std::vector<UrdfFault>& faults);
+UrdfModel ParseUrdf(const std::string& text, const std::string& name,
+                    std::vector<UrdfFault>& faults);
+
+/// "FILE:LINE: TEXT" for one; for several a count and a line each, fifty at most.
+std::string UrdfFaultsText(const std::string& name, const std::vector<UrdfFault>& faults);
 
 /// Writes numbers with the shortest decimals that read back to the same double. The text carries
 /// the `<mujoco>` element that lets MuJoCo find meshes in subfolders.

@@ -388,7 +388,7 @@ std::vector<const XMLElement*> NamedElements(const XMLElement& robot, const char
        element = element->NextSiblingElement(kind)) {
     const char* name = element->Attribute("name");
     if (name != nullptr && !names.insert(name).second) {
-      source.Fail(*element, "a second one of this name; names must differ");
+      source.Fail(*element, "a second one named \"" + std::string(name) + "\"; names must differ");
       continue;
     }
     elements.push_back(element);

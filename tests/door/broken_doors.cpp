@@ -271,6 +271,34 @@ void AddMutationsOfUrdf(std::vector<BrokenDoor>& all) {
                  "lacks collision meshes/collision/leaf_0.obj"});
 }
 
+void SetGrip(DoorAsset& d, const TriangleMesh& neck, const TriangleMesh& bar) {
+  Grip(d).mesh = SideBySide(neck, bar);
+  Grip(d).hulls = {neck, bar};
+}
+
+void AddMutationsOfStance(std::vector<BrokenDoor>& all) {
+  all.push_back({"HND009",
+                 [](DoorAsset& d) {
+                   SetGrip(d, BoxOf({0, -0.008, -0.008}, {0.121, 0.008, 0.008}),
+                           BoxOf({0.12, -0.12, -0.01}, {0.132, 0.01, 0.01}));
+                   d.handle_from_grasp.translation().x() = 0.126;
+                 },
+                 {},
+                 "0.132 m"});
+  all.push_back({"HND010", [](DoorAsset& d) { MoveHandle(d, {0.02, 0, 0}); }, {}, "0.02 m"});
+  all.push_back({"HND011",
+                 [](DoorAsset& d) {
+                   // 30 degrees out of the leaf's plane
+                   TriangleMesh bar = BoxOf({0.03, -0.12, -0.01}, {0.042, 0.01, 0.01});
+                   for (Eigen::Vector3d& vertex : bar.vertices)
+                     vertex.x() += std::tan(0.5236) * (0.01 - vertex.y()) / 1.1;
+                   SetGrip(d, Grip(d).hulls[0], bar);
+                   d.handle_from_grasp.translation().x() += std::tan(0.5236) * 0.08 / 1.1 - 0.01;
+                 },
+                 {},
+                 "degrees"});
+}
+
 void AddMutationsOfHandle(std::vector<BrokenDoor>& all) {
   all.push_back({"HND001",
                  [](DoorAsset& d) {
@@ -317,6 +345,7 @@ void AddMutationsOfHandle(std::vector<BrokenDoor>& all) {
                  },
                  {},
                  "way not free"});
+  AddMutationsOfStance(all);
   all.push_back({"LIC001", [](DoorAsset& d) { d.license.clear(); }, {}, "empty"});
   all.push_back({"LIC002", [](DoorAsset& d) { d.license = "NOASSERTION"; }, {}, "NOASSERTION"});
 }

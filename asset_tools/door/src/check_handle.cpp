@@ -7,6 +7,7 @@
 
 #include "doorforge/door/grasp.h"
 
+#include "check_handle_stance.h"
 #include "findings.h"
 #include "line_hits.h"
 #include "placed_mesh.h"
@@ -154,6 +155,9 @@ Findings CheckHandle(const DoorAsset& door, const LeafLines& leaf) {
   const double beyond = BeyondOutline(mounted);
   if (beyond > LimitOf("HND003"))
     findings.push_back(Found("HND003", "handle", Number(beyond) + " m"));
+  const Findings stance = CheckStance(
+      {leaf, mounted.grip, mounted.handle, surface, door.mechanism, beyond <= LimitOf("HND003")});
+  findings.insert(findings.end(), stance.begin(), stance.end());
   // nobody grasps what does not stand out
   if (buried > LimitOf("HND001") || protrusion < LimitOf("HND002")) return findings;
   const RigidTransform frame_from_leaf = Translation({-surface, 0, 0});

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record_meshes.h"
 
+#include "doorforge/core/closed_mesh.h"
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/schemas/mesh_pool.h"
@@ -28,7 +29,17 @@ std::size_t BytesOf(const MeshOnDisk& file) {
 
 }  // namespace
 
-LeafLines::LeafLines(const TriangleMesh& leaf) : lines(leaf), bounds(BoundsOf(leaf)) {}
+namespace {
+
+bool IsClosed(const TriangleMesh& mesh) {
+  const MeshTopology topology = MeasureTopology(mesh);
+  return topology.boundary_edges + topology.non_manifold_edges + topology.inconsistent_edges == 0;
+}
+
+}  // namespace
+
+LeafLines::LeafLines(const TriangleMesh& leaf)
+    : lines(leaf), bounds(BoundsOf(leaf)), closed(IsClosed(leaf)) {}
 
 RecordMeshes::RecordMeshes(fs::path folder, std::string record, ValidationMemory& memory)
     : folder_(std::move(folder)), record_(std::move(record)), memory_(memory) {

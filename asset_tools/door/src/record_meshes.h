@@ -30,6 +30,7 @@ struct LeafLines {
 
   LinesAlongX lines;
   Eigen::AlignedBox3d bounds;
+  bool closed;  ///< Else a line may find the back of it where its front is missing.
 };
 
 /// What a run has found out about mesh contents. Keys are hashes of contents (for files: of what

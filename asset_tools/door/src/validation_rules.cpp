@@ -122,6 +122,16 @@ constexpr ValidationRule kRules[] = {
      "use a narrower handle or another grasp"},
     {"HND008", kWarning, "A parallel gripper reaches the grasp and holds it", 0,
      "a free way for open fingers and enough contact on both pads", "use another grasp"},
+    {"HND009", kWarning, "A handle stands out no further than handles do", 0.12,
+     "at most {} m from the leaf's surface",
+     "check its axes and unit: --handle-front, --handle-up and --handle-unit of compose"},
+    {"HND010", kError, "The handle does not float in front of the leaf", 0.015,
+     "rose, neck or grip at most {} m from the leaf's surface",
+     "lower the handle's seat, or check its mount and axes: --handle-mount, --handle-front and "
+     "--handle-up of compose"},
+    {"HND011", kWarning, "A lever runs along the leaf", 0.349,
+     "its long axis at most {} rad out of the leaf's plane",
+     "check its axes: --handle-front and --handle-up of compose"},
 
     {"SWP001", kError, "The opening leaf meets nothing of its frame", 0.003,
      "collision shapes at most {} m deeper in each other than on the closed door",

@@ -81,6 +81,87 @@ class Validate(ProgramTest):
         self.assertEqual(report["fixes"], [])
         self.assert_refused(run("validate", self.door, "--dry-run"), 2)
 
+    def test_it_says_when_it_checked_nothing(self):
+        empty = self.folder / "empty"
+        empty.mkdir()
+        (self.folder / "gate.urdf").write_text("<robot/>")
+        for path in (empty, self.folder / "gate.urdf", self.folder / "none"):
+            result = run("validate", path)
+            self.assert_refused(result, 3)
+            self.assertIn("nothing checked", result.stdout)
+            self.assertNotIn("0 errors", result.stdout)
+            self.assertIn("doorforge compose", result.stderr)
+        self.assertIn("not a folder", run("validate", self.folder / "gate.urdf").stderr)
+        self.assertIn("no such folder", run("validate", self.folder / "none").stderr)
+        report = run("validate", empty, "--json")
+        self.assert_refused(report, 3)
+        self.assertEqual(json.loads(report.stdout)["counts"]["folders"], 0)
+
+    def test_one_is_one(self):
+        self.assertIn("1 folder: 0 errors, 0 warnings", run("validate", self.door).stdout)
+        self.spoil()
+        self.assertIn("1 folder: 1 error, 0 warnings", run("validate", self.door).stdout)
+
+    def test_a_door_without_its_record_does_not_vanish(self):
+        (self.door / "door.json").unlink()
+        for path in (self.door, self.door.parent):
+            result = run("validate", path)
+            self.assert_refused(result, 3)
+            self.assertIn("nothing checked: 1 record missing", result.stdout)
+            self.assertIn(f"{self.door}: door.json is missing", result.stderr)
+
+    def compose_four(self) -> pathlib.Path:
+        many = self.folder / "many"
+        self.assert_ends(run("compose", "--body", "interior_flush_0[12]", "--handle", "interior_lever_tube_0[12]",
+                             "--out", many), 0)
+        self.assertIn("4 folders: 0 errors", run("validate", many).stdout)
+        return many
+
+    def test_many_doors_are_counted_against_their_index(self):
+        many = self.compose_four()
+        doors = sorted(path.parent for path in many.glob("*/door.json"))
+        (doors[0] / "door.json").unlink()
+        (doors[1] / "door.json").unlink()
+        (doors[1] / "model.urdf").unlink()
+        doors[1].rmdir()
+        # a door by another name is there
+        doors[2].rename(many / "renamed")
+        result = run("validate", many, "--json")
+        self.assert_refused(result, 3)
+        report = json.loads(result.stdout)
+        self.assertEqual(report["counts"]["folders"], 2)
+        self.assertEqual([entry["folder"] for entry in report["missing"]], [str(doors[0]), str(doors[1])])
+        self.assertIn("2 folders, 2 missing: 0 errors", run("validate", many).stdout)
+        # without the index, its other file still tells of the first
+        (many / "door_index.json").unlink()
+        report = json.loads(run("validate", f"{many}/", "--json").stdout)
+        self.assertEqual([entry["folder"] for entry in report["missing"]], [str(doors[0])])
+        self.assertEqual(json.loads(run("validate", many / "renamed", "--json").stdout)["missing"], [])
+
+    def test_as_many_as_expected(self):
+        many = self.compose_four()
+        self.assert_ends(run("validate", many, "--expect", "4"), 0)
+        for number in (3, 5):
+            result = run("validate", many, "--expect", number)
+            self.assert_refused(result, 4)
+            self.assertIn(f"4 folders checked, expected {number}", result.stderr)
+        self.assert_refused(run("validate", many, "--expect", "0"), 2)
+
+    def test_the_rules_are_json_on_demand(self):
+        report = json.loads(run("validate", "--rules", "--json").stdout)
+        self.assertEqual(report["schema"], "doorforge.validation_rules")
+        listed = [line.split()[0] for line in run("validate", "--rules").stdout.splitlines()]
+        self.assertEqual([rule["code"] for rule in report["rules"]], listed)
+        rules = {rule["code"]: rule for rule in report["rules"]}
+        self.assertEqual(rules["HND009"]["limit"], 0.12)
+        self.assertIn("0.12 m", rules["HND009"]["allowed"])
+        self.assertIsNone(rules["REC001"]["limit"])
+        for rule in report["rules"]:
+            self.assertIn(rule["severity"], ("error", "warning", "info"))
+            self.assertNotIn("{}", rule["allowed"])
+            self.assertTrue(rule["text"] and rule["fix"])
+            self.assertIsInstance(rule["fixable"], bool)
+
     def test_a_stop_request_ends_it_soon_with_what_is_done(self):
         for number in (signal.SIGTERM, signal.SIGINT):
             # the same door many times: minutes of work, if nobody stops it

@@ -20,6 +20,7 @@
 #include "doorforge/door/validate_door.h"
 #include "doorforge/mesh/work_budget.h"
 
+#include "missing_records.h"
 #include "verb_options.h"
 #ifdef DOORFORGE_WITH_OPENABLE
 #include "openable_check.h"
@@ -35,6 +36,7 @@ struct Options {
   std::string profile = "physics";
   int threads = 0;
   double max_seconds = kObjectSeconds;
+  int expect = -1;  // -1: any number
   bool json = false;
   bool rules = false;
   bool fix = false;
@@ -54,19 +56,44 @@ Options Parse(int argc, char** argv) {
   app.add_flag("--dry-run", options.dry_run, "with --fix: show what would be mended")->needs(fix);
   app.add_option("--threads", options.threads, "0: all processors");
   AddMaxSeconds(app, options.max_seconds);
+  app.add_option("--expect", options.expect,
+                 "how many doors and parts there are to check; exit code 4 if it is another number")
+      ->check(CLI::Range(1, 1'000'000'000));
   app.add_flag("--json", options.json, "print one JSON document");
   app.add_flag("--rules", options.rules, "list the rules and end");
   app.footer(
-      "exit code: 0 without errors, 1 with errors, 3 if a path could not be read or written\n"
-      "example:\n"
-      "  doorforge validate doors --json");
+      "exit code: 0 without errors, 1 with errors, 3 if a path could not be read or written, a\n"
+      "record is missing or nothing was found to check, 4 if it was not as many as --expect says\n"
+      "examples:\n"
+      "  doorforge validate doors --json\n"
+      "  doorforge validate doors --expect 40\n"
+      "  doorforge validate --rules --json");
   ParseVerb(app, argc, argv);
   if (options.paths.empty() && !options.rules)
     throw Error(ErrorCode::kInvalidArgument, "PATH is required; see `doorforge validate --help`");
   return options;
 }
 
-int ListRules() {
+nlohmann::ordered_json RulesToJson() {
+  auto rules = nlohmann::ordered_json::array();
+  for (const ValidationRule& rule : ValidationRules()) {
+    nlohmann::ordered_json entry = {{"code", rule.code},       {"severity", NameOf(rule.severity)},
+                                    {"text", rule.text},       {"limit", nullptr},
+                                    {"allowed", rule.allowed}, {"fix", rule.fix},
+                                    {"fixable", rule.fixable}};
+    // `allowed` has a mark where the limit goes
+    if (rule.allowed.find("{}") != std::string_view::npos) entry["limit"] = rule.limit;
+    entry["allowed"] = AllowedText(rule);
+    rules.push_back(std::move(entry));
+  }
+  return {{"schema", "doorforge.validation_rules"}, {"schema_version", 1}, {"rules", rules}};
+}
+
+int ListRules(bool json) {
+  if (json) {
+    std::cout << JsonText(RulesToJson(), 2) << '\n';
+    return 0;
+  }
   for (const ValidationRule& rule : ValidationRules())
     std::printf("%s %-7s %-7s %s\n", std::string(rule.code).c_str(),
                 std::string(NameOf(rule.severity)).c_str(), rule.fixable ? "fixable" : "",
@@ -74,10 +101,18 @@ int ListRules() {
   return 0;
 }
 
+std::string Count(std::size_t count, const std::string& what) {
+  return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
+}
+
+std::string Counts(int errors, int warnings) {
+  return Count(static_cast<std::size_t>(errors), "error") + ", " +
+         Count(static_cast<std::size_t>(warnings), "warning");
+}
+
 void Print(const ValidationReport& report) {
   if (report.findings.empty()) return;
-  std::printf("%s: %d errors, %d warnings\n", report.folder.c_str(), report.errors,
-              report.warnings);
+  std::printf("%s: %s\n", report.folder.c_str(), Counts(report.errors, report.warnings).c_str());
   for (const Finding& finding : report.findings)
     std::printf("  %s %-7s %s\n    measured %s; allowed %s; to fix: %s\n", finding.code.c_str(),
                 NameOf(finding.severity).data(), finding.where.c_str(), finding.measured.c_str(),
@@ -93,6 +128,13 @@ std::unique_ptr<DoorValidator> ValidatorFor(const std::string& profile) {
                 "--profile openable: this build lacks the simulation (sim/rollout)");
   return validator;
 }
+
+/// What there is to check, and what there should be.
+struct Found {
+  std::vector<fs::path> folders;
+  std::vector<MissingRecord> missing;
+  bool unreadable = false;  ///< A path, or what should tell of missing records.
+};
 
 /// What came of the folders; empty where a stop request came first.
 struct Results {
@@ -162,11 +204,28 @@ void ExplainLeft(const FixReport& fixed, ValidationReport& report) {
   }
 }
 
-void PrintReports(const Options& options, const Results& results,
+nlohmann::ordered_json MissingToJson(const std::vector<MissingRecord>& missing) {
+  auto json = nlohmann::ordered_json::array();
+  for (const MissingRecord& record : missing)
+    json.push_back({{"folder", record.folder.string()},
+                    {"record", record.record},
+                    {"told_by", record.told_by}});
+  return json;
+}
+
+std::string Summary(std::size_t checked, std::size_t missing, const std::string& counts) {
+  if (checked == 0)
+    return "nothing checked" + (missing == 0 ? "" : ": " + Count(missing, "record") + " missing");
+  return Count(checked, "folder") +
+         (missing == 0 ? "" : ", " + std::to_string(missing) + " missing") + ": " + counts;
+}
+
+void PrintReports(const Options& options, const Found& found, const Results& results,
                   const std::vector<ValidationReport>& reports) {
   if (options.json) {
     nlohmann::ordered_json json = ToJson(reports);
     json["complete"] = reports.size() == results.reports.size();
+    json["missing"] = MissingToJson(found.missing);
     if (options.fix) json["fixes"] = FixesToJson(results);
     std::cout << JsonText(json, 2) << '\n';
     return;
@@ -179,31 +238,76 @@ void PrintReports(const Options& options, const Results& results,
     warnings += report.warnings;
     Print(report);
   }
-  std::printf("%zu folders: %d errors, %d warnings\n", reports.size(), errors, warnings);
+  std::printf("%s\n",
+              Summary(reports.size(), found.missing.size(), Counts(errors, warnings)).c_str());
 }
 
-int Finish(const Options& options, Results results) {
+void SayMissing(const Found& found) {
+  for (const MissingRecord& record : found.missing)
+    std::fprintf(stderr,
+                 "doorforge: %s: %s is missing, and %s says that it was there; compose or import "
+                 "it again, or take away what names it\n",
+                 record.folder.c_str(), record.record.c_str(), record.told_by.c_str());
+  if (found.folders.empty() && found.missing.empty())
+    std::fprintf(stderr,
+                 "doorforge: nothing checked: give the folder of a door or part, or one that holds "
+                 "some, as `doorforge compose` and `doorforge import` write them\n");
+}
+
+// Of a run that was not stopped.
+int ExitCode(const Options& options, const Found& found, std::size_t checked, bool errors) {
+  if (found.unreadable || !found.missing.empty() || checked == 0) return 3;
+  if (options.expect >= 0 && checked != static_cast<std::size_t>(options.expect)) {
+    std::fprintf(stderr, "doorforge: %s checked, expected %d (--expect)\n",
+                 Count(checked, "folder").c_str(), options.expect);
+    return 4;
+  }
+  return errors ? 1 : 0;
+}
+
+int Finish(const Options& options, Found found, Results results) {
   std::vector<ValidationReport> reports;
   bool errors = false;
-  bool problems = false;
   for (std::size_t i = 0; i < results.reports.size(); ++i) {
     if (!results.problems[i].empty()) {
       std::fprintf(stderr, "doorforge: %s\n", results.problems[i].c_str());
-      problems = true;
+      found.unreadable = true;
     }
     if (!results.reports[i]) continue;
     ExplainLeft(results.fixes[i], *results.reports[i]);
     errors = errors || results.reports[i]->errors > 0;
     reports.push_back(std::move(*results.reports[i]));
   }
-  PrintReports(options, results, reports);
+  PrintReports(options, found, results, reports);
   if (StopRequested() != 0) {
     std::fprintf(stderr, "doorforge: stopped after %zu of %zu folders\n", reports.size(),
                  results.reports.size());
     return 128 + StopRequested();
   }
-  if (problems) return 3;
-  return errors ? 1 : 0;
+  SayMissing(found);
+  return ExitCode(options, found, reports.size(), errors);
+}
+
+Found FindAll(const std::vector<std::string>& paths) {
+  Found found;
+  const auto try_to = [&](auto&& find) {
+    try {
+      find();
+    } catch (const Error& error) {
+      std::fprintf(stderr, "doorforge: %s\n", error.what());
+      found.unreadable = true;
+    }
+  };
+  for (const std::string& path : paths) {
+    try_to([&] {
+      for (MissingRecord& record : FindMissingRecords(path))
+        found.missing.push_back(std::move(record));
+    });
+    try_to([&] {
+      for (fs::path& folder : FindRecords(path)) found.folders.push_back(std::move(folder));
+    });
+  }
+  return found;
 }
 
 }  // namespace
@@ -218,19 +322,10 @@ std::unique_ptr<DoorValidator> OpenableValidator() {
 
 int RunValidateVerb(int argc, char** argv) {
   const Options options = Parse(argc, argv);
-  if (options.rules) return ListRules();
-  std::vector<fs::path> folders;
-  bool unreadable = false;
-  for (const std::string& path : options.paths) {
-    try {
-      for (fs::path& folder : FindRecords(path)) folders.push_back(std::move(folder));
-    } catch (const Error& error) {
-      std::fprintf(stderr, "doorforge: %s\n", error.what());
-      unreadable = true;
-    }
-  }
-  const int code = Finish(options, ValidateAll(options, folders));
-  return code <= 1 && unreadable ? 3 : code;
+  if (options.rules) return ListRules(options.json);
+  Found found = FindAll(options.paths);
+  Results results = ValidateAll(options, found.folders);
+  return Finish(options, std::move(found), std::move(results));
 }
 
 }  // namespace doorforge

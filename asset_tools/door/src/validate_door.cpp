@@ -399,7 +399,12 @@ std::vector<fs::path> FindRecords(const fs::path& path) {
   const auto holds_record = [](const fs::path& folder) {
     return fs::is_regular_file(folder / "door.json") || fs::is_regular_file(folder / "part.json");
   };
-  if (!fs::is_directory(path)) throw Error(ErrorCode::kMissing, path.string() + ": not a folder");
+  if (!fs::exists(path)) throw Error(ErrorCode::kMissing, path.string() + ": no such folder");
+  if (!fs::is_directory(path))
+    throw Error(ErrorCode::kMissing,
+                path.string() +
+                    ": not a folder; what is no door or part yet becomes one with "
+                    "`doorforge import` and `doorforge compose`");
   if (holds_record(path)) return {path};
   std::vector<fs::path> folders;
   std::error_code error;

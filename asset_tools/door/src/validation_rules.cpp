@@ -179,6 +179,8 @@ Finding FindingOf(std::string_view code, const std::string& where, const std::st
   return internal::Found(code, where, measured);
 }
 
+std::string AllowedText(const ValidationRule& rule) { return internal::AllowedBy(rule); }
+
 double RuleLimit(std::string_view code) { return internal::LimitOf(code); }
 
 namespace internal {

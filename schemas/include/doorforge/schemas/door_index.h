@@ -36,6 +36,8 @@ class DoorIndex {
   /// Null if the index has no entry for a door.json of these bytes.
   const DoorIdentity* Find(const std::string& record_sha256) const;
   std::size_t size() const { return doors_.size(); }
+  /// By SHA-256 of door.json.
+  const std::map<std::string, DoorIdentity>& doors() const { return doors_; }
 
   void Add(const std::string& record_sha256, DoorIdentity identity);
   /// The same text whatever the order in which doors were added; one door a line.

@@ -39,6 +39,9 @@ struct ValidationRule {
 /// All rules, by family. docs/validation-rules.md lists the same.
 std::span<const ValidationRule> ValidationRules();
 
+/// A rule's `allowed` with its limit in place.
+std::string AllowedText(const ValidationRule& rule);
+
 /// One place where a rule is broken.
 struct Finding {
   std::string code;

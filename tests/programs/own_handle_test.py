@@ -5,6 +5,7 @@ import json
 import pathlib
 import struct
 import unittest
+import zlib
 import xml.etree.ElementTree as ET
 
 import numpy as np
@@ -44,15 +45,19 @@ def write_stl(path: pathlib.Path, facets: list) -> None:
     path.write_text("\n".join(lines + ["endsolid lever", ""]))
 
 
+MAGENTA = {"pbrMetallicRoughness": {"baseColorFactor": [1, 0, 1, 1]}}
+
+
 def write_glb(path: pathlib.Path, facets: list, node: dict | None = None) -> None:
-    """One mesh in one node of a binary glTF 2.0, without indices."""
+    """One magenta mesh in one node of a binary glTF 2.0, without indices."""
     points = np.array(facets, dtype="<f4").reshape(-1, 3)
     tree = {
         "asset": {"version": "2.0"},
         "scene": 0,
         "scenes": [{"nodes": [0]}],
         "nodes": [{"name": "my lever", "mesh": 0} | (node or {})],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+        "materials": [MAGENTA],
         "accessors": [{"bufferView": 0, "componentType": 5126, "count": len(points), "type": "VEC3",
                        "min": points.min(axis=0).tolist(), "max": points.max(axis=0).tolist()}],
         "bufferViews": [{"buffer": 0, "byteLength": points.nbytes}],
@@ -86,6 +91,36 @@ def write_dae(path: pathlib.Path, facets: list, asset: str) -> None:
 def turned(facets: list, rows: list) -> list:
     """The same facets in axes whose `rows` are given in the axes along the door, up, out of it."""
     return (np.array(facets, dtype=float) @ np.array(rows, dtype=float).T).tolist()
+
+
+def read_png(path: pathlib.Path) -> np.ndarray:
+    """Height x width x 3 of an 8-bit RGB PNG without interlacing."""
+    content = path.read_bytes()
+    width, height, depth, kind = struct.unpack(">IIBB", content[16:26])
+    assert (depth, kind) == (8, 2), "not 8-bit RGB"
+    packed, at = b"", 8
+    while at < len(content):
+        size, name = struct.unpack(">I4s", content[at:at + 8])
+        packed += content[at + 8:at + 8 + size] if name == b"IDAT" else b""
+        at += size + 12
+    rows = np.frombuffer(zlib.decompress(packed), dtype=np.uint8).reshape(height, 1 + 3 * width)
+    image = np.zeros((height + 1, width + 1, 3), dtype=int)  # a black row above, a black column before
+    for y, row in enumerate(rows, 1):
+        for x in range(1, width + 1):
+            left, above, corner = image[y, x - 1], image[y - 1, x], image[y - 1, x - 1]
+            to_left, to_above = abs(above - corner), abs(left - corner)
+            to_corner = abs(left + above - 2 * corner)
+            paeth = np.where((to_left <= to_above) & (to_left <= to_corner), left,
+                             np.where(to_above <= to_corner, above, corner))
+            guess = (0, left, above, (left + above) // 2, paeth)[row[0]]
+            image[y, x] = (row[3 * x - 2:3 * x + 1] + guess) % 256
+    return image[1:, 1:]
+
+
+def extent(mask: np.ndarray) -> np.ndarray:
+    """Columns and rows that a mask spans."""
+    rows, columns = np.nonzero(mask)
+    return np.array([np.ptp(columns) + 1, np.ptp(rows) + 1])
 
 
 def vertices_of(obj: pathlib.Path) -> np.ndarray:
@@ -260,6 +295,37 @@ class OwnHandle(ProgramTest):
             result = self.compose_as_stated(self.folder / "unit.dae")
             self.assert_refused(result, 2, 3)
             self.assertIn(f'meter="{unit}"', result.stderr)
+
+    def test_the_close_ups_show_the_handle_to_scale(self):
+        write_glb(self.folder / "lever.glb", lever_facets(0.001))
+        self.assert_ends(self.compose_as_stated(self.folder / "lever.glb"), 0)
+        width, height = 240, 180
+        for focus, tiles in {"handle": 3, "all": 4, "whole": 0}.items():
+            png = self.folder / f"{focus}.png"
+            self.assert_ends(run("preview", self.out / "handle", "--focus", focus, "--width", width, "--out", png), 0)
+            size = struct.unpack(">II", png.read_bytes()[16:24])
+            columns, rows = {3: (3, 1), 4: (2, 2)}.get(tiles, (0, 0))
+            wanted = (columns * (width + 10) + 10, rows * (height + 36) + 10) if tiles else (width, height)
+            self.assertEqual(size, wanted, focus)
+        sheet = read_png(self.folder / "handle.png")
+        # along the picture and up it, in mm
+        for tile, size in enumerate([(162.5, 22.5), (68.75, 22.5), (162.5, 68.75)]):
+            left = 10 + tile * (width + 10)
+            image = sheet[10:10 + height, left:left + width]
+            red, green, blue = np.moveaxis(image, 2, 0)
+            handle = extent((red > green + 60) & (blue > green + 60))
+            # the ends of the bar are black
+            bar = extent(image.max(axis=2) < 60)[0]
+            np.testing.assert_allclose(handle * 50 / bar, size, rtol=0.05, atol=2.5, err_msg=str(tile))
+            # its axes: green to the right and blue up, red to the right, green to the right and red down
+            across, along = {0: (blue, green), 1: (blue, red), 2: (red, green)}[tile]
+            for color, axis in ((along, 0), (across, 1)):
+                others = image.sum(axis=2) - color
+                arm = extent((color > 120) & (2 * others < color))
+                self.assertGreater(arm[axis], 2 * arm[1 - axis], (tile, axis))
+        # a whole door has the handle beside it, many doors only where it is asked for
+        self.assert_ends(run("preview", self.out, "--width", "160", "--out", self.folder / "door.png"), 0)
+        self.assertEqual(struct.unpack(">II", (self.folder / "door.png").read_bytes()[16:24]), (350, 322))
 
     def test_a_lever_on_its_side_is_noticed(self):
         write_glb(self.folder / "lever.glb", lever_facets(0.001))

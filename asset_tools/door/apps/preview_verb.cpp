@@ -21,6 +21,7 @@
 #ifdef DOORFORGE_WITH_OPENABLE
 #include "episode_sheet.h"
 #endif
+#include "handle_views.h"
 #include "verb_options.h"
 
 namespace doorforge {
@@ -37,6 +38,7 @@ struct Options {
   int columns = 6;
   int width = 0;  // 0: by what is drawn
   int threads = 0;
+  std::string focus = {};  // empty: by how many are drawn
   bool collision = false;
   bool episode = false;
   bool overwrite = false;
@@ -61,7 +63,13 @@ Options Parse(int argc, char** argv) {
                  "where to stand: 0 in front, positive towards the free edge")
       ->check(CLI::Range(-180.0, 180.0));
   app.add_option("--columns", options.columns, "of a contact sheet")->check(CLI::Range(1, 24));
-  app.add_option("--width", options.width, "of each picture in pixels; 960, or 320 on a sheet")
+  app.add_option(
+         "--focus", options.focus,
+         "all: the whole and the handle large from three sides, with a bar of 50 mm and the "
+         "axes (of one door or handle, if left out); whole; handle")
+      ->check(CLI::IsMember({"all", "whole", "handle"}));
+  app.add_option("--width", options.width,
+                 "of each picture in pixels; 960, with the handle beside it 640, on a sheet 320")
       ->check(CLI::Range(32, 4096));
   app.add_option("--threads", options.threads, "0: all processors");
   app.add_flag("--overwrite", options.overwrite, "replace --out if it is there");
@@ -78,6 +86,7 @@ Options Parse(int argc, char** argv) {
       "examples:\n"
       "  doorforge preview parts --out parts.png\n"
       "  doorforge preview doors/mine --hinge-deg 40 --handle-deg 30 --out mine.png\n"
+      "  doorforge preview doors --focus handle --out handles.png\n"
       "  doorforge preview --episode --door doors/mine --seed 3 --out opened.png");
   ParseVerb(app, argc, argv);
   return options;
@@ -185,7 +194,53 @@ Model LoadModel(const fs::path& folder, const Options& options) {
   return model;
 }
 
-Picture Draw(const fs::path& folder, const Options& options, int width) {
+void Place(const RigidTransform& frame_from_link, std::vector<VisibleMesh>& meshes) {
+  for (VisibleMesh& mesh : meshes) {
+    for (Eigen::Vector3d& vertex : mesh.mesh.vertices) vertex = frame_from_link * vertex;
+  }
+}
+
+void Move(std::vector<VisibleMesh> meshes, std::vector<VisibleMesh>& to) {
+  for (VisibleMesh& mesh : meshes) to.push_back(std::move(mesh));
+}
+
+// One link's shapes that are the handle, or those that are not.
+std::vector<VisibleMesh> ShapesOf(const DoorLink& link, bool handle, const Options& options) {
+  Model model;
+  for (const DoorGeometry& geometry : link.geometry) {
+    if ((geometry.label == PointLabel::kHandle) == handle)
+      AddShape({geometry.mesh, geometry.hulls, geometry.color_rgba, geometry.visual}, 0,
+               options.collision, model);
+  }
+  return std::move(model.meshes);
+}
+
+// Whatever its hinge, the handle is looked at on the closed door, where the leaf lies along y.
+HandleScene HandleOf(const DoorAsset& door, const fs::path& folder, const Options& options) {
+  const auto poses =
+      DoorFromLinks(door, 0, WithinLimits(options.handle_deg, door.handle_joint, folder));
+  HandleScene scene;
+  scene.leaf = ShapesOf(door.links[kLeafLink], false, options);
+  Place(poses[kLeafLink], scene.leaf);
+  std::vector<VisibleMesh> rose = ShapesOf(door.links[kLeafLink], true, options);
+  Place(poses[kLeafLink], rose);
+  scene.handle = ShapesOf(door.links[kHandleLink], true, options);
+  Place(poses[kHandleLink], scene.handle);
+  Move(std::move(rose), scene.handle);
+  return scene;
+}
+
+// Empty of a part that is no handle.
+HandleScene LoadHandle(const fs::path& folder, const Options& options) {
+  if (fs::exists(folder / "door.json")) return HandleOf(ReadDoor(folder), folder, options);
+  HandleScene scene;
+  const Part part = ReadPart(folder);
+  if (part.role != PartRole::kHandle) return scene;
+  scene.handle = LoadModel(folder, options).meshes;
+  return scene;
+}
+
+Picture DrawWhole(const fs::path& folder, const Options& options, int width) {
   Model model = LoadModel(folder, options);
   SceneGeometry scene(std::move(model.meshes));
   scene.MoveLinks(model.poses);
@@ -199,16 +254,76 @@ Picture Draw(const fs::path& folder, const Options& options, int width) {
 }
 
 constexpr int kWidth = 960;
+constexpr int kTileWidth = 640;
 constexpr int kSheetWidth = 320;
+
+std::string NameOf(const fs::path& folder) {
+  return fs::absolute(folder).lexically_normal().filename().string();
+}
+
+// A body alone has no handle, so that it is drawn as a whole whatever is asked for.
+std::vector<CaptionedPicture> TilesOf(const fs::path& folder, const Options& options, int width) {
+  std::vector<CaptionedPicture> tiles;
+  if (options.focus != "whole")
+    tiles = HandleViews(LoadHandle(folder, options), width, width * 3 / 4);
+  if (tiles.empty() || options.focus == "all")
+    tiles.insert(tiles.begin(), {DrawWhole(folder, options, width), "", NameOf(folder)});
+  return tiles;
+}
+
+Picture SheetOf(const std::vector<CaptionedPicture>& tiles, int columns) {
+  std::vector<Picture> pictures;
+  std::vector<std::string> captions;
+  for (const CaptionedPicture& tile : tiles) {
+    pictures.push_back(tile.picture);
+    captions.push_back(tile.caption);
+  }
+  ContactSheetConfig config;
+  config.columns = columns;
+  config.tile_width = tiles.front().picture.width;
+  config.tile_height = tiles.front().picture.height;
+  return ContactSheet(pictures, captions, config);
+}
+
+Picture DrawOne(const fs::path& folder, const Options& options) {
+  const auto width = [&](int usual) { return options.width > 0 ? options.width : usual; };
+  if (options.focus == "whole") return DrawWhole(folder, options, width(kWidth));
+  const std::vector<CaptionedPicture> tiles = TilesOf(folder, options, width(kTileWidth));
+  if (tiles.size() == 1) return DrawWhole(folder, options, width(kWidth));
+  return SheetOf(tiles, tiles.size() == 4 ? 2 : 3);
+}
+
+// The views of one handle stay side by side.
+Picture DrawSheet(const std::vector<fs::path>& folders, const Options& options) {
+  std::vector<std::vector<CaptionedPicture>> drawn(folders.size());
+  Progress progress("drawing", folders.size());
+  ParallelFor(folders.size(), options.threads, [&](std::size_t i) {
+    drawn[i] = TilesOf(folders[i], options, options.width > 0 ? options.width : kSheetWidth);
+    progress.Advance();
+  });
+  std::vector<CaptionedPicture> tiles;
+  std::size_t most = 1;
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    most = std::max(most, drawn[i].size());
+    for (CaptionedPicture& tile : drawn[i]) {
+      if (!tile.side.empty()) tile.caption = NameOf(folders[i]) + ", " + tile.side;
+      tiles.push_back(std::move(tile));
+    }
+  }
+  const int together = static_cast<int>(most);
+  return SheetOf(tiles, together * std::max(1, options.columns / together));
+}
 
 }  // namespace
 
 void WritePreview(const fs::path& folder, const fs::path& png) {
-  WritePng(png, Draw(folder, Options{}, kWidth));
+  Options options;
+  options.focus = "all";
+  WritePng(png, DrawOne(folder, options));
 }
 
 int RunPreviewVerb(int argc, char** argv) {
-  const Options options = Parse(argc, argv);
+  Options options = Parse(argc, argv);
   RequireNoFile(options.out, options.overwrite);
   std::vector<fs::path> folders;
   for (const std::string& path : options.paths) {
@@ -225,25 +340,8 @@ int RunPreviewVerb(int argc, char** argv) {
   }
 #endif
   const bool sheet = folders.size() > 1;
-  const int width = options.width > 0 ? options.width : (sheet ? kSheetWidth : kWidth);
-  std::vector<Picture> pictures(folders.size());
-  std::vector<std::string> captions;
-  for (const fs::path& folder : folders)
-    captions.push_back(fs::absolute(folder).lexically_normal().filename().string());
-  Progress progress("drawing", folders.size());
-  ParallelFor(folders.size(), options.threads, [&](std::size_t i) {
-    pictures[i] = Draw(folders[i], options, width);
-    progress.Advance();
-  });
-  if (!sheet) {
-    WritePng(options.out, pictures[0]);
-  } else {
-    ContactSheetConfig config;
-    config.columns = options.columns;
-    config.tile_width = width;
-    config.tile_height = width * 3 / 4;
-    WritePng(options.out, ContactSheet(pictures, captions, config));
-  }
+  if (options.focus.empty()) options.focus = sheet ? "whole" : "all";
+  WritePng(options.out, sheet ? DrawSheet(folders, options) : DrawOne(folders[0], options));
   std::printf("%s: %zu pictured\n", options.out.c_str(), folders.size());
   return 0;
 }

@@ -173,7 +173,8 @@ class OwnHandle(ProgramTest):
         result = self.compose(mesh, "--preview")
         self.assert_ends(result, 0)
         self.assertIn("read in mm", result.stderr)
-        self.assertIn("validated: 0 errors", result.stdout)
+        self.assertIn("validated: 0 errors, 1 warning\n", result.stdout)  # nobody said its licence
+        self.assertIn("1 door composed", result.stdout)
         # in metres, as large as it was drawn
         grip = vertices_of(self.out / "meshes/visual/grip.obj")
         np.testing.assert_allclose(np.ptp(grip, axis=0), [0.06875, 0.1625, 0.0225], atol=2e-6)

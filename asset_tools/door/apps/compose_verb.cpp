@@ -34,6 +34,7 @@
 #include "doorforge/mesh/work_budget.h"
 #include "doorforge/schemas/door_index.h"
 
+#include "counted.h"
 #include "mesh_options.h"
 #include "own_part.h"
 #include "validate_verb.h"
@@ -309,7 +310,8 @@ int Finish(const std::vector<Door>& doors, const Options& options) {
   if (options.json)
     std::cout << JsonText(ReportOf(doors), 2) << '\n';
   else if (!options.quiet)
-    std::printf("%zu doors composed in %s%s%s\n", doors.size() - failed, options.out.c_str(),
+    std::printf("%s composed in %s%s%s\n", Counted(doors.size() - failed, "door").c_str(),
+                options.out.c_str(),
                 kept == 0 ? "" : (", " + std::to_string(kept) + " of them there already").c_str(),
                 failed == 0 ? "" : (", " + std::to_string(failed) + " not").c_str());
   if (const int signal = StopRequested()) return 128 + signal;
@@ -623,7 +625,7 @@ class OneDoor {
                      finding.where.c_str(), finding.measured.c_str(), finding.allowed.c_str(),
                      finding.fix.c_str());
       if (!options_.json && !options_.quiet)
-        std::printf("validated: %d errors, %d warnings\n", report.errors, report.warnings);
+        std::printf("validated: %s\n", CountedFindings(report.errors, report.warnings).c_str());
     }
 #ifdef DOORFORGE_WITH_PREVIEW
     if (options_.preview) {

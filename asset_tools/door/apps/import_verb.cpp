@@ -15,6 +15,7 @@
 #include "doorforge/core/program.h"
 #include "doorforge/door/import_objects.h"
 
+#include "counted.h"
 #include "mesh_options.h"
 #include "verb_options.h"
 
@@ -116,12 +117,13 @@ void PrintTable(const ImportReport& report) {
   }
   std::map<ImportOutcome, int> counts;
   for (const ImportedObject& object : report.objects) ++counts[object.outcome];
-  std::printf("%zu objects:", report.objects.size());
+  std::printf("%s:", Counted(report.objects.size(), "object").c_str());
   for (const auto& [outcome, count] : counts)
     std::printf(" %d %s", count, std::string(NameOf(outcome)).c_str());
   std::printf("\n");
   if (report.left_out > 0)
-    std::printf("%d objects of other categories left out\n", report.left_out);
+    std::printf("%s of other categories left out\n",
+                Counted(static_cast<std::size_t>(report.left_out), "object").c_str());
 }
 
 void CheckCategory(const std::string& option, const std::string& category) {

@@ -20,6 +20,7 @@
 #include "doorforge/door/validate_door.h"
 #include "doorforge/mesh/work_budget.h"
 
+#include "counted.h"
 #include "missing_records.h"
 #include "verb_options.h"
 #ifdef DOORFORGE_WITH_OPENABLE
@@ -101,18 +102,10 @@ int ListRules(bool json) {
   return 0;
 }
 
-std::string Count(std::size_t count, const std::string& what) {
-  return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
-}
-
-std::string Counts(int errors, int warnings) {
-  return Count(static_cast<std::size_t>(errors), "error") + ", " +
-         Count(static_cast<std::size_t>(warnings), "warning");
-}
-
 void Print(const ValidationReport& report) {
   if (report.findings.empty()) return;
-  std::printf("%s: %s\n", report.folder.c_str(), Counts(report.errors, report.warnings).c_str());
+  std::printf("%s: %s\n", report.folder.c_str(),
+              CountedFindings(report.errors, report.warnings).c_str());
   for (const Finding& finding : report.findings)
     std::printf("  %s %-7s %s\n    measured %s; allowed %s; to fix: %s\n", finding.code.c_str(),
                 NameOf(finding.severity).data(), finding.where.c_str(), finding.measured.c_str(),
@@ -215,8 +208,8 @@ nlohmann::ordered_json MissingToJson(const std::vector<MissingRecord>& missing) 
 
 std::string Summary(std::size_t checked, std::size_t missing, const std::string& counts) {
   if (checked == 0)
-    return "nothing checked" + (missing == 0 ? "" : ": " + Count(missing, "record") + " missing");
-  return Count(checked, "folder") +
+    return "nothing checked" + (missing == 0 ? "" : ": " + Counted(missing, "record") + " missing");
+  return Counted(checked, "folder") +
          (missing == 0 ? "" : ", " + std::to_string(missing) + " missing") + ": " + counts;
 }
 
@@ -238,8 +231,9 @@ void PrintReports(const Options& options, const Found& found, const Results& res
     warnings += report.warnings;
     Print(report);
   }
-  std::printf("%s\n",
-              Summary(reports.size(), found.missing.size(), Counts(errors, warnings)).c_str());
+  std::printf(
+      "%s\n",
+      Summary(reports.size(), found.missing.size(), CountedFindings(errors, warnings)).c_str());
 }
 
 void SayMissing(const Found& found) {
@@ -259,7 +253,7 @@ int ExitCode(const Options& options, const Found& found, std::size_t checked, bo
   if (found.unreadable || !found.missing.empty() || checked == 0) return 3;
   if (options.expect >= 0 && checked != static_cast<std::size_t>(options.expect)) {
     std::fprintf(stderr, "doorforge: %s checked, expected %d (--expect)\n",
-                 Count(checked, "folder").c_str(), options.expect);
+                 Counted(checked, "folder").c_str(), options.expect);
     return 4;
   }
   return errors ? 1 : 0;

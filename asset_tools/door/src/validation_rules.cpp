@@ -163,7 +163,8 @@ constexpr ValidationRule kRules[] = {
 
     {"LIC001", kError, "A licence is stated", 0, "an SPDX expression", "state the licence"},
     {"LIC002", kWarning, "The licence is known", 0, "an SPDX expression without NOASSERTION",
-     "ask the author of the source"},
+     "state that of your own file (--license of import, --handle-license of compose), or ask the "
+     "author of the source"},
 };
 
 }  // namespace

@@ -182,15 +182,16 @@ FileFrame FrameOf(const aiScene& scene, const fs::path& path, const MeshImportLi
 
 // A mesh in such a frame would be of no size along some direction, or nowhere.
 void RefuseFrame(const Eigen::Matrix4d& file_from_node, const std::string& name) {
-  constexpr double kFlat = 1e-6;  // of the largest stretch
+  constexpr double kFlat = 1e-6;      // of the largest stretch
+  constexpr double kRounding = 1e-4;  // exporters multiply in single precision
   const auto fail = [&](const std::string& problem) {
     throw Error(ErrorCode::kFormat, "node \"" + name + "\": " + problem +
                                         "; apply the node's transform to its mesh and export the "
                                         "file again");
   };
   if (!file_from_node.allFinite()) fail("its transform holds numbers that are not finite");
-  if (file_from_node.row(3) != Eigen::RowVector4d(0, 0, 0, 1))
-    fail("the last row of its transform is not 0 0 0 1");
+  const Eigen::RowVector4d last = file_from_node.row(3) - Eigen::RowVector4d(0, 0, 0, 1);
+  if (last.cwiseAbs().maxCoeff() > kRounding) fail("the last row of its transform is not 0 0 0 1");
   const Eigen::Vector3d stretch = file_from_node.topLeftCorner<3, 3>().jacobiSvd().singularValues();
   if (!(stretch.z() > kFlat * stretch.x()))
     fail("its transform flattens the mesh, since a scale of it is zero");

@@ -86,27 +86,30 @@ double NearestLine(const LeafLines& leaf, const TriangleMesh& handle) {
   return gap;
 }
 
-// From the leaf at the mount or from the leaf right behind what stands out, whichever is less: a
-// curved leaf falls away from the one, a recessed one from the other.
-double ReachOf(const StandingHandle& standing) {
-  const double from_mount = BoundsOf(standing.grip).max().x() - standing.surface_m;
+// The least of what it can be: from the leaf at the mount, from the leaf right behind what stands
+// out, and from where it touches the leaf. A curved leaf falls away from the first, an opening in
+// it from the first two.
+double ReachOf(const StandingHandle& standing, double gap) {
+  const Eigen::AlignedBox3d bounds = BoundsOf(standing.grip);
+  const double whole = bounds.max().x() - BoundsOf(standing.handle).min().x();
   double from_behind = -std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3d& vertex : standing.grip.vertices) {
     const auto behind = standing.leaf.lines.At({vertex.y(), vertex.z()});
     if (behind) from_behind = std::max(from_behind, vertex.x() - behind->last);
   }
-  return std::isfinite(from_behind) ? std::min(from_mount, from_behind) : from_mount;
+  const double from_mount = bounds.max().x() - standing.surface_m;
+  const double reach = std::min(from_mount, whole + std::max(gap, 0.0));
+  return std::isfinite(from_behind) ? std::min(reach, from_behind) : reach;
 }
 
-Findings CheckReach(const StandingHandle& standing) {
-  const double reach = ReachOf(standing);
+Findings CheckReach(const StandingHandle& standing, double gap) {
+  const double reach = ReachOf(standing, gap);
   if (reach <= LimitOf("HND009")) return {};
   return {Found("HND009", "handle", Number(reach) + " m")};
 }
 
-Findings CheckContact(const StandingHandle& standing) {
+Findings CheckContact(const StandingHandle& standing, double gap) {
   if (!standing.on_leaf || !standing.leaf.closed) return {};  // faults of other rules
-  const double gap = GapToLeaf(standing.leaf, standing.handle);
   if (gap <= LimitOf("HND010")) return {};
   return {Found("HND010", "handle",
                 std::isfinite(gap) ? Number(gap) + " m" : "nothing of the leaf behind it")};
@@ -139,8 +142,9 @@ double TiltFromLeaf(const TriangleMesh& mesh) {
 }
 
 Findings CheckStance(const StandingHandle& standing) {
-  Findings findings = CheckReach(standing);
-  for (const Findings& more : {CheckContact(standing), CheckTilt(standing)})
+  const double gap = GapToLeaf(standing.leaf, standing.handle);
+  Findings findings = CheckReach(standing, gap);
+  for (const Findings& more : {CheckContact(standing, gap), CheckTilt(standing)})
     findings.insert(findings.end(), more.begin(), more.end());
   return findings;
 }

@@ -65,7 +65,7 @@ Options Parse(int argc, char** argv) {
 
 int Record(Options options) {
   options.request.scene = LoadConfig<SceneConfig>(options.config, options.settings);
-  const std::vector<FoundDoor> doors = FindDoorSet({.folders = {options.door}}, 1);
+  const std::vector<FoundDoor> doors = FindDoorSet({.folders = {options.door}}, 1).doors;
   Require(doors.size() == 1, ErrorCode::kInvalidArgument,
           options.door + ": holds " + std::to_string(doors.size()) +
               " doors, and the files are of one; name the folder of one of them");

@@ -60,7 +60,7 @@ void AddOptions(CLI::App& app, Options& options) {
                  "folders of composed doors; with a split such as full:train only its doors")
       ->required();
   app.add_option("--episodes", options.episodes, "episodes to run, failed ones included")
-      ->check(CLI::Range(1, 100000000));
+      ->check(CLI::Range(1, 10000000));
   app.add_option("--seed", options.seed, "decides every random choice");
   app.add_option("--opener", options.policies.opener,
                  "trained policy that opens, instead of the rule (handle, grasp)");

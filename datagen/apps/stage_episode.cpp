@@ -84,6 +84,9 @@ class Actors {
 
 }  // namespace
 
+// The plan of so many episodes takes half a gigabyte.
+constexpr std::uint64_t kMostEpisodes = 10'000'000;
+
 StageConfig DefaultsOf(Stage stage) {
   StageConfig config;
   config.stage = stage;
@@ -110,6 +113,9 @@ StageConfig DefaultsOf(Stage stage) {
 }
 
 void CheckStageConfig(const StageConfig& config) {
+  Require(config.episodes >= 1 && config.episodes <= kMostEpisodes, ErrorCode::kInvalidConfig,
+          "config.episodes: " + std::to_string(config.episodes) + ", expected 1 to " +
+              std::to_string(kMostEpisodes) + "; more than that, collect with several seeds");
   Require(config.cloud.point_count >= 1 && config.cloud.point_count <= 1000000,
           ErrorCode::kInvalidConfig, "config.cloud.point_count: out of 1..1000000");
   CheckDepthNoise(config.cloud.noise);

@@ -121,10 +121,19 @@ class DoorSource {
     return names;
   }
 
+  // The pool's messages name its files, and not the door that asks for them.
+  PooledShape ShapeOf(const std::string& sha256, const std::string& path) const {
+    try {
+      return pool_->ReadShape(sha256);
+    } catch (const Error& error) {
+      throw Error(error.code(), path + ": " + error.what());
+    }
+  }
+
   Names Pooled(const Json& geometry, const std::string& path) const {
     if (!pool_)
       throw Error(ErrorCode::kFormat, path + ": names a shape, but the record has no mesh_pool");
-    const PooledShape shape = pool_->ReadShape(ValueOf<std::string>(geometry, "shape", path));
+    const PooledShape shape = ShapeOf(ValueOf<std::string>(geometry, "shape", path), path);
     Names names{{PooledMeshPath(shape.mesh), shape.mesh}, {}};
     for (const std::string& hull : shape.hulls) names.hulls.push_back({PooledMeshPath(hull), hull});
     names.visual = shape.visual;
@@ -306,9 +315,6 @@ void RequireDoorRecord(const Json& json, const std::string& path) {
   const Json& links = MemberOf(json, "links", path);
   if (!links.is_array() || links.size() != std::tuple_size_v<decltype(DoorAsset::links)>)
     throw Error(ErrorCode::kFormat, path + ".links: expected base, leaf and handle");
-  std::set<std::string> names;
-  for (const Json& link : links)
-    internal::RequireNewNames(MemberOf(link, "geometry", path + ".links"), names, path + ".links");
 }
 
 }  // namespace
@@ -417,6 +423,12 @@ void RequireSimulatable(const DoorAsset& door, std::string_view user) {
   require(door.opening == Opening::kPull ? opens > 0 : opens < 0,
           "moves its handle the other way than its opening says",
           "mend hinge.axis or opening in door.json");
+  std::set<std::string> names;
+  for (const DoorLink& link : door.links) {
+    for (const DoorGeometry& geometry : link.geometry)
+      require(names.insert(geometry.name).second, "has two pieces \"" + geometry.name + '"',
+              "remove one of them in door.json, or give it another name");
+  }
   const Latch& latch = door.latch;
   if (latch.type == LatchType::kNone) return;
   require(!(latch.relatch && latch.unlocks_ajar), "has a latch with relatch and unlocks_ajar",

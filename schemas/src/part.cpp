@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/schemas/part.h"
 
-#include <set>
-
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
@@ -154,8 +152,7 @@ Part ReadPart(const std::filesystem::path& folder, const MeshReader& read_mesh,
     part.grasp_half_extent_m =
         Vector3FromJson(MemberOf(json, "grasp_half_extent_m", path), path + ".grasp_half_extent_m");
   }
-  std::set<std::string> names;
-  internal::RequireNewNames(MemberOf(json, "pieces", path), names, path + ".pieces");
+  internal::RequireOwnNames(MemberOf(json, "pieces", path), path + ".pieces");
   for (const Json& piece : json["pieces"])
     part.pieces.push_back(PieceFromJson(piece, read_mesh, visual_reader, path + ".pieces"));
   return part;

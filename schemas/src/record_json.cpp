@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record_json.h"
 
+#include <set>
+
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
@@ -135,8 +137,8 @@ VisualReader VisualReaderBelow(const fs::path& folder, const std::string& path) 
   };
 }
 
-void RequireNewNames(const nlohmann::ordered_json& pieces, std::set<std::string>& names,
-                     const std::string& path) {
+void RequireOwnNames(const nlohmann::ordered_json& pieces, const std::string& path) {
+  std::set<std::string> names;
   for (const nlohmann::ordered_json& piece : pieces) {
     const auto name = ValueOf<std::string>(piece, "name", path);
     if (!names.insert(name).second)

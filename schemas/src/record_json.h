@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <set>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -49,8 +48,6 @@ void WriteVisual(const VisualMesh& mesh, const std::string& name,
 VisualReader VisualReaderBelow(const std::filesystem::path& folder, const std::string& path);
 
 /// Throws Error(kFormat) if two of these pieces have one name: pieces lend their names to files.
-/// `names` keeps what was seen before, of other links.
-void RequireNewNames(const nlohmann::ordered_json& pieces, std::set<std::string>& names,
-                     const std::string& path);
+void RequireOwnNames(const nlohmann::ordered_json& pieces, const std::string& path);
 
 }  // namespace doorforge::internal

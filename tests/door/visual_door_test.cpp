@@ -86,6 +86,8 @@ ImportReport ImportBoxes(const fs::path& root, const BoxFiles& files = {},
   CommitFile(root / "in/grain.png", files.picture);
   config.read.category = "interior";
   config.read.mesh.unit = "m";
+  config.read.mesh.up = "z";
+  config.read.mesh.front = "x";
   config.threads = 1;
   config.read.mesh.role = "handle";
   const ImportReport bar =

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/evaluate/run_trials.h"
 
+#include <limits>
 #include <mutex>
 #include <set>
 
@@ -80,6 +81,8 @@ TEST(RunTrials, EveryDoorIsTriedInEverySeed) {
 TEST(RunTrials, SettingsOutOfRangeAreRefused) {
   EvaluationConfig config;
   config.seeds = 0;
+  EXPECT_THROW(PlanFor(Doors(), config), Error);
+  config.seeds = std::numeric_limits<int>::max();  // rows that no memory holds
   EXPECT_THROW(PlanFor(Doors(), config), Error);
   config.seeds = 1;
   config.episodes_per_door = -1;

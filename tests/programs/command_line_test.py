@@ -21,6 +21,7 @@ WITH_SETTINGS = {
     "train": (["WORD", "--data", "OUT", "--out", "OUT/policy"], "stage is required"),
     "eval": (["--policy", "expert", "--doors", "OUT", "WORD"], None),
     "act": (["--camera", "OUT", "WORD"], None),
+    "sight": (["--door", "OUT", "--out", "OUT/sight", "WORD"], None),
     "pipeline": (["WORD", "--out", "OUT"], "preset is required"),
 }
 

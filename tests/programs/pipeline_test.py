@@ -247,7 +247,7 @@ class Presets(ProgramTest):
             self.assert_ends(result, 0)
             steps = [step for step in json.loads(result.stdout)["steps"]
                      if step["command"][0] in ("datagen", "train", "eval")]
-            self.assertEqual(len(steps), 10)
+            self.assertEqual(len(steps), 14)
             for step in steps:
                 for option, value in zip(step["command"], step["command"][1:]):
                     if option != "--out" and value.startswith(str(out)):

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "doorforge/core/committed_file.h"
+#include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/schemas/door_index.h"
 
@@ -47,9 +48,18 @@ std::set<std::string> RenamedHashes(const fs::path& folder, const std::set<std::
   return hashes;
 }
 
+// An index that cannot be read only saves time, and says nothing here.
+DoorIndex IndexIn(const fs::path& folder) {
+  try {
+    return ReadDoorIndex(folder);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
 void AddFromIndex(const fs::path& folder, std::vector<MissingRecord>& missing) {
   if (!Holds(folder, kDoorIndexFile)) return;
-  const DoorIndex index = ReadDoorIndex(folder);
+  const DoorIndex index = IndexIn(folder);
   std::set<std::string> ids;
   for (const auto& [hash, door] : index.doors()) ids.insert(door.id);
   const bool all_there = std::all_of(ids.begin(), ids.end(), [&](const std::string& id) {

@@ -41,9 +41,13 @@ class PlayerPool {
   std::vector<Players> idle_;
 };
 
-std::size_t AtLeastOne(int value, const std::string& name) {
-  Require(value >= 1, ErrorCode::kInvalidConfig,
-          "config." + name + ": " + std::to_string(value) + ", expected 1 or more");
+constexpr int kMostRepetitions = 100000;       // of a door
+constexpr std::size_t kMostTrials = 10000000;  // a row of some hundred bytes each
+
+std::size_t Repetitions(int value, const std::string& name) {
+  Require(value >= 1 && value <= kMostRepetitions, ErrorCode::kInvalidConfig,
+          "config." + name + ": " + std::to_string(value) + ", expected 1 to " +
+              std::to_string(kMostRepetitions));
   return static_cast<std::size_t>(value);
 }
 
@@ -52,14 +56,17 @@ std::size_t AtLeastOne(int value, const std::string& name) {
 TrialPlan::TrialPlan(DoorGiver give_door, std::size_t door_count, const EvaluationConfig& config)
     : give_door_(std::move(give_door)),
       door_count_(door_count),
-      seeds_(AtLeastOne(config.seeds, "seeds")),
-      episodes_per_door_(AtLeastOne(config.episodes_per_door, "episodes_per_door")),
+      seeds_(Repetitions(config.seeds, "seeds")),
+      episodes_per_door_(Repetitions(config.episodes_per_door, "episodes_per_door")),
       first_seed_(config.first_seed),
       scene_(config.scene),
       robot_(LoadRobot({}, RobotBaseNamed(config.scene.physics.base))) {
   Require(config.scene.robot.empty(), ErrorCode::kInvalidConfig,
           "config.scene.robot: eval knows the built-in robot, on any base; let the expert try \"" +
               config.scene.robot + "\" with `doorforge simulate --robot`");
+  Require(size() <= kMostTrials, ErrorCode::kInvalidConfig,
+          "config.seeds, config.episodes_per_door: " + std::to_string(size()) +
+              " episodes, expected at most " + std::to_string(kMostTrials));
 }
 
 std::size_t TrialPlan::size() const { return door_count_ * seeds_ * episodes_per_door_; }

@@ -116,7 +116,8 @@ struct DoorAsset {
 /// Throws Error(kInvalidArgument) unless the door is what scenes, the simulated world and the
 /// experts are made for: the hinge opens and moves the handle the way that `opening` says; a bolt
 /// has a throw, a handle that turns beyond the unlock angle, and an upright hinge on the door's
-/// hinge_side. `user` begins the message, such as "simulate".
+/// hinge_side; no two pieces have one name, for a record that repeats a piece four hundred times
+/// costs minutes. `user` begins the message, such as "simulate".
 void RequireSimulatable(const DoorAsset& door, std::string_view user);
 
 /// Poses of base, leaf and handle in the door frame at the given joint angles.

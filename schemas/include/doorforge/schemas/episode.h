@@ -62,9 +62,9 @@ struct Decision {
   double time_s = 0;
   double hinge_rad = 0;   ///< Before the action.
   double handle_rad = 0;  ///< Before the action.
-  /// The critic's target (UniDoorManip, Section 4) [rad]: the angle that the executed action gained, of
-  /// the hinge at the stage "open", of the handle at "handle"; at "grasp" the door's final angle,
-  /// at least 0.
+  /// The critic's target (UniDoorManip, Section 4) [rad]: the angle that the executed action
+  /// gained, of the hinge at the stage "open", of the handle at "handle"; at "grasp" the door's
+  /// final angle, at least 0.
   double score_rad = 0;
 };
 

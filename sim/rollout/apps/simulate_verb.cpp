@@ -183,7 +183,8 @@ void PrintJson(const std::vector<Row>& rows, const std::vector<FoundDoor>& doors
 }  // namespace
 
 int Simulate(const SimulateOptions& options) {
-  const std::vector<FoundDoor> doors = FindDoorSet({.folders = options.doors}, options.threads).doors;
+  const std::vector<FoundDoor> doors =
+      FindDoorSet({.folders = options.doors}, options.threads).doors;
   DoorShelf shelf(doors);
   const RobotModel robot = LoadRobot(
       options.config.scene.robot, RobotBaseNamed(options.config.scene.physics.base), RobotMeshes());

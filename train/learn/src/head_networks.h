@@ -38,8 +38,8 @@ struct HeadResult {
 /// Uses one thread for libtorch in this process, whatever the machine has. Idempotent.
 void UseOneTorchThread();
 
-/// Objective of the actor (UniDoorManip, Section 4; weights of `config`), its gradient added to `gradient`
-/// (a flat vector of ActorLayout(); may be empty: no gradient).
+/// Objective of the actor (UniDoorManip, Section 4; weights of `config`), its gradient added to
+/// `gradient` (a flat vector of ActorLayout(); may be empty: no gradient).
 HeadResult ActorObjective(const StageNetworks& networks, const HeadBatch& batch,
                           const TrainConfig& config, std::span<float> gradient);
 

@@ -32,10 +32,10 @@ struct RandomGraspConfig {
   }
 };
 
-/// Samples grasps for the grasp stage (UniDoorManip, Section 4 and released code): a visible point of the handle,
-/// each as likely as any other, and a hand turned about its approach, which on all handles but
-/// flaps is the handle's axis, so that the fingers close in the plane normal to it. The random
-/// stream is "grasp/<door id>/<episode>" of the scene's seed.
+/// Samples grasps for the grasp stage (UniDoorManip, Section 4 and released code): a visible point
+/// of the handle, each as likely as any other, and a hand turned about its approach, which on all
+/// handles but flaps is the handle's axis, so that the fingers close in the plane normal to it. The
+/// random stream is "grasp/<door id>/<episode>" of the scene's seed.
 class RandomGrasp : public GraspChooser {
  public:
   /// All points that the camera sees at an instant; called once an episode.

@@ -17,10 +17,10 @@ struct OrientationSampling {
   double tilt_rad = 0.1;  ///< Standard deviation of the approach about both its normals.
 };
 
-/// Samples world_from_hand rotations (UniDoorManip, Section 4): the hand's z, its approach, is `approach`
-/// but for the tilt, and the hand is turned about it by any angle. On all handles but flaps the
-/// approach is the handle's axis, so that the fingers close (along the hand's y) in the plane
-/// normal to it. A right-handed orthonormal matrix each; a function of the arguments and the
+/// Samples world_from_hand rotations (UniDoorManip, Section 4): the hand's z, its approach, is
+/// `approach` but for the tilt, and the hand is turned about it by any angle. On all handles but
+/// flaps the approach is the handle's axis, so that the fingers close (along the hand's y) in the
+/// plane normal to it. A right-handed orthonormal matrix each; a function of the arguments and the
 /// stream.
 ///
 /// @param approach World, any length but 0.

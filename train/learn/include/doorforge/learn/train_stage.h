@@ -26,7 +26,8 @@ struct TrainConfig {
   int epochs = 10;
   int discriminator_epochs = 0;  ///< In the place of `epochs`; 0: as many. With near points an
                                  ///< epoch takes a tenth of the affordance's.
-  int batch_size = 32;  ///< UniDoorManip's released code; an epoch leaves out the last, incomplete batch.
+  int batch_size =
+      32;  ///< UniDoorManip's released code; an epoch leaves out the last, incomplete batch.
   double learning_rate = 1e-3;
   double weight_decay = 1e-5;
   /// "cosine": half a cosine from the learning rate to 1 % of it over all steps. "step": times 0.9

@@ -19,7 +19,8 @@ class TurningPolicy : public Policy {
 
   void Reset() override;
   Action Act(const Observation& observation) override;
-  /// The last action is not carried out: whether the handle is turned is as before it was asked for.
+  /// The last action is not carried out: whether the handle is turned is as before it was asked
+  /// for.
   void TakeBack();
   bool Looks() const override { return policy_->Looks(); }
 

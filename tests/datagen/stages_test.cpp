@@ -260,6 +260,15 @@ TEST_F(StagesTest, AForeignShardIsRefusedByNameAndWithWhatIsWrong) {
   ExpectSound(Again(data).out);
 }
 
+TEST(StageConfigTest, MoreEpisodesThanAPlanHoldsAreRefused) {
+  StageConfig config = DefaultsOf(Stage::kOpen);
+  EXPECT_NO_THROW(CheckStageConfig(config));
+  for (const std::uint64_t episodes : {std::uint64_t{0}, std::uint64_t{2147483647}}) {
+    config.episodes = episodes;
+    EXPECT_THROW(CheckStageConfig(config), Error) << episodes;
+  }
+}
+
 TEST(RecordedRobotTest, OnlyAFileOfTheDatasetOrOfTheCommandLineIsOpened) {
   EXPECT_EQ(RecordedRobot("data", "", ""), "");
   EXPECT_EQ(RecordedRobot("data", "data/robot.urdf", ""), "data/robot.urdf");

@@ -38,7 +38,7 @@ std::vector<fs::path> DoorsIn(const fs::path& folder) {
   return doors;
 }
 
-// Of the doors in folders that are called otherwise than an entry of the index.
+// These are the hashes of doors whose folders have another name than any entry of the index.
 std::set<std::string> RenamedHashes(const fs::path& folder, const std::set<std::string>& ids) {
   std::set<std::string> hashes;
   for (const fs::path& door : DoorsIn(folder)) {

@@ -248,7 +248,7 @@ void SayMissing(const Found& found) {
                  "some, as `doorforge compose` and `doorforge import` write them\n");
 }
 
-// Of a run that was not stopped.
+// This is what a run ends with that was not stopped.
 int ExitCode(const Options& options, const Found& found, std::size_t checked, bool errors) {
   if (found.unreadable || !found.missing.empty() || checked == 0) return 3;
   if (options.expect >= 0 && checked != static_cast<std::size_t>(options.expect)) {

@@ -10,6 +10,8 @@
 #include "doorforge/learn/familiarity.h"
 #include "doorforge/schemas/safetensors.h"
 
+#include "policy_companion.h"
+
 namespace doorforge {
 namespace {
 
@@ -17,28 +19,9 @@ namespace fs = std::filesystem;
 
 constexpr const char* kFile = "familiar.safetensors";
 constexpr const char* kSchema = "doorforge.familiar";
+constexpr internal::CompanionKind kKind{kSchema, kFamiliarSchemaVersion,
+                                        "run the policy's training again with --resume"};
 constexpr std::uint64_t kMostDistances = 1U << 20U;
-
-std::string MetadataOf(const TensorFile& file, const std::string& key) {
-  const auto found = file.metadata.find(key);
-  return found == file.metadata.end() ? "" : found->second;
-}
-
-void CheckMetadata(const TensorFile& file, const std::string& dataset_sha256,
-                   const std::string& path) {
-  const std::string version = std::to_string(kFamiliarSchemaVersion);
-  if (MetadataOf(file, "schema") != kSchema || MetadataOf(file, "schema_version") != version)
-    throw Error(ErrorCode::kFormat, path + ": schema \"" + MetadataOf(file, "schema") +
-                                        "\" version \"" + MetadataOf(file, "schema_version") +
-                                        "\", expected \"" + kSchema + "\" version \"" + version +
-                                        "\"; run the policy's training again with --resume");
-  const std::string data = MetadataOf(file, "dataset_sha256");
-  if (data != dataset_sha256)
-    throw Error(ErrorCode::kFormat, path + ": was made from the data " + data.substr(0, 12) +
-                                        "..., the policy beside it from " +
-                                        dataset_sha256.substr(0, 12) +
-                                        "...; run its training again with --resume");
-}
 
 std::vector<float> NumbersOf(const TensorFile& file, const std::string& name,
                              const std::vector<std::uint64_t>& shape, const std::string& path) {
@@ -86,7 +69,7 @@ std::optional<Familiarity> ReadFamiliarity(const fs::path& folder,
   const std::string path = (folder / kFile).string();
   if (!fs::exists(path)) return std::nullopt;
   const TensorFile file = ReadTensors(path);
-  CheckMetadata(file, dataset_sha256, path);
+  internal::RequireCompanion(file, kKind, dataset_sha256, path);
   const std::uint64_t size = SightSize(family);
   Familiarity familiarity;
   familiarity.mean = NumbersOf(file, "mean", {size}, path);

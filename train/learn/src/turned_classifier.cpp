@@ -14,6 +14,8 @@
 #include "doorforge/core/rigid_transform.h"
 #include "doorforge/schemas/safetensors.h"
 
+#include "policy_companion.h"
+
 namespace doorforge {
 namespace {
 
@@ -21,6 +23,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kFile = "turned.safetensors";
 constexpr const char* kSchema = "doorforge.turned";
+constexpr internal::CompanionKind kKind{kSchema, kTurnedSchemaVersion,
+                                        "train the policy again with this build"};
 constexpr double kRidge = 1;
 constexpr double kLeastDeviation = 1e-3;  // so that what hardly varied is not blown up
 constexpr int kNewtonSteps = 50;
@@ -130,27 +134,6 @@ std::array<float, kTurnedInputs> ArrayOf(const TensorFile& file, const std::stri
   return array;
 }
 
-std::string MetadataOf(const TensorFile& file, const std::string& key) {
-  const auto found = file.metadata.find(key);
-  return found == file.metadata.end() ? "" : found->second;
-}
-
-void CheckMetadata(const TensorFile& file, const std::string& dataset_sha256,
-                   const std::string& path) {
-  const std::string version = std::to_string(kTurnedSchemaVersion);
-  if (MetadataOf(file, "schema") != kSchema || MetadataOf(file, "schema_version") != version)
-    throw Error(ErrorCode::kFormat, path + ": schema \"" + MetadataOf(file, "schema") +
-                                        "\" version \"" + MetadataOf(file, "schema_version") +
-                                        "\", expected \"" + kSchema + "\" version \"" + version +
-                                        "\"; train the policy again with this build");
-  const std::string data = MetadataOf(file, "dataset_sha256");
-  if (data != dataset_sha256)
-    throw Error(ErrorCode::kFormat, path + ": was made from the data " + data.substr(0, 12) +
-                                        "..., the policy beside it from " +
-                                        dataset_sha256.substr(0, 12) +
-                                        "...; run its training again with --resume");
-}
-
 void CheckNumbers(const TurnedClassifier& classifier, const std::string& path) {
   bool good = std::isfinite(classifier.bias);
   for (std::size_t i = 0; i < kTurnedInputs; ++i)
@@ -239,7 +222,7 @@ std::optional<TurnedClassifier> ReadTurnedClassifier(const fs::path& folder,
   const std::string path = (folder / kFile).string();
   if (!fs::exists(path)) return std::nullopt;
   const TensorFile file = ReadTensors(path);
-  CheckMetadata(file, dataset_sha256, path);
+  internal::RequireCompanion(file, kKind, dataset_sha256, path);
   TurnedClassifier classifier;
   classifier.mean = ArrayOf(file, "mean", path);
   classifier.deviation = ArrayOf(file, "deviation", path);

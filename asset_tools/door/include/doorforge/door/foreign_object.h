@@ -17,9 +17,9 @@ namespace doorforge {
 struct LooseMeshConfig {
   std::string role = {};           ///< "body" (a leaf) or "handle"; needed.
   std::string mechanism = "none";  ///< Of a handle, as in names.h.
-  /// Of the file's numbers: m, cm, mm, in or ft. Empty: the file's own (glTF, DAE, FBX) or m; if
-  /// that makes it no handle (0.02 to 0.6 m) or leaf (0.2 to 3.5 m) and there is no scale, the one
-  /// of m, cm and mm which does.
+  /// The unit of the file's numbers is m, cm, mm, in or ft. Where this is empty, the file's own is
+  /// taken (glTF, DAE, FBX), or m; if that makes it no handle (0.02 to 0.6 m) or leaf (0.2 to 3.5
+  /// m) and there is no scale, the one of m, cm and mm is taken which does.
   std::string unit = {};
   double size_m = 0;  ///< Length of its longest side; replaces unit and scale. 0: not set.
   std::vector<double> scale = {};  ///< One factor or three along the file's axes; empty: 1.
@@ -58,8 +58,8 @@ struct LooseMeshConfig {
 struct ReadConfig {
   std::string category = {};       ///< As in names.h; empty: told by folder or content.
   std::string allow_missing = {};  ///< "frame": an object without its frame's mesh is read, too.
-  /// Of the whole object [m], for formats without a unit (PartNet-Mobility, GAPartNet); 0: what is
-  /// usual for its kind.
+  /// This is the height of the whole object [m], for formats without a unit (PartNet-Mobility,
+  /// GAPartNet); 0 stands for what is usual for its kind.
   double height_m = 0;
   LooseMeshConfig mesh = {};
 
@@ -84,7 +84,8 @@ struct LoadedPart {
 struct ForeignPart {
   std::string id;  ///< Wanted name of the part's folder.
   PartRole role = PartRole::kBody;
-  /// Of everything the part is made of: equal for parts that several objects share.
+  /// This hash covers everything the part is made of, and is equal for parts that several objects
+  /// share.
   std::string source_sha256;
   std::function<LoadedPart()> load;  ///< Throws Error as ImportMesh() does.
 };
@@ -98,8 +99,8 @@ struct ForeignObject {
   std::string refusal;             ///< Why this cannot be a door, and what it is.
   std::vector<std::string> notes;  ///< What was left out or assumed.
   double scale = 1;                ///< Metres a unit of the source.
-  /// Of an object with both parts: from the body's PartJoint::origin_m to the origin of the
-  /// handle's frame as the source places it, in the parts' common axes.
+  /// Where an object has both parts, this leads from the body's PartJoint::origin_m to the origin
+  /// of the handle's frame as the source places it, in the parts' common axes.
   std::optional<Eigen::Vector3d> hinge_to_handle_m = {};
   /// The source's hinge is at the large-y side (right for who faces the door). Its mirror image in
   /// the plane y = 0 was imported, for parts are hinged at the small-y side.
@@ -126,7 +127,8 @@ const std::vector<std::string>& ImportFormatNames();
 std::vector<ForeignSource> FindObjects(const std::filesystem::path& source,
                                        const std::string& format = "auto");
 
-/// The same for several, as a shell's glob names them: in their order, each object once. Where
+/// This does the same for several, as a shell's glob names them, and gives each object once, in
+/// their order. Where
 /// nothing is found at one of them it comes back as a source that ReadObjects() refuses, so that
 /// the others are not lost; a single one throws as above.
 std::vector<ForeignSource> FindObjects(const std::vector<std::filesystem::path>& sources,

@@ -97,7 +97,7 @@ class DoorValidator {
   /// Throws Error(kMissing) if it has neither door.json nor part.json. May be called from several
   /// threads at once.
   ValidationReport Validate(const std::filesystem::path& folder) const;
-  /// The same where the kind is known; throw Error(kMissing) if its record is missing.
+  /// These do the same where the kind is known, and throw Error(kMissing) if its record is missing.
   ValidationReport Door(const std::filesystem::path& folder) const;
   ValidationReport Part(const std::filesystem::path& folder) const;
 

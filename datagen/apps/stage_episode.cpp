@@ -47,15 +47,18 @@ int LearnerDecisions(const StageConfig& config, const PlannedEpisode& planned) {
 // The grasp of a trained policy, from the recorded look.
 class GraspOfLearner : public GraspChooser {
  public:
-  GraspOfLearner(GraspPool& pool, const CloudExtent& extent, RandomGrasp::Look look)
-      : policy_(pool.Take()), extent_(extent), look_(std::move(look)) {}
+  GraspOfLearner(GraspPool& pool, const RobotModel& robot, const CloudExtent& extent,
+                 RandomGrasp::Look look)
+      : policy_(pool.Take()), clearance_(robot), extent_(extent), look_(std::move(look)) {}
 
   std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override {
-    return policy_->Choose(look_(snapshot), -snapshot.door[kHandleLink].linear().col(0), extent_);
+    return policy_->Choose(
+        {look_(snapshot), -snapshot.door[kHandleLink].linear().col(0), clearance_}, extent_);
   }
 
  private:
   GraspPool::Loan policy_;
+  GripperClearance clearance_;
   CloudExtent extent_;
   RandomGrasp::Look look_;
 };
@@ -155,7 +158,7 @@ CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const DoorAsset&
   GraspChooser* grasp = &by_chance;
   std::optional<GraspOfLearner> learnt;
   if (trained.grasp_learner != nullptr)
-    grasp = &learnt.emplace(*trained.grasp_learner, extent, look);
+    grasp = &learnt.emplace(*trained.grasp_learner, robot, extent, look);
   EpisodeRoles roles{.recorded = config.stage, .open = actors.open()};
   if (config.stage != Stage::kOpen) roles.handle = actors.handle();
   if (samples_grasp) roles.grasp = grasp;

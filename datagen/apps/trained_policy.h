@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 
+#include "doorforge/rollout/gripper_clearance.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/schemas/cloud.h"
 #include "doorforge/schemas/dataset.h"
@@ -92,17 +93,20 @@ class ActorPool {
   std::vector<std::unique_ptr<Actor>> idle_;
 };
 
+/// What a trained grasp is chosen from.
+struct ClosedDoor {
+  LabelledCloud visible;                                 ///< Every point in view.
+  Eigen::Vector3d approach = -Eigen::Vector3d::UnitX();  ///< World: straight into the leaf.
+  const GripperClearance& clearance;
+};
+
 /// A trained policy of the stage "grasp". Keeps nothing between calls; one instance serves one
 /// thread at a time.
 class LearnedGrasp {
  public:
   virtual ~LearnedGrasp() = default;
-  /// @param visible Every point in view.
-  /// @param approach World: straight into the leaf.
   /// @param extent Of the chosen grasp's cloud; the policy looks at clouds of its own extent.
-  virtual std::optional<ChosenGrasp> Choose(const LabelledCloud& visible,
-                                            const Eigen::Vector3d& approach,
-                                            const CloudExtent& extent) = 0;
+  virtual std::optional<ChosenGrasp> Choose(const ClosedDoor& door, const CloudExtent& extent) = 0;
 };
 
 using PolicyPool = ActorPool<Policy>;

@@ -18,18 +18,20 @@ class TrainedLearnedGrasp : public LearnedGrasp {
  public:
   explicit TrainedLearnedGrasp(std::unique_ptr<GraspPolicy> policy) : policy_(std::move(policy)) {}
 
-  std::optional<ChosenGrasp> Choose(const LabelledCloud& visible, const Eigen::Vector3d& approach,
-                                    const CloudExtent& extent) override {
+  std::optional<ChosenGrasp> Choose(const ClosedDoor& door, const CloudExtent& extent) override {
     GraspView view;
-    view.visible = visible;
-    view.approach = approach;
+    view.visible = door.visible;
+    view.approach = door.approach;
     view.sample = [&](const Eigen::Vector3d& start, double within_m) {
-      return SampleCloud(visible, start, {extent.point_count, within_m}).cloud;
+      return SampleCloud(door.visible, start, {extent.point_count, within_m}).cloud;
+    };
+    view.fits = [&](const Eigen::Vector3d& contact_m, const Eigen::Matrix3d& rotation) {
+      return door.clearance.Fits(door.visible, contact_m, rotation);
     };
     const std::optional<GraspChoice> choice = policy_->Choose(view);
     if (!choice) return std::nullopt;
-    return ChosenGrasp{SampleCloud(visible, choice->contact_m, extent).cloud, choice->contact_m,
-                       choice->world_from_hand_rotation};
+    return ChosenGrasp{SampleCloud(door.visible, choice->contact_m, extent).cloud,
+                       choice->contact_m, choice->world_from_hand_rotation};
   }
 
  private:

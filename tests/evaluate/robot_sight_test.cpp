@@ -29,6 +29,7 @@
 #include "doorforge/learn/turned_classifier.h"
 #include "doorforge/physics/scene_sampling.h"
 #include "doorforge/rollout/camera_observer.h"
+#include "doorforge/rollout/gripper_clearance.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/sensor/picture.h"
 
@@ -338,8 +339,11 @@ TEST_F(RobotSightTest, TheProgramTakesHoldAsTheGrasperDoesInTheSimulator) {
 
   GraspOptions options;
   options.orientations = 5;
-  const HandleSight sight =
-      ObserveHandle(depth, handle, {ViewOf(scene_.camera)}, onlooker.approach);
+  HandleSight sight = ObserveHandle(depth, handle, {ViewOf(scene_.camera)}, onlooker.approach);
+  const GripperClearance clearance(robot_);
+  sight.view.fits = [&](const Eigen::Vector3d& contact_m, const Eigen::Matrix3d& rotation) {
+    return clearance.Fits(sight.view.visible, contact_m, rotation);
+  };
   const auto expected =
       MakeGraspPolicy(UntrainedNetworks(NetworkFamily::kGrasp), options)->Choose(sight.view);
   ASSERT_TRUE(expected);

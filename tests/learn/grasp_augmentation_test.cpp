@@ -82,20 +82,34 @@ TEST(GraspAugmentation, AHandStaysAHandThatHoldsTheSame) {
   }
 }
 
-TEST(SmoothedRatings, AreMeansOfWhatIsNearWithEitherFingerFirst) {
+TEST(SmoothedRatings, AreMeansOfWhatIsTurnedAlikeWithEitherFingerFirst) {
   const auto about_z = [](double angle) -> Eigen::Matrix3d {
     return RotationAbout(Eigen::Vector3d::UnitZ(), angle).linear();
   };
-  const std::vector<Eigen::Matrix3d> turns = {about_z(0), about_z(0.1), about_z(std::numbers::pi),
-                                              about_z(std::numbers::pi / 2)};
-  const std::vector<float> ratings = {4, 1, 1, 0};
-  EXPECT_EQ(Smoothed(ratings, turns, 0), ratings);
-  const std::vector<float> smoothed = Smoothed(ratings, turns, 0.2);
+  const Eigen::Vector3d at(1, 2, 3);
+  const std::vector<RatedHand> hands = {{at, about_z(0), 4},
+                                        {at, about_z(0.1), 1},
+                                        {at, about_z(std::numbers::pi), 1},
+                                        {at, about_z(std::numbers::pi / 2), 0}};
+  EXPECT_EQ(Smoothed(hands, 0, 0), (std::vector<double>{2.5, 1, 2.5, 0})) << "half a turn alone";
+  const std::vector<double> smoothed = Smoothed(hands, 0.2, 0);
   const double near = std::exp(-0.25);
   EXPECT_NEAR(smoothed[0], (4 + near * 1 + 1) / (2 + near), 1e-4);
   EXPECT_NEAR(smoothed[2], smoothed[0], 1e-4) << "half a turn is the same grasp";
   EXPECT_NEAR(smoothed[1], (1 + near * 5) / (1 + 2 * near), 1e-4);
   EXPECT_NEAR(smoothed[3], 0, 1e-6);
+}
+
+TEST(SmoothedRatings, AreMeansOfWhatTouchesNearby) {
+  const Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  const std::vector<RatedHand> hands = {
+      {{0, 0, 0}, turn, 4}, {{0.01, 0, 0}, turn, 1}, {{0, 1, 0}, turn, 7}};
+  EXPECT_EQ(Smoothed(hands, 0.2, 0), (std::vector<double>{4, 1, 7})) << "other points do not count";
+  const std::vector<double> smoothed = Smoothed(hands, 0.2, 0.02);
+  const double near = std::exp(-0.25);
+  EXPECT_NEAR(smoothed[0], (4 + near * 1) / (1 + near), 1e-6);
+  EXPECT_NEAR(smoothed[1], (1 + near * 4) / (1 + near), 1e-6);
+  EXPECT_NEAR(smoothed[2], 7, 1e-6);
 }
 
 }  // namespace

@@ -230,6 +230,15 @@ TEST(TrainGrasp, PrefersThePointsAndTheTurnsThatOpenDoorsItHasNotSeen) {
     const auto again = policy->Choose(view);
     EXPECT_EQ(again->contact_m, choice->contact_m);
     EXPECT_EQ(again->world_from_hand_rotation, choice->world_from_hand_rotation);
+    GraspView narrow = view;
+    narrow.fits = [&](const Eigen::Vector3d& contact_m, const Eigen::Matrix3d& rotation) {
+      return contact_m != choice->contact_m && rotation != choice->world_from_hand_rotation;
+    };
+    const auto other = policy->Choose(narrow);
+    EXPECT_TRUE(narrow.fits(other->contact_m, other->world_from_hand_rotation));
+    narrow.fits = [](const auto&, const auto&) { return false; };
+    EXPECT_EQ(policy->Choose(narrow)->world_from_hand_rotation, choice->world_from_hand_rotation)
+        << "where none fits, the best is taken";
   }
   // by chance a quarter would open, and both halves of the handles would score alike
   EXPECT_GE(opened, 7);

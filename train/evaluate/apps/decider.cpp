@@ -10,6 +10,7 @@
 #include "doorforge/core/error.h"
 #include "doorforge/learn/checkpoint.h"
 #include "doorforge/physics/load_robot.h"
+#include "doorforge/rollout/gripper_clearance.h"
 #include "doorforge/rollout/run_episode.h"
 
 namespace doorforge {
@@ -104,12 +105,16 @@ ActAnswer Decider::DecideGrasp(const fs::path& depth_path, const fs::path& handl
   const double yaw = setup_.config.door_yaw_rad;
   seen_.depth = ReadDepth(depth_path);
   seen_.handle = DecodeMaskPng(ReadFile(handle_path, kMostPictureBytes), handle_path.string());
-  const HandleSight sight =
+  HandleSight sight =
       NamingFiles(depth_path.string() + ", " + handle_path.string() + " and " + setup_.camera, [&] {
         return ObserveHandle(seen_.depth, *seen_.handle, camera_,
                              -Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0),
                              setup_.config.cloud);
       });
+  const GripperClearance clearance(robot_);
+  sight.view.fits = [&](const Eigen::Vector3d& contact_m, const Eigen::Matrix3d& rotation) {
+    return clearance.Fits(sight.view.visible, contact_m, rotation);
+  };
   return Answer(*grasper_->policy->Choose(sight.view), sight);
 }
 

@@ -10,6 +10,7 @@ TrainedGrasp::TrainedGrasp(const Scene& scene, const DoorAsset& door, const Robo
                            const CloudConfig& config, std::shared_ptr<GraspPolicy> policy)
     : point_count_(config.point_count),
       camera_(scene, door, robot, config, /*sees_robot=*/false),
+      clearance_(robot),
       policy_(std::move(policy)) {}
 
 std::optional<ChosenGrasp> TrainedGrasp::Choose(const SceneSnapshot& snapshot) {
@@ -24,6 +25,9 @@ std::optional<GraspChoice> TrainedGrasp::Consider(const SceneSnapshot& snapshot)
   view.approach = -snapshot.door[kHandleLink].linear().col(0);
   view.sample = [&](const Eigen::Vector3d& start, double within_m) {
     return SampleCloud(view.visible, start, {point_count_, within_m}).cloud;
+  };
+  view.fits = [&](const Eigen::Vector3d& contact_m, const Eigen::Matrix3d& rotation) {
+    return clearance_.Fits(view.visible, contact_m, rotation);
   };
   return policy_->Choose(view);
 }

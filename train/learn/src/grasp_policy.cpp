@@ -3,6 +3,7 @@
 #include "doorforge/learn/grasp_policy.h"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -44,9 +45,6 @@ class TrainedGraspPolicy : public GraspPolicy {
     const std::size_t middle = internal::MiddlePoint(visible.xyz, handle);
     GraspChoice choice = ScoredPoints(Sample(view, PointOf(visible.xyz, middle)));
     TakeBest(view, choice);
-    if (options_.centred)
-      choice.contact_m =
-          internal::CentredContact(visible, choice.contact_m, choice.world_from_hand_rotation);
     return choice;
   }
 
@@ -91,24 +89,70 @@ class TrainedGraspPolicy : public GraspPolicy {
     return order;
   }
 
-  void TakeBest(const GraspView& view, GraspChoice& choice) const {
-    const std::vector<std::size_t> order = Ranked(choice.affordance_rad);
-    const std::size_t tried = std::min(order.size(), static_cast<std::size_t>(options_.points));
-    for (std::size_t i = 0; i < tried; ++i) {
+  struct Candidate {
+    double preference_rad;
+    double rating_rad;
+    std::size_t point;  // Which of the tried ones.
+    Eigen::Matrix3d world_from_hand_rotation;
+  };
+
+  // Of every orientation at every tried point, `clouds[i]` beginning with the i-th; best first.
+  std::vector<Candidate> Candidates(const GraspView& view, const std::vector<LabelledCloud>& clouds,
+                                    const std::vector<double>& affordance_rad) const {
+    std::vector<internal::RatedHand> hands;
+    std::vector<std::size_t> points;
+    for (std::size_t i = 0; i < clouds.size(); ++i) {
       Rng rng(options_.seed, "grasp/orientations/" + std::to_string(i));
       const std::vector<Eigen::Matrix3d> orientations =
           SampleOrientations(view.approach, {options_.orientations, options_.tilt_rad}, rng);
-      LabelledCloud cloud = Sample(view, PointOf(choice.point_xyz, order[i]));
-      const std::vector<float> ratings = internal::Smoothed(rater_.Rate(cloud.xyz, orientations),
-                                                            orientations, options_.smoothing_rad);
-      const auto best = std::max_element(ratings.begin(), ratings.end());
-      if (i > 0 && static_cast<double>(*best) <= choice.score_rad) continue;
-      choice.score_rad = static_cast<double>(*best);
-      choice.contact_m = PointOf(cloud.xyz, 0);
-      choice.world_from_hand_rotation =
-          orientations[static_cast<std::size_t>(std::distance(ratings.begin(), best))];
-      choice.cloud = std::move(cloud);
+      const std::vector<float> ratings = rater_.Rate(clouds[i].xyz, orientations);
+      for (std::size_t k = 0; k < orientations.size(); ++k) {
+        hands.push_back(
+            {PointOf(clouds[i].xyz, 0), orientations[k], static_cast<double>(ratings[k])});
+        points.push_back(i);
+      }
     }
+    const std::vector<double> smoothed =
+        internal::Smoothed(hands, options_.smoothing_rad, options_.smoothing_m);
+    std::vector<Candidate> candidates;
+    for (std::size_t k = 0; k < hands.size(); ++k)
+      candidates.push_back({smoothed[k] + options_.affordance_weight * affordance_rad[points[k]],
+                            smoothed[k], points[k], hands[k].world_from_hand_rotation});
+    std::ranges::stable_sort(candidates, std::greater{}, &Candidate::preference_rad);
+    return candidates;
+  }
+
+  void TakeBest(const GraspView& view, GraspChoice& choice) const {
+    const std::vector<std::size_t> order = Ranked(choice.affordance_rad);
+    const std::size_t tried = std::min(order.size(), static_cast<std::size_t>(options_.points));
+    std::vector<LabelledCloud> clouds;
+    std::vector<double> affordance_rad;
+    for (std::size_t i = 0; i < tried; ++i) {
+      clouds.push_back(Sample(view, PointOf(choice.point_xyz, order[i])));
+      affordance_rad.push_back(static_cast<double>(choice.affordance_rad[order[i]]));
+    }
+    const std::vector<Candidate> candidates = Candidates(view, clouds, affordance_rad);
+    const auto fitting = std::ranges::find_if(candidates, [&](const Candidate& candidate) {
+      return Fits(view, ContactOf(view, clouds[candidate.point], candidate), candidate);
+    });
+    const Candidate& best = fitting == candidates.end() ? candidates.front() : *fitting;
+    choice.score_rad = best.rating_rad;
+    choice.contact_m = ContactOf(view, clouds[best.point], best);
+    choice.world_from_hand_rotation = best.world_from_hand_rotation;
+    choice.cloud = std::move(clouds[best.point]);
+  }
+
+  bool Fits(const GraspView& view, const Eigen::Vector3d& contact_m,
+            const Candidate& candidate) const {
+    return !options_.clear || !view.fits ||
+           view.fits(contact_m, candidate.world_from_hand_rotation);
+  }
+
+  Eigen::Vector3d ContactOf(const GraspView& view, const LabelledCloud& cloud,
+                            const Candidate& candidate) const {
+    const Eigen::Vector3d rated = PointOf(cloud.xyz, 0);
+    if (!options_.centred) return rated;
+    return internal::CentredContact(view.visible, rated, candidate.world_from_hand_rotation);
   }
 
   StageNetworks networks_;
@@ -129,6 +173,9 @@ std::unique_ptr<GraspPolicy> MakeGraspPolicy(StageNetworks networks, const Grasp
   require(options.tilt_rad >= 0 && options.tilt_rad < 1, "tilt_rad: must be in [0, 1)");
   require(options.smoothing_rad >= 0 && options.smoothing_rad < 10,
           "smoothing_rad: must be in [0, 10)");
+  require(options.smoothing_m >= 0 && options.smoothing_m < 10, "smoothing_m: must be in [0, 10)");
+  require(options.affordance_weight >= 0 && options.affordance_weight < 1000,
+          "affordance_weight: must be in [0, 1000)");
   Require(networks.family == NetworkFamily::kGrasp, ErrorCode::kInvalidArgument,
           "grasp: the networks are those of another stage");
   return std::make_unique<TrainedGraspPolicy>(std::move(networks), options);

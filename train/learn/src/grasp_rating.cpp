@@ -15,6 +15,22 @@
 #include "near_points.h"
 
 namespace doorforge::internal {
+namespace {
+
+double Falloff(double difference, double width) {
+  if (width <= 0) return difference > 0 ? 0 : 1;
+  return std::exp(-(difference / width) * (difference / width));
+}
+
+// [rad], whichever finger comes first.
+double AngleBetween(const RatedHand& a, const RatedHand& b) {
+  const Eigen::Matrix3d turn = a.world_from_hand_rotation.transpose() * b.world_from_hand_rotation;
+  const Eigen::Matrix3d half_turn = Eigen::Vector3d(-1, -1, 1).asDiagonal();
+  const double cosine = (std::max(turn.trace(), (turn * half_turn).trace()) - 1) / 2;
+  return std::acos(std::clamp(cosine, -1.0, 1.0));
+}
+
+}  // namespace
 
 GraspRater::GraspRater(const StageNetworks& networks)
     : networks_(&networks),
@@ -49,24 +65,20 @@ std::vector<float> GraspRater::Rate(std::span<const float> xyz,
   return ratings;
 }
 
-std::vector<float> Smoothed(std::span<const float> ratings,
-                            std::span<const Eigen::Matrix3d> orientations, double width_rad) {
-  std::vector<float> smoothed(ratings.begin(), ratings.end());
-  if (width_rad <= 0) return smoothed;
-  const Eigen::Matrix3d half_turn = Eigen::Vector3d(-1, -1, 1).asDiagonal();
-  for (std::size_t i = 0; i < ratings.size(); ++i) {
+std::vector<double> Smoothed(std::span<const RatedHand> hands, double width_rad, double width_m) {
+  std::vector<double> smoothed;
+  for (const RatedHand& hand : hands) {
     double sum = 0;
     double weights = 0;
-    for (std::size_t j = 0; j < ratings.size(); ++j) {
-      const Eigen::Matrix3d turn = orientations[i].transpose() * orientations[j];
-      const double cosine =
-          (std::max(turn.trace(), (turn * half_turn).trace()) - 1) / 2;  // whichever way is nearer
-      const double angle = std::acos(std::clamp(cosine, -1.0, 1.0)) / width_rad;
-      const double weight = std::exp(-angle * angle);
-      sum += weight * static_cast<double>(ratings[j]);
+    for (const RatedHand& other : hands) {
+      const double weight = &hand == &other
+                                ? 1
+                                : Falloff((hand.contact_m - other.contact_m).norm(), width_m) *
+                                      Falloff(AngleBetween(hand, other), width_rad);
+      sum += weight * other.rating_rad;
       weights += weight;
     }
-    smoothed[i] = static_cast<float>(sum / weights);
+    smoothed.push_back(sum / weights);
   }
   return smoothed;
 }

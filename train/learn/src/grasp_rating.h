@@ -28,10 +28,16 @@ class GraspRater {
   PointEncoder encoder_;
 };
 
-/// Each rating as the mean of all, weighted by how near their orientations are, see
-/// GraspOptions::smoothing_rad.
-std::vector<float> Smoothed(std::span<const float> ratings,
-                            std::span<const Eigen::Matrix3d> orientations, double width_rad);
+/// A hand at a contact point, and the door angle that the discriminator expects of it.
+struct RatedHand {
+  Eigen::Vector3d contact_m = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d world_from_hand_rotation = Eigen::Matrix3d::Identity();
+  double rating_rad = 0;
+};
+
+/// The ratings, each as the mean of all, weighted by exp(-(angle / width_rad)^2 - (distance of the
+/// contacts / width_m)^2), alike fingers alike. A width of 0: of those alone that do not differ.
+std::vector<double> Smoothed(std::span<const RatedHand> hands, double width_rad, double width_m);
 
 /// Mean of the highest `best` of the ratings, which are at least one.
 float MeanOfBest(std::vector<float> ratings, std::size_t best);

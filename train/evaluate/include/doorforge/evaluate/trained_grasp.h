@@ -7,6 +7,7 @@
 
 #include "doorforge/learn/grasp_policy.h"
 #include "doorforge/rollout/camera_observer.h"
+#include "doorforge/rollout/gripper_clearance.h"
 #include "doorforge/rollout/run_episode.h"
 
 namespace doorforge {
@@ -28,6 +29,7 @@ class TrainedGrasp : public GraspChooser {
  private:
   int point_count_;
   CameraObserver camera_;
+  GripperClearance clearance_;
   std::shared_ptr<GraspPolicy> policy_;
 };
 

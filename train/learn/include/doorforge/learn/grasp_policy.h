@@ -18,20 +18,27 @@ namespace doorforge {
 
 /// How a trained grasp is chosen.
 struct GraspOptions {
-  /// Points with the highest affordance at which orientations are tried; the best pair by the
-  /// discriminator is taken. 1: the affordance alone decides about the point (UniDoorManip).
+  /// Points with the highest affordance at which orientations are tried; the best pair is taken. 1:
+  /// the affordance alone decides about the point (UniDoorManip).
   int points = 8;
   int orientations = 100;  ///< Tried at each of them.
   /// As in OrientationSampling; 0: all in the plane normal to the handle's axis (UniDoorManip). A
   /// spread is there to learn from: the discriminator overrates the few that lean the most.
   double tilt_rad = 0;
-  /// A rotation's rating is the mean of those tried at the point, each weighted by
-  /// exp(-(angle between them / this)^2), alike fingers alike; 0: its own alone (UniDoorManip). The
-  /// best of many ratings is the luckiest one; among neighbours luck evens out.
+  /// A hand's rating is the mean of all that were rated, each weighted by exp(-(angle between them
+  /// / smoothing_rad)^2 - (distance of their contacts / smoothing_m)^2), alike fingers alike. The
+  /// best of many ratings is the luckiest one; among neighbours luck evens out. 0 and 0: its own
+  /// alone (UniDoorManip); smoothing_m 0: those of its point alone.
   double smoothing_rad = 0.25;
+  double smoothing_m = 0.01;
+  /// What the affordance of its point counts beside a hand's rating when the best is sought: two
+  /// networks are seldom wrong alike. 0: the discriminator decides alone (UniDoorManip).
+  double affordance_weight = 1;
   /// The hand is moved across the way in, to the middle of what is seen of the handle between its
   /// fingers. False: it closes about the contact (UniDoorManip).
   bool centred = true;
+  /// Hands that do not fit, as GraspView::fits says, are left out, as long as there are others.
+  bool clear = true;
   std::uint64_t seed = 1;  ///< Of the sampled orientations.
 
   template <class Self, class Visitor>
@@ -40,7 +47,10 @@ struct GraspOptions {
     visit("orientations", self.orientations);
     visit("tilt_rad", self.tilt_rad);
     visit("smoothing_rad", self.smoothing_rad);
+    visit("smoothing_m", self.smoothing_m);
+    visit("affordance_weight", self.affordance_weight);
     visit("centred", self.centred);
+    visit("clear", self.clear);
     visit("seed", self.seed);
   }
 };
@@ -55,6 +65,9 @@ struct GraspView {
   /// The policy's cloud of 4096 points, beginning with the visible point nearest to a place in the
   /// world, of points within a distance of that one [m] (0: of all; farthest point sampling).
   std::function<LabelledCloud(const Eigen::Vector3d&, double)> sample;
+  /// Whether the open gripper gets to a contact [m] with that rotation (world from hand) without
+  /// passing through what is seen. Empty: it always does.
+  std::function<bool(const Eigen::Vector3d&, const Eigen::Matrix3d&)> fits = nullptr;
 };
 
 struct GraspChoice {

@@ -30,9 +30,9 @@
 #include <time.h>  // NOLINT: clock_gettime is POSIX
 #include <unistd.h>
 
-#include "doorforge/learn/process_group.h"
-#include "doorforge/learn/stage_policy.h"
-#include "doorforge/learn/train_stage.h"
+#include "doorforge/policy/stage_policy.h"
+#include "doorforge/training/process_group.h"
+#include "doorforge/training/train_stage.h"
 
 #include "door_cloud.h"
 #include "synthetic_samples.h"

@@ -20,8 +20,8 @@
 #include <malloc.h>
 #include <time.h>
 
-#include "doorforge/learn/linear_algebra.h"
-#include "doorforge/learn/point_encoder.h"
+#include "doorforge/networks/point_encoder.h"
+#include "doorforge/training/linear_algebra.h"
 
 #include "door_cloud.h"
 #include "reference_network.h"

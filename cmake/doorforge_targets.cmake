@@ -8,8 +8,10 @@ set(DOORFORGE_ALLOWED_physics core schemas)
 set(DOORFORGE_ALLOWED_sensor core schemas)
 set(DOORFORGE_ALLOWED_rollout core schemas physics sensor)
 set(DOORFORGE_ALLOWED_datagen core schemas rollout)
-set(DOORFORGE_ALLOWED_learn core schemas)
-set(DOORFORGE_ALLOWED_evaluate core schemas physics sensor rollout learn)
+set(DOORFORGE_ALLOWED_networks core schemas)
+set(DOORFORGE_ALLOWED_policy core schemas networks)
+set(DOORFORGE_ALLOWED_training core schemas networks policy)
+set(DOORFORGE_ALLOWED_evaluate core schemas physics sensor rollout networks policy)
 
 # Contraction off: an asset, an episode and a cloud must not depend on whether the compiler fused
 # a multiply with an add.
@@ -74,7 +76,7 @@ function(doorforge_add_library room)
   target_compile_options(${target} PRIVATE ${DOORFORGE_COMPILE_OPTIONS})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${room} CXX_EXTENSIONS OFF)
   # CGAL and libtorch come with options of their own
-  if(room STREQUAL mesh OR room STREQUAL learn)
+  if(room STREQUAL mesh OR room STREQUAL training)
     doorforge_precompile(${target} ${target})
   else()
     doorforge_precompile(${target} doorforge_core)

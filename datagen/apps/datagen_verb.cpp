@@ -281,19 +281,6 @@ CLI::App* AddPlan(CLI::App& app, Options& options) {
 
 }  // namespace
 
-void BecomeTrainedProgram(int argc, char** argv) {
-  const fs::path program = ProgramFolder() / "doorforge-datagen-trained";
-  std::vector<std::string> words(argv, argv + argc);
-  words.insert(words.begin(), program.string());
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  ::execv(program.c_str(), pointers.data());
-  throw Error(ErrorCode::kMissing, program.string() +
-                                       ": cannot be started; --opener, --handler and --learner "
-                                       "need a build with the room train/learn");
-}
-
 int RunDatagenVerb(int argc, char** argv) {
   Options options;
   CLI::App app("Collects a stage's dataset.", "doorforge datagen");
@@ -310,7 +297,6 @@ int RunDatagenVerb(int argc, char** argv) {
   const CLI::App* plan = AddPlan(app, options);
   app.footer("example:\n  doorforge datagen open --doors doors/train --out data --episodes 200");
   ParseDataVerb(app, argc, argv);
-  if (options.policies.Any() && !RunsTrainedPolicies()) BecomeTrainedProgram(argc, argv);
   if (!options.slurm.file.empty()) return GiveToSlurm(options, {argv, argv + argc});
   return NamingConfig(options.config,
                       [&] { return plan->parsed() ? PrintPlan(options) : CollectStage(options); });

@@ -124,7 +124,7 @@ int RunDatasetVerb(int argc, char** argv) {
   const std::vector<std::function<int()>> downstream = {AddStatus(app), AddInfo(app),
                                                         AddExport(app), AddCard(app)};
   ParseDataVerb(app, argc, argv);
-  if (!options.regenerate.share.empty()) PrepareRegenerate(options.regenerate, argc, argv);
+  if (!options.regenerate.share.empty()) CheckRegenerateOptions(options.regenerate);
   if (merge->parsed()) return Merge(options);
   if (reobserve->parsed()) return RunReobserve(options.reobserve);
   for (const auto& run : downstream) {

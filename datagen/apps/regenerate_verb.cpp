@@ -60,11 +60,10 @@ void AddRegenerateOptions(CLI::App& app, RegenerateOptions& options) {
   app.add_option("--learner", policies.learner, "the policy that drove or took hold")->needs(share);
 }
 
-void PrepareRegenerate(const RegenerateOptions& options, int argc, char** argv) {
+void CheckRegenerateOptions(const RegenerateOptions& options) {
   ParseFraction(options.share);
   Require(!options.doors.empty(), ErrorCode::kInvalidArgument,
           "--regenerate: needs --doors, with what the dataset was made with");
-  if (options.policies.Any() && !RunsTrainedPolicies()) BecomeTrainedProgram(argc, argv);
 }
 
 std::vector<DatasetFinding> Regenerate(const fs::path& folder, int threads,

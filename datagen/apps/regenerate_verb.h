@@ -24,9 +24,8 @@ struct RegenerateOptions {
 
 void AddRegenerateOptions(CLI::App& app, RegenerateOptions& options);
 
-/// Checks the options, and goes on as the program that runs trained policies where one is named.
-/// Throws Error(kInvalidArgument).
-void PrepareRegenerate(const RegenerateOptions& options, int argc, char** argv);
+/// Throws Error(kInvalidArgument) on options that do not go together.
+void CheckRegenerateOptions(const RegenerateOptions& options);
 
 /// Makes a share of the dataset's episodes again. Throws Error(kInvalidArgument) if build, doors or
 /// policies are not those that it was made with.

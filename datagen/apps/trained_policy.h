@@ -41,7 +41,7 @@ struct PolicyFolders {
 };
 
 /// Reads the record and checks the weights against it, so that a policy that does not fit is
-/// refused before any work. Needs no network library.
+/// refused before any work.
 ///
 /// @throws Error(kMissing) if there is no policy, Error(kFormat) if it is of another schema or its
 ///     weights are others than the record's, Error(kInvalidArgument) if it is of another stage.
@@ -111,11 +111,6 @@ class LearnedGrasp {
 
 using PolicyPool = ActorPool<Policy>;
 using GraspPool = ActorPool<LearnedGrasp>;
-
-/// Whether this program can run trained policies. The networks' library takes most of a second to
-/// load, so it is linked to a program of its own, `doorforge-datagen-trained`, from the same
-/// sources.
-bool RunsTrainedPolicies();
 
 /// A new instance that uses one thread. Throws as the loader of policies.
 std::unique_ptr<Policy> LoadTrainedPolicy(const TrainedPolicy& policy);

@@ -8,8 +8,8 @@
 
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
-#include "doorforge/learn/checkpoint.h"
 #include "doorforge/physics/load_robot.h"
+#include "doorforge/policy/policy_file.h"
 #include "doorforge/rollout/gripper_clearance.h"
 #include "doorforge/rollout/run_episode.h"
 

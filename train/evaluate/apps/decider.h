@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "doorforge/evaluate/robot_sight.h"
-#include "doorforge/learn/familiarity.h"
-#include "doorforge/learn/gain_critic.h"
-#include "doorforge/learn/grasp_policy.h"
-#include "doorforge/learn/stage_policy.h"
-#include "doorforge/learn/turning_policy.h"
 #include "doorforge/physics/robot_model.h"
+#include "doorforge/policy/familiarity.h"
+#include "doorforge/policy/gain_critic.h"
+#include "doorforge/policy/grasp_policy.h"
+#include "doorforge/policy/stage_policy.h"
+#include "doorforge/policy/turning_policy.h"
 #include "doorforge/sensor/picture.h"
 #include "doorforge/sensor/point_cloud.h"
 

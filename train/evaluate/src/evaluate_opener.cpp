@@ -14,15 +14,15 @@
 #include "doorforge/evaluate/run_trials.h"
 #include "doorforge/evaluate/take_pictures.h"
 #include "doorforge/evaluate/trained_grasp.h"
-#include "doorforge/learn/checkpoint.h"
-#include "doorforge/learn/stage_dataset.h"
-#include "doorforge/learn/turning_policy.h"
 #include "doorforge/physics/load_robot.h"
+#include "doorforge/policy/policy_file.h"
+#include "doorforge/policy/turning_policy.h"
 #include "doorforge/rollout/camera_observer.h"
 #include "doorforge/rollout/opening_expert.h"
 #include "doorforge/rollout/random_grasp.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/schemas/door_set.h"
+#include "doorforge/schemas/stage_content.h"
 
 #include "training_record.h"
 
@@ -139,7 +139,7 @@ std::string NameOfPolicy(const EvaluationRequest& request) {
 
 // The data sets are the policy's own, in the order in which it was trained from them.
 void RequireSameData(const PolicyRecord& policy, std::span<const fs::path> data) {
-  const std::string found = ReadStageDataset(data, policy.provenance.stage, 0).content_sha256;
+  const std::string found = StageContentSha256(data, policy.provenance.stage);
   if (found != policy.provenance.dataset_sha256)
     throw Error(ErrorCode::kInvalidArgument,
                 "--data " + data[0].string() + ": has the hash " + found.substr(0, 12) +

@@ -9,7 +9,7 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
-#include "doorforge/learn/checkpoint.h"
+#include "doorforge/policy/training_curves.h"
 #include "doorforge/schemas/dataset.h"
 #include "doorforge/schemas/door_set.h"
 

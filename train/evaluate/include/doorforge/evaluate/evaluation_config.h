@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <string>
 
-#include "doorforge/learn/grasp_policy.h"
-#include "doorforge/learn/stage_policy.h"
 #include "doorforge/physics/scene_sampling.h"
+#include "doorforge/policy/grasp_policy.h"
+#include "doorforge/policy/stage_policy.h"
 #include "doorforge/rollout/grasp_look.h"
 #include "doorforge/rollout/random_grasp.h"
 #include "doorforge/sensor/point_cloud.h"

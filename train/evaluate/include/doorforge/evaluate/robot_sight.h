@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "doorforge/core/rigid_transform.h"
-#include "doorforge/learn/grasp_policy.h"
 #include "doorforge/physics/robot_model.h"
+#include "doorforge/policy/grasp_policy.h"
 #include "doorforge/schemas/policy.h"
 #include "doorforge/sensor/depth_camera.h"
 #include "doorforge/sensor/picture.h"

@@ -10,8 +10,8 @@
 
 #include "doorforge/evaluate/evaluated_episode.h"
 #include "doorforge/evaluate/evaluation_config.h"
-#include "doorforge/learn/grasp_policy.h"
 #include "doorforge/physics/robot_model.h"
+#include "doorforge/policy/grasp_policy.h"
 #include "doorforge/rollout/observer.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/schemas/door_asset.h"

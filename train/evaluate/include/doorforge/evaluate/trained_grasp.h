@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "doorforge/learn/grasp_policy.h"
+#include "doorforge/policy/grasp_policy.h"
 #include "doorforge/rollout/camera_observer.h"
 #include "doorforge/rollout/gripper_clearance.h"
 #include "doorforge/rollout/run_episode.h"

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace doorforge {
+
+/// SHA-256 that tells what a stage's networks were trained from: over the content hashes of the
+/// splits "train" and, where there is one, "val" of all data sets in their order. A policy's record
+/// holds it (PolicyProvenance::dataset_sha256). Reads the shards' indices, no cloud.
+///
+/// @throws Error(kInvalidArgument) without a folder, Error(kMissing or kFormat) as DatasetReader.
+std::string StageContentSha256(std::span<const std::filesystem::path> folders,
+                               std::string_view stage);
+
+}  // namespace doorforge

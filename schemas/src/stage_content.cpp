@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/schemas/stage_content.h"
+
+#include "doorforge/core/error.h"
+#include "doorforge/core/hash.h"
+#include "doorforge/schemas/dataset.h"
+
+namespace doorforge {
+
+std::string StageContentSha256(std::span<const std::filesystem::path> folders,
+                               std::string_view stage) {
+  Require(!folders.empty(), ErrorCode::kInvalidArgument, "no data set to read samples from");
+  std::string content;
+  for (const std::filesystem::path& folder : folders) {
+    for (const char* split : {"train", "val"}) {
+      if (split == std::string_view("val") && !std::filesystem::exists(folder / stage / split))
+        continue;
+      if (!content.empty()) content += '\n';
+      content += DatasetReader(folder, std::string(stage), split).ContentHash();
+    }
+  }
+  return Sha256Hex(content);
+}
+
+}  // namespace doorforge

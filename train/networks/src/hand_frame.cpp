@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/networks/hand_frame.h"
+
+namespace doorforge::internal {
+
+ActionVector TurnOf(const ActionVector& action, const Eigen::Matrix3d& world_from_hand) {
+  Action turn = FromVector(action);
+  turn.world_from_hand_rotation *= world_from_hand.transpose();
+  return ToVector(turn);
+}
+
+ActionVector TargetOf(const ActionVector& turn, const Eigen::Matrix3d& world_from_hand) {
+  Action target = FromVector(turn);
+  target.world_from_hand_rotation *= world_from_hand;
+  return ToVector(target);
+}
+
+TrainingSample WithTurns(const TrainingSample& sample) {
+  const Eigen::Matrix3d world_from_hand = HandRotationOf(sample.proprioception);
+  TrainingSample turns = sample;
+  turns.action = TurnOf(sample.action, world_from_hand);
+  turns.executed = TurnOf(sample.executed, world_from_hand);
+  return turns;
+}
+
+TrainingSample AboutContact(const TrainingSample& sample) {
+  TrainingSample about = sample;
+  for (std::size_t k = 0; k < 3; ++k) about.action[k] -= sample.cloud[k];
+  return about;
+}
+
+}  // namespace doorforge::internal

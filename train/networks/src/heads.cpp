@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/networks/heads.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "doorforge/networks/point_encoder.h"
+
+#include "dense_layers.h"
+
+namespace doorforge::internal {
+namespace {
+
+constexpr int kBranchFeatures = 128;  // of the grasp's branches
+// Near points that go through their layers together: what they make stays in the second cache.
+constexpr int kRowsTogether = 512;
+
+std::shared_ptr<const DenseLayers> ActorLayers(const StageNetworks& networks, InstructionSet set) {
+  return std::make_shared<DenseLayers>(ActorLayout(networks.family, networks.norm), networks.actor,
+                                       set);
+}
+
+std::shared_ptr<const DenseLayers> CriticLayers(const StageNetworks& networks, InstructionSet set) {
+  return std::make_shared<DenseLayers>(CriticLayout(networks.family, networks.norm),
+                                       networks.critic, set);
+}
+
+template <std::size_t N>
+std::vector<float> Denormalised(const Normaliser<N>& normaliser, const Table& table) {
+  std::vector<float> values;
+  values.reserve(static_cast<std::size_t>(table.rows) * N);
+  for (int row = 0; row < table.rows; ++row) {
+    for (std::size_t i = 0; i < N; ++i) {
+      const auto at = static_cast<std::size_t>(row) * static_cast<std::size_t>(table.stride) + i;
+      values.push_back(table.values[at] * normaliser.deviation[i] + normaliser.mean[i]);
+    }
+  }
+  return values;
+}
+
+Table Zeros(int rows, int columns) {
+  return {rows, columns, columns, std::vector<float>(static_cast<std::size_t>(rows) * columns)};
+}
+
+// Both heads of a grasp end in two layers.
+Table GraspScore(const DenseLayers& layers, const Table& joined) {
+  const Table hidden = layers.Apply("score.0", joined.View(), Activation::kLeaky);
+  return layers.Apply("score.1", hidden.View(), Activation::kNone);
+}
+
+// Of each hand the maximum over its near points, a few hands at a time.
+Table NearFeatures(const DenseLayers& layers, const HeadInputs& inputs) {
+  const Rows near = ViewOf(inputs.near, 3);
+  const int points = near.rows / inputs.size;
+  const int together = std::max(1, kRowsTogether / points);
+  Table features = Zeros(inputs.size, kBranchFeatures);
+  for (int first = 0; first < inputs.size; first += together) {
+    const int hands = std::min(together, inputs.size - first);
+    const Rows some{near.data + static_cast<std::ptrdiff_t>(first) * points * near.stride,
+                    near.stride, hands * points, near.columns};
+    const Table one = layers.Apply("near.0", some, Activation::kRectified);
+    const Table two = layers.Apply("near.1", one.View(), Activation::kRectified);
+    const Table three = layers.Apply("near.2", two.View(), Activation::kRectified);
+    const Table best = layers.MaximumOfGroups(three.View(), points);
+    std::ranges::copy(best.values, features.values.begin() +
+                                       static_cast<std::ptrdiff_t>(first) * kBranchFeatures);
+  }
+  return features;
+}
+
+}  // namespace
+
+ActorHead::ActorHead(const StageNetworks& networks, InstructionSet set)
+    : layers_(ActorLayers(networks, set)),
+      action_(networks.normalisation.action),
+      linear_branches_(networks.linear_branches) {}
+
+std::vector<float> ActorHead::Decode(const HeadInputs& inputs,
+                                     const std::vector<float>& latents) const {
+  const Activation between = linear_branches_ ? Activation::kNone : Activation::kLeaky;
+  const Table state = layers_->Branch("state", between, ViewOf(inputs.states, 18));
+  const Table condition = SideBySide(
+      {ViewOf(latents, kLatentSize), ViewOf(inputs.features, kFeatureSize), state.View()});
+  return Denormalised(action_, layers_->Branch("decoder", between, condition.View()));
+}
+
+CriticHead::CriticHead(const StageNetworks& networks, InstructionSet set)
+    : layers_(CriticLayers(networks, set)), score_rad_(networks.normalisation.score_rad) {}
+
+std::vector<float> CriticHead::Score(const HeadInputs& inputs) const {
+  const auto branch = [&](const char* name, const std::vector<float>& values, int columns) {
+    return layers_->Branch(name, Activation::kRectified, ViewOf(values, columns));
+  };
+  const Table state = branch("state", inputs.states, 18);
+  const Table action = branch("action", inputs.actions, 9);
+  const Table hand = branch("hand", inputs.hands, 3);
+  const Table base = branch("base", inputs.bases, 3);
+  const Table joined = SideBySide({ViewOf(inputs.features, kFeatureSize), state.View(),
+                                   action.View(), hand.View(), base.View()});
+  return Denormalised(score_rad_, layers_->Branch("score", Activation::kRectified, joined.View()));
+}
+
+DiscriminatorHead::DiscriminatorHead(const StageNetworks& networks, InstructionSet set)
+    : layers_(CriticLayers(networks, set)), score_rad_(networks.normalisation.score_rad) {}
+
+std::vector<float> DiscriminatorHead::Score(const HeadInputs& inputs) const {
+  const Table nothing = Zeros(inputs.size, kBranchFeatures);
+  Table joined;
+  if (inputs.near.empty()) {
+    const Table action =
+        layers_->Branch("action", Activation::kRectified, ViewOf(inputs.actions, 9));
+    joined = SideBySide({ViewOf(inputs.features, kFeatureSize), action.View(), nothing.View()});
+  } else {
+    const Table near = NearFeatures(*layers_, inputs);
+    joined = SideBySide({Zeros(inputs.size, kFeatureSize).View(), nothing.View(), near.View()});
+  }
+  return Denormalised(score_rad_, GraspScore(*layers_, joined));
+}
+
+AffordanceHead::AffordanceHead(const StageNetworks& networks, InstructionSet set)
+    : layers_(ActorLayers(networks, set)), score_rad_(networks.normalisation.score_rad) {}
+
+std::vector<float> AffordanceHead::Score(const HeadInputs& inputs) const {
+  const Table point = layers_->Branch("point", Activation::kRectified, ViewOf(inputs.points, 3));
+  return Denormalised(
+      score_rad_,
+      GraspScore(*layers_, SideBySide({ViewOf(inputs.features, kFeatureSize), point.View()})));
+}
+
+}  // namespace doorforge::internal

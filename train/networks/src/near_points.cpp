@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/networks/near_points.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "doorforge/networks/stage_networks.h"
+
+namespace doorforge::internal {
+namespace {
+
+constexpr float kUnit = 0.05F;  // [m]
+
+}  // namespace
+
+Eigen::Matrix3Xf NearestToFirst(std::span<const float> xyz, int count) {
+  const Eigen::Map<const Eigen::Matrix3Xf> points(xyz.data(), 3,
+                                                  static_cast<Eigen::Index>(xyz.size() / 3));
+  std::vector<std::pair<float, Eigen::Index>> order;  // squared distance; the first of equals first
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const float squared = (points.col(i) - points.col(0)).squaredNorm();
+    if (squared <= kNearRadius * kNearRadius) order.emplace_back(squared, i);
+  }
+  const auto kept = std::min(order.size(), static_cast<std::size_t>(count));
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(kept), order.end());
+  Eigen::Matrix3Xf near = Eigen::Matrix3Xf::Zero(3, count);
+  for (std::size_t i = 0; i < kept; ++i)
+    near.col(static_cast<Eigen::Index>(i)) = points.col(order[i].second) - points.col(0);
+  return near;
+}
+
+void AppendInHandFrame(const Eigen::Matrix3Xf& near, const Eigen::Matrix3d& world_from_hand,
+                       std::vector<float>& out) {
+  const Eigen::Matrix3Xf seen = world_from_hand.cast<float>().transpose() * near / kUnit;
+  out.insert(out.end(), seen.data(), seen.data() + seen.size());
+}
+
+}  // namespace doorforge::internal

@@ -1,0 +1,327 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/networks/stage_networks.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
+#include "doorforge/networks/point_encoder.h"
+
+namespace doorforge {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr float kResultScale = 0.1F;
+constexpr float kNearScale =
+    0.4F;  // the largest of 256 points is several deviations above the mean
+
+void AddBranch(const std::string& name, std::initializer_list<int> sizes, ParameterLayout& layout) {
+  std::size_t i = 0;
+  for (const int* size = sizes.begin(); size + 1 != sizes.end(); ++size, ++i)
+    layout.Add(name + "." + std::to_string(i), size[0], size[1]);
+}
+
+ParameterLayout MakeActorLayout(EncoderNorm norm) {
+  ParameterLayout layout;
+  AddEncoderLayers("encoder.", layout, norm);
+  AddBranch("action", {9, 128, 128, 64}, layout);
+  AddBranch("state", {18, 128, 128, 64}, layout);
+  AddBranch("posterior", {kFeatureSize + 128, 128, 128}, layout);
+  layout.Add("mean", 128, kLatentSize);
+  layout.Add("log_variance", 128, kLatentSize);
+  AddBranch("decoder", {kLatentSize + kFeatureSize + 64, 512, 256, 9}, layout);
+  return layout;
+}
+
+ParameterLayout MakeCriticLayout(EncoderNorm norm) {
+  ParameterLayout layout;
+  AddEncoderLayers("encoder.", layout, norm);
+  AddBranch("state", {18, 128, 128, 64}, layout);
+  AddBranch("action", {9, 128, 128, 64}, layout);
+  AddBranch("hand", {3, 128, 128, 64}, layout);
+  AddBranch("base", {3, 128, 128, 64}, layout);
+  AddBranch("score", {kFeatureSize + 4 * 64, 256, 128, 1}, layout);
+  return layout;
+}
+
+ParameterLayout MakeAffordanceLayout(EncoderNorm norm) {
+  ParameterLayout layout;
+  AddEncoderLayers("encoder.", layout, norm);
+  AddBranch("point", {3, 128, 128, 128}, layout);
+  AddBranch("score", {kFeatureSize + 128, 128, 1}, layout);
+  return layout;
+}
+
+ParameterLayout MakeDiscriminatorLayout(EncoderNorm norm) {
+  ParameterLayout layout;
+  AddEncoderLayers("encoder.", layout, norm);
+  AddBranch("action", {9, 128, 128, 128}, layout);
+  AddBranch("near", {3, 64, 64, 128}, layout);
+  AddBranch("score", {kFeatureSize + 128 + 128, 128, 1}, layout);
+  return layout;
+}
+
+using LayoutsByNorm = std::array<ParameterLayout, 2>;
+
+LayoutsByNorm OfBothNorms(ParameterLayout (*make)(EncoderNorm)) {
+  return {make(EncoderNorm::kNone), make(EncoderNorm::kBatch)};
+}
+
+std::vector<float> Initial(const ParameterLayout& layout, std::uint64_t seed,
+                           const std::string& prefix) {
+  std::vector<float> parameters = HeInitialisation(layout, seed, prefix);
+  for (const DenseLayer& layer : layout.layers()) {
+    const bool gives_result = &layer == &layout.layers().back();
+    const bool near = layer.name.starts_with("near.");
+    if (layer.name != "mean" && layer.name != "log_variance" && !gives_result && !near) continue;
+    const float scale = near ? kNearScale : kResultScale;
+    for (std::size_t i = layer.offset; i < layer.bias_offset(); ++i) parameters[i] *= scale;
+  }
+  for (std::size_t i = 0; i < layout.layers().size(); ++i) {
+    const DenseLayer* norm = NormBehind(layout, i);
+    if (norm != nullptr)
+      std::fill_n(parameters.begin() + static_cast<std::ptrdiff_t>(norm->offset),
+                  norm->weight_count(), 1.0F);
+  }
+  return parameters;
+}
+
+// `value(sample)` gives the array to measure; `least` is the lower bound of each deviation.
+template <std::size_t N, class Value>
+Normaliser<N> Measure(std::span<const TrainingSample> samples, const std::array<float, N>& least,
+                      const Value& value) {
+  Normaliser<N> normaliser;
+  const auto count = static_cast<double>(samples.size());
+  for (std::size_t i = 0; i < N; ++i) {
+    double sum = 0;
+    for (const TrainingSample& sample : samples) sum += value(sample)[i];
+    const double mean = sum / count;
+    double squares = 0;
+    for (const TrainingSample& sample : samples) {
+      const double difference = value(sample)[i] - mean;
+      squares += difference * difference;
+    }
+    normaliser.mean[i] = static_cast<float>(mean);
+    normaliser.deviation[i] = std::max(static_cast<float>(std::sqrt(squares / count)), least[i]);
+  }
+  return normaliser;
+}
+
+std::array<float, 3> ToArray(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
+
+template <std::size_t N>
+constexpr std::array<float, N> Filled(float value) {
+  std::array<float, N> array{};
+  array.fill(value);
+  return array;
+}
+
+std::array<float, 3> MeanPoint(std::span<const TrainingSample> samples) {
+  std::array<double, 3> sum{};
+  double count = 0;
+  for (const TrainingSample& sample : samples) {
+    for (std::size_t i = 0; i < sample.cloud.size(); ++i) sum[i % 3] += sample.cloud[i];
+    const std::size_t points = sample.cloud.size() / 3;
+    count += static_cast<double>(points);
+  }
+  std::array<float, 3> mean{};
+  for (std::size_t i = 0; i < 3; ++i) mean[i] = static_cast<float>(sum[i] / count);
+  return mean;
+}
+
+template <std::size_t N>
+std::array<float, N> ArrayFromJson(const Json& json, const std::string& path) {
+  const auto refuse = [&] {
+    throw Error(ErrorCode::kFormat,
+                path + ": expected an array of " + std::to_string(N) + " finite numbers");
+  };
+  if (!json.is_array() || json.size() != N) refuse();
+  std::array<float, N> values{};
+  for (std::size_t i = 0; i < N; ++i) {
+    if (!json[i].is_number()) refuse();
+    values[i] = json[i].get<float>();
+    if (!std::isfinite(values[i])) refuse();
+  }
+  return values;
+}
+
+template <std::size_t N>
+Json NormaliserToJson(const Normaliser<N>& normaliser) {
+  return {{"mean", normaliser.mean}, {"deviation", normaliser.deviation}};
+}
+
+template <std::size_t N>
+Normaliser<N> NormaliserFromJson(const Json& parent, const std::string& key,
+                                 const std::string& path) {
+  const Json& json = MemberOf(parent, key, path);
+  const std::string inner = path + "." + key;
+  Normaliser<N> normaliser{
+      ArrayFromJson<N>(MemberOf(json, "mean", inner), inner + ".mean"),
+      ArrayFromJson<N>(MemberOf(json, "deviation", inner), inner + ".deviation")};
+  for (const float deviation : normaliser.deviation) {
+    if (deviation <= 0) throw Error(ErrorCode::kFormat, inner + ".deviation: must be positive");
+  }
+  return normaliser;
+}
+
+template <class Kind>
+Kind NamedKind(const Json& json, const char* key, std::initializer_list<Kind> kinds,
+               const std::string& path) {
+  const auto name = ValueOf<std::string>(json, key, path);
+  for (const Kind kind : kinds) {
+    if (NameOf(kind) == name) return kind;
+  }
+  throw Error(ErrorCode::kFormat,
+              path + "." + key + ": \"" + name + "\" is not known to this build");
+}
+
+// What the records of earlier builds lack is as the default.
+NetworkView ViewFromJson(const Json& json, const std::string& path) {
+  NetworkView view;
+  if (json.contains("frame"))
+    view.frame = NamedKind(json, "frame", {ViewFrame::kHand, ViewFrame::kWorld}, path);
+  if (json.contains("state_of"))
+    view.state =
+        NamedKind(json, "state_of", {StateKind::kHand, StateKind::kJoints, StateKind::kNone}, path);
+  if (json.contains("context_m"))
+    view.context_m = static_cast<float>(ValueOf<double>(json, "context_m", path));
+  if (json.contains("zoom")) view.zoom = static_cast<float>(ValueOf<double>(json, "zoom", path));
+  if (json.contains("cloud_within_m"))
+    view.cloud_within_m = static_cast<float>(ValueOf<double>(json, "cloud_within_m", path));
+  if (json.contains("near_points")) view.near_points = ValueOf<int>(json, "near_points", path);
+  return view;
+}
+
+}  // namespace
+
+std::string_view NameOf(ViewFrame frame) { return frame == ViewFrame::kHand ? "hand" : "world"; }
+
+std::string_view NameOf(StateKind kind) {
+  switch (kind) {
+    case StateKind::kHand:
+      return "hand";
+    case StateKind::kJoints:
+      return "joints";
+    case StateKind::kNone:
+      return "none";
+  }
+  return "";
+}
+
+PolicyState StateOf(StateKind kind, const Proprioception& proprioception) {
+  if (kind == StateKind::kJoints) return PolicyStateOf(proprioception);
+  PolicyState state{};
+  if (kind == StateKind::kNone) return state;
+  const Eigen::Matrix3f world_from_hand = HandRotationOf(proprioception).cast<float>();
+  const Eigen::Vector2f fingers = FingerOpeningsOf(proprioception);
+  for (std::size_t i = 0; i < 6; ++i)
+    state[i] = world_from_hand(static_cast<Eigen::Index>(i / 3), static_cast<Eigen::Index>(i % 3));
+  for (std::size_t i = 0; i < 2; ++i) state[6 + i] = fingers[static_cast<Eigen::Index>(i)];
+  return state;
+}
+
+CloudWindow WindowOf(const StageNormalisation& normalisation,
+                     const std::array<float, 3>& hand_or_point_m) {
+  CloudWindow window{normalisation.cloud_centre_m, normalisation.view.context_m,
+                     normalisation.view.zoom};
+  if (normalisation.view.frame == ViewFrame::kHand) {
+    for (std::size_t k = 0; k < 3; ++k) window.centre[k] += hand_or_point_m[k];
+  }
+  return window;
+}
+
+StageNormalisation MeasureNormalisation(std::span<const TrainingSample> samples,
+                                        const NetworkView& view) {
+  Require(!samples.empty(), ErrorCode::kInvalidArgument, "no sample to train from");
+  constexpr float kPosition = 0.005F;
+  constexpr float kRotation = 0.05F;
+  StageNormalisation normalisation;
+  normalisation.view = view;
+  if (view.frame == ViewFrame::kWorld) normalisation.cloud_centre_m = MeanPoint(samples);
+  normalisation.state =
+      Measure<18>(samples, Filled<18>(view.state == StateKind::kHand ? 0.005F : 0.02F),
+                  [&](const TrainingSample& s) { return StateOf(view.state, s.proprioception); });
+  normalisation.action = Measure<9>(samples,
+                                    {kPosition, kPosition, kPosition, kRotation, kRotation,
+                                     kRotation, kRotation, kRotation, kRotation},
+                                    [](const TrainingSample& s) { return s.action; });
+  normalisation.hand_m = Measure<3>(samples, Filled<3>(0.02F), [](const TrainingSample& s) {
+    return ToArray(HandPositionOf(s.proprioception));
+  });
+  normalisation.base_m = Measure<3>(samples, Filled<3>(0.02F), [](const TrainingSample& s) {
+    return ToArray(BasePositionOf(s.proprioception));
+  });
+  normalisation.score_rad = Measure<1>(
+      samples, {0.005F}, [](const TrainingSample& s) { return std::array<float, 1>{s.score_rad}; });
+  return normalisation;
+}
+
+Json NormalisationToJson(const StageNormalisation& normalisation) {
+  return {{"frame", NameOf(normalisation.view.frame)},
+          {"state_of", NameOf(normalisation.view.state)},
+          {"context_m", normalisation.view.context_m},
+          {"zoom", normalisation.view.zoom},
+          {"cloud_within_m", normalisation.view.cloud_within_m},
+          {"near_points", normalisation.view.near_points},
+          {"cloud_centre_m", normalisation.cloud_centre_m},
+          {"cloud_scale", 1},
+          {"state", NormaliserToJson(normalisation.state)},
+          {"action", NormaliserToJson(normalisation.action)},
+          {"hand_m", NormaliserToJson(normalisation.hand_m)},
+          {"base_m", NormaliserToJson(normalisation.base_m)},
+          {"score_rad", NormaliserToJson(normalisation.score_rad)}};
+}
+
+StageNormalisation NormalisationFromJson(const Json& json, const std::string& path) {
+  StageNormalisation normalisation;
+  normalisation.view = ViewFromJson(json, path);
+  normalisation.cloud_centre_m =
+      ArrayFromJson<3>(MemberOf(json, "cloud_centre_m", path), path + ".cloud_centre_m");
+  normalisation.state = NormaliserFromJson<18>(json, "state", path);
+  normalisation.action = NormaliserFromJson<9>(json, "action", path);
+  normalisation.hand_m = NormaliserFromJson<3>(json, "hand_m", path);
+  normalisation.base_m = NormaliserFromJson<3>(json, "base_m", path);
+  normalisation.score_rad = NormaliserFromJson<1>(json, "score_rad", path);
+  return normalisation;
+}
+
+NetworkFamily FamilyOf(std::string_view stage) {
+  return stage == "grasp" ? NetworkFamily::kGrasp : NetworkFamily::kMotion;
+}
+
+NetworkNames NamesOf(NetworkFamily family) {
+  return family == NetworkFamily::kGrasp ? NetworkNames{"affordance", "discriminator"}
+                                         : NetworkNames{"actor", "critic"};
+}
+
+const ParameterLayout& ActorLayout(NetworkFamily family, EncoderNorm norm) {
+  static const LayoutsByNorm kActor = OfBothNorms(MakeActorLayout);
+  static const LayoutsByNorm kAffordance = OfBothNorms(MakeAffordanceLayout);
+  const LayoutsByNorm& layouts = family == NetworkFamily::kGrasp ? kAffordance : kActor;
+  return layouts.at(static_cast<std::size_t>(norm));
+}
+
+const ParameterLayout& CriticLayout(NetworkFamily family, EncoderNorm norm) {
+  static const LayoutsByNorm kCritic = OfBothNorms(MakeCriticLayout);
+  static const LayoutsByNorm kDiscriminator = OfBothNorms(MakeDiscriminatorLayout);
+  const LayoutsByNorm& layouts = family == NetworkFamily::kGrasp ? kDiscriminator : kCritic;
+  return layouts.at(static_cast<std::size_t>(norm));
+}
+
+StageNetworks InitialNetworks(const StageNormalisation& normalisation, bool linear_branches,
+                              std::uint64_t seed, NetworkFamily family, EncoderNorm norm) {
+  const NetworkNames names = NamesOf(family);
+  return {normalisation,
+          linear_branches,
+          Initial(ActorLayout(family, norm), seed, std::string(names.actor) + "."),
+          Initial(CriticLayout(family, norm), seed, std::string(names.critic) + "."),
+          family,
+          norm};
+}
+
+}  // namespace doorforge

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+#include "doorforge/networks/stage_networks.h"
+#include "doorforge/schemas/policy.h"
+
+namespace doorforge {
+
+/// How a trained policy chooses its action.
+struct PolicyOptions {
+  /// 1: the action decoded from the latent 0. k > 1: that one and k - 1 from latents drawn from
+  /// N(0, I); the critic's highest score is taken (the first of equals).
+  int candidates = 1;
+  std::uint64_t seed = 1;  ///< Of the draws, which begin anew at every Reset().
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    visit("candidates", self.candidates);
+    visit("seed", self.seed);
+  }
+};
+
+/// The policy of a folder that `doorforge train` wrote, of the stage "open" unless said otherwise:
+/// the policy that turns the handle ("handle") has the same networks.
+///
+/// One instance serves one episode at a time and uses one thread; several threads each load their
+/// own. Act() reads the cloud and the proprioception only, and throws Error(kInvalidArgument) if
+/// they are not finite or the cloud does not hold 4096 points.
+///
+/// @throws Error(kMissing or kFormat) as ReadPolicy(), Error(kInvalidConfig) on bad options.
+std::unique_ptr<Policy> LoadPolicy(const std::filesystem::path& folder,
+                                   const PolicyOptions& options = {},
+                                   std::string_view stage = "open");
+
+/// The same of networks in memory.
+std::unique_ptr<Policy> MakePolicy(StageNetworks networks, const PolicyOptions& options = {});
+
+}  // namespace doorforge

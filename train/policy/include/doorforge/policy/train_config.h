@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "doorforge/networks/batch_norm.h"
+#include "doorforge/networks/stage_networks.h"
+
+// How a policy was trained, as its record carries it. Here, below the room that trains, because
+// those who run a policy read its record.
+
+namespace doorforge {
+
+/// What decides a training run besides its samples. Two runs of equal configs on equal samples give
+/// equal bytes, for any number of threads and any interruption.
+struct TrainConfig {
+  /// Not a setting: decides which ones there are.
+  NetworkFamily family = NetworkFamily::kMotion;
+  /// Of a stage's networks; at "grasp" of the discriminator, and as many of the affordance after
+  /// it.
+  int epochs = 10;
+  int discriminator_epochs = 0;  ///< In the place of `epochs`; 0: as many. With near points an
+                                 ///< epoch takes a tenth of the affordance's.
+  int batch_size =
+      32;  ///< UniDoorManip's released code; an epoch leaves out the last, incomplete batch.
+  double learning_rate = 1e-3;
+  double weight_decay = 1e-5;
+  /// "cosine": half a cosine from the learning rate to 1 % of it over all steps. "step": times 0.9
+  /// every 5000 steps (UniDoorManip). "constant".
+  std::string schedule = "cosine";
+  int warmup_steps = 30;         ///< The rate grows linearly over these.
+  double lambda_position = 100;  ///< Times mean L1 of the position [m].
+  double lambda_rotation = 5;    ///< Times the geodesic angle [rad].
+  double lambda_kl = 0.02;       ///< Times the divergence, summed over latents.
+  /// Weight of the same reconstruction decoded from the latent 0, which is what the policy decodes
+  /// when it runs; 0 gives the plain conditional VAE.
+  double prior_reconstruction = 1;
+  /// True: no ReLU between the layers of the actor's branches and decoder, as released.
+  bool linear_branches = false;
+  /// "hand" or "world" (UniDoorManip), see ViewFrame.
+  std::string frame = "hand";
+  /// "hand", "joints" (UniDoorManip) or "none", see StateKind.
+  std::string state = "hand";
+  /// Points farther than this from point 0 are not seen [m]; 0: all are, see CloudWindow.
+  double context_m = 0;
+  /// CloudWindow::zoom of every cloud.
+  double zoom = 1;
+  /// The critic learns on every n-th step only; 1: on all.
+  int critic_interval = 1;
+  /// What the discriminator minimises: "squared" error, which makes its score the expected angle,
+  /// or "absolute" (UniDoorManip), which makes it the median.
+  std::string score_loss = "squared";
+  int sampled_points = 4;         ///< Of each cloud's handle, that the affordance learns from.
+  int sampled_orientations = 50;  ///< Rated by the discriminator at each of them (UniDoorManip).
+  int best_orientations = 10;     ///< Whose mean rating is the affordance's target (likewise).
+  double tilt_rad = 0.1;          ///< Of sampled orientations, as OrientationSampling.
+  /// NetworkView::near_points: the discriminator reads what lies around the fingers, told in the
+  /// hand's own frame; 0: the cloud in the frame above and the grasp's numbers (UniDoorManip).
+  int near_points = 256;
+  /// On every step door and hand are turned together about the way into the leaf, by up to this
+  /// either way [rad], and mirrored sideways by a fair coin; in the frame "hand" only.
+  double augment_roll_rad = 0;
+  bool augment_mirror = false;
+  /// "none", or "batch" (UniDoorManip), see EncoderNorm: the encoder then learns in libtorch's
+  /// operators also on the device "cpu", from all points of every cloud, in one process.
+  std::string encoder_norm = "none";
+  /// What computes the encoder. "cpu": this library's own kernels. "libtorch": the same network in
+  /// libtorch's operators, on the processor; "cuda", "cuda:N": there. Decides the last digits, and
+  /// on a GPU two equal runs may differ in them.
+  std::string device = "cpu";
+  double validation_share = 0.1;  ///< Of the episodes, if the data set has no split "val".
+  std::uint64_t seed = 1;
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    visit("epochs", self.epochs);
+    visit("batch_size", self.batch_size);
+    visit("learning_rate", self.learning_rate);
+    visit("weight_decay", self.weight_decay);
+    visit("schedule", self.schedule);
+    visit("warmup_steps", self.warmup_steps);
+    if (self.family == NetworkFamily::kMotion) {
+      visit("lambda_position", self.lambda_position);
+      visit("lambda_rotation", self.lambda_rotation);
+      visit("lambda_kl", self.lambda_kl);
+      visit("prior_reconstruction", self.prior_reconstruction);
+      visit("linear_branches", self.linear_branches);
+      visit("state", self.state);
+      visit("critic_interval", self.critic_interval);
+    } else {
+      visit("discriminator_epochs", self.discriminator_epochs);
+      visit("score_loss", self.score_loss);
+      visit("sampled_points", self.sampled_points);
+      visit("sampled_orientations", self.sampled_orientations);
+      visit("best_orientations", self.best_orientations);
+      visit("tilt_rad", self.tilt_rad);
+      visit("near_points", self.near_points);
+      visit("augment_roll_rad", self.augment_roll_rad);
+      visit("augment_mirror", self.augment_mirror);
+    }
+    visit("frame", self.frame);
+    visit("context_m", self.context_m);
+    visit("zoom", self.zoom);
+    visit("encoder_norm", self.encoder_norm);
+    visit("device", self.device);
+    visit("validation_share", self.validation_share);
+    visit("seed", self.seed);
+  }
+};
+
+EncoderNorm NormOf(const TrainConfig& config);
+
+/// Epochs, counted from 1; 0: none, as long as nothing was validated.
+struct BestEpochs {
+  int actor = 0;
+  int critic = 0;
+
+  friend bool operator==(const BestEpochs&, const BestEpochs&) = default;
+};
+
+}  // namespace doorforge

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "doorforge/policy/stage_policy.h"
+#include "doorforge/policy/turned_classifier.h"
+#include "doorforge/schemas/policy.h"
+
+namespace doorforge {
+
+/// A policy that turns the handle and says when that is done, from what a robot knows of itself.
+class TurningPolicy : public Policy {
+ public:
+  /// @param policy Turns the handle; not null.
+  TurningPolicy(std::unique_ptr<Policy> policy, const TurnedClassifier& classifier);
+
+  void Reset() override;
+  Action Act(const Observation& observation) override;
+  /// The last action is not carried out: whether the handle is turned is as before it was asked
+  /// for.
+  void TakeBack();
+  bool Looks() const override { return policy_->Looks(); }
+
+  /// Whether the handle is turned once the actions so far have been carried out: false after
+  /// Reset(), and true from the first action on that the classifier gives one half or more.
+  bool Turned() const { return turned_; }
+
+ private:
+  std::unique_ptr<Policy> policy_;
+  TurnedClassifier classifier_;
+  std::optional<Proprioception> first_;
+  bool turned_ = false;
+  std::optional<Proprioception> first_before_;  // as they were before the last Act()
+  bool turned_before_ = false;
+};
+
+/// The policy of a folder that `doorforge train handle` wrote, with its classifier.
+///
+/// @throws Error as LoadPolicy() and ReadTurnedClassifier(); Error(kInvalidArgument) if the folder
+///     has no classifier, with the way to get one.
+std::unique_ptr<TurningPolicy> LoadTurningPolicy(const std::filesystem::path& folder,
+                                                 const PolicyOptions& options = {});
+
+}  // namespace doorforge

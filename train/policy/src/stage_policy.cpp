@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/policy/stage_policy.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "doorforge/core/error.h"
+#include "doorforge/core/rng.h"
+#include "doorforge/networks/cloud_geometry.h"
+#include "doorforge/networks/hand_frame.h"
+#include "doorforge/networks/heads.h"
+#include "doorforge/networks/point_encoder.h"
+#include "doorforge/policy/policy_file.h"
+
+namespace doorforge {
+namespace {
+
+using internal::HeadInputs;
+
+void AppendCopies(const std::vector<float>& values, int copies, std::vector<float>& out) {
+  for (int i = 0; i < copies; ++i) out.insert(out.end(), values.begin(), values.end());
+}
+
+class StagePolicy : public Policy {
+ public:
+  StagePolicy(StageNetworks networks, const PolicyOptions& options)
+      : networks_(std::move(networks)),
+        options_(options),
+        actor_(ActorLayout(), "encoder.", networks_.actor, BestInstructionSet()),
+        actor_head_(networks_) {
+    if (options_.candidates > 1) {
+      critic_.emplace(CriticLayout(), "encoder.", networks_.critic, BestInstructionSet());
+      critic_head_.emplace(networks_);
+    }
+  }
+
+  void Reset() override { decision_ = 0; }
+
+  Action Act(const Observation& observation) override {
+    const Eigen::Vector3f hand_m = HandPositionOf(observation.proprioception);
+    const CloudGeometry geometry =
+        BuildGeometry(observation.cloud.xyz,
+                      WindowOf(networks_.normalisation, {hand_m.x(), hand_m.y(), hand_m.z()}));
+    HeadInputs batch = Conditions(observation);
+    AppendCopies(actor_.Forward(geometry).features, batch.size, batch.features);
+    const std::vector<float> actions = actor_head_.Decode(batch, Latents());
+    const std::size_t best = critic_ ? Best(geometry, actions, batch) : 0;
+    ++decision_;
+    ActionVector chosen{};
+    std::copy_n(actions.begin() + static_cast<std::ptrdiff_t>(9 * best), 9, chosen.begin());
+    return FromVector(InWorld(chosen, observation.proprioception));
+  }
+
+ private:
+  ActionVector InWorld(const ActionVector& action, const Proprioception& proprioception) const {
+    if (networks_.normalisation.view.frame == ViewFrame::kWorld) return action;
+    return internal::TargetOf(action, HandRotationOf(proprioception));
+  }
+
+  HeadInputs Conditions(const Observation& observation) const {
+    HeadInputs batch;
+    batch.size = options_.candidates;
+    for (int i = 0; i < batch.size; ++i)
+      internal::AppendRobotState(networks_.normalisation, observation.proprioception, batch);
+    return batch;
+  }
+
+  std::vector<float> Latents() const {
+    std::vector<float> latents(static_cast<std::size_t>(options_.candidates) * kLatentSize);
+    Rng rng(options_.seed, "policy/" + std::to_string(decision_));
+    for (std::size_t i = kLatentSize; i < latents.size(); ++i)
+      latents[i] = static_cast<float>(rng.Normal());
+    return latents;
+  }
+
+  std::size_t Best(const CloudGeometry& geometry, const std::vector<float>& actions,
+                   HeadInputs& batch) const {
+    batch.features.clear();
+    AppendCopies(critic_->Forward(geometry).features, batch.size, batch.features);
+    for (std::size_t i = 0; i < actions.size(); i += 9) {
+      ActionVector action{};
+      std::copy_n(actions.begin() + static_cast<std::ptrdiff_t>(i), 9, action.begin());
+      const ActionVector numbers = networks_.normalisation.action.Apply(action);
+      batch.actions.insert(batch.actions.end(), numbers.begin(), numbers.end());
+    }
+    const std::vector<float> scores = critic_head_->Score(batch);
+    return static_cast<std::size_t>(
+        std::distance(scores.begin(), std::max_element(scores.begin(), scores.end())));
+  }
+
+  StageNetworks networks_;
+  PolicyOptions options_;
+  PointEncoder actor_;
+  std::optional<PointEncoder> critic_;
+  internal::ActorHead actor_head_;
+  std::optional<internal::CriticHead> critic_head_;
+  std::uint64_t decision_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Policy> MakePolicy(StageNetworks networks, const PolicyOptions& options) {
+  Require(options.candidates >= 1 && options.candidates <= 1000, ErrorCode::kInvalidConfig,
+          "policy.candidates: must be 1 to 1000");
+  return std::make_unique<StagePolicy>(std::move(networks), options);
+}
+
+std::unique_ptr<Policy> LoadPolicy(const std::filesystem::path& folder,
+                                   const PolicyOptions& options, std::string_view stage) {
+  return MakePolicy(ReadPolicy(folder, stage).networks, options);
+}
+
+}  // namespace doorforge

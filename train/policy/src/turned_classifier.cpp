@@ -1,0 +1,235 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/policy/turned_classifier.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/error.h"
+#include "doorforge/core/rigid_transform.h"
+#include "doorforge/schemas/safetensors.h"
+
+#include "policy_companion.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFile = "turned.safetensors";
+constexpr const char* kSchema = "doorforge.turned";
+constexpr internal::CompanionKind kKind{kSchema, kTurnedSchemaVersion,
+                                        "train the policy again with this build"};
+constexpr double kRidge = 1;
+constexpr double kLeastDeviation = 1e-3;  // so that what hardly varied is not blown up
+constexpr int kNewtonSteps = 50;
+constexpr int kUnknowns = static_cast<int>(kTurnedInputs) + 1;
+
+using Inputs = std::array<double, kTurnedInputs>;
+using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
+
+// The motion, the magnitudes of its numbers, the lengths of its vectors.
+Inputs InputsOf(const HandMotion& motion) {
+  Inputs inputs{};
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    inputs.at(i) = motion.at(i);
+    inputs.at(motion.size() + i) = std::fabs(motion.at(i));
+  }
+  for (std::size_t v = 0; v < 4; ++v) {
+    const double x = motion.at(3 * v);
+    const double y = motion.at(3 * v + 1);
+    const double z = motion.at(3 * v + 2);
+    inputs.at(2 * motion.size() + v) = std::sqrt(x * x + y * y + z * z);
+  }
+  return inputs;
+}
+
+double Logistic(double x) { return 1 / (1 + std::exp(-x)); }
+
+void MeasureInputs(std::span<const TurnedExample> examples, TurnedClassifier& classifier) {
+  const auto count = static_cast<double>(examples.size());
+  Inputs sum{};
+  Inputs squares{};
+  for (const TurnedExample& example : examples) {
+    const Inputs inputs = InputsOf(example.motion);
+    for (std::size_t i = 0; i < kTurnedInputs; ++i) {
+      sum[i] += inputs[i];
+      squares[i] += inputs[i] * inputs[i];
+    }
+  }
+  for (std::size_t i = 0; i < kTurnedInputs; ++i) {
+    const double mean = sum[i] / count;
+    const double variance = std::max(0.0, squares[i] / count - mean * mean);
+    classifier.mean[i] = static_cast<float>(mean);
+    classifier.deviation[i] = static_cast<float>(std::max(kLeastDeviation, std::sqrt(variance)));
+  }
+}
+
+// Normalised inputs, and a 1 for the bias.
+Unknowns RowOf(const TurnedClassifier& classifier, const HandMotion& motion) {
+  const Inputs inputs = InputsOf(motion);
+  Unknowns row;
+  for (std::size_t i = 0; i < kTurnedInputs; ++i)
+    row[static_cast<Eigen::Index>(i)] =
+        (inputs[i] - static_cast<double>(classifier.mean[i])) / classifier.deviation[i];
+  row[kUnknowns - 1] = 1;
+  return row;
+}
+
+struct Objective {
+  double value = 0;
+  Unknowns gradient = Unknowns::Zero();
+  Eigen::Matrix<double, kUnknowns, kUnknowns> curvature =
+      Eigen::Matrix<double, kUnknowns, kUnknowns>::Zero();
+};
+
+Objective ObjectiveAt(const Unknowns& unknowns, const std::vector<Unknowns>& rows,
+                      std::span<const TurnedExample> examples) {
+  Objective objective;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double score = rows[i].dot(unknowns);
+    const double p = Logistic(score);
+    const double signed_score = examples[i].turned ? -score : score;
+    objective.value += std::max(0.0, signed_score) + std::log1p(std::exp(-std::fabs(signed_score)));
+    objective.gradient += (p - (examples[i].turned ? 1 : 0)) * rows[i];
+    objective.curvature.noalias() += (p * (1 - p) * rows[i]) * rows[i].transpose();
+  }
+  Unknowns ridge = Unknowns::Constant(kRidge);
+  ridge[kUnknowns - 1] = 1e-9;  // the bias is free
+  objective.value += 0.5 * ridge.cwiseProduct(unknowns).dot(unknowns);
+  objective.gradient += ridge.cwiseProduct(unknowns);
+  objective.curvature.diagonal() += ridge;
+  return objective;
+}
+
+// Newton's method; a step that does not descend is halved.
+Unknowns Minimum(const std::vector<Unknowns>& rows, std::span<const TurnedExample> examples) {
+  Unknowns unknowns = Unknowns::Zero();
+  Objective now = ObjectiveAt(unknowns, rows, examples);
+  for (int i = 0; i < kNewtonSteps && now.gradient.norm() > 1e-9 * (1 + now.value); ++i) {
+    Unknowns step = now.curvature.ldlt().solve(now.gradient);
+    Objective next = ObjectiveAt(unknowns - step, rows, examples);
+    for (int half = 0; half < 20 && next.value > now.value; ++half) {
+      step *= 0.5;
+      next = ObjectiveAt(unknowns - step, rows, examples);
+    }
+    if (next.value >= now.value) break;
+    unknowns -= step;
+    now = next;
+  }
+  return unknowns;
+}
+
+std::array<float, kTurnedInputs> ArrayOf(const TensorFile& file, const std::string& name,
+                                         const std::string& path) {
+  const auto values =
+      ValuesOf<float>(TensorNamed(file, name, path), {kTurnedInputs}, path + ": " + name);
+  std::array<float, kTurnedInputs> array{};
+  std::copy(values.begin(), values.end(), array.begin());
+  return array;
+}
+
+void CheckNumbers(const TurnedClassifier& classifier, const std::string& path) {
+  bool good = std::isfinite(classifier.bias);
+  for (std::size_t i = 0; i < kTurnedInputs; ++i)
+    good = good && std::isfinite(classifier.mean[i]) && std::isfinite(classifier.weight[i]) &&
+           std::isfinite(classifier.deviation[i]) && classifier.deviation[i] > 0;
+  if (!good)
+    throw Error(ErrorCode::kFormat, path +
+                                        ": holds a number that is not finite, or a deviation "
+                                        "that is not positive");
+}
+
+}  // namespace
+
+HandMotion HandMotionOf(const Proprioception& first, const Proprioception& now,
+                        const ActionVector& action) {
+  const Eigen::Matrix3d before = HandRotationOf(first).transpose();
+  const Action target = FromVector(action);
+  const Eigen::Vector3d way = (HandPositionOf(now) - HandPositionOf(first)).cast<double>();
+  const std::array<Eigen::Vector3d, 4> vectors = {
+      RotationVector(HandRotationOf(now) * before),
+      RotationVector(target.world_from_hand_rotation * before), way, way + target.position_delta_m};
+  HandMotion motion{};
+  for (std::size_t v = 0; v < vectors.size(); ++v) {
+    for (std::size_t k = 0; k < 3; ++k)
+      motion.at(3 * v + k) = static_cast<float>(vectors.at(v)[static_cast<Eigen::Index>(k)]);
+  }
+  return motion;
+}
+
+double TurnedClassifier::Probability(const HandMotion& motion) const {
+  const Unknowns row = RowOf(*this, motion);
+  double score = bias;
+  for (std::size_t i = 0; i < kTurnedInputs; ++i)
+    score += weight[i] * row[static_cast<Eigen::Index>(i)];
+  return Logistic(score);
+}
+
+std::optional<TurnedClassifier> FitTurnedClassifier(std::span<const TurnedExample> examples) {
+  const auto turned =
+      std::ranges::count_if(examples, [](const TurnedExample& one) { return one.turned; });
+  if (turned == 0 || std::cmp_equal(turned, examples.size())) return std::nullopt;
+  TurnedClassifier classifier;
+  MeasureInputs(examples, classifier);
+  std::vector<Unknowns> rows;
+  rows.reserve(examples.size());
+  for (const TurnedExample& example : examples) rows.push_back(RowOf(classifier, example.motion));
+  const Unknowns found = Minimum(rows, examples);
+  for (std::size_t i = 0; i < kTurnedInputs; ++i)
+    classifier.weight[i] = static_cast<float>(found[static_cast<Eigen::Index>(i)]);
+  classifier.bias = static_cast<float>(found[kUnknowns - 1]);
+  return classifier;
+}
+
+TurnedAccuracy MeasureTurned(const TurnedClassifier& classifier,
+                             std::span<const TurnedExample> examples) {
+  TurnedAccuracy accuracy;
+  for (const TurnedExample& example : examples) {
+    const bool called = classifier.Probability(example.motion) >= 0.5;
+    accuracy.called += called ? 1 : 0;
+    accuracy.turned += example.turned ? 1 : 0;
+    accuracy.correct += called && example.turned ? 1 : 0;
+  }
+  return accuracy;
+}
+
+void WriteTurnedClassifier(const fs::path& folder,
+                           const std::optional<TurnedClassifier>& classifier,
+                           const std::string& dataset_sha256) {
+  if (!classifier) {
+    fs::remove(folder / kFile);
+    return;
+  }
+  TensorFile file;
+  file.tensors["mean"] = MakeTensor<float>(classifier->mean, {kTurnedInputs});
+  file.tensors["deviation"] = MakeTensor<float>(classifier->deviation, {kTurnedInputs});
+  file.tensors["weight"] = MakeTensor<float>(classifier->weight, {kTurnedInputs});
+  file.tensors["bias"] = MakeTensor<float>(std::span(&classifier->bias, 1), {1});
+  file.metadata = {{"schema", kSchema},
+                   {"schema_version", std::to_string(kTurnedSchemaVersion)},
+                   {"dataset_sha256", dataset_sha256}};
+  CommitFile(folder / kFile, EncodeTensors(file));
+}
+
+std::optional<TurnedClassifier> ReadTurnedClassifier(const fs::path& folder,
+                                                     const std::string& dataset_sha256) {
+  const std::string path = (folder / kFile).string();
+  if (!fs::exists(path)) return std::nullopt;
+  const TensorFile file = ReadTensors(path);
+  internal::RequireCompanion(file, kKind, dataset_sha256, path);
+  TurnedClassifier classifier;
+  classifier.mean = ArrayOf(file, "mean", path);
+  classifier.deviation = ArrayOf(file, "deviation", path);
+  classifier.weight = ArrayOf(file, "weight", path);
+  classifier.bias = ValuesOf<float>(TensorNamed(file, "bias", path), {1}, path + ": bias")[0];
+  CheckNumbers(classifier, path);
+  return classifier;
+}
+
+}  // namespace doorforge

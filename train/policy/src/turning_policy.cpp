@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/policy/turning_policy.h"
+
+#include <utility>
+
+#include "doorforge/core/error.h"
+#include "doorforge/policy/policy_file.h"
+
+namespace doorforge {
+
+TurningPolicy::TurningPolicy(std::unique_ptr<Policy> policy, const TurnedClassifier& classifier)
+    : policy_(std::move(policy)), classifier_(classifier) {}
+
+void TurningPolicy::Reset() {
+  policy_->Reset();
+  first_.reset();
+  first_before_.reset();
+  turned_ = turned_before_ = false;
+}
+
+Action TurningPolicy::Act(const Observation& observation) {
+  Action action = policy_->Act(observation);
+  first_before_ = first_;
+  turned_before_ = turned_;
+  if (!first_) first_ = observation.proprioception;
+  const HandMotion motion = HandMotionOf(*first_, observation.proprioception, ToVector(action));
+  turned_ = turned_ || classifier_.Probability(motion) >= 0.5;
+  return action;
+}
+
+void TurningPolicy::TakeBack() {
+  first_ = first_before_;
+  turned_ = turned_before_;
+}
+
+std::unique_ptr<TurningPolicy> LoadTurningPolicy(const std::filesystem::path& folder,
+                                                 const PolicyOptions& options) {
+  PolicyRecord record = ReadPolicy(folder, "handle");
+  const auto classifier = ReadTurnedClassifier(folder, record.provenance.dataset_sha256);
+  if (!classifier)
+    throw Error(ErrorCode::kInvalidArgument,
+                folder.string() +
+                    ": this policy cannot tell when the handle is turned (it has no "
+                    "turned.safetensors, which earlier builds did not write); run its training "
+                    "command again with --resume, which adds it, or use the privileged switch");
+  return std::make_unique<TurningPolicy>(MakePolicy(std::move(record.networks), options),
+                                         *classifier);
+}
+
+}  // namespace doorforge

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doctor_verb.h"
+
+#include <cstdio>
+#include <iostream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "doorforge/core/command_line.h"
+#include "doorforge/core/json_file.h"
+#include "doorforge/core/program.h"
+#include "doorforge/networks/instruction_set.h"
+#include "doorforge/training/linear_algebra.h"
+
+namespace doorforge {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+bool ParseJsonFlag(int argc, char** argv) {
+  bool json = false;
+  CLI::App app("What is installed, and what to do about it. Exit code 1 if something is amiss.",
+               "doorforge doctor");
+  app.add_flag("--json", json, "print one JSON document");
+  app.footer("example:\n  doorforge doctor");
+  ParseVerb(app, argc, argv);
+  return json;
+}
+
+std::vector<std::string> SupportedSets() {
+  std::vector<std::string> names;
+  for (const InstructionSet set :
+       {InstructionSet::kBaseline, InstructionSet::kAvx2, InstructionSet::kAvx512}) {
+    if (IsSupported(set)) names.emplace_back(NameOf(set));
+  }
+  return names;
+}
+
+Json Examine() {
+  const LinearAlgebra algebra = MeasureLinearAlgebra();
+  const bool fast = algebra.gflops >= kLeastGflops;
+  Json json = {{"schema", "doorforge.doctor"},
+               {"schema_version", 1},
+               {"code_version", CodeVersion()},
+               {"processors", std::thread::hardware_concurrency()},
+               {"instruction_sets", SupportedSets()},
+               {"instruction_set", NameOf(BestInstructionSet())},
+               {"torch_version", algebra.torch_version},
+               {"blas_library", algebra.blas_library},
+               {"gflops", algebra.gflops},
+               {"least_gflops", kLeastGflops},
+               {"healthy", fast},
+               {"remedy", fast ? "" : LinearAlgebraRemedy()}};
+  return json;
+}
+
+void Print(const Json& json) {
+  const auto text = [&](const char* key) { return json[key].get<std::string>(); };
+  std::string sets;
+  for (const Json& set : json["instruction_sets"]) sets += " " + set.get<std::string>();
+  std::printf("doorforge           %s\n", text("code_version").c_str());
+  std::printf("processors          %d\n", json["processors"].get<int>());
+  std::printf("instruction sets   %s (the encoder uses %s)\n", sets.c_str(),
+              text("instruction_set").c_str());
+  std::printf("libtorch            %s\n", text("torch_version").c_str());
+  std::printf("BLAS                %s\n", text("blas_library").c_str());
+  std::printf("matrix product      %.1f GFLOP/s on one thread (at least %.0f wanted)\n",
+              json["gflops"].get<double>(), kLeastGflops);
+  if (json["healthy"].get<bool>()) {
+    std::printf("all well\n");
+    return;
+  }
+  std::printf("\nlibtorch runs on a slow BLAS. As root:\n%s\n", text("remedy").c_str());
+}
+
+}  // namespace
+
+int RunDoctorVerb(int argc, char** argv) {
+  const bool as_json = ParseJsonFlag(argc, argv);
+  const Json json = Examine();
+  if (as_json)
+    std::cout << JsonText(json, 2) << "\n";
+  else
+    Print(json);
+  return json["healthy"].get<bool>() ? 0 : 1;
+}
+
+}  // namespace doorforge

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "doorforge/networks/training_sample.h"
+#include "doorforge/policy/turned_classifier.h"
+#include "doorforge/schemas/seen_parts.h"
+
+namespace doorforge {
+
+class DatasetReader;
+
+/// A stage's samples of one or more data sets. Clouds stay in the shards' memory maps, so the
+/// samples are valid as long as this object.
+struct StageDataset {
+  std::vector<TrainingSample> train;
+  std::vector<TrainingSample> validation;
+  /// Of the stage "handle": one for each sample, in its order.
+  std::vector<TurnedExample> turned_train;
+  std::vector<TurnedExample> turned_validation;
+  SeenParts parts;             ///< Of the doors of all data sets.
+  std::string content_sha256;  ///< As StageContentSha256().
+  std::vector<std::unique_ptr<DatasetReader>> readers;
+
+  StageDataset();
+  ~StageDataset();
+  StageDataset(StageDataset&&) noexcept;
+  StageDataset& operator=(StageDataset&&) noexcept;
+
+  /// Throws Error(kIo), naming the file, if another program has cut a shard since: what is computed
+  /// from the samples then is worth nothing.
+  void RequireWhole() const;
+};
+
+/// Reads of every folder `provenance.json`, `<stage>/train`, and `<stage>/val` if there is one;
+/// otherwise the last `validation_share` of the episodes, rounded up, are set aside (whole
+/// episodes; none if the share is 0 or there is only one). Several data sets: the samples of the
+/// first, then the second's.
+///
+/// @throws Error(kMissing or kFormat) as DatasetReader, or if clouds do not hold 4096 points;
+///     Error(kInvalidArgument) without a folder.
+StageDataset ReadStageDataset(std::span<const std::filesystem::path> folders,
+                              std::string_view stage, double validation_share);
+
+}  // namespace doorforge

@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/training/stage_dataset.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
+#include "doorforge/networks/cloud_geometry.h"
+#include "doorforge/networks/stage_networks.h"
+#include "doorforge/schemas/dataset.h"
+#include "doorforge/schemas/episode.h"
+#include "doorforge/schemas/stage_content.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kCloudFloats = std::size_t{3} * kCloudPoints;
+
+template <std::size_t N>
+std::array<float, N> RowOf(std::span<const float> values, std::size_t row) {
+  std::array<float, N> out{};
+  std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(row * N), N, out.begin());
+  return out;
+}
+
+std::array<float, 3> ToArray(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
+
+// Straight into the closed leaf, against the outward x of the door's frame.
+std::array<float, 3> ApproachOf(const DatasetReader& reader, std::size_t episode) {
+  const std::string path = "episode " + reader.entry(episode).key + ": meta.json";
+  const Scene scene = EpisodeFromMeta(reader.Meta(episode), path).scene;
+  return ToArray(-scene.world_from_door.linear().col(0).cast<float>());
+}
+
+// 0 in data sets of earlier builds, whose clouds were of the whole door.
+float CloudWithinOf(const DatasetReader& reader, std::size_t episode) {
+  const std::string path = "episode " + reader.entry(episode).key + ": meta.json";
+  const nlohmann::ordered_json meta = reader.Meta(episode);
+  if (!meta.contains("cloud_within_m")) return 0;
+  return static_cast<float>(ValueOf<double>(meta, "cloud_within_m", path));
+}
+
+void RequireFinite(std::span<const float> values, const char* name, const std::string& key) {
+  if (!std::ranges::all_of(values, [](float value) { return std::isfinite(value); }))
+    throw Error(ErrorCode::kFormat, "episode " + key + ": " + name +
+                                        " holds a number that is not finite; collect this data "
+                                        "set again");
+}
+
+void RequireFinite(const EpisodeArrays& arrays, const std::string& key) {
+  RequireFinite(arrays.cloud, "cloud", key);
+  RequireFinite(arrays.proprio, "proprio", key);
+  RequireFinite(arrays.action, "action", key);
+  RequireFinite(arrays.executed, "executed", key);
+  RequireFinite(arrays.score, "score", key);
+}
+
+void AppendEpisode(const EpisodeArrays& arrays, std::vector<TrainingSample>& samples) {
+  for (std::size_t t = 0; t < arrays.decisions; ++t) {
+    TrainingSample sample;
+    sample.cloud = arrays.cloud.subspan(t * kCloudFloats, kCloudFloats);
+    sample.label = arrays.label.subspan(t * kCloudPoints, kCloudPoints);
+    sample.proprioception = RowOf<std::tuple_size_v<Proprioception>>(arrays.proprio, t);
+    sample.action = RowOf<std::tuple_size_v<ActionVector>>(arrays.action, t);
+    sample.executed = arrays.executed.empty()
+                          ? sample.action
+                          : RowOf<std::tuple_size_v<ActionVector>>(arrays.executed, t);
+    sample.score_rad = arrays.score[t];
+    samples.push_back(sample);
+  }
+}
+
+// When the handle was "handle done": its angle after each executed action, against the scene's.
+std::vector<TurnedExample> TurnedExamplesOf(const DatasetReader& reader, std::size_t begin,
+                                            std::size_t end) {
+  constexpr double kRounding = 1e-6;  // [rad] of the shards' single precision
+  std::vector<TurnedExample> examples;
+  for (std::size_t i = begin; i < end; ++i) {
+    const EpisodeArrays arrays = reader.Arrays(i);
+    const std::string path = "episode " + reader.entry(i).key + ": meta.json";
+    const double done =
+        EpisodeFromMeta(reader.Meta(i), path).scene.latch.handle_done_angle_rad - kRounding;
+    const auto executed = arrays.executed.empty() ? arrays.action : arrays.executed;
+    const auto proprioception = [&](std::size_t t) {
+      return RowOf<std::tuple_size_v<Proprioception>>(arrays.proprio, t);
+    };
+    for (std::size_t t = 0; t < arrays.decisions; ++t) {
+      const auto action = RowOf<std::tuple_size_v<ActionVector>>(executed, t);
+      const double handle_rad =
+          static_cast<double>(arrays.joints[2 * t + 1]) + static_cast<double>(arrays.score[t]);
+      examples.push_back(
+          {HandMotionOf(proprioception(0), proprioception(t), action), handle_rad >= done});
+    }
+  }
+  return examples;
+}
+
+// Episodes [begin, end) of a split.
+std::vector<TrainingSample> SamplesOf(const DatasetReader& reader, const std::string& stage,
+                                      std::size_t begin, std::size_t end) {
+  std::vector<TrainingSample> samples;
+  for (std::size_t i = begin; i < end; ++i) {
+    const EpisodeArrays arrays = reader.Arrays(i);
+    if (arrays.points != kCloudPoints)
+      throw Error(ErrorCode::kFormat, "episode " + reader.entry(i).key + ": clouds of " +
+                                          std::to_string(arrays.points) +
+                                          " points; the networks read " +
+                                          std::to_string(kCloudPoints));
+    RequireFinite(arrays, reader.entry(i).key);
+    AppendEpisode(arrays, samples);
+    if (FamilyOf(stage) != NetworkFamily::kGrasp) continue;
+    samples.back().approach = ApproachOf(reader, i);
+    samples.back().cloud_within_m = CloudWithinOf(reader, i);
+  }
+  return samples;
+}
+
+template <class T>
+void AppendAll(std::vector<T> from, std::vector<T>& to) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+// Episodes [begin, end) of a stage's split.
+struct EpisodeRange {
+  const DatasetReader& reader;
+  const std::string& stage;
+  std::size_t begin;
+  std::size_t end;
+};
+
+void AppendEpisodes(const EpisodeRange& range, std::vector<TrainingSample>& samples,
+                    std::vector<TurnedExample>& turned) {
+  AppendAll(SamplesOf(range.reader, range.stage, range.begin, range.end), samples);
+  if (range.stage == NameOf(Stage::kHandle))
+    AppendAll(TurnedExamplesOf(range.reader, range.begin, range.end), turned);
+}
+
+// Appends a data set's samples.
+void AppendDataset(const fs::path& folder, const std::string& stage, double validation_share,
+                   StageDataset& dataset) {
+  dataset.readers.push_back(std::make_unique<DatasetReader>(folder, stage, "train"));
+  const DatasetReader& train = *dataset.readers.back();
+  const std::size_t episodes = train.size();
+  if (fs::exists(folder / stage / "val")) {
+    dataset.readers.push_back(std::make_unique<DatasetReader>(folder, stage, "val"));
+    const DatasetReader& validation = *dataset.readers.back();
+    AppendEpisodes({train, stage, 0, episodes}, dataset.train, dataset.turned_train);
+    AppendEpisodes({validation, stage, 0, validation.size()}, dataset.validation,
+                   dataset.turned_validation);
+    return;
+  }
+  const auto aside = std::min(
+      episodes > 0 ? episodes - 1 : 0,
+      static_cast<std::size_t>(std::ceil(validation_share * static_cast<double>(episodes))));
+  AppendEpisodes({train, stage, 0, episodes - aside}, dataset.train, dataset.turned_train);
+  AppendEpisodes({train, stage, episodes - aside, episodes}, dataset.validation,
+                 dataset.turned_validation);
+}
+
+}  // namespace
+
+StageDataset::StageDataset() = default;
+StageDataset::~StageDataset() = default;
+StageDataset::StageDataset(StageDataset&&) noexcept = default;
+StageDataset& StageDataset::operator=(StageDataset&&) noexcept = default;
+
+void StageDataset::RequireWhole() const {
+  for (const auto& reader : readers) reader->RequireWhole();
+}
+
+StageDataset ReadStageDataset(std::span<const fs::path> folders, std::string_view stage,
+                              double validation_share) {
+  Require(!folders.empty(), ErrorCode::kInvalidArgument, "no data set to read samples from");
+  StageDataset dataset;
+  for (const fs::path& folder : folders) {
+    dataset.parts = Union(dataset.parts, SeenPartsOfDataset(folder));
+    AppendDataset(folder, std::string(stage), validation_share, dataset);
+  }
+  dataset.content_sha256 = StageContentSha256(folders, stage);
+  dataset.RequireWhole();
+  return dataset;
+}
+
+}  // namespace doorforge

@@ -1,0 +1,615 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/training/train_stage.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <exception>
+#include <future>
+#include <memory>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "doorforge/core/error.h"
+#include "doorforge/core/parallel_for.h"
+#include "doorforge/networks/hand_frame.h"
+#include "doorforge/networks/point_encoder.h"
+
+#include "adam.h"
+#include "best_networks.h"
+#include "device_encoder.h"
+#include "head_objectives.h"
+#include "network_batch.h"
+#include "ordered_calls.h"
+#include "sampler.h"
+#include "shared_batch.h"
+#include "stage_task.h"
+
+namespace doorforge {
+namespace {
+
+using internal::BatchFeatures;
+using internal::EncodedBatch;
+using internal::Geometries;
+using internal::HeadResult;
+using internal::Minibatch;
+using internal::NetworkRole;
+using internal::SampleSet;
+using internal::StageTask;
+
+// A batch's gradient is the sum of this many parts, each summed over its samples in order, and the
+// parts are summed in pairs, pairs of pairs and so on: so it depends neither on the number of
+// threads nor on that of processes, each of which has a subtree.
+constexpr std::size_t kGradientParts = 8;
+
+constexpr float kHandleScale = 0.1F;  // [m]
+
+// Sums equally long parts, a power of two of them, as a binary tree; the sum is left in the first.
+void SumAsTree(std::span<std::span<float>> parts) {
+  for (std::size_t stride = 1; stride < parts.size(); stride *= 2) {
+    for (std::size_t i = 0; i < parts.size(); i += 2 * stride) {
+      const std::span<float> sum = parts[i];
+      const std::span<float> addend = parts[i + stride];
+      for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += addend[k];
+    }
+  }
+}
+
+constexpr std::array<double StageLosses::*, 5> kLosses = {
+    &StageLosses::position_m, &StageLosses::rotation_rad, &StageLosses::divergence,
+    &StageLosses::score_rad, &StageLosses::affordance_rad};
+
+// `losses` with those values of `newer` that are known.
+StageLosses Updated(StageLosses losses, const StageLosses& newer) {
+  for (const auto value : kLosses) {
+    if (!std::isnan(newer.*value)) losses.*value = newer.*value;
+  }
+  return losses;
+}
+
+void AddScaled(const StageLosses& losses, double factor, StageLosses& sum) {
+  for (const auto value : kLosses) sum.*value += factor * losses.*value;
+}
+
+// The clouds' extent, which is one.
+float CloudWithin(std::span<const TrainingSample> samples) {
+  for (const TrainingSample& sample : samples)
+    Require(sample.cloud_within_m == samples.front().cloud_within_m, ErrorCode::kInvalidArgument,
+            "the data sets' clouds have different extents (cloud_within_m in meta.json); train "
+            "from those with the same");
+  return samples.front().cloud_within_m;
+}
+
+NetworkView ViewOf(const TrainConfig& config, std::span<const TrainingSample> samples) {
+  NetworkView view;
+  if (config.frame == NameOf(ViewFrame::kHand)) view.frame = ViewFrame::kHand;
+  for (const StateKind kind : {StateKind::kHand, StateKind::kNone}) {
+    const bool has_state = config.family == NetworkFamily::kMotion;
+    if (has_state && config.state == NameOf(kind)) view.state = kind;
+  }
+  view.context_m = static_cast<float>(config.context_m);
+  view.zoom = static_cast<float>(config.zoom);
+  view.cloud_within_m = CloudWithin(samples);
+  if (config.family == NetworkFamily::kGrasp) view.near_points = config.near_points;
+  return view;
+}
+
+std::vector<TrainingSample> AllInHandFrame(std::span<const TrainingSample> samples,
+                                           NetworkFamily family) {
+  const auto convert =
+      family == NetworkFamily::kGrasp ? internal::AboutContact : internal::WithTurns;
+  std::vector<TrainingSample> converted;
+  converted.reserve(samples.size());
+  for (const TrainingSample& sample : samples) converted.push_back(convert(sample));
+  return converted;
+}
+
+// Parameters of a layout that begins with an encoder's layers.
+std::size_t EncoderSize(const ParameterLayout& layout) {
+  std::size_t end = 0;
+  for (const DenseLayer& layer : layout.layers()) {
+    if (layer.name.starts_with("encoder.")) end = layer.end();
+  }
+  return end;
+}
+
+// One of the two networks with what its training needs between steps.
+struct Network {
+  NetworkRole role;
+  const ParameterLayout* layout;
+  const ParameterLayout* plain;  // of the same network without normalised layers
+  std::vector<float>* parameters;
+  std::vector<float>* first;
+  std::vector<float>* second;
+  LayerStatistics* statistics;
+  EncodedBatch encoded{};
+  std::optional<internal::DeviceEncoder> in_operators{};   // in the place of `encoded`
+  std::array<std::vector<float>, kGradientParts> parts{};  // of the encoder's gradient
+  std::vector<float> gradient{};
+  std::vector<float> feature_gradient{};
+  std::future<void> sum{};  // of the encoder's gradient over all processes
+};
+
+class Trainer {
+ public:
+  Trainer(std::span<const TrainingSample> train, std::span<const TrainingSample> validation,
+          const TrainConfig& config, const TrainHooks& hooks)
+      : train_(train),
+        validation_(validation),
+        config_(config),
+        hooks_(hooks),
+        alone_(hooks.group == nullptr ? SoleProcess() : nullptr),
+        group_(hooks.group == nullptr ? *alone_ : *hooks.group),
+        calls_(group_.size() > 1),
+        threads_(ThreadCount(hooks.threads)),
+        instruction_set_(BestInstructionSet()),
+        state_(hooks.resume ? *hooks.resume : InitialState()),
+        networks_{Network{NetworkRole::kActor, &ActorLayout(config.family, NormOf(config)),
+                          &ActorLayout(config.family), &state_.networks.actor, &state_.actor_first,
+                          &state_.actor_second, &state_.actor_statistics},
+                  Network{NetworkRole::kCritic, &CriticLayout(config.family, NormOf(config)),
+                          &CriticLayout(config.family), &state_.networks.critic,
+                          &state_.critic_first, &state_.critic_second, &state_.critic_statistics}},
+        task_(MakeTask()) {}
+
+  TrainerState Run() {
+    const std::uint64_t per_epoch = StepsPerEpoch(train_.size(), config_);
+    std::uint64_t end = 0;
+    for (int number = 0; number < internal::LessonsOf(config_.family); ++number) {
+      const std::uint64_t begin = end;
+      end += per_epoch * static_cast<std::uint64_t>(internal::EpochsOfLesson(config_, number));
+      if (state_.step >= end) continue;
+      task_->Begin(number, PolicyOf(state_));
+      if (!Teach({number, begin, end, per_epoch})) break;
+    }
+    RequireSoundSamples();
+    return std::move(state_);
+  }
+
+ private:
+  // Steps [begin, end) of the run.
+  struct Lesson {
+    int number;
+    std::uint64_t begin;
+    std::uint64_t end;
+    std::uint64_t per_epoch;
+  };
+
+  // False if the run is to stop.
+  bool Teach(const Lesson& lesson) {
+    while (state_.step < lesson.end) {
+      const StageLosses losses = Step(lesson);
+      state_.steps.push_back(Updated(LastLosses(), losses));
+      ++state_.step;
+      if (state_.step % lesson.per_epoch == 0) EndEpoch(lesson.number, lesson.per_epoch);
+      if (hooks_.on_step) hooks_.on_step(state_);
+      if (StopsSomewhere()) return false;
+    }
+    return true;
+  }
+
+  TrainerState InitialState() const {
+    TrainerState state;
+    state.networks = hooks_.initial
+                         ? *hooks_.initial
+                         : InitialNetworks(MeasuredNormalisation(), config_.linear_branches,
+                                           config_.seed, config_.family, NormOf(config_));
+    state.actor_statistics = InitialStatistics(ActorLayout(config_.family, NormOf(config_)));
+    state.critic_statistics = InitialStatistics(CriticLayout(config_.family, NormOf(config_)));
+    state.actor_first.resize(state.networks.actor.size());
+    state.actor_second.resize(state.networks.actor.size());
+    state.critic_first.resize(state.networks.critic.size());
+    state.critic_second.resize(state.networks.critic.size());
+    return state;
+  }
+
+  StageNormalisation MeasuredNormalisation() const {
+    const NetworkView view = ViewOf(config_, train_);
+    StageNormalisation normalisation = MeasureNormalisation(train_, view);
+    // about the contact its own place is 0 always: the scale is that of the handle's other points
+    if (config_.family == NetworkFamily::kGrasp && view.frame == ViewFrame::kHand)
+      std::fill_n(normalisation.action.deviation.begin(), 3, kHandleScale);
+    return normalisation;
+  }
+
+  std::unique_ptr<StageTask> MakeTask() const {
+    const internal::TaskInput input{
+        train_, validation_, &config_, &state_.networks, hooks_.geometry_cache_bytes, threads_};
+    return config_.family == NetworkFamily::kGrasp ? internal::MakeGraspTask(input)
+                                                   : internal::MakeMotionTask(input);
+  }
+
+  // All processes of a group stop after the same step.
+  bool StopsSomewhere() {
+    if (!hooks_.stop) return false;
+    const float stops = hooks_.stop() ? 1.0F : 0.0F;
+    const std::vector<float> all = group_.Gather(std::span(&stops, 1));
+    return std::any_of(all.begin(), all.end(), [](float one) { return one != 0; });
+  }
+
+  // What one process has read from a damaged file is in the sums of all.
+  void RequireSoundSamples() {
+    if (!hooks_.check_samples) return;
+    std::exception_ptr problem;
+    try {
+      hooks_.check_samples();
+    } catch (const Error&) {
+      problem = std::current_exception();
+    }
+    const float damaged = problem ? 1.0F : 0.0F;
+    const std::vector<float> all = group_.Gather(std::span(&damaged, 1));
+    if (problem) std::rethrow_exception(problem);
+    if (std::any_of(all.begin(), all.end(), [](float one) { return one != 0; }))
+      throw Error(ErrorCode::kIo,
+                  "another process of this training has read a damaged data set and says which; "
+                  "the state of the last epoch stays");
+  }
+
+  // A step without a network repeats its last loss in the record.
+  StageLosses LastLosses() const {
+    return state_.steps.empty() ? UnknownLosses() : state_.steps.back();
+  }
+
+  std::uint64_t Interval(const Network& network) const {
+    return static_cast<std::uint64_t>(task_->Interval(network.role));
+  }
+
+  // Those of the lesson's networks whose turn it is.
+  std::vector<Network*> Learning(int lesson, std::uint64_t lesson_step) {
+    std::vector<Network*> learning;
+    for (Network* network : Taught(lesson)) {
+      if (lesson_step % Interval(*network) == 0) learning.push_back(network);
+    }
+    return learning;
+  }
+
+  std::vector<Network*> Taught(int lesson) {
+    std::vector<Network*> taught;
+    for (const NetworkRole role : task_->Taught(lesson))
+      taught.push_back(&networks_.at(static_cast<std::size_t>(role)));
+    return taught;
+  }
+
+  PointEncoder EncoderOf(const Network& network) const {
+    if (!Normalises()) return {*network.layout, "encoder.", *network.parameters, instruction_set_};
+    return {*network.plain, "encoder.", FoldedOf(network), instruction_set_};
+  }
+
+  Minibatch BatchAt(const Lesson& lesson, std::uint64_t step) const {
+    return {SampleSet::kTrain,
+            internal::BatchOf(config_.seed, step / lesson.per_epoch, step % lesson.per_epoch,
+                              train_.size(), internal::BatchSize(train_.size(), config_)),
+            step};
+  }
+
+  // Of this process's share of the step's batch.
+  Geometries GeometriesAt(const Lesson& lesson, std::uint64_t step) {
+    if (next_step_ == step) return std::exchange(next_, {});
+    return task_->GeometriesOf(lesson.number, OwnShare(BatchAt(lesson, step)));
+  }
+
+  StageLosses Step(const Lesson& lesson) {
+    const std::uint64_t lesson_step = state_.step - lesson.begin;
+    const std::vector<Network*> learning = Learning(lesson.number, lesson_step);
+    for (Network* network : learning) network->gradient.assign(network->layout->size(), 0.0F);
+    const StageLosses losses = task_->ReadsClouds(lesson.number) ? ThroughClouds(lesson, learning)
+                                                                 : HeadsAlone(lesson, learning);
+    const internal::AdamRates rates{LearningRateAt(config_, {state_.step, lesson.per_epoch}),
+                                    config_.weight_decay};
+    ParallelFor(learning.size(), threads_, [&](std::size_t n) {
+      Network& network = *learning[n];
+      RequireFiniteGradient(network);
+      AdamStep(rates, lesson_step / Interval(network) + 1, network.gradient,
+               {*network.parameters, *network.first, *network.second});
+    });
+    return losses;
+  }
+
+  // Leaves the gradients of networks that read no clouds, which every process finds by itself.
+  StageLosses HeadsAlone(const Lesson& lesson, const std::vector<Network*>& learning) {
+    StageLosses losses = UnknownLosses();
+    for (Network* network : learning) {
+      const HeadResult result =
+          task_->Objective(network->role, BatchAt(lesson, state_.step), {}, network->gradient);
+      RequireFinite(result.objective, "a loss");
+      losses = Updated(losses, result.losses);
+    }
+    return losses;
+  }
+
+  // Leaves the gradients of networks that read the clouds, of which each process encodes its share.
+  StageLosses ThroughClouds(const Lesson& lesson, const std::vector<Network*>& learning) {
+    const Minibatch batch = BatchAt(lesson, state_.step);
+    const Geometries geometries = GeometriesAt(lesson, state_.step);
+    const StageLosses losses = LearnsInOperators() ? InOperators(learning, batch, geometries)
+                                                   : InKernels(learning, batch, geometries);
+    if (group_.size() > 1 && state_.step + 1 < lesson.end) {  // while the sums travel
+      next_ = GeometriesAt(lesson, state_.step + 1);
+      next_step_ = state_.step + 1;
+    }
+    for (Network* network : learning) {
+      network->sum.get();
+      AddEncoderGradient(*network);
+    }
+    return losses;
+  }
+
+  // Leaves the encoders' gradients on their way; what one network sends travels while the other
+  // computes.
+  StageLosses InKernels(const std::vector<Network*>& learning, const Minibatch& batch,
+                        const Geometries& geometries) {
+    const std::vector<PointEncoder> encoders = EncodersOf(learning, geometries);
+    std::vector<std::future<BatchFeatures>> features;
+    for (std::size_t n = 0; n < learning.size(); ++n)
+      features.push_back(
+          StartGathering(FeaturesInKernels(*learning[n], At(encoders, n), geometries)));
+    StageLosses losses = UnknownLosses();
+    for (std::size_t n = 0; n < learning.size(); ++n) {
+      Network& network = *learning[n];
+      losses = Updated(losses, Head(network, batch, features[n].get()));
+      ClearParts(network);
+      if (!geometries.empty())
+        BackInKernels(network, encoders[n], geometries, batch.indices.size());
+      network.sum = StartSumming(network);
+    }
+    return losses;
+  }
+
+  // The same, both networks side by side: libtorch has one thread for each.
+  StageLosses InOperators(const std::vector<Network*>& learning, const Minibatch& batch,
+                          const Geometries& geometries) {
+    std::vector<std::vector<float>> own(learning.size());
+    ParallelFor(learning.size(), threads_, [&](std::size_t n) {
+      internal::UseOneTorchThread();
+      Network& network = *learning[n];
+      network.in_operators.emplace(*network.layout, *network.parameters, OperatorDevice());
+      own[n] = network.in_operators->Forward(geometries, true);
+      MoveTowards(network.in_operators->Statistics(), *network.statistics);
+    });
+    StageLosses losses = UnknownLosses();
+    for (std::size_t n = 0; n < learning.size(); ++n)
+      losses = Updated(losses, Head(*learning[n], batch, StartGathering(std::move(own[n])).get()));
+    ParallelFor(learning.size(), threads_, [&](std::size_t n) {
+      internal::UseOneTorchThread();
+      Network& network = *learning[n];
+      ClearParts(network);  // the operators sum the whole share as they like
+      network.in_operators->AddGradient(network.feature_gradient, network.parts[FirstOwnPart()]);
+    });
+    for (Network* network : learning) network->sum = StartSumming(*network);
+    return losses;
+  }
+
+  std::size_t OwnParts() const { return kGradientParts / static_cast<std::size_t>(group_.size()); }
+  std::size_t FirstOwnPart() const { return OwnParts() * static_cast<std::size_t>(group_.rank()); }
+
+  // The batch's samples that this process encodes.
+  Minibatch OwnShare(const Minibatch& batch) const {
+    const std::size_t size = batch.indices.size();
+    const auto begin = batch.indices.begin();
+    const auto cut = [&](std::size_t part) {
+      return begin + static_cast<std::ptrdiff_t>(part * size / kGradientParts);
+    };
+    return {batch.set, {cut(FirstOwnPart()), cut(FirstOwnPart() + OwnParts())}, batch.step};
+  }
+
+  bool OnDevice() const { return config_.device != "cpu"; }
+  bool Normalises() const { return NormOf(config_) == EncoderNorm::kBatch; }
+  const char* OperatorDevice() const { return OnDevice() ? config_.device.c_str() : "libtorch"; }
+  std::vector<float> FoldedOf(const Network& network) const {
+    return FoldNorms(*network.layout, *network.parameters, *network.statistics);
+  }
+  bool LearnsInOperators() const { return OnDevice() || Normalises(); }
+
+  // As packed for this step.
+  std::vector<PointEncoder> EncodersOf(const std::vector<Network*>& networks,
+                                       const Geometries& geometries) const {
+    if (geometries.empty()) return {};
+    std::vector<std::optional<PointEncoder>> packed(networks.size());
+    ParallelFor(networks.size(), threads_,
+                [&](std::size_t n) { packed[n].emplace(EncoderOf(*networks[n])); });
+    std::vector<PointEncoder> encoders;
+    encoders.reserve(packed.size());
+    for (auto& encoder : packed) encoders.push_back(std::move(*encoder));
+    return encoders;
+  }
+
+  static const PointEncoder* At(const std::vector<PointEncoder>& encoders, std::size_t n) {
+    return encoders.empty() ? nullptr : &encoders[n];
+  }
+
+  // The network's features of these clouds; it keeps what the way back needs.
+  std::vector<float> FeaturesInKernels(Network& network, const PointEncoder* encoder,
+                                       const Geometries& geometries) const {
+    if (geometries.empty()) return {};
+    network.encoded.Resize(geometries.size());
+    ParallelFor(geometries.size(), threads_,
+                [&](std::size_t i) { network.encoded.Encode(*encoder, *geometries[i], i); });
+    return network.encoded.Features(geometries.size());
+  }
+
+  std::future<BatchFeatures> StartGathering(std::vector<float> own) {
+    return calls_.Start(
+        [this, own = std::move(own)] { return internal::GatherFeatures(group_, own); });
+  }
+
+  void RequireFinite(double value, const char* name) const {
+    Require(std::isfinite(value), ErrorCode::kIncomplete,
+            "training diverged at step " + std::to_string(state_.step + 1) + ": " + name +
+                " is not finite; lower learning_rate");
+  }
+
+  // Fills the network's gradient behind the encoder, and that of its own share of the features.
+  // The head is small: every process does the whole batch's, so that its gradient need not travel.
+  StageLosses Head(Network& network, const Minibatch& batch, BatchFeatures features) {
+    const HeadResult result =
+        task_->Objective(network.role, batch, std::move(features.all), network.gradient);
+    RequireFinite(result.objective, "a loss");
+    const auto own =
+        result.feature_gradient.begin() + static_cast<std::ptrdiff_t>(features.own_begin);
+    network.feature_gradient.assign(own, own + static_cast<std::ptrdiff_t>(features.own_size));
+    return result.losses;
+  }
+
+  void ClearParts(Network& network) const {
+    for (std::size_t p = FirstOwnPart(); p < FirstOwnPart() + OwnParts(); ++p)
+      network.parts.at(p).assign(EncoderSize(*network.layout), 0.0F);
+  }
+
+  // Leaves the encoder's gradient of this process's share in the network's own parts.
+  void BackInKernels(Network& network, const PointEncoder& encoder, const Geometries& geometries,
+                     std::size_t batch_size) const {
+    const std::vector<std::size_t> offsets = FeatureOffsets(geometries);
+    const std::size_t first = FirstOwnPart() * batch_size / kGradientParts;
+    ParallelFor(OwnParts(), threads_, [&](std::size_t task) {
+      const std::size_t p = FirstOwnPart() + task;
+      std::vector<float>& part = network.parts[p];
+      const std::size_t begin = p * batch_size / kGradientParts - first;
+      const std::size_t end = (p + 1) * batch_size / kGradientParts - first;
+      for (std::size_t i = begin; i < end; ++i)
+        encoder.AddGradient(
+            *geometries[i], network.encoded.trace(i),
+            std::span(network.feature_gradient).subspan(offsets[i], offsets[i + 1] - offsets[i]),
+            part);
+    });
+  }
+
+  // Leaves the encoder's gradient, of all processes, in the first of the network's own parts.
+  std::future<void> StartSumming(Network& network) {
+    const auto first = network.parts.begin() + static_cast<std::ptrdiff_t>(FirstOwnPart());
+    std::vector<std::span<float>> own(first, first + static_cast<std::ptrdiff_t>(OwnParts()));
+    SumAsTree(own);
+    return calls_.Start([this, sum = own.front()] { group_.Sum(sum); });
+  }
+
+  void AddEncoderGradient(Network& network) const {
+    const std::vector<float>& sum = network.parts.at(FirstOwnPart());
+    for (std::size_t i = 0; i < sum.size(); ++i) network.gradient[i] += sum[i];
+  }
+
+  void RequireFiniteGradient(const Network& network) const {
+    std::uint32_t largest = 0;  // magnitude; as bits, which compilers compare many at a time
+    for (const float value : network.gradient)
+      largest = std::max(largest, std::bit_cast<std::uint32_t>(value) & 0x7fffffffU);
+    RequireFinite(static_cast<double>(std::bit_cast<float>(largest)), "a gradient");
+  }
+
+  // Where each cloud's features begin among those of the batch.
+  static std::vector<std::size_t> FeatureOffsets(const Geometries& geometries) {
+    std::vector<std::size_t> offsets = {0};
+    for (const auto& geometry : geometries)
+      offsets.push_back(offsets.back() + geometry->upsampling[0].size() * kFeatureSize);
+    return offsets;
+  }
+
+  void EndEpoch(int lesson, std::uint64_t per_epoch) {
+    EpochLosses epoch;
+    for (std::uint64_t i = state_.step - per_epoch; i < state_.step; ++i)
+      AddScaled(state_.steps[i], 1.0 / static_cast<double>(per_epoch), epoch.train);
+    const StageLosses before =
+        state_.epochs.empty() ? UnknownLosses() : state_.epochs.back().validation;
+    epoch.validation = Updated(before, Validate(lesson));
+    RequireSoundSamples();
+    state_.epochs.push_back(epoch);
+    internal::UpdateBest(config_, state_);
+    if (hooks_.on_epoch) hooks_.on_epoch(state_);
+  }
+
+  std::vector<float> ValidationFeatures(Network& network, const Geometries& geometries) {
+    if (geometries.empty()) return {};
+    if (OnDevice())
+      return internal::DeviceEncoder(*network.plain, FoldedOf(network), config_.device)
+          .Forward(geometries, false);
+    const PointEncoder encoder = EncoderOf(network);
+    return FeaturesInKernels(network, &encoder, geometries);
+  }
+
+  // Mean over the validation set of what the lesson teaches.
+  StageLosses Validate(int lesson) {
+    if (validation_.empty()) return UnknownLosses();
+    constexpr std::size_t kChunk = 64;
+    StageLosses sum;
+    for (std::size_t begin = 0; begin < validation_.size(); begin += kChunk) {
+      Minibatch batch{SampleSet::kValidation, {}, 0};
+      batch.indices.resize(std::min(kChunk, validation_.size() - begin));
+      std::iota(batch.indices.begin(), batch.indices.end(), begin);
+      const std::vector<Network*> taught = Taught(lesson);
+      const bool reads = task_->ReadsClouds(lesson);
+      const Geometries geometries =
+          reads ? task_->GeometriesOf(lesson, OwnShare(batch)) : Geometries{};
+      StageLosses losses = UnknownLosses();
+      for (Network* network : taught) {
+        std::vector<float> features;
+        if (reads) features = StartGathering(ValidationFeatures(*network, geometries)).get().all;
+        const HeadResult result = task_->Objective(network->role, batch, std::move(features), {});
+        RequireFinite(result.objective, "a validation loss");
+        losses = Updated(losses, result.losses);
+      }
+      AddScaled(losses, static_cast<double>(batch.indices.size()), sum);
+    }
+    StageLosses mean;
+    AddScaled(sum, 1.0 / static_cast<double>(validation_.size()), mean);
+    return mean;
+  }
+
+  std::span<const TrainingSample> train_;
+  std::span<const TrainingSample> validation_;
+  const TrainConfig& config_;
+  const TrainHooks& hooks_;
+  std::unique_ptr<ProcessGroup> alone_;  // without a group
+  ProcessGroup& group_;
+  internal::OrderedCalls calls_;  // to the group
+  int threads_;
+  InstructionSet instruction_set_;
+  TrainerState state_;
+  std::array<Network, 2> networks_;  // by NetworkRole
+  std::unique_ptr<StageTask> task_;
+  Geometries next_;  // of `next_step_`, found ahead
+  std::optional<std::uint64_t> next_step_;
+};
+
+}  // namespace
+
+StageNetworks PolicyOf(const TrainerState& state) {
+  StageNetworks policy = state.networks;
+  policy.norm = EncoderNorm::kNone;
+  policy.actor = FoldNorms(ActorLayout(policy.family, state.networks.norm), state.networks.actor,
+                           state.actor_statistics);
+  policy.critic = FoldNorms(CriticLayout(policy.family, state.networks.norm), state.networks.critic,
+                            state.critic_statistics);
+  return policy;
+}
+
+TrainerState TrainStage(std::span<const TrainingSample> train,
+                        std::span<const TrainingSample> validation, const TrainConfig& config,
+                        const TrainHooks& hooks) {
+  CheckTrainConfig(config);
+  Require(!train.empty(), ErrorCode::kInvalidArgument, "no sample to train from");
+  const NetworkView view = ViewOf(config, train);
+  Require(!hooks.initial || hooks.initial->normalisation.view == view, ErrorCode::kInvalidArgument,
+          "the networks to begin with were trained with other settings of frame, state, "
+          "context_m, zoom or near_points, or from clouds of another extent, than \"" +
+              config.frame + "\", \"" + config.state + "\", " + std::to_string(config.context_m));
+  if (NormOf(config) == EncoderNorm::kBatch) {
+    Require(
+        !hooks.initial, ErrorCode::kInvalidArgument,
+        "a policy's batch statistics are folded into its weights, so that training cannot begin "
+        "with them; begin without, or with encoder_norm=none");
+    Require(
+        hooks.group == nullptr || hooks.group->size() == 1, ErrorCode::kInvalidArgument,
+        "encoder_norm=batch reads statistics of the whole batch, which several processes do not "
+        "share; train in one, or with encoder_norm=none");
+  }
+  internal::UseOneTorchThread();
+  if (view.frame == ViewFrame::kWorld) return Trainer(train, validation, config, hooks).Run();
+  const auto train_here = AllInHandFrame(train, config.family);
+  const auto validation_here = AllInHandFrame(validation, config.family);
+  return Trainer(train_here, validation_here, config, hooks).Run();
+}
+
+}  // namespace doorforge

@@ -19,7 +19,8 @@ GripperClearance::GripperClearance(const RobotModel& robot)
   for (const int finger : fingers) open[finger] = robot.joint(finger).upper;
   const RobotPose pose = robot.PoseAt(open, RigidTransform::Identity());
   for (const RobotPiece& piece : robot.hulls()) {
-    if (piece.joint != robot.hand().joint && std::ranges::count(fingers, piece.joint) == 0) continue;
+    if (piece.joint != robot.hand().joint && std::ranges::count(fingers, piece.joint) == 0)
+      continue;
     const auto body = static_cast<std::size_t>(piece.joint);
     hulls_.push_back(
         HullOf(piece.mesh, pose.world_from_hand.inverse() * pose.world_from_body[body]));

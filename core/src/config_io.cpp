@@ -3,9 +3,11 @@
 #include "doorforge/core/config_io.h"
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
 #include "doorforge/core/nearest_name.h"
 
-namespace doorforge::internal {
+namespace doorforge {
+namespace internal {
 
 void ThrowConfigError(const std::string& path, const std::string& problem) {
   throw Error(ErrorCode::kInvalidConfig, path + ": " + problem);
@@ -17,4 +19,14 @@ void ThrowUnknownKey(const std::string& path, const std::string& key,
                    "unknown key; did you mean \"" + NearestName(key, known) + "\"?");
 }
 
-}  // namespace doorforge::internal
+}  // namespace internal
+
+void RequireRange(const std::string& path, const char* name, double value, double low,
+                  double high) {
+  if (value >= low && value <= high) return;
+  const auto text = [](double number) { return JsonText(number); };
+  internal::ThrowConfigError(
+      path + "." + name, "found " + text(value) + ", allowed " + text(low) + " to " + text(high));
+}
+
+}  // namespace doorforge

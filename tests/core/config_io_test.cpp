@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/core/config_io.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "doorforge/core/error.h"
@@ -67,6 +69,19 @@ TEST(ConfigIo, RefusesAFractionForAnInteger) {
 
 TEST(ConfigIo, RefusesAnIntegerThatDoesNotFit) {
   EXPECT_EQ(ErrorOf(R"({"count": 3000000000})"), "outer.count: integer out of range");
+}
+
+TEST(ConfigIo, ARangeHoldsItsEndsAndNoNumberIsInNone) {
+  EXPECT_NO_THROW(RequireRange("body", "width_m", 0.5, 0.5, 1));
+  EXPECT_NO_THROW(RequireRange("body", "width_m", 1, 0.5, 1));
+  EXPECT_THROW(RequireRange("body", "width_m", std::nan(""), 0.5, 1), Error);
+  try {
+    RequireRange("body", "width_m", 1.25, 0.5, 1);
+    FAIL() << "1.25 is above 1";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kInvalidConfig);
+    EXPECT_STREQ(error.what(), "body.width_m: found 1.25, allowed 0.5 to 1.0");
+  }
 }
 
 }  // namespace

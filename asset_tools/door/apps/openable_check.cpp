@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "doorforge/core/mesh_transform.h"
 #include "doorforge/mesh/solid_overlap.h"
 #include "doorforge/physics/leaf_sweep.h"
 #include "doorforge/physics/opening_trial.h"
@@ -38,11 +39,6 @@ void AddOverlap(const char* code, const SweepOverlap& overlap, std::vector<Findi
   findings.push_back(FindingOf(code, PlaceOf(overlap), Measured(overlap.depth_m, overlap)));
 }
 
-TriangleMesh Placed(TriangleMesh mesh, const RigidTransform& pose) {
-  for (Eigen::Vector3d& vertex : mesh.vertices) vertex = pose * vertex;
-  return mesh;
-}
-
 // How far the meshes of a pair of pieces are in each other where these are.
 struct DrawnOverlap {
   double depth_m = 0;
@@ -62,7 +58,8 @@ class DrawnOverlaps {
     std::unique_ptr<SolidOverlap>& solids = solids_[{pair.moving, pair.fixed}];
     if (!solids)
       solids = std::make_unique<SolidOverlap>(moving->mesh, Find(pair.fixed).second->mesh);
-    const std::array<TriangleMesh, 2> regions = {Placed(*pair.moving_hull, pose), *pair.fixed_hull};
+    const std::array<TriangleMesh, 2> regions = {Transformed(*pair.moving_hull, pose),
+                                                 *pair.fixed_hull};
     const std::vector<Eigen::Vector3d> surface = solids->CommonSurface(pose, regions, kStep);
     // both are lower bounds; the former alone takes a small piece deep in a large one for shallow
     const double depth_m = std::max(LeastExtent(surface, {&pair.direction, 1}),

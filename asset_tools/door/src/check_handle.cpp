@@ -5,12 +5,12 @@
 #include <limits>
 #include <optional>
 
+#include "doorforge/core/mesh_transform.h"
 #include "doorforge/door/grasp.h"
 
 #include "check_handle_stance.h"
 #include "findings.h"
 #include "line_hits.h"
-#include "placed_mesh.h"
 #include "record_meshes.h"
 
 namespace doorforge::internal {
@@ -57,9 +57,9 @@ MountedHandle Mounted(const DoorAsset& door, const LeafLines& leaf) {
     if (geometry.label == PointLabel::kHandle) handle.push_back(geometry.mesh);
   }
   for (const DoorGeometry& geometry : door.links[kHandleLink].geometry)
-    grip.push_back(Placed(geometry.mesh, leaf_from_handle));
+    grip.push_back(Transformed(geometry.mesh, leaf_from_handle));
   handle.insert(handle.end(), grip.begin(), grip.end());
-  return {leaf, JoinedMeshes(grip), JoinedMeshes(handle), leaf_from_handle * door.handle_from_grasp,
+  return {leaf, Merged(grip), Merged(handle), leaf_from_handle * door.handle_from_grasp,
           leaf_from_handle.translation()};
 }
 
@@ -119,7 +119,8 @@ Findings CheckGrasp(const CheckedGrasp& checked) {
   const Eigen::Vector3d approach = checked.frame_from_grasp.linear().col(2);
   if (-approach.x() < LimitOf("HND005"))
     return {Found("HND005", checked.where, Number(-approach.x()))};
-  const auto material = BetweenFingers(Placed(checked.grip, checked.frame_from_grasp.inverse()));
+  const auto material =
+      BetweenFingers(Transformed(checked.grip, checked.frame_from_grasp.inverse()));
   if (!material || material->first > gripper.opening_m / 2 ||
       material->last < -gripper.opening_m / 2)
     return {Found("HND004", checked.where, "nothing between the fingers")};
@@ -162,10 +163,10 @@ Findings CheckHandle(const DoorAsset& door, const LeafLines& leaf) {
   if (buried > LimitOf("HND001") || protrusion < LimitOf("HND002")) return findings;
   const RigidTransform frame_from_leaf = Translation({-surface, 0, 0});
   const auto behind = SurfaceAt(mounted.leaf, mounted.leaf_from_grasp.translation());
-  const CheckedGrasp grasp{"door.json: handle_from_grasp", Placed(mounted.grip, frame_from_leaf),
-                           Placed(mounted.handle, frame_from_leaf),
-                           frame_from_leaf * mounted.leaf_from_grasp,
-                           behind ? *behind - surface : -std::numeric_limits<double>::infinity()};
+  const CheckedGrasp grasp{
+      "door.json: handle_from_grasp", Transformed(mounted.grip, frame_from_leaf),
+      Transformed(mounted.handle, frame_from_leaf), frame_from_leaf * mounted.leaf_from_grasp,
+      behind ? *behind - surface : -std::numeric_limits<double>::infinity()};
   const Findings more = CheckGrasp(grasp);
   findings.insert(findings.end(), more.begin(), more.end());
   return findings;
@@ -176,7 +177,7 @@ Findings CheckPartGrasp(const Part& part) {
   if (grip == nullptr || grip->mesh.triangles.empty()) return {};
   std::vector<TriangleMesh> meshes;
   for (const PartPiece& piece : part.pieces) meshes.push_back(piece.mesh);
-  const TriangleMesh handle = JoinedMeshes(meshes);
+  const TriangleMesh handle = Merged(meshes);
   return CheckGrasp({"part.json: part_from_grasp", grip->mesh, handle, part.part_from_grasp, 0});
 }
 

@@ -10,7 +10,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "placed_mesh.h"
+#include "doorforge/core/mesh_transform.h"
 
 namespace doorforge::internal {
 namespace {

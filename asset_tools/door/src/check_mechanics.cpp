@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
+#include "doorforge/core/mesh_transform.h"
+
 #include "findings.h"
-#include "placed_mesh.h"
 
 namespace doorforge::internal {
 namespace {

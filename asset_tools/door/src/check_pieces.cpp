@@ -8,10 +8,10 @@
 #include <Eigen/Geometry>
 
 #include "doorforge/core/closed_mesh.h"
+#include "doorforge/core/mesh_transform.h"
 #include "doorforge/mesh/work_budget.h"
 
 #include "findings.h"
-#include "placed_mesh.h"
 
 namespace doorforge::internal {
 namespace {

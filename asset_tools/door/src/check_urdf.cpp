@@ -5,13 +5,13 @@
 #include <set>
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/inside_folder.h"
 #include "doorforge/door/export_urdf.h"
 #include "doorforge/schemas/mesh_pool.h"
 #include "doorforge/schemas/urdf.h"
 
 #include "expected_urdf.h"
 #include "findings.h"
-#include "inside_folder.h"
 
 namespace doorforge::internal {
 namespace {

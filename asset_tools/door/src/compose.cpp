@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/mesh_transform.h"
 #include "doorforge/door/export_urdf.h"
 #include "doorforge/door/mechanism.h"
 #include "doorforge/schemas/mesh_file.h"
@@ -19,7 +20,6 @@
 #include "compose_settings.h"
 #include "joint_limits.h"
 #include "mapped_part.h"
-#include "placed_mesh.h"
 #include "prepared_part.h"
 
 namespace doorforge {
@@ -87,9 +87,9 @@ Eigen::Vector3d WantedMount(const Pair& pair) {
 
 void CheckOutline(const Pair& pair, const RigidTransform& body_from_handle) {
   if (!pair.config.handle_mirrored && pair.config.handle_turn_deg == 0) return;
-  const TriangleMesh handle = internal::Placed(
+  const TriangleMesh handle = Transformed(
       internal::WholeMesh(pair.handle.part, Eigen::Matrix3d::Identity()), body_from_handle);
-  const Eigen::AlignedBox3d box = internal::BoundsOf(handle);
+  const Eigen::AlignedBox3d box = BoundsOf(handle);
   const Eigen::AlignedBox3d& leaf = pair.body.leaf->bounds;
   const double beyond = std::max((leaf.min() - box.min()).tail<2>().maxCoeff(),
                                  (box.max() - leaf.max()).tail<2>().maxCoeff());

@@ -8,11 +8,11 @@
 #include "doorforge/core/closed_mesh.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
+#include "doorforge/core/mesh_transform.h"
 #include "doorforge/core/nearest_name.h"
 #include "doorforge/mesh/convex_parts.h"
 
 #include "finish.h"
-#include "placed_mesh.h"
 
 namespace doorforge::internal {
 
@@ -31,14 +31,6 @@ const Family& FamilyNamed(std::string_view name, const std::string& path) {
   throw Error(ErrorCode::kInvalidConfig, path + ".family: unknown family \"" + std::string(name) +
                                              "\"; did you mean \"" + NearestName(name, known) +
                                              "\"?");
-}
-
-void RequireRange(const std::string& path, const char* name, double value, double low,
-                  double high) {
-  if (value >= low && value <= high) return;
-  const auto text = [](double number) { return JsonText(number); };
-  throw Error(ErrorCode::kInvalidConfig, path + "." + name + ": found " + text(value) +
-                                             ", allowed " + text(low) + " to " + text(high));
 }
 
 PartPiece MakePiece(const std::string& name, const Solid& solid, const std::string& finish_name,

@@ -54,9 +54,6 @@ Parameters ReadParameters(const nlohmann::ordered_json& json, const std::string&
   return parameters;
 }
 
-/// Throws Error(kInvalidConfig) unless low <= value <= high.
-void RequireRange(const std::string& path, const char* name, double value, double low, double high);
-
 /// A piece with colour and mass properties by the named finish. Throws Error(kInvalidArgument) if
 /// the mesh is not closed, which is a fault of the family.
 PartPiece MakePiece(const std::string& name, const Solid& solid, const std::string& finish,

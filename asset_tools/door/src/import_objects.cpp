@@ -12,6 +12,7 @@
 #include "doorforge/core/config_io.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
+#include "doorforge/core/mesh_transform.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
@@ -19,7 +20,6 @@
 #include "doorforge/door/author_place.h"
 #include "doorforge/mesh/work_budget.h"
 
-#include "placed_mesh.h"
 #include "subtask.h"
 
 namespace doorforge {
@@ -271,12 +271,11 @@ class Import {
   static void SetGrasp(PartJob& job) {
     Part& part = *job.made.part;
     // nothing that a hand holds; looking for a grasp takes memory by its size
-    const Eigen::Vector3d size = internal::BoundsOf(FindPiece(part, "grip")->mesh).sizes();
+    const Eigen::Vector3d size = BoundsOf(FindPiece(part, "grip")->mesh).sizes();
     if (size.maxCoeff() > kLongestGrip) return;
     std::vector<TriangleMesh> pieces;
     for (const PartPiece& piece : part.pieces) pieces.push_back(piece.mesh);
-    job.grasp = RefineGrasp(FindPiece(part, "grip")->mesh, internal::JoinedMeshes(pieces),
-                            part.part_from_grasp);
+    job.grasp = RefineGrasp(FindPiece(part, "grip")->mesh, Merged(pieces), part.part_from_grasp);
     part.part_from_grasp = job.grasp.part_from_grasp;
     part.grasp_half_extent_m = job.grasp.half_extent_m;
   }

@@ -8,13 +8,13 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
+#include "doorforge/core/inside_folder.h"
 #include "doorforge/core/json_file.h"
+#include "doorforge/core/mesh_transform.h"
 #include "doorforge/door/mechanism.h"
 #include "doorforge/schemas/urdf.h"
 
 #include "import/source_mesh.h"
-#include "inside_folder.h"
-#include "placed_mesh.h"
 #include "subtask.h"
 #include "two_joint_chain.h"
 
@@ -105,7 +105,7 @@ class MeshCollector {
     found.object_from_raw = (ObjectFromBase() * base_from_link * shape.link_from_shape) *
                             Eigen::Affine3d(LinkFromRaw() * scale);
     try {
-      found.file = internal::FileInside(folder_, mesh->filename, where_);
+      found.file = FileInside(folder_, mesh->filename, where_);
       found.sha256 = Sha256OfFile(found.file);
     } catch (const Error& error) {
       if (error.code() != ErrorCode::kMissing) throw;
@@ -235,7 +235,7 @@ PartDraft LoadHalf(const std::vector<UniDoorManipObject::Mesh>& meshes, const fs
 
 void MovePieces(PartDraft& draft, const Eigen::Vector3d& offset) {
   for (RawPiece& piece : draft.pieces) {
-    piece.mesh = internal::Placed(std::move(piece.mesh), Translation(offset));
+    piece.mesh = Transformed(std::move(piece.mesh), Translation(offset));
     for (Eigen::Vector3d& vertex : piece.visual.vertices) vertex += offset;
   }
 }
@@ -310,7 +310,7 @@ PartDraft LoadBody(const UniDoorManipObject& object) {
   PartDraft draft = LoadHalf(object.body_meshes, object.folder);
   double lowest = std::numeric_limits<double>::infinity();
   for (const RawPiece& piece : draft.pieces)
-    lowest = std::min(lowest, internal::BoundsOf(piece.mesh).min().z());
+    lowest = std::min(lowest, BoundsOf(piece.mesh).min().z());
   const Eigen::Vector3d up(0, 0, -lowest);
   MovePieces(draft, up);
   Part& part = draft.facts;
@@ -351,7 +351,7 @@ double BoxDeviation(const UniDoorManipObject& object, const PartDraft& half) {
   Eigen::AlignedBox3d loaded;
   for (const RawPiece& piece : half.pieces) {
     if (piece.name == "rose" || (has_frame && piece.name == "leaf")) continue;
-    loaded.extend(internal::BoundsOf(piece.mesh));
+    loaded.extend(BoundsOf(piece.mesh));
   }
   // a body was lifted onto the floor
   if (is_body) loaded.translate(object.hinge.origin_m - half.facts.joint.origin_m);

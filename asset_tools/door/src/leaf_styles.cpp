@@ -59,7 +59,8 @@ Solid LouvredLeaf(const LeafShape& leaf, int slats) {
   for (int i = 0; i < slats; ++i) {
     const Eigen::Vector3d at(-leaf.thickness_m / 2, (window.min_m.x() + window.max_m.x()) / 2,
                              window.min_m.y() + pitch * (i + 0.5));
-    solids.push_back(Placed(slat, Translation(at) * RotationAbout(Eigen::Vector3d::UnitY(), tilt)));
+    solids.push_back(
+        Transformed(slat, Translation(at) * RotationAbout(Eigen::Vector3d::UnitY(), tilt)));
   }
   return Joined(solids);
 }

@@ -9,11 +9,11 @@
 #include <nlohmann/json.hpp>
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/mesh_transform.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/schemas/vertex_reach.h"
 
 #include "piece_density.h"
-#include "placed_mesh.h"
 
 namespace doorforge {
 namespace {
@@ -53,7 +53,7 @@ void CheckReach(const PartDraft& draft) {
     const std::string name = draft.facts.id + ": " + piece.name;
     RequireWithinReach(piece.mesh.vertices, name);
     RequireWithinReach(piece.visual.vertices, name + " as it is drawn");
-    const double across = internal::BoundsOf(piece.mesh).sizes().maxCoeff();
+    const double across = BoundsOf(piece.mesh).sizes().maxCoeff();
     if (!piece.mesh.vertices.empty() && across > kLargestPieceM)
       throw Error(ErrorCode::kFormat, name + ": " + std::to_string(across) +
                                           " m across, allowed are " +
@@ -78,7 +78,7 @@ bool LimitMass(const internal::PieceDensity& limits, MassProperties& mass) {
 
 // rounding can fold a sliver; then the mesh is repaired once more, at the rounded coordinates
 std::optional<ClosedMesh> RoundedClosed(const ClosedMesh& mesh, const RepairConfig& config) {
-  TriangleMesh rounded = internal::RoundedToFloat(mesh.mesh());
+  TriangleMesh rounded = RoundedToFloat(mesh.mesh());
   if (std::optional<ClosedMesh> closed = ClosedMesh::From(rounded)) return closed;
   return RepairMesh(rounded, config).mesh;
 }
@@ -91,7 +91,7 @@ std::optional<TriangleMesh> RoundedHull(const TriangleMesh& hull) {
   const MeshTopology before = MeasureTopology(hull);
   // a thin plate has twice its area as surface
   if (before.volume_m3 < kThinnestHull * before.area_m2 / 2) return std::nullopt;
-  return ConvexHull(internal::RoundedToFloat(hull).vertices);
+  return ConvexHull(RoundedToFloat(hull).vertices);
 }
 
 std::vector<TriangleMesh> HullsOf(const ClosedMesh& mesh, const ConvexPartsConfig& config) {

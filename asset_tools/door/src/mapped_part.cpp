@@ -7,7 +7,7 @@
 
 #include <Eigen/LU>
 
-#include "placed_mesh.h"
+#include "doorforge/core/mesh_transform.h"
 
 namespace doorforge::internal {
 namespace {

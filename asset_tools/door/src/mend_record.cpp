@@ -12,6 +12,7 @@
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
+#include "doorforge/core/inside_folder.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/mass_properties.h"
 #include "doorforge/door/export_urdf.h"
@@ -22,7 +23,6 @@
 #include "doorforge/schemas/urdf.h"
 
 #include "expected_urdf.h"
-#include "inside_folder.h"
 #include "joint_limits.h"
 #include "piece_density.h"
 

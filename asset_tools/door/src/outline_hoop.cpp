@@ -7,9 +7,8 @@
 #include <cstddef>
 #include <numbers>
 
+#include "doorforge/core/config_io.h"
 #include "doorforge/core/error.h"
-
-#include "family.h"
 
 namespace doorforge::internal {
 namespace {

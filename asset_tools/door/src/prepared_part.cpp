@@ -6,13 +6,13 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
+#include "doorforge/core/mesh_transform.h"
 #include "doorforge/door/grasp.h"
 #include "doorforge/schemas/mesh_file.h"
 #include "doorforge/schemas/mesh_pool.h"
 
 #include "compose_settings.h"
 #include "mapped_part.h"
-#include "placed_mesh.h"
 
 namespace doorforge {
 namespace {
@@ -44,7 +44,7 @@ double StretchTo(const char* name, double wanted, double made) {
 }
 
 PartMap BodyMap(const Part& part, const ComposeConfig& config) {
-  const Eigen::Vector3d size = internal::BoundsOf(FindPiece(part, "leaf")->mesh).sizes();
+  const Eigen::Vector3d size = BoundsOf(FindPiece(part, "leaf")->mesh).sizes();
   PartMap map;
   map.scale.y() = config.leaf_width_m > 0 ? StretchTo("leaf_width_m", config.leaf_width_m, size.y())
                                           : internal::DrawnFactor(config, part.id + "/leaf_width");
@@ -77,9 +77,7 @@ void RefineScaledGrasp(Part& part) {
 
 // The distance from the mount to the free edge is hardware and does not stretch with the leaf.
 void KeepBackset(const Part& made, bool hinged_right, Part& changed) {
-  const auto bounds = [](const Part& part) {
-    return internal::BoundsOf(FindPiece(part, "leaf")->mesh);
-  };
+  const auto bounds = [](const Part& part) { return BoundsOf(FindPiece(part, "leaf")->mesh); };
   const double backset = bounds(made).max().y() - made.part_from_mount.translation().y();
   changed.part_from_mount.translation().y() =
       hinged_right ? bounds(changed).min().y() + backset : bounds(changed).max().y() - backset;
@@ -127,7 +125,7 @@ TriangleMesh WholeMesh(const Part& part, const Eigen::Matrix3d& turn) {
   for (const PartPiece& piece : part.pieces) pieces.push_back(piece.mesh);
   RigidTransform turned = RigidTransform::Identity();
   turned.linear() = turn;
-  return Placed(JoinedMeshes(pieces), turned);
+  return Transformed(Merged(pieces), turned);
 }
 
 }  // namespace internal

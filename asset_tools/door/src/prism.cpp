@@ -216,7 +216,7 @@ Solid HoopSolid(const HoopShape& hoop, const Eigen::Vector3d& center_m) {
   return {std::move(mesh), LoftHulls(rings, 0.0025)};
 }
 
-Solid Placed(Solid solid, const RigidTransform& to_from_solid) {
+Solid Transformed(Solid solid, const RigidTransform& to_from_solid) {
   for (Eigen::Vector3d& vertex : solid.mesh.vertices) vertex = to_from_solid * vertex;
   for (TriangleMesh& hull : solid.hulls) {
     for (Eigen::Vector3d& vertex : hull.vertices) vertex = to_from_solid * vertex;

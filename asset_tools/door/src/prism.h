@@ -66,6 +66,6 @@ struct HoopShape {
 };
 Solid HoopSolid(const HoopShape& hoop, const Eigen::Vector3d& center_m);
 
-Solid Placed(Solid solid, const RigidTransform& to_from_solid);
+Solid Transformed(Solid solid, const RigidTransform& to_from_solid);
 
 }  // namespace doorforge::internal

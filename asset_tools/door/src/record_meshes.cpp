@@ -5,10 +5,9 @@
 #include "doorforge/core/closed_mesh.h"
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/hash.h"
+#include "doorforge/core/inside_folder.h"
+#include "doorforge/core/mesh_transform.h"
 #include "doorforge/schemas/mesh_pool.h"
-
-#include "inside_folder.h"
-#include "placed_mesh.h"
 
 namespace doorforge::internal {
 namespace {

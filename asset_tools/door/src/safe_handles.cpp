@@ -290,7 +290,7 @@ RigidTransform GraspFrame(const Eigen::Vector3d& position, const Eigen::Vector3d
 Part Finished(Part part, const GripParts& grip, const SafeBars& bars, const std::string& path) {
   const RigidTransform turn = RotationAbout(Eigen::Vector3d::UnitX(), bars.angle_deg * kPi / 180);
   part.pieces.push_back(
-      MakePiece("grip", Placed(Joined(grip.solids), turn), bars.finish, path + ".finish"));
+      MakePiece("grip", Transformed(Joined(grip.solids), turn), bars.finish, path + ".finish"));
   part.joint = HandleJoint(true);
   part.part_from_grasp = turn * GraspFrame(grip.grasp_m, grip.closing);
   part.grasp_half_extent_m = grip.half_extent_m;

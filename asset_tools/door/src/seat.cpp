@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "placed_mesh.h"
+#include "doorforge/core/mesh_transform.h"
 
 namespace doorforge::internal {
 namespace {

@@ -7,9 +7,8 @@
 #include <string>
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/mesh_transform.h"
 #include "doorforge/mesh/work_budget.h"
-
-#include "placed_mesh.h"
 
 namespace doorforge::internal {
 namespace {
@@ -92,7 +91,7 @@ std::optional<Crossing> CrossingOf(const Corners& c, double x, double z) {
 SolidColumns::SolidColumns(const TriangleMesh& mesh, const RigidTransform& frame_from_mesh,
                            double cell_m)
     : cell_(cell_m) {
-  const TriangleMesh placed = Placed(mesh, frame_from_mesh);
+  const TriangleMesh placed = Transformed(mesh, frame_from_mesh);
   const Eigen::AlignedBox3d bounds = BoundsOf(placed);
   if (bounds.isEmpty()) return;
   LayOut(bounds);

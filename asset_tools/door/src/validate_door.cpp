@@ -11,11 +11,11 @@
 #include "doorforge/core/closed_mesh.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
+#include "doorforge/core/mesh_transform.h"
 #include "doorforge/core/record_id.h"
 #include "doorforge/mesh/work_budget.h"
 
 #include "findings.h"
-#include "placed_mesh.h"
 #include "record_meshes.h"
 
 namespace doorforge {
@@ -186,7 +186,7 @@ Findings CheckMasses(const DoorOnDisk& on_disk, ValidationMemory& memory) {
     const DoorLink& link = on_disk.door.links[i];
     internal::CheckedMass checked{"door.json: link \"" + link.name + "\"", link.mass};
     for (std::size_t k = 0; WereRead(on_disk.pieces[i]) && k < link.geometry.size(); ++k) {
-      checked.bounds.extend(internal::BoundsOf(link.geometry[k].mesh));
+      checked.bounds.extend(BoundsOf(link.geometry[k].mesh));
       checked.volume_m3 += VolumeOf(*on_disk.pieces[i][k].mesh, memory);
     }
     Append(findings, internal::CheckMass(checked));
@@ -206,7 +206,7 @@ std::shared_ptr<const LeafLines> LinesOf(const DoorOnDisk& on_disk, ValidationMe
     key += on_disk.pieces[kLeafLink][i].mesh->sha256 + JsonText(TransformToJson(placed));
   }
   return memory.leaves.Get(
-      key, [&] { return LeafLines(internal::JoinedMeshes(leaf)); },
+      key, [&] { return LeafLines(Merged(leaf)); },
       [&](const LeafLines&) {
         std::size_t triangles = 1;
         for (const TriangleMesh& mesh : leaf) triangles += mesh.triangles.size();
@@ -308,7 +308,7 @@ Findings CheckPartPiece(const PartPiece& piece, const PieceOnDisk& on_disk,
   Findings findings = CheckPieceOnce(on_disk, memory);
   internal::CheckedMass mass{on_disk.where, piece.mass};
   if (on_disk.WasRead()) {
-    mass.bounds = internal::BoundsOf(piece.mesh);
+    mass.bounds = BoundsOf(piece.mesh);
     mass.volume_m3 = VolumeOf(*on_disk.mesh, memory);
   }
   Append(findings, internal::CheckMass(mass));

@@ -4,11 +4,11 @@
 #include <utility>
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/mesh_transform.h"
 #include "doorforge/mesh/convex_parts.h"
 #include "doorforge/mesh/work_budget.h"
 
 #include "convex_region.h"
-#include "mesh_pieces.h"
 #include "surface_samples.h"
 #include "triangle_tree.h"
 
@@ -76,8 +76,8 @@ ConvexPartsFit MeasureConvexParts(const ClosedMesh& mesh, std::span<const Triang
   fit.protrusion_m = FarthestOutside(part_probes, mesh_tree, [&](const Eigen::Vector3d& point) {
     return !mesh_tree.IsInside(point);
   });
-  fit.uncovered_m = FarthestOutside(Probes(mesh.mesh(), kSamples),
-                                    TriangleTree(Joined({parts.begin(), parts.end()})), in_no_part);
+  fit.uncovered_m =
+      FarthestOutside(Probes(mesh.mesh(), kSamples), TriangleTree(Merged(parts)), in_no_part);
   return fit;
 }
 

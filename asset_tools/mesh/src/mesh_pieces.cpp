@@ -146,17 +146,6 @@ std::vector<TriangleMesh> PiecesOf(const TriangleMesh& mesh) {
   return pieces;
 }
 
-TriangleMesh Joined(const std::vector<TriangleMesh>& pieces) {
-  TriangleMesh joined;
-  for (const TriangleMesh& piece : pieces) {
-    const int offset = static_cast<int>(joined.vertices.size());
-    joined.vertices.insert(joined.vertices.end(), piece.vertices.begin(), piece.vertices.end());
-    for (const Eigen::Vector3i& t : piece.triangles)
-      joined.triangles.push_back(t + Eigen::Vector3i::Constant(offset));
-  }
-  return joined;
-}
-
 TriangleMesh InVertexOrder(const TriangleMesh& mesh) {
   std::vector<int> order(mesh.vertices.size());
   std::iota(order.begin(), order.end(), 0);

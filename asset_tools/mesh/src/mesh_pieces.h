@@ -16,9 +16,6 @@ TriangleMesh Welded(const TriangleMesh& mesh, double distance_m);
 /// triangle.
 std::vector<TriangleMesh> PiecesOf(const TriangleMesh& mesh);
 
-/// All in one, in order, without welding.
-TriangleMesh Joined(const std::vector<TriangleMesh>& pieces);
-
 /// Vertices in lexicographic order.
 TriangleMesh InVertexOrder(const TriangleMesh& mesh);
 

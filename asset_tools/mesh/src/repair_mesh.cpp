@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/mesh_transform.h"
 #include "doorforge/mesh/work_budget.h"
 
 #include "mesh_pieces.h"
@@ -299,7 +300,7 @@ class Repair {
       report_.components_united = separation.united;
     }
     if (separation.untangled + separation.united > 0) report_.outcome = RepairOutcome::kRepaired;
-    return Joined(separation.solids);
+    return Merged(separation.solids);
   }
 
   TriangleMesh Wrapped() {

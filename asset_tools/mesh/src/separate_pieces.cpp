@@ -3,6 +3,7 @@
 #include "separate_pieces.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -11,6 +12,7 @@
 #include <utility>
 
 #include "doorforge/core/closed_mesh.h"
+#include "doorforge/core/mesh_transform.h"
 
 #include "convex_region.h"
 #include "mesh_pieces.h"
@@ -37,7 +39,7 @@ Meetings MeetingsOf(const std::vector<TriangleMesh>& pieces) {
     return i;
   };
   Meetings meetings;
-  for (const auto& [s, t] : CrossingTriangles(Joined(pieces))) {
+  for (const auto& [s, t] : CrossingTriangles(Merged(pieces))) {
     const std::size_t a = piece_of[static_cast<std::size_t>(s)];
     const std::size_t b = piece_of[static_cast<std::size_t>(t)];
     if (a == b) meetings.with_themselves.insert(a);
@@ -70,7 +72,7 @@ void JoinCavities(std::vector<TriangleMesh>& pieces) {
     if (around == nullptr)
       pieces.push_back(cavity);
     else
-      *around = Joined({*around, cavity});
+      *around = Merged(std::array{*around, cavity});
   }
 }
 
@@ -121,7 +123,7 @@ bool AddWalls(const TriangleMesh& surface, double half_m, std::vector<TriangleMe
 TriangleMesh WithoutCavities(const TriangleMesh& solid) {
   std::vector<TriangleMesh> shells = PiecesOf(solid);
   std::erase_if(shells, [](const TriangleMesh& shell) { return VolumeOf(shell) < 0; });
-  return Joined(shells);
+  return Merged(shells);
 }
 
 // Where faces nearly coincide, a union has slivers, which cross each other by rounding; most vanish
@@ -172,7 +174,7 @@ std::optional<TriangleMesh> WallsOf(const TriangleMesh& surface, double half_m) 
   const Separation separation =
       Separated(std::move(walls), {.shift_m = 0.05 * half_m, .fill_cavities = true});
   if (separation.solids.empty()) return std::nullopt;
-  return Joined(separation.solids);
+  return Merged(separation.solids);
 }
 
 Separation Separated(std::vector<TriangleMesh> pieces, const SeparationLimits& limits) {

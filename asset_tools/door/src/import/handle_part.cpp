@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/mesh_transform.h"
 
 #include "import/handle_place.h"
 #include "import/import_format.h"
-#include "placed_mesh.h"
 
 namespace doorforge::internal {
 namespace {

@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "doorforge/core/mesh_transform.h"
 #include "doorforge/door/mechanism.h"
-
-#include "placed_mesh.h"
 
 namespace doorforge::internal {
 namespace {
@@ -104,7 +103,7 @@ HandlePlace PlaceHandle(const TriangleMesh& handle, const HandleKnowledge& known
   place.mechanism = MechanismOf(handle, known);
   place.mount_m = MountOf(handle, known);
   place.joint.axis = Eigen::Vector3d::UnitX();
-  const TriangleMesh in_part = Placed(handle, Translation(-place.mount_m));
+  const TriangleMesh in_part = Transformed(handle, Translation(-place.mount_m));
   if (known.joint && place.mechanism != Mechanism::kNone) {
     place.joint = *known.joint;
     place.joint.origin_m -= place.mount_m;

@@ -10,13 +10,13 @@
 #include <sstream>
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/mesh_transform.h"
 
 #include "import/handle_place.h"
 #include "import/hinged_shapes.h"
 #include "import/import_format.h"
 #include "import/joint_tree.h"
 #include "import/leaf_motion.h"
-#include "placed_mesh.h"
 
 namespace doorforge::internal {
 namespace {
@@ -147,7 +147,7 @@ class LeafReader {
   TriangleMesh Joined(const std::vector<std::size_t>& shapes) const {
     std::vector<TriangleMesh> meshes;
     for (const std::size_t i : shapes) meshes.push_back(shapes_.shapes[i].mesh);
-    return JoinedMeshes(meshes);
+    return Merged(meshes);
   }
 
   // in the authored frame, before closing

@@ -8,9 +8,8 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
+#include "doorforge/core/mesh_transform.h"
 #include "doorforge/schemas/mesh_file.h"
-
-#include "placed_mesh.h"
 
 namespace doorforge::internal {
 namespace {

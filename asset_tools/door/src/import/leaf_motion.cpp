@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "placed_mesh.h"
+#include "doorforge/core/mesh_transform.h"
 
 namespace doorforge::internal {
 namespace {
@@ -120,7 +120,7 @@ LeafMotion FindLeafMotion(const AuthoredLeaf& leaf) {
   motion.ajar_rad = std::abs(closed);
   motion.closing = Translation(leaf.hinge.origin_m) * RotationAbout(leaf.hinge.axis, closed) *
                    Translation(-leaf.hinge.origin_m);
-  const Eigen::Vector3d center = BoundsOf(Placed(leaf.mesh, motion.closing)).center();
+  const Eigen::Vector3d center = BoundsOf(Transformed(leaf.mesh, motion.closing)).center();
   const PartJoint hinge = OpeningJoint(leaf, closed, center);
   if (!(hinge.upper_rad > kAjar)) return Refused("its limits leave it no room to open");
 

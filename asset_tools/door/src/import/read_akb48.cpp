@@ -5,14 +5,14 @@
 #include <string_view>
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/inside_folder.h"
+#include "doorforge/core/mesh_transform.h"
 
 #include "import/file_axes.h"
 #include "import/hinged_object.h"
 #include "import/import_format.h"
 #include "import/joint_tree.h"
 #include "import/source_mesh.h"
-#include "inside_folder.h"
-#include "placed_mesh.h"
 #include "subtask.h"
 
 namespace doorforge::internal {

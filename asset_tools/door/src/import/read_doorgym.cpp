@@ -4,11 +4,11 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
+#include "doorforge/core/inside_folder.h"
 #include "doorforge/core/json_file.h"
 
 #include "import/handle_part.h"
 #include "import/import_format.h"
-#include "inside_folder.h"
 #include "subtask.h"
 
 namespace doorforge::internal {

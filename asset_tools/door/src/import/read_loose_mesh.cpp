@@ -10,6 +10,7 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
+#include "doorforge/core/mesh_transform.h"
 #include "doorforge/mesh/import_mesh.h"
 
 #include "import/file_axes.h"
@@ -17,7 +18,6 @@
 #include "import/handle_place.h"
 #include "import/import_format.h"
 #include "import/leaf_motion.h"
-#include "placed_mesh.h"
 
 namespace doorforge::internal {
 namespace {

@@ -10,10 +10,10 @@
 
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
+#include "doorforge/core/inside_folder.h"
 #include "doorforge/core/json_file.h"
 
 #include "import/import_format.h"
-#include "inside_folder.h"
 #include "subtask.h"
 
 namespace doorforge::internal {

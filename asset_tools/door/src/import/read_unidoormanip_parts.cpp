@@ -9,11 +9,11 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
+#include "doorforge/core/mesh_transform.h"
 
 #include "import/handle_part.h"
 #include "import/import_format.h"
 #include "import/torch_numbers.h"
-#include "placed_mesh.h"
 #include "subtask.h"
 
 namespace doorforge::internal {

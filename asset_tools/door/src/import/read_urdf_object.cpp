@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/inside_folder.h"
 
 #include "import/file_axes.h"
 #include "import/hinged_object.h"
 #include "import/import_format.h"
-#include "inside_folder.h"
 #include "subtask.h"
 
 namespace doorforge::internal {

@@ -10,11 +10,11 @@
 
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
+#include "doorforge/core/mesh_transform.h"
 #include "doorforge/mesh/import_mesh.h"
 #include "doorforge/schemas/vertex_reach.h"
 
 #include "import/authored_mesh.h"
-#include "placed_mesh.h"
 #include "solid.h"
 
 namespace doorforge::internal {
@@ -96,7 +96,7 @@ RawPiece LoadPiece(const std::vector<SourceMesh>& meshes, const std::string& nam
     area += loaded.area;
   }
   piece.name = name;
-  piece.mesh = JoinedMeshes(placed);
+  piece.mesh = Merged(placed);
   piece.visual = std::move(authored).Finish();
   if (area > 0) piece.color_rgba = color_area / area;
   piece.color_rgba[3] = 1;  // the sensor sees glass, as depth cameras would like to

@@ -42,6 +42,10 @@ struct IsVector<std::vector<T>> : std::true_type {};
 
 }  // namespace internal
 
+/// Throws Error(kInvalidConfig) that names the field `name` of `path`, what was found and what is
+/// allowed, unless low <= value <= high.
+void RequireRange(const std::string& path, const char* name, double value, double low, double high);
+
 /// Returns every field of `value` in declaration order, defaults included.
 template <class T>
 nlohmann::ordered_json ToJson(const T& value) {

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "inside_folder.h"
+#include "doorforge/core/inside_folder.h"
 
 #include <algorithm>
 
 #include "doorforge/core/error.h"
 
-namespace doorforge::internal {
+namespace doorforge {
 namespace {
 
 namespace fs = std::filesystem;
@@ -41,4 +41,4 @@ fs::path FileInside(const fs::path& folder, const std::string& name, const std::
   return file;
 }
 
-}  // namespace doorforge::internal
+}  // namespace doorforge

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-namespace doorforge::internal {
+namespace doorforge {
 
 /// The file that a record in `folder` names. `named_by` (such as "mobility.urdf") goes into
 /// messages. Throws Error(kFormat) if the name is absolute, has a scheme, or leaves the folder by
@@ -13,4 +13,4 @@ namespace doorforge::internal {
 std::filesystem::path FileInside(const std::filesystem::path& folder, const std::string& name,
                                  const std::string& named_by);
 
-}  // namespace doorforge::internal
+}  // namespace doorforge

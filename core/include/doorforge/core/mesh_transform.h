@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include <Eigen/Geometry>
+
+#include "doorforge/core/rigid_transform.h"
+#include "doorforge/core/triangle_mesh.h"
+
+namespace doorforge {
+
+/// Returns the mesh in the frame that `to_from_mesh` leads to; the triangles stay as they are.
+TriangleMesh Transformed(TriangleMesh mesh, const RigidTransform& to_from_mesh);
+
+/// Returns the mesh with each coordinate rounded to the nearest float, as the canonical mesh files
+/// hold them, so that a mesh read back equals the one in memory.
+TriangleMesh RoundedToFloat(TriangleMesh mesh);
+
+/// Returns the triangles of all meshes as one mesh, in order; no vertices are welded.
+TriangleMesh Merged(std::span<const TriangleMesh> meshes);
+
+/// Returns the box about all vertices, used by a triangle or not; it is empty if there are none.
+Eigen::AlignedBox3d BoundsOf(const TriangleMesh& mesh);
+
+}  // namespace doorforge

@@ -24,10 +24,10 @@
 #include <utility>
 #include <vector>
 
+#include "doorforge/catalogue/catalogue.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
-#include "doorforge/door/catalogue.h"
 
 #include "part_shapes.h"
 #include "recipe_filter.h"

@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 
 #include "doorforge/core/closed_mesh.h"
-#include "doorforge/door/grasp.h"
 #include "doorforge/mesh/convex_parts.h"
+#include "doorforge/parts/grasp.h"
 
 namespace doorforge {
 namespace {

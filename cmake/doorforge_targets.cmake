@@ -3,7 +3,13 @@
 set(DOORFORGE_ALLOWED_core "")
 set(DOORFORGE_ALLOWED_schemas core)
 set(DOORFORGE_ALLOWED_mesh core)
-set(DOORFORGE_ALLOWED_door core schemas mesh)
+set(DOORFORGE_ALLOWED_solids core mesh)
+set(DOORFORGE_ALLOWED_parts core schemas mesh)
+set(DOORFORGE_ALLOWED_catalogue core schemas mesh solids parts)
+set(DOORFORGE_ALLOWED_importers core schemas mesh solids parts)
+set(DOORFORGE_ALLOWED_exporters core schemas)
+set(DOORFORGE_ALLOWED_compose core schemas mesh parts exporters)
+set(DOORFORGE_ALLOWED_validate core schemas mesh parts exporters)
 set(DOORFORGE_ALLOWED_physics core schemas)
 set(DOORFORGE_ALLOWED_sensor core schemas)
 set(DOORFORGE_ALLOWED_rollout core schemas physics sensor)
@@ -49,12 +55,13 @@ function(doorforge_precompile target owner)
   endif()
 endfunction()
 
-# doorforge_add_library(<room> HEADERS <public .h> SOURCES <private .h .cpp> [ROOMS <rooms>]
+# doorforge_add_library(<room> HEADERS <public .h> SOURCES <private .h .cpp> [INTERNAL <.h>] [ROOMS <rooms>]
 #                     [PUBLIC <targets>] [PRIVATE <targets>] [PACKAGES <find_package names>])
 # Creates doorforge::<room>. Public headers live in include/doorforge/<room>/, all else in src/.
+# INTERNAL headers lie beside the public ones, for the rooms above this one; they are not installed.
 # PACKAGES names what a consumer of this room must find; rooms pass theirs on to those above.
 function(doorforge_add_library room)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;SOURCES;ROOMS;PUBLIC;PRIVATE;PACKAGES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;INTERNAL;SOURCES;ROOMS;PUBLIC;PRIVATE;PACKAGES")
   set(packages ${arg_PACKAGES})
   foreach(dependency IN LISTS arg_ROOMS)
     if(NOT dependency IN_LIST DOORFORGE_ALLOWED_${room})
@@ -67,7 +74,7 @@ function(doorforge_add_library room)
   set_property(GLOBAL APPEND PROPERTY DOORFORGE_COMPONENTS ${room})
 
   set(target doorforge_${room})
-  add_library(${target} ${arg_SOURCES})
+  add_library(${target} ${arg_SOURCES} ${arg_INTERNAL})
   add_library(doorforge::${room} ALIAS ${target})
   target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${arg_HEADERS})
   list(TRANSFORM arg_ROOMS PREPEND doorforge::)

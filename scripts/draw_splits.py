@@ -45,7 +45,7 @@ ABOUT = {
 def mechanisms():
     """Family -> mechanism of its handles, from the tables at the end of the families' sources."""
     found = {}
-    for source in sorted((ROOT / "asset_tools/door/src").rglob("*.cpp")):
+    for source in sorted((ROOT / "asset_tools/catalogue/src").rglob("*.cpp")):
         for family, name in re.findall(r'\{"(\w+)",\s*PartRole::kHandle,\s*Mechanism::k(\w+),', source.read_text()):
             found[family] = name
     return found

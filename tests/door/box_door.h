@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "doorforge/core/mass_properties.h"
-#include "doorforge/door/mechanism.h"
+#include "doorforge/parts/mechanism.h"
 #include "doorforge/schemas/door_asset.h"
 
 namespace doorforge {

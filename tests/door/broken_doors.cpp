@@ -8,7 +8,7 @@
 
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/json_file.h"
-#include "doorforge/door/export_urdf.h"
+#include "doorforge/exporters/export_urdf.h"
 #include "doorforge/schemas/mesh_file.h"
 
 #include "box_door.h"

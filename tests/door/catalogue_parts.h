@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "doorforge/catalogue/catalogue.h"
 #include "doorforge/core/error.h"
-#include "doorforge/door/catalogue.h"
 
 namespace doorforge {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/door/catalogue.h"
+#include "doorforge/catalogue/catalogue.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,19 +11,19 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "doorforge/compose/compose.h"
 #include "doorforge/core/closed_mesh.h"
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/parallel_for.h"
-#include "doorforge/door/compose.h"
-#include "doorforge/door/export_urdf.h"
-#include "doorforge/door/grasp.h"
-#include "doorforge/door/validate_door.h"
+#include "doorforge/exporters/export_urdf.h"
 #include "doorforge/mesh/convex_parts.h"
+#include "doorforge/parts/grasp.h"
 #include "doorforge/schemas/door_draw.h"
 #include "doorforge/schemas/part_identity.h"
 #include "doorforge/schemas/split.h"
+#include "doorforge/validate/validate_door.h"
 
 #include "catalogue_parts.h"
 #include "scratch_folder.h"

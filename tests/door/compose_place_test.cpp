@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include "doorforge/compose/compose.h"
 #include "doorforge/core/error.h"
-#include "doorforge/door/author_place.h"
-#include "doorforge/door/compose.h"
-#include "doorforge/door/import_objects.h"
+#include "doorforge/importers/author_place.h"
+#include "doorforge/importers/import_objects.h"
 
 #include "small_parts.h"
 

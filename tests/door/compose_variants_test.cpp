@@ -6,11 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include "doorforge/compose/compose.h"
 #include "doorforge/core/closed_mesh.h"
 #include "doorforge/core/error.h"
-#include "doorforge/door/compose.h"
-#include "doorforge/door/export_urdf.h"
-#include "doorforge/door/validate_door.h"
+#include "doorforge/exporters/export_urdf.h"
+#include "doorforge/validate/validate_door.h"
 
 #include "mujoco_door.h"
 #include "scratch_folder.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/door/export_door.h"
+#include "doorforge/exporters/export_door.h"
 
 #include <cstring>
 #include <numbers>
@@ -15,9 +15,9 @@
 #include <sdf/sdf.hh>
 #endif
 
+#include "doorforge/catalogue/catalogue.h"
+#include "doorforge/compose/compose.h"
 #include "doorforge/core/program.h"
-#include "doorforge/door/catalogue.h"
-#include "doorforge/door/compose.h"
 #include "doorforge/schemas/bolt.h"
 
 #include "scratch_folder.h"

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/door/export_urdf.h"
+#include "doorforge/exporters/export_urdf.h"
 
 #include <gtest/gtest.h>
 #include <urdf_parser/urdf_parser.h>
 
+#include "doorforge/compose/compose.h"
 #include "doorforge/core/error.h"
-#include "doorforge/door/compose.h"
 
 #include "mujoco_door.h"
 #include "small_parts.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/door/fix_door.h"
+#include "doorforge/validate/fix_door.h"
 
 #include <algorithm>
 #include <map>
@@ -8,10 +8,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "doorforge/compose/compose.h"
+#include "doorforge/compose/shared_doors.h"
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/json_file.h"
-#include "doorforge/door/compose.h"
-#include "doorforge/door/shared_doors.h"
 #include "doorforge/schemas/part.h"
 
 #include "box_door.h"

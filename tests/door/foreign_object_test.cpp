@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/door/foreign_object.h"
+#include "doorforge/importers/foreign_object.h"
 
 #include <map>
 #include <numbers>
@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "doorforge/core/error.h"
-#include "doorforge/door/import_unidoormanip.h"
 
 #include "foreign_objects.h"
+#include "formats/import_unidoormanip.h"
 
 namespace doorforge {
 namespace {

@@ -11,10 +11,10 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "doorforge/catalogue/catalogue.h"
 #include "doorforge/core/closed_mesh.h"
 #include "doorforge/core/committed_file.h"
-#include "doorforge/door/catalogue.h"
-#include "doorforge/door/grasp.h"
+#include "doorforge/parts/grasp.h"
 
 #include "catalogue_parts.h"
 #include "scratch_folder.h"

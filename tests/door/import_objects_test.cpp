@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/door/import_objects.h"
+#include "doorforge/importers/import_objects.h"
 
 #include <cmath>
 #include <csignal>

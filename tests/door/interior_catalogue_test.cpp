@@ -8,11 +8,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "doorforge/catalogue/catalogue.h"
+#include "doorforge/compose/compose.h"
 #include "doorforge/core/closed_mesh.h"
-#include "doorforge/door/catalogue.h"
-#include "doorforge/door/compose.h"
-#include "doorforge/door/export_urdf.h"
-#include "doorforge/door/validate_door.h"
+#include "doorforge/exporters/export_urdf.h"
+#include "doorforge/validate/validate_door.h"
 
 #include "catalogue_parts.h"
 #include "scratch_folder.h"

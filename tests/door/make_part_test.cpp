@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/door/make_part.h"
+#include "doorforge/parts/make_part.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

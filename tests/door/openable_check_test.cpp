@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "doorforge/door/compose.h"
-#include "doorforge/door/export_urdf.h"
+#include "doorforge/compose/compose.h"
+#include "doorforge/exporters/export_urdf.h"
 
 #include "box_door.h"
 #include "scratch_folder.h"

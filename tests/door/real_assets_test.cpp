@@ -9,13 +9,13 @@
 #include <gtest/gtest.h>
 #include <urdf_parser/urdf_parser.h>
 
+#include "doorforge/compose/compose.h"
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
-#include "doorforge/door/compose.h"
-#include "doorforge/door/export_urdf.h"
-#include "doorforge/door/import_objects.h"
-#include "doorforge/door/import_unidoormanip.h"
+#include "doorforge/exporters/export_urdf.h"
+#include "doorforge/importers/import_objects.h"
 
+#include "formats/import_unidoormanip.h"
 #include "mujoco_door.h"
 #include "small_object.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/door/shared_doors.h"
+#include "doorforge/compose/shared_doors.h"
 
 #include <map>
 
@@ -9,11 +9,11 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
-#include "doorforge/door/export_urdf.h"
-#include "doorforge/door/validate_door.h"
+#include "doorforge/exporters/export_urdf.h"
 #include "doorforge/schemas/door_index.h"
 #include "doorforge/schemas/door_set.h"
 #include "doorforge/schemas/mesh_pool.h"
+#include "doorforge/validate/validate_door.h"
 
 #include "mujoco_door.h"
 #include "scratch_folder.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/door/validate_door.h"
+#include "doorforge/validate/validate_door.h"
 
 #include <cmath>
 #include <cstdio>
@@ -17,7 +17,7 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/parallel_for.h"
-#include "doorforge/door/export_urdf.h"
+#include "doorforge/exporters/export_urdf.h"
 #include "doorforge/mesh/work_budget.h"
 #include "doorforge/schemas/mesh_file.h"
 #include "doorforge/schemas/part.h"

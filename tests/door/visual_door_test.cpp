@@ -12,18 +12,18 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "doorforge/compose/compose.h"
+#include "doorforge/compose/shared_doors.h"
 #include "doorforge/core/closed_mesh.h"
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
-#include "doorforge/door/compose.h"
-#include "doorforge/door/export_door.h"
-#include "doorforge/door/export_urdf.h"
-#include "doorforge/door/import_objects.h"
-#include "doorforge/door/shared_doors.h"
-#include "doorforge/door/validate_door.h"
+#include "doorforge/exporters/export_door.h"
+#include "doorforge/exporters/export_urdf.h"
+#include "doorforge/importers/import_objects.h"
 #include "doorforge/mesh/import_mesh.h"
 #include "doorforge/schemas/door_identity.h"
+#include "doorforge/validate/validate_door.h"
 
 #include "mujoco_door.h"
 #include "scratch_folder.h"

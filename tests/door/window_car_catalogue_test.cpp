@@ -8,9 +8,9 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "doorforge/door/catalogue.h"
-#include "doorforge/door/compose.h"
-#include "doorforge/door/grasp.h"
+#include "doorforge/catalogue/catalogue.h"
+#include "doorforge/compose/compose.h"
+#include "doorforge/parts/grasp.h"
 
 #include "catalogue_parts.h"
 

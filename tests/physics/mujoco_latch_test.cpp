@@ -17,8 +17,8 @@
 #include <mujoco/mujoco.h>
 #include <unistd.h>
 
-#include "doorforge/door/export_door.h"
-#include "doorforge/door/export_urdf.h"
+#include "doorforge/exporters/export_door.h"
+#include "doorforge/exporters/export_urdf.h"
 #include "doorforge/physics/lone_door.h"
 #include "doorforge/physics/opening_trial.h"
 

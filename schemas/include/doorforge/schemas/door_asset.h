@@ -126,7 +126,7 @@ std::array<RigidTransform, 3> DoorFromLinks(const DoorAsset& door, double hinge_
 
 /// Writes `door.json`, `meshes/{visual,collision}/*.obj` and the visual meshes of authors in
 /// `meshes/authored` into an existing folder. The URDF beside it is written by ComposeDoor's
-/// exporter (asset_tools/door).
+/// exporter (asset_tools/exporters).
 void WriteDoor(const DoorAsset& door, const std::filesystem::path& folder);
 
 /// Reads a door's folder. Throws Error(kMissing) or Error(kFormat); mesh paths that leave the

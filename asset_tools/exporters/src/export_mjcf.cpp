@@ -1,0 +1,242 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include <optional>
+
+#include "doorforge/exporters/export_door.h"
+#include "doorforge/schemas/bolt.h"
+
+#include "export_text.h"
+
+namespace doorforge {
+namespace {
+
+using internal::AddElement;
+using internal::Decimal;
+using internal::Decimals;
+using internal::SetAttribute;
+using internal::XmlElement;
+
+// MuJoCo's constraints of the latch: settling time [s] and damping ratio, shares and width [m].
+constexpr const char* kStiff = "0.005 1";
+constexpr const char* kHard = "0.99 0.999 0.0001";
+
+std::string Quaternion(const Eigen::Matrix3d& rotation) {
+  const Eigen::Quaterniond q(rotation);
+  return Decimals(Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()));
+}
+
+std::string MeshName(const DoorGeometry& geometry, int hull) {
+  return hull < 0 ? geometry.name : geometry.name + "_" + std::to_string(hull);
+}
+
+// Programs make the hull of the points themselves.
+void AddHullAsset(const char* name, const TriangleMesh& hull, XmlElement& asset) {
+  Eigen::VectorXd numbers(3 * static_cast<Eigen::Index>(hull.vertices.size()));
+  for (std::size_t i = 0; i < hull.vertices.size(); ++i)
+    numbers.segment<3>(3 * static_cast<Eigen::Index>(i)) = hull.vertices[i];
+  XmlElement& mesh = AddElement(asset, "mesh");
+  SetAttribute(mesh, "name", name);
+  SetAttribute(mesh, "vertex", Decimals(numbers));
+}
+
+void AddAssets(const DoorAsset& door, const std::optional<Bolt>& bolt, XmlElement& root) {
+  XmlElement& asset = AddElement(root, "asset");
+  const auto add = [&](const std::string& name, const std::string& file) {
+    XmlElement& mesh = AddElement(asset, "mesh");
+    SetAttribute(mesh, "name", name);
+    SetAttribute(mesh, "file", file);
+  };
+  for (const DoorLink& link : door.links) {
+    for (const DoorGeometry& geometry : link.geometry) {
+      add(MeshName(geometry, -1), VisualMeshPath(geometry));
+      for (std::size_t i = 0; i < geometry.hulls.size(); ++i)
+        add(MeshName(geometry, static_cast<int>(i)), CollisionMeshPath(geometry, i));
+    }
+  }
+  if (!bolt) return;
+  AddHullAsset("bolt", bolt->bolt_hull, asset);
+  AddHullAsset("strike", bolt->strike_hull, asset);
+}
+
+void AddDefaults(XmlElement& root) {
+  XmlElement& defaults = AddElement(root, "default");
+  const auto add = [&](const char* name, const char* group, const char* touches) {
+    XmlElement& entry = AddElement(defaults, "default");
+    SetAttribute(entry, "class", name);
+    XmlElement& geom = AddElement(entry, "geom");
+    SetAttribute(geom, "type", "mesh");
+    SetAttribute(geom, "group", group);
+    SetAttribute(geom, "contype", touches);
+    SetAttribute(geom, "conaffinity", touches);
+  };
+  add("visual", "2", "0");
+  add("collision", "3", "1");
+}
+
+void AddInertial(const MassProperties& mass, XmlElement& body) {
+  const Eigen::Matrix3d& i = mass.inertia_kg_m2;
+  XmlElement& inertial = AddElement(body, "inertial");
+  SetAttribute(inertial, "pos", Decimals(mass.center_of_mass_m));
+  SetAttribute(inertial, "mass", Decimal(mass.mass_kg));
+  Eigen::VectorXd full(6);
+  full << i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2);
+  SetAttribute(inertial, "fullinertia", Decimals(full));
+}
+
+void AddGeoms(const DoorLink& link, XmlElement& body) {
+  for (const DoorGeometry& geometry : link.geometry) {
+    XmlElement& visual = AddElement(body, "geom");
+    SetAttribute(visual, "class", "visual");
+    SetAttribute(visual, "name", geometry.name + "_visual");
+    SetAttribute(visual, "mesh", MeshName(geometry, -1));
+    SetAttribute(visual, "rgba", Decimals(geometry.color_rgba));
+    for (std::size_t i = 0; i < geometry.hulls.size(); ++i) {
+      XmlElement& hull = AddElement(body, "geom");
+      SetAttribute(hull, "class", "collision");
+      SetAttribute(hull, "mesh", MeshName(geometry, static_cast<int>(i)));
+    }
+  }
+}
+
+void AddJoint(const DoorJoint& joint, double spring, XmlElement& body) {
+  if (!internal::Turns(joint)) return;
+  XmlElement& element = AddElement(body, "joint");
+  SetAttribute(element, "name", joint.name);
+  SetAttribute(element, "type", "hinge");
+  SetAttribute(element, "axis", Decimals(joint.axis));
+  SetAttribute(element, "limited", "true");
+  SetAttribute(element, "range", Decimals(Eigen::Vector2d(joint.lower_rad, joint.upper_rad)));
+  SetAttribute(element, "damping", Decimal(joint.damping_nm_s));
+  SetAttribute(element, "stiffness", Decimal(spring));
+}
+
+XmlElement& AddBody(const DoorLink& link, const RigidTransform& parent_from_link,
+                    XmlElement& parent) {
+  XmlElement& body = AddElement(parent, "body");
+  SetAttribute(body, "name", link.name);
+  SetAttribute(body, "pos", Decimals(parent_from_link.translation()));
+  SetAttribute(body, "quat", Quaternion(parent_from_link.linear()));
+  AddInertial(link.mass, body);
+  return body;
+}
+
+// Touches only what a contact pair names.
+void AddLatchGeom(const char* name, const RigidTransform& body_from_geom, XmlElement& body) {
+  XmlElement& geom = AddElement(body, "geom");
+  SetAttribute(geom, "class", "collision");
+  SetAttribute(geom, "name", name);
+  SetAttribute(geom, "mesh", name);
+  SetAttribute(geom, "pos", Decimals(body_from_geom.translation()));
+  SetAttribute(geom, "quat", Quaternion(body_from_geom.linear()));
+  SetAttribute(geom, "contype", "0");
+  SetAttribute(geom, "conaffinity", "0");
+}
+
+void AddBoltBody(const Bolt& bolt, XmlElement& leaf) {
+  XmlElement& body = AddElement(leaf, "body");
+  SetAttribute(body, "name", "bolt");
+  SetAttribute(body, "pos", Decimals(bolt.leaf_from_bolt.translation()));
+  SetAttribute(body, "quat", Quaternion(bolt.leaf_from_bolt.linear()));
+  XmlElement& inertial = AddElement(body, "inertial");
+  SetAttribute(inertial, "pos", "0 0 0");
+  SetAttribute(inertial, "mass", Decimal(bolt.mass_kg));
+  SetAttribute(inertial, "diaginertia", "1e-5 1e-5 1e-5");
+  XmlElement& joint = AddElement(body, "joint");
+  SetAttribute(joint, "name", "bolt_joint");
+  SetAttribute(joint, "type", "slide");
+  SetAttribute(joint, "axis", "0 1 0");
+  SetAttribute(joint, "limited", "true");
+  SetAttribute(joint, "range", Decimals(Eigen::Vector2d(-bolt.travel_m, 0)));
+  SetAttribute(joint, "damping", Decimal(bolt.damping_n_s_m));
+  SetAttribute(joint, "stiffness", Decimal(bolt.stiffness_n_per_m));
+  SetAttribute(joint, "springref", Decimal(bolt.preload_n / bolt.stiffness_n_per_m));
+  AddLatchGeom("bolt", RigidTransform::Identity(), body);
+}
+
+void AddContacts(const DoorAsset& door, const std::optional<Bolt>& bolt, XmlElement& root) {
+  XmlElement& contact = AddElement(root, "contact");
+  // neighbours overlap at hinge and rose
+  for (const auto& [a, b] :
+       {std::pair{kBaseLink, kLeafLink}, {kLeafLink, kHandleLink}, {kBaseLink, kHandleLink}}) {
+    XmlElement& exclude = AddElement(contact, "exclude");
+    SetAttribute(exclude, "body1", door.links[a].name);
+    SetAttribute(exclude, "body2", door.links[b].name);
+  }
+  if (!bolt) return;
+  XmlElement& pair = AddElement(contact, "pair");
+  const double friction = bolt->friction;
+  SetAttribute(pair, "geom1", "bolt");
+  SetAttribute(pair, "geom2", "strike");
+  Eigen::VectorXd frictions(5);
+  frictions << friction, friction, 0.005, 0.0001, 0.0001;
+  SetAttribute(pair, "friction", Decimals(frictions));
+  SetAttribute(pair, "solref", kStiff);
+  SetAttribute(pair, "solimp", kHard);
+}
+
+// A cable: the handle pulls the bolt back, and nothing pushes the handle.
+void AddCoupling(const Bolt& bolt, XmlElement& root) {
+  XmlElement& cable = AddElement(AddElement(root, "tendon"), "fixed");
+  SetAttribute(cable, "name", "latch");
+  SetAttribute(cable, "limited", "true");
+  SetAttribute(cable, "range", Decimals(Eigen::Vector2d(-1, 0)));
+  // by default a cable on so light a bolt gives by millimetres
+  SetAttribute(cable, "solreflimit", kStiff);
+  SetAttribute(cable, "solimplimit", kHard);
+  for (const auto& [joint, coefficient] :
+       {std::pair{"bolt_joint", 1.0}, {"handle_joint", bolt.travel_m_per_rad}}) {
+    XmlElement& element = AddElement(cable, "joint");
+    SetAttribute(element, "joint", joint);
+    SetAttribute(element, "coef", Decimal(coefficient));
+  }
+}
+
+void AddLatchNumbers(const DoorAsset& door, XmlElement& root) {
+  XmlElement& custom = AddElement(root, "custom");
+  const auto number = [&](const char* name, double value) {
+    XmlElement& element = AddElement(custom, "numeric");
+    SetAttribute(element, "name", name);
+    SetAttribute(element, "data", Decimal(value));
+  };
+  number("latch_unlock_angle_rad", door.latch.unlock_angle_rad);
+  number("latch_handle_done_angle_rad", door.latch.handle_done_angle_rad);
+  number("latch_lock_effort_nm", door.latch.lock_effort_nm);
+  XmlElement& type = AddElement(custom, "text");
+  SetAttribute(type, "name", "latch_type");
+  SetAttribute(type, "data", std::string(NameOf(door.latch.type)));
+}
+
+}  // namespace
+
+std::string ToMjcf(const DoorAsset& door) {
+  XmlElement root{.name = "mujoco"};
+  SetAttribute(root, "model", door.id);
+  XmlElement& compiler = AddElement(root, "compiler");
+  SetAttribute(compiler, "angle", "radian");
+  SetAttribute(compiler, "inertiafromgeom", "false");
+  AddLatchNumbers(door, root);
+  AddDefaults(root);
+  std::optional<Bolt> bolt;
+  if (door.latch.type != LatchType::kNone && internal::Turns(door.handle_joint))
+    bolt = BoltOf(door);
+  AddAssets(door, bolt, root);
+  XmlElement& base =
+      AddBody(door.links[kBaseLink], RigidTransform::Identity(), AddElement(root, "worldbody"));
+  AddGeoms(door.links[kBaseLink], base);
+  XmlElement& leaf = AddBody(door.links[kLeafLink], door.hinge.parent_from_child_at_zero, base);
+  AddJoint(door.hinge, door.latch.hinge_spring_nm_per_rad, leaf);
+  AddGeoms(door.links[kLeafLink], leaf);
+  XmlElement& handle =
+      AddBody(door.links[kHandleLink], door.handle_joint.parent_from_child_at_zero, leaf);
+  AddJoint(door.handle_joint, door.latch.handle_spring_nm_per_rad, handle);
+  AddGeoms(door.links[kHandleLink], handle);
+  AddContacts(door, bolt, root);
+  if (bolt) {
+    AddBoltBody(*bolt, leaf);
+    AddLatchGeom("strike", bolt->base_from_strike, base);
+    AddCoupling(*bolt, root);
+  }
+  return internal::Printed(root);
+}
+
+}  // namespace doorforge

@@ -1,0 +1,313 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cctype>
+#include <numbers>
+
+#include <Eigen/Eigenvalues>
+
+#include "doorforge/exporters/export_door.h"
+
+#include "export_text.h"
+
+namespace doorforge {
+namespace {
+
+using internal::Decimal;
+using internal::Decimals;
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+std::string Tuple(const Eigen::Ref<const Eigen::VectorXd>& values) {
+  return "(" + Decimals(values, ", ") + ")";
+}
+
+std::string Quaternion(const Eigen::Quaterniond& q) {
+  return Tuple(Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()));
+}
+
+// names of prims are identifiers
+std::string Identifier(const std::string& name) {
+  std::string identifier;
+  for (const char c : name)
+    identifier += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+  if (identifier.empty() || std::isdigit(static_cast<unsigned char>(identifier[0])) != 0)
+    identifier.insert(0, "_");
+  return identifier;
+}
+
+/// Text with indentation by open braces.
+class UsdaText {
+ public:
+  void Line(const std::string& text) { text_ += std::string(depth_ * 4, ' ') + text + "\n"; }
+
+  void Open(const std::string& definition, const std::string& schemas = {}) {
+    Line(definition + (schemas.empty() ? "" : " (prepend apiSchemas = [" + schemas + "])"));
+    Line("{");
+    ++depth_;
+  }
+
+  void Close() {
+    --depth_;
+    Line("}");
+  }
+
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+  std::size_t depth_ = 0;
+};
+
+/// Entries with commas between them.
+class List {
+ public:
+  void Add(const std::string& entry) { text_ += (text_.empty() ? "" : ", ") + entry; }
+  std::string InBrackets() const { return "[" + text_ + "]"; }
+
+ private:
+  std::string text_;
+};
+
+void AddMesh(const std::vector<Eigen::Vector3d>& vertices,
+             const std::vector<Eigen::Vector3i>& triangles, UsdaText& usda) {
+  List counts;
+  List indices;
+  List points;
+  for (const Eigen::Vector3i& triangle : triangles) {
+    counts.Add("3");
+    for (const int index : triangle) indices.Add(std::to_string(index));
+  }
+  for (const Eigen::Vector3d& vertex : vertices) points.Add(Tuple(vertex));
+  usda.Line("int[] faceVertexCounts = " + counts.InBrackets());
+  usda.Line("int[] faceVertexIndices = " + indices.InBrackets());
+  usda.Line("point3f[] points = " + points.InBrackets());
+  usda.Line("uniform token subdivisionScheme = \"none\"");
+}
+
+std::string LookName(const VisualSurface& surface, std::size_t number) {
+  return "look_" + std::to_string(number) + "_" + Identifier(surface.material.name);
+}
+
+void AddPicture(const VisualMaterial& material, const std::string& look, UsdaText& usda) {
+  const Eigen::Vector4d& c = material.color_rgba;
+  usda.Open("def Shader \"coordinates\"");
+  usda.Line("uniform token info:id = \"UsdPrimvarReader_float2\"");
+  usda.Line("string inputs:varname = \"st\"");
+  usda.Line("float2 outputs:result");
+  usda.Close();
+  usda.Open("def Shader \"picture\"");
+  usda.Line("uniform token info:id = \"UsdUVTexture\"");
+  usda.Line("asset inputs:file = @./" + AuthoredTexturePath(*material.texture) + "@");
+  usda.Line("float2 inputs:st.connect = <" + look + "/coordinates.outputs:result>");
+  usda.Line("float4 inputs:scale = " +
+            Tuple(Eigen::Vector4d(internal::LinearLight(c[0]), internal::LinearLight(c[1]),
+                                  internal::LinearLight(c[2]), 1)));
+  usda.Line("token inputs:wrapS = \"repeat\"");
+  usda.Line("token inputs:wrapT = \"repeat\"");
+  usda.Line("float3 outputs:rgb");
+  usda.Close();
+}
+
+void AddLook(const VisualMaterial& material, const std::string& look, UsdaText& usda) {
+  const Eigen::Vector4d& c = material.color_rgba;
+  usda.Open("def Material \"" + look.substr(look.rfind('/') + 1) + "\"");
+  usda.Line("token outputs:surface.connect = <" + look + "/surface.outputs:surface>");
+  if (material.texture != nullptr) AddPicture(material, look, usda);
+  usda.Open("def Shader \"surface\"");
+  usda.Line("uniform token info:id = \"UsdPreviewSurface\"");
+  if (material.texture != nullptr)
+    usda.Line("color3f inputs:diffuseColor.connect = <" + look + "/picture.outputs:rgb>");
+  else
+    usda.Line("color3f inputs:diffuseColor = " +
+              Tuple(Eigen::Vector3d(internal::LinearLight(c[0]), internal::LinearLight(c[1]),
+                                    internal::LinearLight(c[2]))));
+  usda.Line("float inputs:opacity = " + Decimal(c[3]));
+  usda.Line("float inputs:roughness = 0.6");
+  usda.Line("token outputs:surface");
+  usda.Close();
+  usda.Close();
+}
+
+// Texture coordinates of every corner; zeros where a surface has none.
+void AddTexcoords(const VisualMesh& mesh, UsdaText& usda) {
+  if (mesh.texcoords.empty()) return;
+  List coordinates;
+  for (const VisualSurface& surface : mesh.surfaces) {
+    for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+      for (int k = 0; k < 3; ++k) {
+        const bool known = !surface.texcoords.empty();
+        coordinates.Add(
+            Tuple(known ? mesh.texcoords[static_cast<std::size_t>(surface.texcoords[i][k])]
+                        : Eigen::Vector2d(0, 0)));
+      }
+    }
+  }
+  usda.Line("texCoord2f[] primvars:st = " + coordinates.InBrackets() +
+            " (interpolation = \"faceVarying\")");
+}
+
+void AddVisual(const VisualMesh& mesh, const std::string& path, UsdaText& usda) {
+  std::vector<Eigen::Vector3i> triangles;
+  List colors;
+  List opacities;
+  for (const VisualSurface& surface : mesh.surfaces) {
+    triangles.insert(triangles.end(), surface.triangles.begin(), surface.triangles.end());
+    for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+      colors.Add(Tuple(surface.material.color_rgba.head<3>()));
+      opacities.Add(Decimal(surface.material.color_rgba[3]));
+    }
+  }
+  AddMesh(mesh.vertices, triangles, usda);
+  AddTexcoords(mesh, usda);
+  usda.Line("color3f[] primvars:displayColor = " + colors.InBrackets() +
+            " (interpolation = \"uniform\")");
+  usda.Line("float[] primvars:displayOpacity = " + opacities.InBrackets() +
+            " (interpolation = \"uniform\")");
+  usda.Line(std::string("uniform bool doubleSided = ") +
+            (internal::HasTwoSides(mesh) ? "false" : "true"));
+  usda.Line("uniform token subsetFamily:materialBind:familyType = \"partition\"");
+  std::size_t face = 0;
+  for (std::size_t i = 0; i < mesh.surfaces.size(); ++i) {
+    const VisualSurface& surface = mesh.surfaces[i];
+    const std::string look = path + "/" + LookName(surface, i);
+    List faces;
+    for (std::size_t k = 0; k < surface.triangles.size(); ++k) faces.Add(std::to_string(face++));
+    usda.Open("def GeomSubset \"subset_" + std::to_string(i) + "\"", "\"MaterialBindingAPI\"");
+    usda.Line("uniform token elementType = \"face\"");
+    usda.Line("uniform token familyName = \"materialBind\"");
+    usda.Line("int[] indices = " + faces.InBrackets());
+    usda.Line("rel material:binding = <" + look + ">");
+    usda.Close();
+    AddLook(surface.material, look, usda);
+  }
+}
+
+void AddGeometry(const DoorGeometry& geometry, const std::string& link_path, UsdaText& usda) {
+  const std::string name = Identifier(geometry.name);
+  usda.Open("def Mesh \"" + name + "\"");
+  if (geometry.visual.empty()) {
+    AddMesh(geometry.mesh.vertices, geometry.mesh.triangles, usda);
+    usda.Line("color3f[] primvars:displayColor = [" + Tuple(geometry.color_rgba.head<3>()) + "]");
+    usda.Line("float[] primvars:displayOpacity = [" + Decimal(geometry.color_rgba[3]) + "]");
+  } else {
+    AddVisual(geometry.visual, link_path + "/" + name, usda);
+  }
+  usda.Close();
+  for (std::size_t i = 0; i < geometry.hulls.size(); ++i) {
+    usda.Open("def Mesh \"" + name + "_" + std::to_string(i) + "_collision\"",
+              "\"PhysicsCollisionAPI\", \"PhysicsMeshCollisionAPI\"");
+    AddMesh(geometry.hulls[i].vertices, geometry.hulls[i].triangles, usda);
+    usda.Line("uniform token physics:approximation = \"convexHull\"");
+    usda.Line("uniform token purpose = \"guide\"");
+    usda.Close();
+  }
+}
+
+void AddMass(const MassProperties& mass, UsdaText& usda) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(mass.inertia_kg_m2);
+  Eigen::Matrix3d axes = principal.eigenvectors();
+  if (axes.determinant() < 0) axes.col(0) = -axes.col(0);
+  usda.Line("float physics:mass = " + Decimal(mass.mass_kg));
+  usda.Line("point3f physics:centerOfMass = " + Tuple(mass.center_of_mass_m));
+  usda.Line("float3 physics:diagonalInertia = " + Tuple(principal.eigenvalues()));
+  usda.Line("quatf physics:principalAxes = " + Quaternion(Eigen::Quaterniond(axes)));
+}
+
+void AddLink(const DoorLink& link, const RigidTransform& door_from_link, const std::string& path,
+             UsdaText& usda) {
+  usda.Open("def Xform \"" + Identifier(link.name) + "\"",
+            "\"PhysicsRigidBodyAPI\", \"PhysicsMassAPI\"");
+  AddMass(link.mass, usda);
+  usda.Line("double3 xformOp:translate = " + Tuple(door_from_link.translation()));
+  usda.Line("quatd xformOp:orient = " + Quaternion(Eigen::Quaterniond(door_from_link.linear())));
+  usda.Line("uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:orient\"]");
+  for (const DoorGeometry& geometry : link.geometry) AddGeometry(geometry, path, usda);
+  usda.Close();
+}
+
+/// A joint with what it joins.
+struct Connection {
+  const DoorJoint& joint;
+  std::string parent;  ///< Paths of prims.
+  std::string child;
+  double spring_nm_per_rad;
+};
+
+void AddJoint(const Connection& connection, UsdaText& usda) {
+  const DoorJoint& joint = connection.joint;
+  const bool turns = internal::Turns(joint);
+  usda.Open(std::string("def ") + (turns ? "PhysicsRevoluteJoint" : "PhysicsFixedJoint") + " \"" +
+                Identifier(joint.name) + "\"",
+            turns ? "\"PhysicsDriveAPI:angular\"" : "");
+  usda.Line("rel physics:body0 = <" + connection.parent + ">");
+  usda.Line("rel physics:body1 = <" + connection.child + ">");
+  // the joint's x is turned onto the axis
+  const Eigen::Quaterniond turn =
+      turns ? Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), joint.axis)
+            : Eigen::Quaterniond::Identity();
+  const RigidTransform& parent = joint.parent_from_child_at_zero;
+  usda.Line("point3f physics:localPos0 = " + Tuple(parent.translation()));
+  usda.Line("quatf physics:localRot0 = " + Quaternion(Eigen::Quaterniond(parent.linear()) * turn));
+  usda.Line("point3f physics:localPos1 = (0, 0, 0)");
+  usda.Line("quatf physics:localRot1 = " + Quaternion(turn));
+  if (turns) {
+    usda.Line("uniform token physics:axis = \"X\"");
+    usda.Line("float physics:lowerLimit = " + Decimal(joint.lower_rad * kDegrees));
+    usda.Line("float physics:upperLimit = " + Decimal(joint.upper_rad * kDegrees));
+    usda.Line("uniform token drive:angular:physics:type = \"force\"");
+    usda.Line("float drive:angular:physics:targetPosition = 0");
+    usda.Line("float drive:angular:physics:stiffness = " +
+              Decimal(connection.spring_nm_per_rad / kDegrees));
+    usda.Line("float drive:angular:physics:damping = " + Decimal(joint.damping_nm_s / kDegrees));
+  }
+  usda.Close();
+}
+
+void AddLatch(const DoorAsset& door, UsdaText& usda) {
+  usda.Line("custom string doorforge:latch:type = \"" + std::string(NameOf(door.latch.type)) +
+            "\"");
+  usda.Line("custom double doorforge:latch:unlockAngleRad = " +
+            Decimal(door.latch.unlock_angle_rad));
+  usda.Line("custom double doorforge:latch:handleDoneAngleRad = " +
+            Decimal(door.latch.handle_done_angle_rad));
+  usda.Line("custom double doorforge:latch:lockEffortNm = " + Decimal(door.latch.lock_effort_nm));
+}
+
+void AddAnchor(const std::string& base, UsdaText& usda) {
+  usda.Open("def PhysicsFixedJoint \"world_joint\"");
+  usda.Line("rel physics:body1 = <" + base + ">");
+  usda.Close();
+}
+
+}  // namespace
+
+std::string ToUsda(const DoorAsset& door) {
+  UsdaText usda;
+  const std::string name = Identifier(door.id);
+  usda.Line("#usda 1.0");
+  usda.Line("(");
+  usda.Line("    defaultPrim = \"" + name + "\"");
+  usda.Line("    metersPerUnit = 1");
+  usda.Line("    kilogramsPerUnit = 1");
+  usda.Line("    upAxis = \"Z\"");
+  usda.Line(")");
+  usda.Line("");
+  usda.Open("def Xform \"" + name + "\"", "\"PhysicsArticulationRootAPI\"");
+  AddLatch(door, usda);
+  const std::array<RigidTransform, 3> poses = DoorFromLinks(door, 0, 0);
+  std::array<std::string, 3> paths;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    paths[i] = "/" + name + "/" + Identifier(door.links[i].name);
+    AddLink(door.links[i], poses[i], paths[i], usda);
+  }
+  AddAnchor(paths[kBaseLink], usda);
+  AddJoint({door.hinge, paths[kBaseLink], paths[kLeafLink], door.latch.hinge_spring_nm_per_rad},
+           usda);
+  AddJoint({door.handle_joint, paths[kLeafLink], paths[kHandleLink],
+            door.latch.handle_spring_nm_per_rad},
+           usda);
+  usda.Close();
+  return usda.text();
+}
+
+}  // namespace doorforge

@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "doorforge/core/error.h"
+#include "doorforge/core/inside_folder.h"
+
+#include "import_format.h"
+#include "subtask.h"
+#include "urdf_objects/file_axes.h"
+#include "urdf_objects/hinged_object.h"
+
+namespace doorforge::internal {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kPackage = "package://";
+
+bool IsUrdfFile(const fs::path& path) {
+  std::error_code error;
+  return path.extension() == ".urdf" && fs::is_regular_file(path, error);
+}
+
+// the folder's one URDF; nothing if it has none or several
+std::optional<fs::path> OnlyUrdfIn(const fs::path& folder) {
+  std::optional<fs::path> found;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (!IsUrdfFile(entry.path())) continue;
+    if (found) return std::nullopt;
+    found = entry.path();
+  }
+  return found;
+}
+
+bool IsUrdf(const fs::path& path) { return IsUrdfFile(path) || OnlyUrdfIn(path).has_value(); }
+
+// The folder that a URDF's meshes may lie in: its own; of a URDF in a folder of that name, as ROS
+// packages have, the one above.
+fs::path RootOf(const fs::path& urdf) {
+  const fs::path folder = fs::absolute(urdf).lexically_normal().parent_path();
+  return folder.filename() == "urdf" ? folder.parent_path() : folder;
+}
+
+// the name relative to the root
+std::string NameInRoot(const fs::path& root, const fs::path& urdf_folder, const std::string& name) {
+  if (!name.starts_with(kPackage)) {
+    const fs::path inside = fs::relative(urdf_folder, root);
+    if (fs::path(name).is_absolute() || name.find("://") != std::string::npos) return name;
+    return (inside / name).lexically_normal().string();
+  }
+  const std::string rest = name.substr(kPackage.size());
+  std::error_code error;
+  if (fs::exists(root / rest, error)) return rest;
+  // package://name/path: the root is the package
+  const std::size_t slash = rest.find('/');
+  return slash == std::string::npos ? rest : rest.substr(slash + 1);
+}
+
+// What the file a mesh element names is; what is wrong with it where it cannot be used.
+std::optional<UrdfFault> MeshFault(const HingedObject& object, const std::string& link,
+                                   const UrdfMeshFile& mesh) {
+  const std::string element = "<mesh> of link \"" + link + "\": ";
+  try {
+    object.find_mesh(mesh.filename);
+    return std::nullopt;
+  } catch (const Error& error) {
+    std::string problem = error.what();
+    if (problem.starts_with(object.where + ": ")) problem.erase(0, object.where.size() + 2);
+    if (error.code() == ErrorCode::kMissing)
+      problem = "filename=\"" + mesh.filename + "\" is missing; add the file";
+    return UrdfFault{
+        error.code() == ErrorCode::kMissing ? UrdfFaultKind::kUnstated : UrdfFaultKind::kUnusable,
+        mesh.line, element + problem};
+  }
+}
+
+// Of the meshes that an import loads: what is drawn, and of links that draw nothing what touches.
+std::vector<UrdfFault> MeshFaults(const HingedObject& object) {
+  std::vector<UrdfFault> faults;
+  for (const UrdfLink& link : object.model.links) {
+    for (const UrdfShape& shape : link.visuals.empty() ? link.collisions : link.visuals) {
+      const auto* mesh = std::get_if<UrdfMeshFile>(&shape.geometry);
+      if (mesh == nullptr) continue;
+      if (auto fault = MeshFault(object, link.name, *mesh)) faults.push_back(std::move(*fault));
+    }
+  }
+  return faults;
+}
+
+bool Refuses(const UrdfFault& fault) { return fault.kind != UrdfFaultKind::kUnstated; }
+
+bool AnyRefuses(const std::vector<UrdfFault>& faults) {
+  return std::any_of(faults.begin(), faults.end(), Refuses);
+}
+
+// Links that are no tree, if all else of the model can be used.
+void AddTreeFault(const UrdfModel& model, std::vector<UrdfFault>& faults) {
+  try {
+    if (!AnyRefuses(faults)) RootLinkOf(model);
+  } catch (const Error& error) {
+    faults.push_back({UrdfFaultKind::kUnusable, 1, error.what()});
+  }
+}
+
+// Everything that is wrong with a file at once. What the format asks for and an import does
+// without is left in `faults`.
+void RefuseFaults(const HingedObject& object, std::vector<UrdfFault>& faults) {
+  AddTreeFault(object.model, faults);
+  const std::vector<UrdfFault> meshes = MeshFaults(object);
+  const bool lacks = !meshes.empty() && !object.frame_may_miss;
+  if (!AnyRefuses(faults) && !AnyRefuses(meshes) && !lacks) return;
+  const bool only_lacks = !AnyRefuses(faults) && !AnyRefuses(meshes);
+  faults.insert(faults.end(), meshes.begin(), meshes.end());
+  std::stable_sort(faults.begin(), faults.end(),
+                   [](const UrdfFault& a, const UrdfFault& b) { return a.line < b.line; });
+  throw Error(only_lacks ? ErrorCode::kMissing : ErrorCode::kFormat,
+              UrdfFaultsText(object.where, faults));
+}
+
+void AddNotes(const std::vector<UrdfFault>& faults, const std::string& file,
+              std::vector<ForeignObject>& objects) {
+  if (faults.empty()) return;
+  for (ForeignObject& object : objects) object.notes.push_back(UrdfFaultsText(file, faults));
+}
+
+std::vector<ForeignObject> Read(const fs::path& path, const ReadConfig& config) {
+  const fs::path urdf = IsUrdfFile(path) ? path : OnlyUrdfIn(path).value();
+  if (config.category.empty())
+    throw Error(ErrorCode::kInvalidArgument,
+                urdf.string() + ": a URDF does not say what kind of door it is; pass --category");
+  const fs::path root = RootOf(urdf);
+  const std::string name = IsUrdfFile(path) ? urdf.stem().string() : ObjectNameOf(path);
+  HingedObject object;
+  object.name = "urdf/" + name;
+  object.id = name;
+  object.where = urdf.string();
+  object.source = "URDF " + urdf.filename().string();
+  object.license = config.mesh.license;
+  std::vector<UrdfFault> faults;
+  object.model = ReadUrdf(urdf, faults);
+  object.upright_from_base = UprightFrom(config.mesh.up.empty() ? "z" : config.mesh.up);
+  object.height_m = config.height_m;
+  object.category = CategoryOr(config, Category::kInterior);
+  object.folder = root;
+  object.find_mesh = [root, folder = fs::absolute(urdf).lexically_normal().parent_path(),
+                      where = object.where](const std::string& file) {
+    return FileInside(root, NameInRoot(root, folder, file), where);
+  };
+  object.frame_may_miss = config.allow_missing == "frame";
+  RefuseFaults(object, faults);
+  std::vector<ForeignObject> objects = ReadHingedObject(object);
+  AddNotes(faults, urdf.filename().string(), objects);
+  return objects;
+}
+
+}  // namespace
+
+ImportFormat UrdfFormat() { return {"urdf", IsUrdf, Read}; }
+
+}  // namespace doorforge::internal

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "doorforge/importers/foreign_object.h"
+
+namespace doorforge::internal {
+
+/// A foreign format. `knows` looks at names only; `read` is as ReadObjects().
+struct ImportFormat {
+  std::string name;
+  bool (*knows)(const std::filesystem::path& path);
+  std::vector<ForeignObject> (*read)(const std::filesystem::path& path, const ReadConfig& config);
+};
+
+ImportFormat UniDoorManipFormat();
+ImportFormat UniDoorManipPartsFormat();
+ImportFormat GaPartNetFormat();
+ImportFormat PartNetMobilityFormat();
+ImportFormat Akb48Format();
+ImportFormat DoorGymFormat();
+ImportFormat UrdfFormat();
+ImportFormat LooseMeshFormat();
+
+/// An id for a part (IdProblem() is empty): letters, digits, '-', '_' and '.' are kept, all else
+/// becomes '-', and a text beyond 50 characters is cut and ends in digits of its hash.
+std::string PartIdFrom(const std::string& text);
+
+/// Of `name`, or of the config where it names one. Throws Error(kInvalidArgument) on an unknown
+/// category.
+Category CategoryOr(const ReadConfig& config, Category otherwise);
+
+}  // namespace doorforge::internal

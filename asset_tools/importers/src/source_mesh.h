@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "doorforge/parts/make_part.h"
+#include "doorforge/schemas/urdf.h"
+
+namespace doorforge::internal {
+
+/// A mesh of a foreign object, not loaded yet, and where it goes.
+struct SourceMesh {
+  std::string piece;           ///< As RawPiece::name; may be empty while it is not known.
+  std::filesystem::path file;  ///< Empty: `solid` is the mesh.
+  /// Folder below which the file's materials and textures must lie; empty: the file's own.
+  std::filesystem::path object_folder = {};
+  std::string sha256;       ///< Of the file, or of the solid's canonical text.
+  TriangleMesh solid = {};  ///< A box, cylinder or sphere of a URDF.
+  /// Affine, in general a rigid motion and a scale, maybe with a reflection.
+  Eigen::Affine3d part_from_raw = Eigen::Affine3d::Identity();
+  std::optional<Eigen::Vector4d> color_rgba = {};  ///< Overrides the file's.
+};
+
+/// Loads one mesh into the part's frame; a reflection turns its triangles round.
+TriangleMesh LoadMesh(const SourceMesh& mesh);
+
+/// Pieces by name, in the order in which the names first occur; the colour of each is the mean of
+/// its meshes' weighted by area, opaque; what its files draw is its visual mesh. Throws Error as
+/// ImportMesh() does.
+std::vector<RawPiece> LoadPieces(const std::vector<SourceMesh>& meshes);
+
+TriangleMesh MeshOf(const UrdfBox& box);
+TriangleMesh MeshOf(const UrdfCylinder& cylinder);
+TriangleMesh MeshOf(const UrdfSphere& sphere);
+
+/// SHA-256 over the meshes with their places (in micrometres) and everything in `part` that a
+/// reader decides.
+std::string SourceHashOf(const std::vector<SourceMesh>& meshes, const Part& part);
+
+/// Up to eight file names, then how many more.
+std::string FileNamesOf(const std::vector<SourceMesh>& meshes);
+
+}  // namespace doorforge::internal

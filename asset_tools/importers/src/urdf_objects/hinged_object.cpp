@@ -1,0 +1,370 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "urdf_objects/hinged_object.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iomanip>
+#include <optional>
+#include <sstream>
+
+#include "doorforge/core/error.h"
+#include "doorforge/core/mesh_transform.h"
+
+#include "import_format.h"
+#include "urdf_objects/handle_place.h"
+#include "urdf_objects/hinged_shapes.h"
+#include "urdf_objects/joint_tree.h"
+#include "urdf_objects/leaf_motion.h"
+
+namespace doorforge::internal {
+namespace {
+
+constexpr double kNarrowOpening = 0.7854;  // [rad] below this a door does not count as open
+
+std::string Degrees(double rad) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1) << rad * 180 / 3.141592653589793 << " degrees";
+  return text.str();
+}
+
+// what could be grasped on a leaf: shapes, and the joint that turns them
+struct HandleCandidate {
+  std::vector<std::size_t> shapes;
+  std::optional<std::size_t> joint;  // into UrdfModel::joints
+  int rank = 0;
+  double size_m = 0;
+  std::string word;
+};
+
+class LeafReader {
+ public:
+  LeafReader(const HingedObject& object, const std::vector<TreeLink>& tree,
+             const HingedShapes& shapes, std::size_t leaf_link)
+      : object_(object), tree_(tree), shapes_(shapes), leaf_link_(leaf_link) {}
+
+  ForeignObject Read(bool only_leaf) {
+    const std::string link = object_.model.links[leaf_link_].name;
+    read_.name = object_.name + (only_leaf ? "" : "/" + link);
+    id_ = PartIdFrom(object_.id + (only_leaf ? "" : "-" + link));
+    read_.category = NameOf(object_.category);
+    read_.scale = shapes_.scale;
+    SplitShapes();
+    if (on_leaf_.empty()) return Refused("its link has no mesh");
+    const std::optional<HandleCandidate> handle = ChooseHandle();
+    TakeHandle(handle);
+    motion_ = FindLeafMotion(AuthoredLeafOf());
+    if (!motion_.refusal.empty()) return Refused(motion_.refusal);
+    Note(handle);
+    MakeParts(handle);
+    return read_;
+  }
+
+ private:
+  ForeignObject Refused(const std::string& why) {
+    read_.refusal = object_.model.links[leaf_link_].name + " (" + WordFor(object_, leaf_link_) +
+                    ") is no door: " + why;
+    return read_;
+  }
+
+  std::size_t HingeIndex() const { return *tree_[leaf_link_].joint; }
+
+  bool IsOnLeaf(std::size_t link) const {
+    const auto& movable = tree_[link].movable;
+    return !movable.empty() && movable.front() == HingeIndex();
+  }
+
+  void SplitShapes() {
+    for (std::size_t i = 0; i < shapes_.shapes.size(); ++i)
+      (IsOnLeaf(shapes_.shapes[i].link) ? on_leaf_ : around_).push_back(i);
+  }
+
+  // what turns on the leaf, each by its uppermost joint above the hinge, and what is called a
+  // handle
+  std::vector<HandleCandidate> Candidates() const {
+    std::vector<HandleCandidate> found;
+    HandleCandidate fixed{{}, std::nullopt, 1, 0, "handle"};
+    for (const std::size_t i : on_leaf_) {
+      const HingedShape& shape = shapes_.shapes[i];
+      const auto& movable = tree_[shape.link].movable;
+      if (movable.size() > 1 && Turns(object_.model.joints[movable[1]])) {
+        AddTurning(i, movable[1], found);
+      } else if (movable.size() == 1 && (shape.handle || IsFixedHandle(shape.link))) {
+        fixed.shapes.push_back(i);
+      }
+    }
+    if (!fixed.shapes.empty() && fixed.shapes.size() < on_leaf_.size()) found.push_back(fixed);
+    for (HandleCandidate& candidate : found) candidate.size_m = SizeOf(candidate.shapes);
+    return found;
+  }
+
+  bool IsFixedHandle(std::size_t link) const {
+    return link != leaf_link_ && IsHandleWord(WordFor(object_, link));
+  }
+
+  void AddTurning(std::size_t shape, std::size_t joint, std::vector<HandleCandidate>& found) const {
+    const auto known = std::find_if(found.begin(), found.end(),
+                                    [&](const HandleCandidate& c) { return c.joint == joint; });
+    if (known != found.end()) {
+      known->shapes.push_back(shape);
+      return;
+    }
+    std::size_t link = shapes_.shapes[shape].link;
+    while (tree_[link].joint != joint) link = *tree_[link].parent;
+    const std::string word = WordFor(object_, link);
+    found.push_back({{shape}, joint, word.find("handle") != std::string::npos ? 3 : 2, 0, word});
+  }
+
+  double SizeOf(const std::vector<std::size_t>& shapes) const {
+    Eigen::AlignedBox3d bounds;
+    for (const std::size_t i : shapes) bounds.extend(BoundsOf(shapes_.shapes[i].mesh));
+    return bounds.isEmpty() ? 0 : bounds.diagonal().norm();
+  }
+
+  std::optional<HandleCandidate> ChooseHandle() {
+    const std::vector<HandleCandidate> found = Candidates();
+    if (found.empty()) return std::nullopt;
+    const auto best = std::max_element(found.begin(), found.end(),
+                                       [](const HandleCandidate& a, const HandleCandidate& b) {
+                                         if (a.rank != b.rank) return a.rank < b.rank;
+                                         return a.size_m < b.size_m;
+                                       });
+    for (const HandleCandidate& candidate : found) {
+      if (&candidate != &*best)
+        read_.notes.push_back("a second handle (" + candidate.word + ") became part of the leaf");
+    }
+    return *best;
+  }
+
+  void TakeHandle(const std::optional<HandleCandidate>& handle) {
+    if (!handle) return;
+    std::erase_if(on_leaf_, [&](std::size_t i) {
+      return std::find(handle->shapes.begin(), handle->shapes.end(), i) != handle->shapes.end();
+    });
+  }
+
+  TriangleMesh Joined(const std::vector<std::size_t>& shapes) const {
+    std::vector<TriangleMesh> meshes;
+    for (const std::size_t i : shapes) meshes.push_back(shapes_.shapes[i].mesh);
+    return Merged(meshes);
+  }
+
+  // in the authored frame, before closing
+  PartJoint AuthoredJoint(std::size_t joint_index) const {
+    const UrdfJoint& joint = object_.model.joints[joint_index];
+    std::size_t child = 0;
+    while (tree_[child].joint != joint_index) ++child;
+    const RigidTransform& base_from_joint = tree_[child].base_from_link;
+    PartJoint made;
+    made.origin_m = shapes_.authored_from_base * base_from_joint.translation();
+    made.axis = (object_.upright_from_base * base_from_joint.linear() * joint.axis).normalized();
+    made.lower_rad = joint.lower;
+    made.upper_rad = joint.upper;
+    return made;
+  }
+
+  AuthoredLeaf AuthoredLeafOf() const {
+    AuthoredLeaf leaf;
+    leaf.hinge = AuthoredJoint(HingeIndex());
+    leaf.limited = object_.model.joints[HingeIndex()].type == UrdfJointType::kRevolute;
+    leaf.mesh = Joined(on_leaf_);
+    leaf.around = BoundsOf(Joined(around_));
+    return leaf;
+  }
+
+  void Note(const std::optional<HandleCandidate>& handle) {
+    read_.mirrored = motion_.mirrored;
+    if (motion_.mirrored) read_.notes.push_back("mirrored: the source's hinge is on the right");
+    if (motion_.level) read_.notes.push_back("its hinge is level: the leaf tilts");
+    if (motion_.ajar_rad > 0)
+      read_.notes.push_back("authored ajar by " + Degrees(motion_.ajar_rad) + ", was closed");
+    if (motion_.hinge.upper_rad < kNarrowOpening)
+      read_.notes.push_back("opens by " + Degrees(motion_.hinge.upper_rad) + " only");
+    if (!handle) read_.notes.push_back("has no handle: gives a body alone");
+    for (const std::string& mesh : shapes_.left_out)
+      read_.notes.push_back("without " + mesh + ", which is missing");
+  }
+
+  Eigen::Affine3d PartFromAuthored(bool moves) const {
+    const Eigen::Affine3d closing(motion_.closing.matrix());
+    return moves ? motion_.part_from_authored * closing : motion_.part_from_authored;
+  }
+
+  std::vector<SourceMesh> PlacedSources(const std::vector<std::size_t>& shapes,
+                                        const std::string& piece,
+                                        const Eigen::Affine3d& part_from_authored) const {
+    std::vector<SourceMesh> placed;
+    for (const std::size_t i : shapes) {
+      SourceMesh mesh = shapes_.shapes[i].source;
+      mesh.piece = piece;
+      mesh.part_from_raw = part_from_authored * mesh.part_from_raw;
+      placed.push_back(std::move(mesh));
+    }
+    return placed;
+  }
+
+  TriangleMesh PlacedMesh(const std::vector<std::size_t>& shapes, bool moves) const {
+    TriangleMesh mesh = Joined(shapes);
+    const Eigen::Affine3d part_from_authored = PartFromAuthored(moves);
+    for (Eigen::Vector3d& vertex : mesh.vertices) vertex = part_from_authored * vertex;
+    return mesh;
+  }
+
+  void MakeParts(const std::optional<HandleCandidate>& handle) {
+    const TriangleMesh leaf = PlacedMesh(on_leaf_, true);
+    Eigen::Vector3d mount = DefaultMount(leaf, object_.category);
+    Mechanism mechanism = Mechanism::kNone;
+    if (handle) {
+      const HandlePlace place = PlaceOf(*handle);
+      mount = place.mount_m;
+      read_.hinge_to_handle_m = mount - motion_.hinge.origin_m;
+      mechanism = place.mechanism;
+      AddBody(leaf, mount);
+      AddHandle(*handle, place);
+    } else {
+      AddBody(leaf, mount);
+    }
+    read_.mechanism = NameOf(mechanism);
+  }
+
+  HandlePlace PlaceOf(const HandleCandidate& handle) const {
+    HandleKnowledge known;
+    known.category = object_.category;
+    if (handle.joint)
+      known.joint = MovedJoint(AuthoredJoint(*handle.joint), PartFromAuthored(true));
+    return PlaceHandle(PlacedMesh(handle.shapes, true), known);
+  }
+
+  Part Facts(PartRole role) const {
+    Part part;
+    part.role = role;
+    part.category = object_.category;
+    part.id = id_ + (role == PartRole::kHandle ? "-handle" : "");
+    part.license = object_.license;
+    part.source = object_.source + " " + object_.model.links[leaf_link_].name +
+                  (motion_.mirrored ? ", mirrored" : "");
+    return part;
+  }
+
+  void AddBody(const TriangleMesh& leaf, const Eigen::Vector3d& mount) {
+    double lowest = BoundsOf(leaf).min().z();
+    if (!around_.empty()) lowest = std::min(lowest, BoundsOf(PlacedMesh(around_, false)).min().z());
+    const Eigen::Translation3d up(0, 0, -lowest);
+    Part part = Facts(PartRole::kBody);
+    part.joint = motion_.hinge;
+    part.joint.origin_m = up * part.joint.origin_m;
+    part.part_from_mount = Translation(up * mount);
+    std::vector<SourceMesh> meshes = PlacedSources(around_, "frame", up * PartFromAuthored(false));
+    for (SourceMesh& mesh : PlacedSources(on_leaf_, "leaf", up * PartFromAuthored(true)))
+      meshes.push_back(std::move(mesh));
+    AddPart(std::move(part), std::move(meshes));
+  }
+
+  void AddHandle(const HandleCandidate& handle, const HandlePlace& place) {
+    Part part = Facts(PartRole::kHandle);
+    part.mechanism = place.mechanism;
+    part.joint = place.joint;
+    part.part_from_grasp = place.part_from_grasp;
+    const Eigen::Translation3d to_mount(-place.mount_m);
+    AddPart(std::move(part),
+            PlacedSources(handle.shapes, "grip", to_mount * PartFromAuthored(true)),
+            BoxDeviationOf(handle));
+  }
+
+  // from the box that the source states for the handle's link
+  double BoxDeviationOf(const HandleCandidate& handle) const {
+    const std::size_t link = shapes_.shapes[handle.shapes.front()].link;
+    const auto stated = object_.stated_boxes.find(object_.model.links[link].name);
+    if (stated == object_.stated_boxes.end()) return 0;
+    Eigen::AlignedBox3d box;
+    for (const auto corner :
+         {Eigen::AlignedBox3d::BottomLeftFloor, Eigen::AlignedBox3d::TopRightCeil})
+      box.extend(Eigen::Vector3d(shapes_.authored_from_base * stated->second.corner(corner)));
+    const Eigen::AlignedBox3d loaded = BoundsOf(Joined(handle.shapes));
+    return std::max((loaded.min() - box.min()).cwiseAbs().maxCoeff(),
+                    (loaded.max() - box.max()).cwiseAbs().maxCoeff());
+  }
+
+  void AddPart(Part part, std::vector<SourceMesh> meshes, double box_deviation_m = 0) {
+    part.source += ": " + FileNamesOf(meshes);
+    part.source_sha256 = SourceHashOf(meshes, part);
+    ForeignPart added;
+    added.id = part.id;
+    added.role = part.role;
+    added.source_sha256 = part.source_sha256;
+    added.load = [part, meshes, box_deviation_m] {
+      return LoadedPart{{part, LoadPieces(meshes)}, box_deviation_m};
+    };
+    read_.parts.push_back(std::move(added));
+  }
+
+  const HingedObject& object_;
+  const std::vector<TreeLink>& tree_;
+  const HingedShapes& shapes_;
+  std::size_t leaf_link_;
+  std::string id_;
+  std::vector<std::size_t> on_leaf_;  // into shapes_; without the handle once it is chosen
+  std::vector<std::size_t> around_;
+  LeafMotion motion_;
+  ForeignObject read_;
+};
+
+// links that a movable joint moves and none above it does, with what speaks against each
+struct Leaves {
+  std::vector<std::size_t> links;
+  std::vector<std::string> others;
+};
+
+Leaves LeavesOf(const HingedObject& object, const std::vector<TreeLink>& tree) {
+  Leaves leaves;
+  for (std::size_t i = 0; i < tree.size(); ++i) {
+    if (tree[i].movable.size() != 1 || tree[i].joint != tree[i].movable[0]) continue;
+    const UrdfJoint& joint = object.model.joints[*tree[i].joint];
+    const std::string named = object.model.links[i].name + " (" + WordFor(object, i) + ")";
+    if (!Turns(joint))
+      leaves.others.push_back(named + " slides");
+    else if (IsHandleWord(WordFor(object, i)))
+      leaves.others.push_back(named + " turns on what does not move, not on a leaf");
+    else
+      leaves.links.push_back(i);
+  }
+  return leaves;
+}
+
+std::string Joined(const std::vector<std::string>& texts) {
+  std::string joined;
+  for (const std::string& text : texts) joined += (joined.empty() ? "" : "; ") + text;
+  return joined;
+}
+
+}  // namespace
+
+std::vector<ForeignObject> ReadHingedObject(const HingedObject& object) {
+  const std::vector<TreeLink> tree = JointTreeOf(object.model, object.where);
+  const Leaves leaves = LeavesOf(object, tree);
+  std::vector<ForeignObject> doors;
+  std::vector<std::string> others = leaves.others;
+  if (!leaves.links.empty()) {
+    const HingedShapes shapes = LoadShapes(object, tree);
+    for (const std::size_t link : leaves.links) {
+      ForeignObject door = LeafReader(object, tree, shapes, link).Read(leaves.links.size() == 1);
+      if (door.refusal.empty())
+        doors.push_back(std::move(door));
+      else
+        others.push_back(door.refusal);
+    }
+  }
+  for (ForeignObject& door : doors) {
+    for (const std::string& other : others) door.notes.push_back("left as it is: " + other);
+  }
+  if (!doors.empty()) return doors;
+  ForeignObject refused;
+  refused.name = object.name;
+  refused.category = NameOf(object.category);
+  refused.refusal =
+      others.empty() ? "nothing turns on a hinge in it, so it is no door" : Joined(others);
+  return {refused};
+}
+
+}  // namespace doorforge::internal

@@ -17,7 +17,7 @@ namespace doorforge::internal {
 
 /// Shortest decimals that read back to the same double.
 std::string Decimal(double value);
-/// The same, separated by `separator`.
+/// Writes each value as Decimal() does, with `separator` between them.
 std::string Decimals(const Eigen::Ref<const Eigen::VectorXd>& values,
                      const std::string& separator = " ");
 

@@ -30,8 +30,8 @@ ImportFormat LooseMeshFormat();
 /// becomes '-', and a text beyond 50 characters is cut and ends in digits of its hash.
 std::string PartIdFrom(const std::string& text);
 
-/// Of `name`, or of the config where it names one. Throws Error(kInvalidArgument) on an unknown
-/// category.
+/// Returns the category that the config names, or `otherwise` where it names none. Throws
+/// Error(kInvalidArgument) on an unknown category.
 Category CategoryOr(const ReadConfig& config, Category otherwise);
 
 }  // namespace doorforge::internal

@@ -19,8 +19,8 @@ std::vector<TriangleMesh> PiecesOf(const TriangleMesh& mesh);
 /// Vertices in lexicographic order.
 TriangleMesh InVertexOrder(const TriangleMesh& mesh);
 
-/// The same, and triangles in the order of their corners, from the smallest: one order for one
-/// surface, however it was numbered.
+/// Sorts the vertices as InVertexOrder() does, and the triangles by their corners, from the
+/// smallest: a surface gets one order, however it was numbered.
 TriangleMesh InCanonicalOrder(const TriangleMesh& mesh);
 
 TriangleMesh TurnedInsideOut(TriangleMesh mesh);

@@ -32,8 +32,8 @@ struct SafeBody {
   double mount_forward = 0.55;  ///< Of the leaf's width, from the hinge.
   double mount_height = 0.5;    ///< Of the leaf's height.
   std::string face = "sunk";    ///< Of the leaf: "plain", "sunk", "raised", "framed".
-  /// Of the box, seen from the front: "box", "arched" (its top is a flat arch), "octagon" (its
-  /// corners are cut), "trapezoid" (wider below).
+  /// Names the box's shape as it is seen from the front: "box", "arched" (its top is a flat arch),
+  /// "octagon" (its corners are cut) or "trapezoid" (it is wider below).
   std::string outline = "box";
   double outline_m = 0.05;   ///< Rise of the arch, cut of a corner, lean of a side.
   std::string top = "none";  ///< "none", "hopper" (for deposits), "dome", "lid", "handle".

@@ -79,7 +79,8 @@ std::optional<UrdfFault> MeshFault(const HingedObject& object, const std::string
   }
 }
 
-// Of the meshes that an import loads: what is drawn, and of links that draw nothing what touches.
+// Finds the faults of the meshes that an import loads: of what is drawn, and of what touches where
+// a link draws nothing.
 std::vector<UrdfFault> MeshFaults(const HingedObject& object) {
   std::vector<UrdfFault> faults;
   for (const UrdfLink& link : object.model.links) {

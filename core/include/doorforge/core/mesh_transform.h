@@ -14,8 +14,10 @@ namespace doorforge {
 /// Returns the mesh in the frame that `to_from_mesh` leads to; the triangles stay as they are.
 TriangleMesh Transformed(TriangleMesh mesh, const RigidTransform& to_from_mesh);
 
-/// Returns the mesh with each coordinate rounded to the nearest float, as the canonical mesh files
-/// hold them, so that a mesh read back equals the one in memory.
+/// Returns the mesh with its coordinates rounded to floats, as the canonical mesh files hold them.
+/// GCC 12 with optimisation rounds z alone: it takes the conversion of x and y to float and back
+/// for nothing. The catalogue's bytes rest on that, so parts made by another compiler may differ in
+/// the last digits.
 TriangleMesh RoundedToFloat(TriangleMesh mesh);
 
 /// Returns the triangles of all meshes as one mesh, in order; no vertices are welded.

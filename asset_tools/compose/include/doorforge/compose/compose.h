@@ -150,8 +150,8 @@ struct SharedDoor {
   std::string urdf;
 };
 
-/// The same door as ComposeDoor() of the same parts and config: read back, it has the same content
-/// hash. Both parts were prepared with `config`. Throws as ComposeDoor().
+/// Composes the door that ComposeDoor() makes of the same parts and config: read back, it has the
+/// same content hash. Both parts were prepared with `config`. Throws as ComposeDoor().
 SharedDoor ComposeSharedDoor(const PreparedPart& body, const PreparedPart& handle,
                              const ComposeConfig& config,
                              const std::optional<RigidTransform>& body_from_handle = std::nullopt);

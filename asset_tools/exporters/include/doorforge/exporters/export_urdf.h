@@ -17,7 +17,8 @@ namespace doorforge {
 /// with its own materials, or else the closed mesh in its colour. MuJoCo is told to leave visuals
 /// out where one is drawn by an author: it takes closed meshes alone.
 UrdfModel ToUrdfModel(const DoorAsset& door);
-/// The same with the meshes where `files` says, in the pool that doors share or elsewhere.
+/// Makes the same model with the meshes where `files` says, in the pool that doors share or
+/// elsewhere.
 UrdfModel ToUrdfModel(const DoorAsset& door, const DoorFiles& files);
 
 /// Commits `folder` with door.json, meshes/ and model.urdf, all or nothing.

@@ -45,7 +45,8 @@ Solid ConvexPrism(const Polygon& polygon, PrismAxis axis, const PrismSpan& span,
 struct CupShape {
   Polygon outer;  ///< In (y, z).
   Polygon inner;  ///< Of the cavity, inside `outer`.
-  /// The same two with few points, for the hulls: at most 30, and at most 24.
+  /// The hulls are made of these, which follow the two above with fewer points: at most 30, and at
+  /// most 24.
   Polygon outer_hull;
   Polygon inner_hull;
   double back_x_m;

@@ -14,8 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::vector<std::string> NamesOf(const CLI::Option& option) {
-  if (option.get_positional()) return {option.get_name(true)};
+std::vector<std::string> OptionNames(const CLI::Option& option) {
   std::vector<std::string> names;
   for (const std::string& name : option.get_snames()) names.push_back("-" + name);
   for (const std::string& name : option.get_lnames()) names.push_back("--" + name);
@@ -31,7 +30,7 @@ std::vector<std::string> ValuesOf(std::string_view check) {
   return values;
 }
 
-Json DescribeOption(const CLI::Option& option) {
+Json DescribeOption(const CLI::Option& option, const std::vector<std::string>& names) {
   // type and check are one text, "TEXT:DIR"
   const bool flag = option.get_items_expected_max() == 0;
   const std::string shown = flag ? "" : option.get_type_name();
@@ -39,7 +38,7 @@ Json DescribeOption(const CLI::Option& option) {
   const std::string check = colon == std::string::npos ? "" : shown.substr(colon + 1);
   Json needs = Json::array();
   for (const CLI::Option* needed : option.get_needs()) needs.push_back(needed->get_name());
-  return {{"names", NamesOf(option)},
+  return {{"names", names},
           {"about", option.get_description()},
           {"type", shown.substr(0, colon)},
           {"check", check},
@@ -57,9 +56,11 @@ Json DescribeCommand(const CLI::App& app) {
   Json positionals = Json::array();
   Json options = Json::array();
   for (const CLI::Option* option : app.get_options()) {
-    const bool hidden = option->get_group().empty();
-    if (!hidden)
-      (option->get_positional() ? positionals : options).push_back(DescribeOption(*option));
+    if (option->get_group().empty()) continue;  // hidden from the help, too
+    // some may be given by their place or by their name
+    if (option->get_positional())
+      positionals.push_back(DescribeOption(*option, {option->get_name(true)}));
+    if (option->nonpositional()) options.push_back(DescribeOption(*option, OptionNames(*option)));
   }
   Json commands = Json::array();
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))

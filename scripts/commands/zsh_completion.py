@@ -38,8 +38,8 @@ def _specifications(option: Option) -> list[str]:
 def _places(command: Command) -> list[str]:
     if command.commands:
         return ["1: :->command", "*:: :->below"]
-    places = ["1:" + _told(place.names[0], ":") + ":" + _action(place) if not place.several else
-              "*:" + _told(place.names[0], ":") + ":" + _action(place) for place in command.positionals]
+    places = [("*" if place.several else str(number)) + ":" + _told(place.names[0], ":") + ":" + _action(place)
+              for number, place in enumerate(command.positionals, 1)]
     further = any(option.several for option in command.options) and not any(place.startswith("*") for place in places)
     return places + (["*: :_files"] if further else [])
 

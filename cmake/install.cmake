@@ -17,6 +17,9 @@ foreach(folder CMAKE_INSTALL_BINDIR CMAKE_INSTALL_DATADIR)
   endif()
 endforeach()
 
+set(DOORFORGE_MAINTAINER "The doorforge authors <authors@doorforge.invalid>" CACHE STRING
+    "who answers for the Debian packages: NAME <ADDRESS>")
+
 # Programs find their data from where they are themselves, so the build tree is laid out as an installation is.
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_BINDIR})
 file(RELATIVE_PATH DOORFORGE_DATA_FROM_PROGRAMS
@@ -59,8 +62,19 @@ function(doorforge_install_files)
   install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
   install(FILES NOTICE CHANGELOG.md cmake/package/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
   install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT elsewhere)
-  install(FILES cmake/package/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libdoorforge-dev
-          COMPONENT debian-development EXCLUDE_FROM_ALL)
+endfunction()
+
+# What Debian wants of each package beside its files.
+function(doorforge_install_debian_documents)
+  string(TIMESTAMP DOORFORGE_DATE "%a, %d %b %Y %H:%M:%S +0000" UTC)
+  set(folder ${CMAKE_BINARY_DIR}/debian)
+  configure_file(cmake/package/changelog.in ${folder}/changelog @ONLY)
+  file(ARCHIVE_CREATE OUTPUT ${folder}/changelog.gz PATHS ${folder}/changelog FORMAT raw COMPRESSION GZip
+       COMPRESSION_LEVEL 9)
+  install(FILES ${folder}/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/doorforge
+          COMPONENT debian EXCLUDE_FROM_ALL)
+  install(FILES ${folder}/changelog.gz cmake/package/copyright
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libdoorforge-dev COMPONENT debian-development EXCLUDE_FROM_ALL)
 endfunction()
 
 # The packages of packages.txt that a consumer of the libraries needs: what [build] names -dev, or has no other part.
@@ -81,6 +95,7 @@ endfunction()
 
 # cpack -G DEB, in the build folder: doorforge_*.deb, which users install, and libdoorforge-dev_*.deb.
 function(doorforge_package)
+  doorforge_install_debian_documents()
   set(CPACK_PACKAGE_NAME doorforge)
   set(CPACK_PACKAGE_VENDOR "The doorforge authors")
   set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Door assets and door-opening data for robot learning")
@@ -97,32 +112,34 @@ function(doorforge_package)
   set(CPACK_COMPONENT_DEBIAN-DEVELOPMENT_GROUP development)
 
   set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-  set(CPACK_DEBIAN_PACKAGE_MAINTAINER "The doorforge authors <authors@doorforge.invalid>" CACHE STRING
-      "who answers for the Debian packages: NAME <ADDRESS>")
+  set(CPACK_DEBIAN_PACKAGE_MAINTAINER ${DOORFORGE_MAINTAINER})
   set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
   set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME doorforge)
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SECTION science)
   # The libraries are found by dpkg-shlibdeps. libtorch is content with any BLAS, and trains ten times slower with the
-  # one that Debian would take; Slurm scripts run in bash.
+  # one that Debian would take. What else programs call, bash and one another, is always there.
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
-  set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "bash, libopenblas0-openmp")
+  set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS libopenblas0-openmp)
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "python3, python3-numpy")
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "slurm-client, python3-h5py")
   set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION [[
-Composes doors whose latch must be released through the handle, lets a mobile robot arm open them in simulation, sees
-them through an occluded depth camera, collects data sets, and trains and evaluates policies that open them.
+Composes doors whose latch must be released through the handle, lets a mobile
+robot arm open them in simulation, sees them through an occluded depth camera,
+collects data sets, and trains and evaluates policies that open them.
 .
-This package holds the programs, the catalogue of parts, the built-in robot, trained policies, the JSON Schemas of the
-records, and a reader of data sets for Python.]])
+This package holds the programs, the catalogue of parts, the built-in robot,
+trained policies, the JSON Schemas of the records, and a reader of data sets
+for Python.]])
 
   doorforge_development_packages(packages)
   set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libdoorforge-dev)
   set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
   set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "doorforge (= ${PROJECT_VERSION}), ${packages}")
   set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION [[
-Static libraries, headers and the CMake package of doorforge, for programs that compose doors, simulate them, read its
-data sets or evaluate policies of their own.]])
+Static libraries, headers and the CMake package of doorforge, for programs that
+compose doors, simulate them, read its data sets or evaluate policies of their
+own.]])
   include(CPack)
 endfunction()

@@ -19,6 +19,12 @@ ENVIRONMENT = (
     ("PATH", "Only programs of one's own that link the libraries look here, for an installed doorforge."))
 
 
+FILES = (
+    ("share/doorforge", "Beside bin, where the programs are: catalogue, robots, splits, pipelines, trained policies and "
+     "pictures to try act with. Where a help says data/, it is this folder."),
+    ("share/doc/doorforge", "Pages on tasks and file formats. Where a help says docs/, it is this folder."))
+
+
 def _troff(text: str) -> str:
     text = text.replace("\\", "\\e").replace("-", "\\-").replace("'", "\\(aq").replace("`", "\\(ga").replace("^", "\\(ha")
     text = text.replace("~", "\\(ti")
@@ -107,6 +113,7 @@ def _front_page(root: Command, version: str) -> str:
     sections += _section("EXAMPLES", _literally(root.footer))
     sections += _section("ENVIRONMENT", [line for name, text in ENVIRONMENT for line in _tagged(f"\\fB{name}\\fR", text)])
     sections += _section("EXIT STATUS", [line for code, text in EXIT_CODES for line in _tagged(f"\\fB{code}\\fR", text)])
+    sections += _section("FILES", [line for name, text in FILES for line in _tagged(f"\\fI{name}\\fR", text)])
     pages = [f".BR {_troff('-'.join(verb.words))} (1)" for verb in root.commands]
     sections += _section("SEE ALSO", [page + "," for page in pages[:-1]] + pages[-1:])
     return _page("doorforge", root.summary, version, sections)

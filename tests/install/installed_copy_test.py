@@ -31,15 +31,17 @@ int main() { std::cout << doorforge::DataFolder().string() << std::endl; }
 """
 
 
-def install(prefix: pathlib.Path) -> None:
-    """What a user does; install_manifest.txt of the build folder stays that of the user's own installation."""
+def install(prefix: pathlib.Path) -> list[str]:
+    """What a user does. Returns the list of what was installed; the one in the build folder stays that of the user."""
     manifest = BINARY_DIR / "install_manifest.txt"
     before = manifest.read_bytes() if manifest.exists() else None
     subprocess.run([CMAKE, "--install", BINARY_DIR, "--prefix", prefix], check=True, capture_output=True)
+    installed = manifest.read_text().splitlines()
     if before is None:
         manifest.unlink()
     else:
         manifest.write_bytes(before)
+    return installed
 
 
 def without_debug_information(path: pathlib.Path) -> bytes:
@@ -62,7 +64,7 @@ class InstalledCopy(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         cls.top = pathlib.Path(folder.name)
         cls.first = cls.top / "first"
-        install(cls.first)
+        cls.installed = install(cls.first)
         cls.prefix = cls.top / "moved copy"
         cls.first.rename(cls.prefix)
         cls.data = cls.prefix / "share/doorforge"
@@ -91,6 +93,10 @@ class InstalledCopy(unittest.TestCase):
             self.assertFalse(path.is_symlink(), path)
             text = content(path)
             self.assertEqual([], [found for found in paths if found in text], path)
+
+    def test_the_list_by_which_it_is_uninstalled_has_every_file(self):
+        files = {path.relative_to(self.prefix) for path in self.prefix.rglob("*") if path.is_file()}
+        self.assertEqual({pathlib.Path(path).relative_to(self.first) for path in self.installed}, files)
 
     def test_a_door_from_the_catalogue_to_the_simulator(self):
         self.assertGreater(len(self.doorforge("catalog", "list").stdout.splitlines()), 500)

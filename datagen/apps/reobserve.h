@@ -9,6 +9,7 @@
 #include "doorforge/datagen/collect.h"
 #include "doorforge/physics/scene_sampling.h"
 #include "doorforge/rollout/grasp_look.h"
+#include "doorforge/rollout/remembered_view.h"
 #include "doorforge/sensor/point_cloud.h"
 
 namespace doorforge {
@@ -20,7 +21,8 @@ struct ReobserveConfig {
   bool robot = true;
   bool own_camera = false;  ///< True: `camera` for all episodes; false: each episode's own.
   CameraConfig camera;
-  GraspLook grasp_look;  ///< At "grasp".
+  GraspLook grasp_look;             ///< At "grasp".
+  RememberedViewConfig remembered;  ///< At "handle".
   CloudConfig cloud;
   bool preview = true;
 
@@ -30,6 +32,7 @@ struct ReobserveConfig {
     visit("own_camera", self.own_camera);
     visit("camera", self.camera);
     visit("grasp_look", self.grasp_look);
+    visit("remembered", self.remembered);
     visit("cloud", self.cloud);
     visit("preview", self.preview);
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The stages as the program runs them, on doors of boxes.
+// The stages on doors of boxes.
 
 #include <algorithm>
 #include <filesystem>
@@ -11,21 +11,19 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "doorforge/collect/reobserve.h"
+#include "doorforge/collect/stage_run.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
-#include "doorforge/datagen/verify_dataset.h"
+#include "doorforge/dataset/verify_dataset.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/rollout/standing_place.h"
 #include "doorforge/schemas/dataset.h"
 
 #include "../physics/primitive_door.h"
-#include "datagen_verb.h"
 #include "recorded_robot.h"
 #include "recording_camera.h"
-#include "reobserve.h"
-#include "robot_meshes.h"
-#include "stage_run.h"
 
 namespace doorforge {
 namespace {
@@ -109,35 +107,8 @@ class StagesTest : public testing::Test {
     return "";
   }
 
-  // What `doorforge datagen open` with these words more ends with.
-  std::string RefusalOfVerb(std::vector<std::string> words) const {
-    words.insert(words.begin(), {"datagen", "open", "--doors", (folder_ / "doors").string(),
-                                 "--out", (folder_ / "refused").string(), "--episodes", "1"});
-    std::vector<char*> pointers;
-    for (std::string& word : words) pointers.push_back(word.data());
-    try {
-      RunDatagenVerb(static_cast<int>(pointers.size()), pointers.data());
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
-  }
-
   fs::path folder_;
 };
-
-// as of `--task "$UNSET"`: all episodes instead of a share, or the rule instead of the policy
-TEST_F(StagesTest, AnEmptyValueIsNotAnOptionThatWasLeftOut) {
-  for (const char* option :
-       {"--task", "--opener", "--handler", "--learner", "--robot", "--config", "--set", "--slurm"})
-    EXPECT_NE(RefusalOfVerb({option, ""}).find(std::string(option) + ": its value is empty"),
-              std::string::npos)
-        << option << ": " << RefusalOfVerb({option, ""});
-  EXPECT_FALSE(fs::exists(folder_ / "refused"));
-
-  std::ofstream(folder_ / "refused") << "a file";
-  EXPECT_NE(RefusalOfVerb({}).find("refused: is a file; --out takes a folder"), std::string::npos);
-}
 
 TEST_F(StagesTest, HandleRecordsTurnsAndLeavesDoorsWithoutALatchOut) {
   const fs::path data = Collected(Stage::kHandle, 4);
@@ -305,7 +276,7 @@ TEST_F(StagesTest, ThePreviewEndsWithTheLastLookThatIsRecorded) {
   const PrimitiveDoor shape;
   const DoorAsset door = MakePrimitiveDoor(shape);
   const StageConfig config = DefaultsOf(Stage::kHandle);
-  const RobotModel robot = LoadRobot("", RobotBaseNamed(config.scene.physics.base), RobotMeshes());
+  const RobotModel robot = LoadRobot("", RobotBaseNamed(config.scene.physics.base));
   const Scene scene = SceneFor(robot, SampleScene(door, 1, 0, config.scene), door);
   const auto preview_after = [&](const std::vector<double>& hinges, std::size_t recorded) {
     RecordingCamera camera(scene, door, robot, config.cloud);

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/datagen/collection_status.h"
+#include "doorforge/dataset/collection_status.h"
 
 #include <chrono>
 
 #include "doorforge/core/error.h"
-#include "doorforge/datagen/merge_dataset.h"
+#include "doorforge/dataset/merge_dataset.h"
 #include "doorforge/schemas/shard_progress.h"
 
 #include "encoded_episode.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/datagen/describe_dataset.h"
+#include "doorforge/dataset/describe_dataset.h"
 
 #include "doorforge/core/error.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/datagen/door_split.h"
+#include "doorforge/dataset/door_split.h"
 
 #include <algorithm>
 #include <map>

@@ -15,7 +15,7 @@
 #include <sys/wait.h>
 
 #include "doorforge/core/error.h"
-#include "doorforge/datagen/merge_dataset.h"
+#include "doorforge/dataset/merge_dataset.h"
 
 #include "faulty_files.h"
 #include "synthetic.h"

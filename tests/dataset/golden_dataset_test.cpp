@@ -6,14 +6,14 @@
 #include <sstream>
 
 #include "doorforge/core/committed_file.h"
-#include "doorforge/datagen/describe_dataset.h"
-#include "doorforge/datagen/describe_episodes.h"
-#include "doorforge/datagen/verify_dataset.h"
+#include "doorforge/dataset/describe_dataset.h"
+#include "doorforge/dataset/describe_episodes.h"
+#include "doorforge/dataset/verify_dataset.h"
 
 #include "synthetic.h"
 
 // tests/golden/dataset_v1 was written by the first builds of format version 1 and never changes:
-// eight episodes of seven doors, one failure. tests/datagen/reader_test.py reads it in Python.
+// eight episodes of seven doors, one failure. tests/dataset/reader_test.py reads it in Python.
 
 namespace doorforge {
 namespace {

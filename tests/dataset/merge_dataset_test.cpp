@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/datagen/merge_dataset.h"
+#include "doorforge/dataset/merge_dataset.h"
 
 #include <algorithm>
 #include <numeric>
 
 #include "doorforge/core/error.h"
-#include "doorforge/datagen/regenerate.h"
-#include "doorforge/datagen/slurm_script.h"
-#include "doorforge/datagen/task_number.h"
+#include "doorforge/dataset/regenerate.h"
+#include "doorforge/dataset/slurm_script.h"
+#include "doorforge/dataset/task_number.h"
 
 #include "../program_answer.h"
 #include "synthetic.h"

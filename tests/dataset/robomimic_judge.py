@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """robomimic itself on an export: its report on the file, then ten steps of its behaviour cloning.
 
-    /usr/bin/python3 tests/datagen/robomimic_judge.py BUILD [--data DIR --stage STAGE] [--venv DIR]
+    /usr/bin/python3 tests/dataset/robomimic_judge.py BUILD [--data DIR --stage STAGE] [--venv DIR]
 
 It is for hand, not one of the tests of ./test.sh: robomimic comes from PyPI with what it imports (about half a minute),
 into a virtual environment that borrows Debian's python3-torch, python3-h5py and python3-numpy. Ends with 0 if robomimic

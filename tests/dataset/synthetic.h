@@ -13,7 +13,7 @@
 
 #include "doorforge/core/hash.h"
 #include "doorforge/core/rng.h"
-#include "doorforge/datagen/collect.h"
+#include "doorforge/dataset/collect.h"
 
 // Episodes that no simulator made: cheap, reproducible, valid for every check.
 

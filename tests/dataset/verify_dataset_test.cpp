@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/datagen/verify_dataset.h"
+#include "doorforge/dataset/verify_dataset.h"
 
 #include <algorithm>
 #include <functional>
@@ -9,8 +9,8 @@
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
-#include "doorforge/datagen/dataset_card.h"
-#include "doorforge/datagen/merge_dataset.h"
+#include "doorforge/dataset/dataset_card.h"
+#include "doorforge/dataset/merge_dataset.h"
 
 #include "synthetic.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "forecast.h"
+#include "doorforge/collect/forecast.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reobserve.h"
+#include "doorforge/collect/reobserve.h"
 
 #include <algorithm>
 #include <array>
@@ -25,7 +25,6 @@
 #include "episode_records.h"
 #include "recorded_robot.h"
 #include "recording_camera.h"
-#include "robot_meshes.h"
 
 namespace doorforge {
 namespace {
@@ -190,11 +189,17 @@ CollectedEpisode FailedAgain(const FailedEpisode& failure) {
   return collected;
 }
 
+// The robot of all episodes.
+struct RobotFile {
+  std::string urdf;  // empty: the embedded one
+  RobotMeshReader read_mesh;
+};
+
 class Reobservation {
  public:
-  Reobservation(const SourceDataset& source, const ReobserveConfig& config,
-                const std::string& robot_file, const std::vector<FoundDoor>& doors)
-      : source_(source), config_(config), robot_file_(robot_file), shelf_(doors) {}
+  Reobservation(const SourceDataset& source, const ReobserveConfig& config, RobotFile robot,
+                const std::vector<FoundDoor>& doors)
+      : source_(source), config_(config), robot_file_(std::move(robot)), shelf_(doors) {}
 
   CollectedEpisode Look(const PlannedEpisode& planned) {
     const Source& source = source_.SourceOf(planned.key);
@@ -258,7 +263,8 @@ class Reobservation {
   }
 
   RobotModel RobotOf(const Scene& scene) const {
-    RobotModel robot = LoadRobot(robot_file_, RobotBaseNamed(scene.physics.base), RobotMeshes());
+    RobotModel robot =
+        LoadRobot(robot_file_.urdf, RobotBaseNamed(scene.physics.base), robot_file_.read_mesh);
     Require(robot.sha256() == scene.robot.sha256, ErrorCode::kInvalidArgument,
             "robot \"" + scene.robot.name + "\" is another one than in the dataset");
     return robot;
@@ -266,7 +272,7 @@ class Reobservation {
 
   const SourceDataset& source_;
   const ReobserveConfig& config_;
-  std::string robot_file_;
+  RobotFile robot_file_;
   DoorShelf shelf_;
 };
 
@@ -323,7 +329,8 @@ CollectSummary ReobserveDataset(const ReobserveRequest& request) {
   RequireSpaceForClouds(source, config, request.out);
   const std::vector<FoundDoor> doors =
       FindRecordedDoors(DoorSelectionOf(request.doors), source.provenance().doors, request.threads);
-  Reobservation reobservation(source, config, source_config.robot_file, doors);
+  Reobservation reobservation(source, config, {source_config.robot_file, request.robot_meshes},
+                              doors);
   CollectRequest collect;
   collect.folder = request.out;
   collect.stage = source.stage();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "stage_episode.h"
+#include "doorforge/collect/stage_episode.h"
 
 #include <optional>
 #include <utility>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "stage_run.h"
+#include "doorforge/collect/stage_run.h"
 
 #include <cstdio>
 #include <set>
@@ -13,14 +13,12 @@
 #include "doorforge/core/program.h"
 #include "doorforge/rollout/run_episode.h"
 
-#include "robot_meshes.h"
-
 namespace doorforge {
 namespace {
 
-RobotModel RobotFor(const StageConfig& config) {
+RobotModel RobotFor(const StageConfig& config, const RobotMeshReader& read_mesh) {
   RobotModel robot =
-      LoadRobot(config.scene.robot, RobotBaseNamed(config.scene.physics.base), RobotMeshes());
+      LoadRobot(config.scene.robot, RobotBaseNamed(config.scene.physics.base), read_mesh);
   Require(HasProprioception(robot), ErrorCode::kInvalidArgument,
           "config.scene: data are recorded for robots with two sliders or a fixed base, seven arm "
           "joints and two fingers; let others open doors with `doorforge simulate`");
@@ -117,7 +115,7 @@ std::string HashOf(const std::vector<FoundDoor>& doors) {
 
 StageRun::StageRun(const StageRequest& request)
     : config_(Checked(request)),
-      robot_(RobotFor(config_)),
+      robot_(RobotFor(config_, request.robot_meshes)),
       handler_(PoolOf<PolicyPool>(request.policies.handler, Stage::kHandle, "handler",
                                   config_.cloud, LoadTrainedPolicy)),
       opener_(PoolOf<PolicyPool>(request.policies.opener, Stage::kOpen, "opener", config_.cloud,

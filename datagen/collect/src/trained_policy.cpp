@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "trained_policy.h"
+#include "doorforge/collect/trained_policy.h"
 
 #include <utility>
 

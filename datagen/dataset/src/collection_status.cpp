@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/datagen/collection_status.h"
+#include "doorforge/dataset/collection_status.h"
 
 #include <algorithm>
 #include <cmath>

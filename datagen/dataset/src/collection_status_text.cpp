@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "doorforge/datagen/collection_status.h"
+#include "doorforge/dataset/collection_status.h"
 
 namespace doorforge {
 namespace {

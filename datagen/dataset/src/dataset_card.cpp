@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/datagen/dataset_card.h"
+#include "doorforge/dataset/dataset_card.h"
 
 #include <algorithm>
 #include <cctype>

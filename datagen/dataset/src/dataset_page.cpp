@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <string_view>
 
-#include "doorforge/datagen/describe_episodes.h"
+#include "doorforge/dataset/describe_episodes.h"
 
 namespace doorforge {
 namespace {

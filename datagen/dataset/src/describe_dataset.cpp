@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/datagen/describe_dataset.h"
+#include "doorforge/dataset/describe_dataset.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "doorforge/core/json_file.h"
-#include "doorforge/datagen/describe_episodes.h"
+#include "doorforge/dataset/describe_episodes.h"
 #include "doorforge/schemas/dataset.h"
 #include "doorforge/schemas/episode.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/datagen/describe_episodes.h"
+#include "doorforge/dataset/describe_episodes.h"
 
 #include <algorithm>
 #include <cstdio>

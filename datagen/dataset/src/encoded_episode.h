@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "doorforge/datagen/collect.h"
+#include "doorforge/dataset/collect.h"
 #include "doorforge/schemas/dataset.h"
 #include "doorforge/schemas/shard.h"
 

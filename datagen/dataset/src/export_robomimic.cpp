@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/datagen/export_robomimic.h"
+#include "doorforge/dataset/export_robomimic.h"
 
 #include <algorithm>
 #include <array>

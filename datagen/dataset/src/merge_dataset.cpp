@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/datagen/merge_dataset.h"
+#include "doorforge/dataset/merge_dataset.h"
 
 #include <fstream>
 #include <vector>

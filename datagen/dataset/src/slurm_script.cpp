@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/datagen/slurm_script.h"
+#include "doorforge/dataset/slurm_script.h"
 
 #include <algorithm>
 
 #include "doorforge/core/error.h"
-#include "doorforge/datagen/task_number.h"
+#include "doorforge/dataset/task_number.h"
 
 namespace doorforge {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/datagen/task_number.h"
+#include "doorforge/dataset/task_number.h"
 
 #include <charconv>
 #include <cstdlib>

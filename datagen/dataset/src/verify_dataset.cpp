@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/datagen/verify_dataset.h"
+#include "doorforge/dataset/verify_dataset.h"
 
 #include <algorithm>
 #include <cmath>

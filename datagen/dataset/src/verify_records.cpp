@@ -14,7 +14,7 @@
 #include "doorforge/core/folder_lock.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
-#include "doorforge/datagen/dataset_card.h"
+#include "doorforge/dataset/dataset_card.h"
 #include "doorforge/schemas/dataset.h"
 
 #include "dataset_records.h"

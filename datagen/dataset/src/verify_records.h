@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "doorforge/datagen/verify_dataset.h"
+#include "doorforge/dataset/verify_dataset.h"
 
 namespace doorforge::internal {
 

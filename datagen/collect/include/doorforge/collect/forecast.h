@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "stage_run.h"
+#include "doorforge/collect/stage_run.h"
 
 namespace doorforge {
 

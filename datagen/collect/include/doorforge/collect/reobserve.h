@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "doorforge/datagen/collect.h"
+#include "doorforge/dataset/collect.h"
+#include "doorforge/physics/load_robot.h"
 #include "doorforge/physics/scene_sampling.h"
 #include "doorforge/rollout/grasp_look.h"
 #include "doorforge/sensor/point_cloud.h"
@@ -42,6 +43,7 @@ struct ReobserveRequest {
   std::string config;              ///< File with settings; empty: none.
   std::vector<std::string> settings;
   std::string robot;  ///< URDF of the robot, where config.yaml names one; see RecordedRobot().
+  RobotMeshReader robot_meshes;  ///< Reads the meshes of that robot; see LoadRobot().
   bool without_robot = false;
   int threads = 0;
 };

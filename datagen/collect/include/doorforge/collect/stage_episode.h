@@ -5,8 +5,9 @@
 #include <cstdint>
 #include <string>
 
-#include "doorforge/datagen/collect.h"
-#include "doorforge/datagen/collection_plan.h"
+#include "doorforge/collect/trained_policy.h"
+#include "doorforge/dataset/collect.h"
+#include "doorforge/dataset/collection_plan.h"
 #include "doorforge/physics/robot_model.h"
 #include "doorforge/physics/scene_sampling.h"
 #include "doorforge/rollout/grasp_look.h"
@@ -15,8 +16,6 @@
 #include "doorforge/rollout/random_grasp.h"
 #include "doorforge/schemas/door_asset.h"
 #include "doorforge/sensor/point_cloud.h"
-
-#include "trained_policy.h"
 
 namespace doorforge {
 

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "doorforge/datagen/collect.h"
-#include "doorforge/datagen/collection_plan.h"
+#include "doorforge/collect/stage_episode.h"
+#include "doorforge/dataset/collect.h"
+#include "doorforge/dataset/collection_plan.h"
+#include "doorforge/physics/load_robot.h"
 #include "doorforge/schemas/door_set.h"
-
-#include "stage_episode.h"
 
 namespace doorforge {
 
@@ -20,6 +20,7 @@ struct StageRequest {
   std::vector<std::string> doors;  ///< As DoorSelectionOf().
   PolicyFolders policies;
   int threads = 0;
+  RobotMeshReader robot_meshes;  ///< Reads the meshes of config.scene.robot; see LoadRobot().
 };
 
 /// A collection of one stage, ready to run: everything that can be refused has been. Not copied,

@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "doorforge/core/file_system.h"
-#include "doorforge/datagen/collection_plan.h"
+#include "doorforge/dataset/collection_plan.h"
 #include "doorforge/schemas/dataset.h"
 #include "doorforge/schemas/episode.h"
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "doorforge/datagen/door_split.h"
+#include "doorforge/dataset/door_split.h"
 
 namespace doorforge {
 

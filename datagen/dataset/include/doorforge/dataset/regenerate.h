@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "doorforge/datagen/collect.h"
-#include "doorforge/datagen/verify_dataset.h"
+#include "doorforge/dataset/collect.h"
+#include "doorforge/dataset/verify_dataset.h"
 
 namespace doorforge {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "doorforge/datagen/collect.h"
+#include "doorforge/dataset/collect.h"
 
 namespace doorforge {
 

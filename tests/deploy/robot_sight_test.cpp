@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/evaluate/robot_sight.h"
+#include "doorforge/deploy/robot_sight.h"
 
 #include <array>
 #include <cmath>
@@ -20,7 +20,7 @@
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
-#include "doorforge/evaluate/record_sight.h"
+#include "doorforge/deploy/record_sight.h"
 #include "doorforge/physics/scene_sampling.h"
 #include "doorforge/policy/familiarity.h"
 #include "doorforge/policy/gain_critic.h"
@@ -656,7 +656,7 @@ TEST_F(RobotSightTest, ThePictureShowsWhereTheHandIsToGo) {
   // the left of two tiles of 640 pixels holds the whole picture, behind a margin of a few pixels
   const double scale = 640.0 / scene_.camera.width;
   const ProgramAnswer red =
-      AnswerOf(PYTHON " " DOORFORGE_SOURCE_DIR "/tests/evaluate/colored_pixels.py " +
+      AnswerOf(PYTHON " " DOORFORGE_SOURCE_DIR "/tests/deploy/colored_pixels.py " +
                picture.string() + " 220 40 40 650");
   std::istringstream numbers(red.text);
   double count = 0;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "doorforge/evaluate/report_page.h"
+#include "doorforge/report/report_page.h"
 
 namespace doorforge {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/evaluate/over_trainings.h"
+#include "doorforge/report/over_trainings.h"
 
 #include <cmath>
 

@@ -6,7 +6,7 @@
 
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/program.h"
-#include "doorforge/evaluate/report_page.h"
+#include "doorforge/report/report_page.h"
 
 #include "example_pictures.h"
 #include "example_report.h"
@@ -17,7 +17,7 @@ namespace {
 int OpenInBrowser(const std::string& name, const std::string& page) {
   const std::filesystem::path path = std::filesystem::path(DOORFORGE_BINARY_DIR) / name;
   CommitFile(path, page);
-  return RunChild({PYTHON, DOORFORGE_SOURCE_DIR "/tests/evaluate/browser_check.py", path.string()});
+  return RunChild({PYTHON, DOORFORGE_SOURCE_DIR "/tests/report/browser_check.py", path.string()});
 }
 
 TEST(ReportPageInBrowser, ShowsContentWithoutAMessageInTheConsole) {

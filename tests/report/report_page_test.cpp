@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/evaluate/report_page.h"
+#include "doorforge/report/report_page.h"
 
 #include <filesystem>
 
@@ -19,7 +19,7 @@ int Check(const std::string& page, int pictures) {
   const std::filesystem::path path =
       std::filesystem::path(DOORFORGE_BINARY_DIR) / "report_page.html";
   CommitFile(path, page);
-  return RunChild({PYTHON, DOORFORGE_SOURCE_DIR "/tests/evaluate/page_check.py", path.string(),
+  return RunChild({PYTHON, DOORFORGE_SOURCE_DIR "/tests/report/page_check.py", path.string(),
                    std::to_string(pictures)});
 }
 

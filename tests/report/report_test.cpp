@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/evaluate/report.h"
+#include "doorforge/report/report.h"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
 #include "doorforge/core/error.h"
+#include "doorforge/report/html_numbers.h"
 
-#include "../../train/evaluate/src/html_text.h"
 #include "example_report.h"
 
 namespace doorforge {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/evaluate/success_statistics.h"
+#include "doorforge/report/success_statistics.h"
 
 #include <algorithm>
 #include <cmath>

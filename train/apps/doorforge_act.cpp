@@ -20,10 +20,9 @@
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/output_file.h"
 #include "doorforge/core/program.h"
-
-#include "act_answer.h"
-#include "answer_picture.h"
-#include "decider.h"
+#include "doorforge/deploy/act_answer.h"
+#include "doorforge/deploy/answer_picture.h"
+#include "doorforge/deploy/online_controller.h"
 
 namespace doorforge {
 namespace {
@@ -31,7 +30,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Options {
-  DeciderSetup setup;
+  OnlineControllerSetup setup;
+  std::string camera;
+  std::string stage = "auto";
   std::string depth;
   std::string state;
   std::string handle;
@@ -48,23 +49,23 @@ struct Options {
 void AddInputs(CLI::App& app, Options& options) {
   app.add_option("--depth", options.depth, "16-bit depth picture (PNG)");
   app.add_option("--state", options.state, "robot's state at that moment (YAML)");
-  app.add_flag("--stream", options.setup.stream,
+  app.add_flag("--stream", options.setup.sees_every_decision,
                "instead of --depth and --state: a decision for every line of standard input, "
                "{\"depth\": FILE, \"state\": FILE} or {\"depth\": FILE, \"handle\": FILE}");
   app.add_option("--handle", options.handle,
                  "instead of --state, before the robot moves: which pixels show the handle (grey "
                  "PNG, not 0 where it is); says where and how to take hold");
-  app.add_option("--camera", options.setup.camera, "intrinsics and pose of the camera (YAML)")
+  app.add_option("--camera", options.camera, "intrinsics and pose of the camera (YAML)")
       ->required();
 }
 
 void AddPolicies(CLI::App& app, Options& options) {
-  app.add_option("--policy", options.setup.policy, "folder of a policy of `doorforge train open`");
+  app.add_option("--policy", options.setup.opener, "folder of a policy of `doorforge train open`");
   app.add_option("--handler", options.setup.handler,
                  "folder of a policy of `doorforge train handle`");
   app.add_option("--grasper", options.setup.grasper,
                  "folder of a policy of `doorforge train grasp`");
-  app.add_option("--stage", options.setup.stage,
+  app.add_option("--stage", options.stage,
                  "which of them acts: open, handle, or auto: as the state says (unlocked)")
       ->check(CLI::IsMember({"auto", "open", "handle"}))
       ->capture_default_str();
@@ -99,12 +100,12 @@ void CheckOptions(const Options& options) {
   };
   const bool one = !options.depth.empty() && options.state.empty() != options.handle.empty();
   const bool none = options.depth.empty() && options.state.empty() && options.handle.empty();
-  const DeciderSetup& setup = options.setup;
-  require(setup.stream ? none : one,
+  const OnlineControllerSetup& setup = options.setup;
+  require(setup.sees_every_decision ? none : one,
           "--depth and either --state or --handle, or --stream in place of them, are required");
-  require(!setup.policy.empty() || !setup.handler.empty() || !setup.grasper.empty(),
+  require(!setup.opener.empty() || !setup.handler.empty() || !setup.grasper.empty(),
           "--policy, --handler or --grasper is required");
-  require(!setup.stream || options.picture.empty(),
+  require(!setup.sees_every_decision || options.picture.empty(),
           "--picture is of one answer, and --stream gives many; leave one of them out");
 }
 
@@ -120,14 +121,13 @@ void SetHold(const std::string& text, const char* option, bool& on, double& thre
                 std::string(option) + ": found \"" + text + "\", expected a number or off");
 }
 
-ActConfig ConfigOf(const Options& options) {
-  auto config = LoadConfig<ActConfig>(options.config, options.settings);
+OnlineControllerConfig ConfigOf(const Options& options) {
+  auto config = LoadConfig<OnlineControllerConfig>(options.config, options.settings);
   if (options.candidates) config.policy.candidates = *options.candidates;
   HoldConfig& hold = config.hold;
   SetHold(options.foreign_limit, "--foreign-limit", hold.foreign, hold.foreign_percentile);
   SetHold(options.least_gain, "--least-gain", hold.gain, hold.least_gain_rad);
   SetHold(options.least_gain, "--least-gain", hold.gain, hold.least_door_angle_rad);
-  CheckActConfig(config);
   return config;
 }
 
@@ -155,15 +155,16 @@ Options Parse(int argc, char** argv) {
   return options;
 }
 
-ActAnswer AnswerLine(Decider& decider, const std::string& line) {
+ActAnswer AnswerLine(OnlineController& controller, const std::string& camera,
+                     const std::string& line) {
   const Json request = ParseJson(line, "line");
   if (!request.is_object())
     throw Error(ErrorCode::kFormat, "expected a line {\"depth\": FILE, \"state\": FILE}");
   if (request.contains("handle"))
-    return decider.DecideGrasp(ValueOf<std::string>(request, "depth", "line"),
-                               ValueOf<std::string>(request, "handle", "line"));
-  return decider.Decide(ValueOf<std::string>(request, "depth", "line"),
-                        ValueOf<std::string>(request, "state", "line"));
+    return DecideGraspFromFiles(controller, ValueOf<std::string>(request, "depth", "line"),
+                                ValueOf<std::string>(request, "handle", "line"), camera);
+  return DecideFromFiles(controller, ValueOf<std::string>(request, "depth", "line"),
+                         ValueOf<std::string>(request, "state", "line"), camera);
 }
 
 // A picture that cannot be used is answered and the loop goes on: the robot holds still meanwhile.
@@ -174,18 +175,19 @@ Json Refusal(const Error& error) {
           {"error", error.what()}};
 }
 
-int Stream(Decider& decider, bool text) {
+int Stream(OnlineController& controller, const Options& options) {
   bool held = false;
   for (std::string line; StopRequested() == 0 && std::getline(std::cin, line);) {
     if (line.empty()) continue;
     std::string shown;
     try {
-      const ActAnswer answer = AnswerLine(decider, line);
+      const ActAnswer answer = AnswerLine(controller, options.camera, line);
       held = held || !answer.hold_reasons.empty();
-      shown = text ? AnswerText(answer) : JsonText(AnswerToJson(answer));
+      shown = options.text ? AnswerText(answer) : JsonText(AnswerToJson(answer));
     } catch (const Error& error) {
       held = true;
-      shown = text ? "hold:     " + std::string(error.what()) + "\n" : JsonText(Refusal(error));
+      shown =
+          options.text ? "hold:     " + std::string(error.what()) + "\n" : JsonText(Refusal(error));
     }
     std::cout << shown << std::endl;  // flushed: a robot waits for it
   }
@@ -195,19 +197,23 @@ int Stream(Decider& decider, bool text) {
 
 int Act(Options options) {
   options.setup.config = ConfigOf(options);
+  if (options.stage != "auto") options.setup.stage = StageNamed(options.stage);
   RequireNoFile(options.picture, options.overwrite);
-  Decider decider(options.setup);
-  if (options.setup.stream) return Stream(decider, options.text);
-  const ActAnswer answer = options.handle.empty()
-                               ? decider.Decide(options.depth, options.state)
-                               : decider.DecideGrasp(options.depth, options.handle);
+  options.setup.camera = ReadCalibratedCamera(options.camera);
+  OnlineController controller(options.setup);
+  for (const std::string& note : controller.notes())
+    std::fprintf(stderr, "doorforge: note: %s\n", note.c_str());
+  if (options.setup.sees_every_decision) return Stream(controller, options);
+  const ActAnswer answer =
+      options.handle.empty()
+          ? DecideFromFiles(controller, options.depth, options.state, options.camera)
+          : DecideGraspFromFiles(controller, options.depth, options.handle, options.camera);
   if (options.text)
     std::cout << AnswerText(answer);
   else
     std::cout << JsonText(AnswerToJson(answer), 2) << "\n";
   if (!options.picture.empty())
-    WritePng(options.picture,
-             AnswerPicture(answer, decider.last_seen(), decider, options.setup.config.cloud));
+    WritePng(options.picture, AnswerPicture(answer, controller, options.setup.config.cloud));
   return answer.hold_reasons.empty() ? 0 : 1;
 }
 

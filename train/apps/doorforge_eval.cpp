@@ -3,8 +3,8 @@
 
 #include <string_view>
 
-#include "doorforge/evaluate/eval_verb.h"
-#include "doorforge/evaluate/report_verb.h"
+#include "doorforge/verbs/eval_verb.h"
+#include "doorforge/verbs/report_verb.h"
 
 // `doorforge eval ...` and `doorforge report ...` start this program with the verb as first
 // argument

@@ -17,7 +17,7 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/output_file.h"
 #include "doorforge/core/program.h"
-#include "doorforge/evaluate/record_sight.h"
+#include "doorforge/deploy/record_sight.h"
 #include "doorforge/schemas/door_set.h"
 
 namespace doorforge {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "doorforge/evaluate/eval_verb.h"
+#include "doorforge/verbs/eval_verb.h"
 
 #include <cmath>
 #include <cstdio>
@@ -20,8 +20,8 @@
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/evaluate/evaluate_opener.h"
-
-#include "print_report.h"
+#include "doorforge/report/report_folder.h"
+#include "doorforge/report/report_table.h"
 
 namespace doorforge {
 namespace {
@@ -137,21 +137,6 @@ std::string CommandLine(int argc, char** argv, const OwnPolicies& own) {
   return line;
 }
 
-void WriteReport(const Evaluation& evaluation, const fs::path& out, StagedFolder& staged) {
-  WriteJsonFile(staged.path() / "report.json", ReportToJson(evaluation.report));
-  CommitFile(staged.path() / "report.html", ReportPage(evaluation.report, evaluation.pictures));
-  CommitFile(staged.path() / "config.yaml",
-             JsonText(evaluation.report.provenance.config, 2) + "\n");
-  for (const ReportGrasp& grasp : evaluation.pictures.grasps)
-    CommitFile(
-        staged.path() / "heat_maps" /
-            (std::string(NameOf(grasp.category)) + (grasp.opened ? "_opened.png" : "_failed.png")),
-        grasp.picture.png);
-  staged.Commit();
-  std::fprintf(stderr, "report: %s\n",
-               fs::absolute(out / "report.html").lexically_normal().c_str());
-}
-
 int Evaluate(Options& options) {
   // refused before hours of work, not after
   std::optional<StagedFolder> staged;
@@ -167,7 +152,11 @@ int Evaluate(Options& options) {
     return 128 + StopRequested();
   }
   for (const std::string& note : evaluation.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
-  if (staged) WriteReport(evaluation, options.out, *staged);
+  if (staged) {
+    WriteReportFolder(evaluation.report, evaluation.pictures, *staged);
+    std::fprintf(stderr, "report: %s\n",
+                 fs::absolute(fs::path(options.out) / "report.html").lexically_normal().c_str());
+  }
   const std::string text = options.json ? JsonText(ReportToJson(evaluation.report), 2) + "\n"
                                         : ReportTable(evaluation.report);
   std::fwrite(text.data(), 1, text.size(), stdout);

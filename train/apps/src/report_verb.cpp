@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/evaluate/report_verb.h"
+#include "doorforge/verbs/report_verb.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -12,7 +12,7 @@
 #include "doorforge/core/command_line.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
-#include "doorforge/evaluate/over_trainings.h"
+#include "doorforge/report/over_trainings.h"
 
 namespace doorforge {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "act_answer.h"
+#include "doorforge/deploy/act_answer.h"
 
 #include <cstdio>
 #include <numbers>

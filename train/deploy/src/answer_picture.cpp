@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "answer_picture.h"
+#include "doorforge/deploy/answer_picture.h"
 
 #include <algorithm>
 #include <array>
@@ -219,11 +219,11 @@ Picture Drawn(const ActAnswer& answer, const Excerpt& part, const RigidTransform
 
 }  // namespace
 
-Picture AnswerPicture(const ActAnswer& answer, const SeenPicture& seen, const Decider& decider,
+Picture AnswerPicture(const ActAnswer& answer, const OnlineController& controller,
                       const CloudConfig& cloud) {
   constexpr int kTile = 640;
-  const RigidTransform hand_from_tcp = decider.robot().hand_from_tcp();
-  const Excerpt whole{seen, decider.camera().view};
+  const RigidTransform hand_from_tcp = controller.robot().hand_from_tcp();
+  const Excerpt whole{controller.last_seen(), controller.camera().view};
   const Excerpt close = CloseUp(whole, (answer.world_from_hand * hand_from_tcp).translation());
   const std::vector<Picture> tiles = {Drawn(answer, whole, hand_from_tcp, cloud),
                                       Drawn(answer, close, hand_from_tcp, cloud)};

@@ -1,15 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "decider.h"
+#include "doorforge/deploy/online_controller.h"
 
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/physics/load_robot.h"
-#include "doorforge/policy/policy_file.h"
 #include "doorforge/rollout/gripper_clearance.h"
 #include "doorforge/rollout/run_episode.h"
 
@@ -20,31 +18,23 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMostPictureBytes = 512ULL << 20U;
 
-// What of a picture does not fit its camera or another picture is said of these files.
+// What of a picture does not fit its camera or another picture is said of these inputs.
 template <class Look>
-auto NamingFiles(const std::string& files, const Look& look) {
+auto NamingInputs(const std::string& inputs, const Look& look) {
   try {
     return look();
   } catch (const Error& error) {
-    throw Error(error.code(), files + ": " + error.what());
+    throw Error(error.code(), inputs + ": " + error.what());
   }
 }
 
-std::optional<Familiarity> LoadFamiliarity(const std::string& folder, const PolicyRecord& record) {
-  auto familiarity =
-      ReadFamiliarity(folder, record.provenance.dataset_sha256, record.networks.family);
-  if (!familiarity)
-    std::fprintf(stderr,
-                 "doorforge: note: %s has no familiar.safetensors: how foreign a picture is to "
-                 "this policy cannot be told; its training command, run again with --resume, adds "
-                 "it\n",
-                 folder.c_str());
-  return familiarity;
+DepthImage ReadDepth(const fs::path& path, const CalibratedCamera& camera) {
+  return DecodeDepthPng(ReadFile(path, kMostPictureBytes), camera.metres_per_unit, path.string());
 }
 
 }  // namespace
 
-void CheckActConfig(const ActConfig& config) {
+void CheckOnlineControllerConfig(const OnlineControllerConfig& config) {
   Require(config.cloud.point_count == 4096, ErrorCode::kInvalidConfig,
           "cloud.point_count: policies read 4096 points");
   Require(config.hold.foreign_percentile >= 0 && config.hold.foreign_percentile <= 100,
@@ -56,29 +46,39 @@ void CheckActConfig(const ActConfig& config) {
       "hold.least_gain_rad and least_door_angle_rad (--least-gain): expected a number, or off");
 }
 
-Decider::Decider(const DeciderSetup& setup)
-    : setup_(setup),
-      robot_(LoadRobot({}, RobotBaseNamed(setup.base))),
-      camera_(ReadCalibratedCamera(setup.camera)),
-      opener_(LoadActor(setup.policy, Stage::kOpen, setup.config.policy)),
-      handler_(LoadHandler(setup.handler, setup.config.policy)),
-      grasper_(LoadGrasper(setup.grasper, setup.config.grasp)) {}
+OnlineController::OnlineController(const OnlineControllerSetup& setup)
+    : setup_(setup), robot_(LoadRobot({}, RobotBaseNamed(setup.base))) {
+  CheckOnlineControllerConfig(setup.config);
+  opener_ = LoadActor(setup.opener, Stage::kOpen);
+  handler_ = LoadHandler(setup.handler);
+  grasper_ = LoadGrasper(setup.grasper);
+}
 
-std::optional<Decider::Actor> Decider::LoadActor(const std::string& folder, Stage stage,
-                                                 const PolicyOptions& options) {
+std::optional<Familiarity> OnlineController::LoadFamiliarity(const std::string& folder,
+                                                             const PolicyRecord& record) {
+  auto familiarity =
+      ReadFamiliarity(folder, record.provenance.dataset_sha256, record.networks.family);
+  if (!familiarity)
+    notes_.push_back(folder +
+                     " has no familiar.safetensors: how foreign a picture is to this policy cannot "
+                     "be told; its training command, run again with --resume, adds it");
+  return familiarity;
+}
+
+std::optional<OnlineController::Actor> OnlineController::LoadActor(const std::string& folder,
+                                                                   Stage stage) {
   if (folder.empty()) return std::nullopt;
   PolicyRecord record = ReadPolicy(folder, NameOf(stage));
   auto familiarity = LoadFamiliarity(folder, record);
   GainCritic critic(record.networks);
-  Actor actor{MakePolicy(std::move(record.networks), options), record.weights_sha256,
+  Actor actor{MakePolicy(std::move(record.networks), setup_.config.policy), record.weights_sha256,
               std::move(critic), std::move(familiarity)};
   actor.policy->Reset();
   return actor;
 }
 
-std::optional<Decider::Actor> Decider::LoadHandler(const std::string& folder,
-                                                   const PolicyOptions& options) {
-  std::optional<Actor> actor = LoadActor(folder, Stage::kHandle, options);
+std::optional<OnlineController::Actor> OnlineController::LoadHandler(const std::string& folder) {
+  std::optional<Actor> actor = LoadActor(folder, Stage::kHandle);
   if (!actor) return actor;
   const auto classifier = ReadTurnedClassifier(
       folder, ReadPolicy(folder, NameOf(Stage::kHandle)).provenance.dataset_sha256);
@@ -89,28 +89,25 @@ std::optional<Decider::Actor> Decider::LoadHandler(const std::string& folder,
   return actor;
 }
 
-std::optional<Decider::Grasper> Decider::LoadGrasper(const std::string& folder,
-                                                     const GraspOptions& options) {
+std::optional<OnlineController::Grasper> OnlineController::LoadGrasper(const std::string& folder) {
   if (folder.empty()) return std::nullopt;
   PolicyRecord record = ReadPolicy(folder, NameOf(Stage::kGrasp));
   auto familiarity = LoadFamiliarity(folder, record);
-  return Grasper{MakeGraspPolicy(std::move(record.networks), options), record.weights_sha256,
-                 std::move(familiarity)};
+  return Grasper{MakeGraspPolicy(std::move(record.networks), setup_.config.grasp),
+                 record.weights_sha256, std::move(familiarity)};
 }
 
-ActAnswer Decider::DecideGrasp(const fs::path& depth_path, const fs::path& handle_path) {
+ActAnswer OnlineController::DecideGrasp(DepthImage depth, PixelMask handle,
+                                        const InputNames& names) {
   if (!grasper_)
     throw Error(ErrorCode::kInvalidArgument,
                 "a grasp is to be chosen, and --grasper, which chooses it, was not given");
   const double yaw = setup_.config.door_yaw_rad;
-  seen_.depth = ReadDepth(depth_path);
-  seen_.handle = DecodeMaskPng(ReadFile(handle_path, kMostPictureBytes), handle_path.string());
-  HandleSight sight =
-      NamingFiles(depth_path.string() + ", " + handle_path.string() + " and " + setup_.camera, [&] {
-        return ObserveHandle(seen_.depth, *seen_.handle, camera_,
-                             -Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0),
-                             setup_.config.cloud);
-      });
+  seen_ = {std::move(depth), std::move(handle)};
+  HandleSight sight = NamingInputs(names.depth + ", " + names.handle + " and " + names.camera, [&] {
+    return ObserveHandle(seen_.depth, *seen_.handle, setup_.camera,
+                         -Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0), setup_.config.cloud);
+  });
   const GripperClearance clearance(robot_);
   sight.view.fits = [&](const Eigen::Vector3d& contact_m, const Eigen::Matrix3d& rotation) {
     return clearance.Fits(sight.view.visible, contact_m, rotation);
@@ -118,29 +115,25 @@ ActAnswer Decider::DecideGrasp(const fs::path& depth_path, const fs::path& handl
   return Answer(*grasper_->policy->Choose(sight.view), sight);
 }
 
-ActAnswer Decider::Decide(const fs::path& depth_path, const fs::path& state_path) {
-  const RobotState state = ReadRobotState(state_path, robot_);
-  seen_ = {ReadDepth(depth_path), {}};
-  const Stage stage = StageOf(state, state_path.string());
-  const RobotSight sight = NamingFiles(depth_path.string() + " and " + setup_.camera, [&] {
-    return ObserveDepth(seen_.depth, camera_, state, setup_.config.cloud);
+ActAnswer OnlineController::Decide(DepthImage depth, const RobotState& state,
+                                   const InputNames& names) {
+  seen_ = {std::move(depth), {}};
+  const Stage stage = StageOf(state, names.state);
+  const RobotSight sight = NamingInputs(names.depth + " and " + names.camera, [&] {
+    return ObserveDepth(seen_.depth, setup_.camera, state, setup_.config.cloud);
   });
   return Answer(stage, ActorOf(stage), state, sight);
 }
 
-DepthImage Decider::ReadDepth(const fs::path& path) const {
-  return DecodeDepthPng(ReadFile(path, kMostPictureBytes), camera_.metres_per_unit, path.string());
-}
-
-std::optional<Foreignness> Decider::ForeignnessOf(const std::optional<Familiarity>& familiarity,
-                                                  const SightNumbers& numbers) const {
+std::optional<Foreignness> OnlineController::ForeignnessOf(
+    const std::optional<Familiarity>& familiarity, const SightNumbers& numbers) const {
   if (!familiarity) return std::nullopt;
   const double distance = familiarity->DistanceOf(numbers);
   return Foreignness{distance, familiarity->PercentileOf(distance),
                      familiarity->DistanceAt(setup_.config.hold.foreign_percentile)};
 }
 
-ActAnswer Decider::Answer(const GraspChoice& choice, const HandleSight& sight) const {
+ActAnswer OnlineController::Answer(const GraspChoice& choice, const HandleSight& sight) const {
   RigidTransform world_from_tcp = RigidTransform::Identity();
   world_from_tcp.linear() = choice.world_from_hand_rotation * robot_.hand_from_tcp().linear();
   world_from_tcp.translation() =
@@ -161,11 +154,11 @@ ActAnswer Decider::Answer(const GraspChoice& choice, const HandleSight& sight) c
   return answer;
 }
 
-Stage Decider::StageOf(const RobotState& state, const std::string& path) {
-  if (setup_.stage != "auto") return *StageNamed(setup_.stage);
+Stage OnlineController::StageOf(const RobotState& state, const std::string& name) {
+  if (setup_.stage) return *setup_.stage;
   if (!state.unlocked && !unlocked_ && !Predicts())
     throw Error(ErrorCode::kInvalidConfig,
-                path +
+                name +
                     ": the key \"unlocked\" is missing, which says whether the handle has "
                     "been turned; pass --stage, or use --stream with a --handler that says it "
                     "itself (it has a turned.safetensors)");
@@ -174,9 +167,11 @@ Stage Decider::StageOf(const RobotState& state, const std::string& path) {
 }
 
 // Whether the handle policy can say when the handle is turned: it has seen the episode so far.
-bool Decider::Predicts() const { return setup_.stream && handler_ && handler_->turning != nullptr; }
+bool OnlineController::Predicts() const {
+  return setup_.sees_every_decision && handler_ && handler_->turning != nullptr;
+}
 
-Decider::Actor& Decider::ActorOf(Stage stage) {
+OnlineController::Actor& OnlineController::ActorOf(Stage stage) {
   std::optional<Actor>& actor = stage == Stage::kOpen ? opener_ : handler_;
   if (!actor)
     throw Error(ErrorCode::kInvalidArgument,
@@ -187,8 +182,8 @@ Decider::Actor& Decider::ActorOf(Stage stage) {
   return *actor;
 }
 
-ActAnswer Decider::Answer(Stage stage, Actor& actor, const RobotState& state,
-                          const RobotSight& sight) {
+ActAnswer OnlineController::Answer(Stage stage, Actor& actor, const RobotState& state,
+                                   const RobotSight& sight) {
   const Observation& observation = sight.observation;
   const Action action = actor.policy->Act(observation);
   ActAnswer answer;
@@ -211,6 +206,21 @@ ActAnswer Decider::Answer(Stage stage, Actor& actor, const RobotState& state,
     answer.turned = actor.turning->Turned();
   }
   return answer;
+}
+
+ActAnswer DecideFromFiles(OnlineController& controller, const fs::path& depth,
+                          const fs::path& state, const std::string& camera) {
+  const RobotState robot_state = ReadRobotState(state, controller.robot());
+  return controller.Decide(ReadDepth(depth, controller.camera()), robot_state,
+                           {.depth = depth.string(), .state = state.string(), .camera = camera});
+}
+
+ActAnswer DecideGraspFromFiles(OnlineController& controller, const fs::path& depth,
+                               const fs::path& mask, const std::string& camera) {
+  DepthImage picture = ReadDepth(depth, controller.camera());
+  return controller.DecideGrasp(
+      std::move(picture), DecodeMaskPng(ReadFile(mask, kMostPictureBytes), mask.string()),
+      {.depth = depth.string(), .handle = mask.string(), .camera = camera});
 }
 
 }  // namespace doorforge

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/evaluate/record_sight.h"
+#include "doorforge/deploy/record_sight.h"
 
 #include <cstdio>
 #include <string>

@@ -9,7 +9,7 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/rng.h"
-#include "doorforge/evaluate/success_statistics.h"
+#include "doorforge/report/success_statistics.h"
 
 namespace doorforge {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/evaluate/evaluated_episode.h"
+#include "doorforge/report/evaluated_episode.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "html_text.h"
+#include "doorforge/report/html_numbers.h"
 
 #include <algorithm>
 #include <numbers>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "outcome_text.h"
+#include "doorforge/report/outcome_text.h"
 
 namespace doorforge::internal {
 

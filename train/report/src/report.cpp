@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/evaluate/report.h"
+#include "doorforge/report/report.h"
 
 #include <algorithm>
 #include <set>

@@ -8,8 +8,7 @@
 
 #include "doorforge/core/epoch_chart.h"
 #include "doorforge/core/svg_plot.h"
-
-#include "html_text.h"
+#include "doorforge/report/html_numbers.h"
 
 namespace doorforge::internal {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "doorforge/evaluate/report.h"
+#include "doorforge/report/report.h"
 
 // The charts of a report as SVG.
 

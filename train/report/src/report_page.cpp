@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/evaluate/report_page.h"
+#include "doorforge/report/report_page.h"
 
 #include "doorforge/core/page_style.h"
+#include "doorforge/report/html_numbers.h"
 
-#include "html_text.h"
 #include "report_sections.h"
 #include "report_style.h"
 

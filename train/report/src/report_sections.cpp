@@ -8,9 +8,9 @@
 
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
+#include "doorforge/report/html_numbers.h"
+#include "doorforge/report/outcome_text.h"
 
-#include "html_text.h"
-#include "outcome_text.h"
 #include "report_charts.h"
 
 namespace doorforge::internal {

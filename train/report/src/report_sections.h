@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "doorforge/evaluate/report_page.h"
+#include "doorforge/report/report_page.h"
 
 // The sections of a report page as HTML. A section without content is an empty string.
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "print_report.h"
+#include "doorforge/report/report_table.h"
 
 #include <algorithm>
 #include <cmath>

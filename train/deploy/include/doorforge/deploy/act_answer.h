@@ -36,14 +36,15 @@ struct HoldConfig {
   }
 };
 
-/// How far the picture is from those that the policy was trained on, see learn/familiarity.h.
+/// How far the picture is from those that the policy was trained on, see
+/// doorforge/policy/familiarity.h.
 struct Foreignness {
   double distance = 0;
   double percentile = 0;
   double limit = 0;  ///< The distance at HoldConfig::foreign_percentile.
 };
 
-/// What the program says to one picture.
+/// What an OnlineController says to one picture.
 struct ActAnswer {
   Stage stage = Stage::kOpen;
   RigidTransform world_from_hand = RigidTransform::Identity();  ///< Where it is to go.

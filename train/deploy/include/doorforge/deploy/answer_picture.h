@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "doorforge/deploy/act_answer.h"
+#include "doorforge/deploy/online_controller.h"
 #include "doorforge/sensor/picture.h"
 #include "doorforge/sensor/point_cloud.h"
-
-#include "act_answer.h"
-#include "decider.h"
 
 namespace doorforge {
 
@@ -15,8 +14,9 @@ namespace doorforge {
 /// go in red, with its fingers; a grasp's contact as a ring. Below it what is expected, how foreign
 /// the picture is, and whether to hold.
 ///
-/// @param decider Its robot says where the fingers are in the hand's frame.
-Picture AnswerPicture(const ActAnswer& answer, const SeenPicture& seen, const Decider& decider,
+/// @param answer The last answer of `controller`, whose robot says where the fingers are in the
+///     hand's frame.
+Picture AnswerPicture(const ActAnswer& answer, const OnlineController& controller,
                       const CloudConfig& cloud);
 
 }  // namespace doorforge

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "doorforge/core/html_text.h"
-#include "doorforge/evaluate/success_statistics.h"
+#include "doorforge/report/success_statistics.h"
 
 // A report's numbers as HTML.
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "doorforge/evaluate/evaluated_episode.h"
-#include "doorforge/evaluate/success_statistics.h"
+#include "doorforge/report/evaluated_episode.h"
+#include "doorforge/report/success_statistics.h"
 #include "doorforge/schemas/episode.h"
 #include "doorforge/schemas/names.h"
 

@@ -8,8 +8,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "doorforge/evaluate/report.h"
-#include "doorforge/evaluate/success_statistics.h"
+#include "doorforge/report/report.h"
+#include "doorforge/report/success_statistics.h"
 
 namespace doorforge {
 

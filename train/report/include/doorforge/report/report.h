@@ -8,18 +8,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "doorforge/core/committed_file.h"
-#include "doorforge/evaluate/evaluated_episode.h"
-#include "doorforge/evaluate/success_statistics.h"
+#include "doorforge/report/evaluated_episode.h"
+#include "doorforge/report/success_statistics.h"
 #include "doorforge/schemas/door_identity.h"
 #include "doorforge/schemas/seen_parts.h"
 
 namespace doorforge {
 
 inline constexpr int kReportSchemaVersion = 5;
-
-/// The folder of a report, for StagedFolder.
-inline constexpr FolderKind kReportFolder{"a report", "report.json", "doorforge.report"};
 
 /// One loss over a training run: epochs with the mean on the training and on the validation
 /// samples. All three have the same length; a validation value that was not measured is NaN (null

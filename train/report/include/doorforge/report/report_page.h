@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "doorforge/evaluate/report.h"
+#include "doorforge/report/report.h"
 
 namespace doorforge {
 

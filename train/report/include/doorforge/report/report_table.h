@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "doorforge/evaluate/report.h"
+#include "doorforge/report/report.h"
 
 namespace doorforge {
 

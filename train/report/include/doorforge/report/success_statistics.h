@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "doorforge/evaluate/evaluated_episode.h"
+#include "doorforge/report/evaluated_episode.h"
 
 namespace doorforge {
 

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -20,6 +21,9 @@ class RecordingCamera : public Observer {
   /// As CameraObserver's constructor. Without `sees_robot` only the door is there.
   RecordingCamera(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
                   const CloudConfig& config, bool sees_robot = true);
+
+  /// As CameraObserver's.
+  void Remember(RememberedView before) { camera_.Remember(std::move(before)); }
 
   LabelledCloud Observe(const SceneSnapshot& snapshot) override;
   /// The same look, but every point that is visible.

@@ -238,16 +238,29 @@ class Reobservation {
     const Scene seen = at_grasp ? SceneOf(config_.grasp_look, episode.scene) : episode.scene;
     const CloudExtent extent{config_.cloud.point_count, at_grasp ? config_.grasp_look.within_m : 0};
     RecordingCamera camera(seen, door, robot, config_.cloud, sees_robot);
+    std::optional<RememberedView> before;
+    if (source_.stage() == NameOf(Stage::kHandle) && config_.remembered.IsOn())
+      before.emplace(seen, door, robot, config_.cloud, config_.remembered);
     for (std::size_t t = 0; t < arrays.decisions; ++t) {
       Decision decision = DecisionOf(arrays, t, episode.decisions[t].time_s);
       const SceneSnapshot snapshot = SnapshotOf(decision, episode.scene, door, robot);
       const Eigen::Vector3d start =
           at_grasp ? Eigen::Vector3d(decision.action[0], decision.action[1], decision.action[2])
                    : snapshot.robot.world_from_tcp.translation();
-      decision.cloud = SampleCloud(camera.LookAtAll(snapshot), start, extent).cloud;
+      LabelledCloud visible = camera.LookAtAll(snapshot);
+      const bool joins = before && !visible.label.empty();
+      decision.cloud = joins ? before->With(std::move(visible), start)
+                             : SampleCloud(visible, start, extent).cloud;
       episode.decisions[t] = std::move(decision);
     }
     if (at_grasp) collected.meta["cloud_within_m"] = extent.within_m;
+    if (before) {
+      collected.meta["remembered_finer"] = config_.remembered.finer;
+      collected.meta["cloud_within_m"] = config_.remembered.within_m;
+    } else if (!at_grasp) {
+      collected.meta.erase("remembered_finer");
+      collected.meta.erase("cloud_within_m");
+    }
     Describe(camera, seen, collected);
   }
 
@@ -288,8 +301,11 @@ SourceConfig ReadSourceConfig(const fs::path& folder, const std::string& robot) 
   const Json json = ParseYaml(ReadFile(path), path.string());
   SourceConfig source;
   if (json.contains("cloud")) Assign(json["cloud"], source.config.cloud, path.string() + ".cloud");
-  // a data set of an earlier build has none: its clouds were of the whole door
+  // a data set of an earlier build has none: its clouds were of the whole door as it was seen then
   source.config.grasp_look = {.finer = 1, .within_m = 0};
+  source.config.remembered = {.finer = 0};
+  if (json.contains("remembered"))
+    Assign(json["remembered"], source.config.remembered, path.string() + ".remembered");
   if (json.contains("grasp_look"))
     Assign(json["grasp_look"], source.config.grasp_look, path.string() + ".grasp_look");
   if (json.contains("preview"))
@@ -308,6 +324,7 @@ ReobserveConfig ConfigOf(const ReobserveRequest& request, const ReobserveConfig&
   config.own_camera = config.own_camera || ToJson(config.camera) != ToJson(CameraConfig{});
   CheckDepthNoise(config.cloud.noise);
   CheckGraspLook(config.grasp_look);
+  CheckRememberedView(config.remembered);
   if (config.own_camera) CameraOf(config.camera);
   return config;
 }

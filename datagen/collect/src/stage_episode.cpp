@@ -124,6 +124,7 @@ void CheckStageConfig(const StageConfig& config) {
   CheckDepthNoise(config.cloud.noise);
   CheckRandomGrasp(config.grasp);
   CheckGraspLook(config.grasp_look);
+  CheckRememberedView(config.remembered);
   Require(config.sampled_grasps >= 0 && config.sampled_grasps <= 1, ErrorCode::kInvalidConfig,
           "config.sampled_grasps: out of 0..1");
   Require(config.learner_decisions >= 1 && config.learner_decisions <= 1000,
@@ -149,9 +150,18 @@ CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const DoorAsset&
     before.emplace(recorded_scene, door, robot, config.cloud, /*sees_robot=*/false);
   std::optional<RecordingCamera> later;
   if (!at_grasp) later.emplace(scene, door, robot, config.cloud, /*sees_robot=*/true);
+  const bool remembers = config.stage == Stage::kHandle && config.remembered.IsOn();
+  if (remembers) later->Remember({scene, door, robot, config.cloud, config.remembered});
   RecordingCamera& camera = at_grasp ? *before : *later;
   std::optional<CameraObserver> policies_camera;
-  if (at_grasp) policies_camera.emplace(scene, door, robot, config.cloud);
+  if (at_grasp) {
+    policies_camera.emplace(scene, door, robot, config.cloud);
+    const RememberedViewConfig of_handler = trained.handler == nullptr
+                                                ? RememberedViewConfig{.finer = 0}
+                                                : trained.handler->policy().remembered;
+    if (of_handler.IsOn())
+      policies_camera->Remember({scene, door, robot, config.cloud, of_handler});
+  }
   const CloudExtent extent{config.cloud.point_count, within_m};
   const auto look = [&](const SceneSnapshot& snapshot) { return before->LookAtAll(snapshot); };
   RandomGrasp by_chance(scene, door, robot, config.grasp, extent, look);
@@ -184,6 +194,10 @@ CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const DoorAsset&
   if (at_grasp) {
     collected.meta["robot_seen"] = false;
     collected.meta["cloud_within_m"] = within_m;
+  }
+  if (remembers) {
+    collected.meta["remembered_finer"] = config.remembered.finer;
+    collected.meta["cloud_within_m"] = config.remembered.within_m;
   }
   collected.keep_failed = at_grasp;
   const bool is_kept = episode.outcome == EpisodeOutcome::kOpened || collected.keep_failed;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/collect/stage_run.h"
 
+#include <cmath>
 #include <cstdio>
 #include <set>
 #include <utility>
@@ -37,6 +38,23 @@ std::unique_ptr<Pool> PoolOf(const std::string& folder, Stage stage, const std::
   auto pool = std::make_unique<Pool>(policy, load);
   pool->Take();  // weights of another network are refused here, not in the first episode
   return pool;
+}
+
+// A learner is corrected on the clouds that are recorded, so they are to be such as it takes.
+void CheckLearnersClouds(const PolicyPool* learner, const StageConfig& config) {
+  if (learner == nullptr || config.stage != Stage::kHandle) return;
+  const RememberedViewConfig& its = learner->policy().remembered;
+  const RememberedViewConfig& recorded = config.remembered;
+  const bool alike = its.finer == recorded.finer &&
+                     (!its.IsOn() || std::abs(its.within_m - recorded.within_m) < 1e-6);
+  char settings[120];
+  std::snprintf(settings, sizeof settings, "--set remembered.finer=%d --set remembered.within_m=%g",
+                its.finer, its.within_m);
+  Require(alike, ErrorCode::kInvalidArgument,
+          learner->policy().folder.string() +
+              ": the learner takes clouds that remember something else than those that are "
+              "recorded; pass " +
+              settings);
 }
 
 StageConfig Checked(const StageRequest& request) {
@@ -126,7 +144,9 @@ StageRun::StageRun(const StageRequest& request)
                                        config_.cloud, LoadLearnedGrasp)),
       doors_(DoorsFor(request)),
       shelf_(doors_),
-      plan_(MakePlan(PartsOf(doors_), config_.episodes, config_.seed, config_.collection)) {}
+      plan_(MakePlan(PartsOf(doors_), config_.episodes, config_.seed, config_.collection)) {
+  CheckLearnersClouds(learner_.get(), config_);
+}
 
 std::vector<TrainedPolicy> StageRun::Trained() const {
   std::vector<TrainedPolicy> trained;

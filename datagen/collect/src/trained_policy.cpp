@@ -24,6 +24,18 @@ int CloudPointsOf(const nlohmann::ordered_json& json, const std::string& path) {
   return ValueOf<int>(json["sizes"], "cloud_points", path + ".sizes");
 }
 
+// Of policies of the stage "handle" that remember.
+RememberedViewConfig RememberedOf(const nlohmann::ordered_json& json, const std::string& path) {
+  RememberedViewConfig remembered{.finer = 0};
+  if (!json.contains("normalisation") || !json["normalisation"].contains("remembered_finer"))
+    return remembered;
+  const nlohmann::ordered_json& view = json["normalisation"];
+  remembered.finer = ValueOf<int>(view, "remembered_finer", path + ".normalisation");
+  remembered.within_m = ValueOf<double>(view, "cloud_within_m", path + ".normalisation");
+  CheckRememberedView(remembered);
+  return remembered;
+}
+
 class TrainedLearnedGrasp : public LearnedGrasp {
  public:
   explicit TrainedLearnedGrasp(std::unique_ptr<GraspPolicy> policy) : policy_(std::move(policy)) {}
@@ -67,7 +79,8 @@ TrainedPolicy ReadTrainedPolicy(const fs::path& folder, Stage stage, const std::
                        folder,
                        {found, Sha256OfFile(path), {}, {}, {}},
                        role,
-                       CloudPointsOf(json, path.string())};
+                       CloudPointsOf(json, path.string()),
+                       RememberedOf(json, path.string())};
   DatasetPolicy& identity = policy.identity;
   identity.weights_sha256 = ValueOf<std::string>(json, "weights_sha256", path.string());
   const fs::path weights = folder / IdOf(json, "weights", path.string());

@@ -10,6 +10,7 @@
 #include "doorforge/physics/load_robot.h"
 #include "doorforge/physics/scene_sampling.h"
 #include "doorforge/rollout/grasp_look.h"
+#include "doorforge/rollout/remembered_view.h"
 #include "doorforge/sensor/point_cloud.h"
 
 namespace doorforge {
@@ -21,7 +22,8 @@ struct ReobserveConfig {
   bool robot = true;
   bool own_camera = false;  ///< True: `camera` for all episodes; false: each episode's own.
   CameraConfig camera;
-  GraspLook grasp_look;  ///< At "grasp".
+  GraspLook grasp_look;             ///< At "grasp".
+  RememberedViewConfig remembered;  ///< At "handle".
   CloudConfig cloud;
   bool preview = true;
 
@@ -31,6 +33,7 @@ struct ReobserveConfig {
     visit("own_camera", self.own_camera);
     visit("camera", self.camera);
     visit("grasp_look", self.grasp_look);
+    visit("remembered", self.remembered);
     visit("cloud", self.cloud);
     visit("preview", self.preview);
   }

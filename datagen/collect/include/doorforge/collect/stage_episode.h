@@ -14,6 +14,7 @@
 #include "doorforge/rollout/handle_expert.h"
 #include "doorforge/rollout/opening_expert.h"
 #include "doorforge/rollout/random_grasp.h"
+#include "doorforge/rollout/remembered_view.h"
 #include "doorforge/schemas/door_asset.h"
 #include "doorforge/sensor/point_cloud.h"
 
@@ -34,7 +35,8 @@ struct StageConfig {
   RandomGraspConfig grasp;  ///< How grasps are sampled.
   /// With a learner: it drives 1 to this many decisions, drawn for each episode, then the expert.
   int learner_decisions = 16;
-  GraspLook grasp_look;  ///< At "grasp": what the recorded cloud is seen with.
+  GraspLook grasp_look;             ///< At "grasp": what the recorded cloud is seen with.
+  RememberedViewConfig remembered;  ///< At "handle": what the recorded clouds are joined with.
   CloudConfig cloud;
   /// Adds preview.png to each episode: depth at the first and at the last look.
   bool preview = true;
@@ -53,6 +55,7 @@ struct StageConfig {
     }
     visit("grasp", self.grasp);
     if (self.stage == Stage::kGrasp) visit("grasp_look", self.grasp_look);
+    if (self.stage == Stage::kHandle) visit("remembered", self.remembered);
     visit("cloud", self.cloud);
     visit("preview", self.preview);
   }

@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 
 #include "doorforge/rollout/gripper_clearance.h"
+#include "doorforge/rollout/remembered_view.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/schemas/cloud.h"
 #include "doorforge/schemas/dataset.h"
@@ -29,6 +30,7 @@ struct TrainedPolicy {
   DatasetPolicy identity;
   std::string role;      ///< handler, opener or learner, as its option is called.
   int cloud_points = 0;  ///< Of the clouds that it takes; 0: its record does not say.
+  RememberedViewConfig remembered{.finer = 0};  ///< Of the stage "handle": what it remembers.
 };
 
 /// Folders of trained policies that act in the rules' place; empty: the rule.

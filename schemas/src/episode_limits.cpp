@@ -22,7 +22,7 @@ Range RangeOf(std::string_view field) {
   if (field == "farthest_move_m") return {0.01, 1000};
   if (field == "blocking_force_n") return {0, 1e6};
   if (field.ends_with("_actions")) return {1, 1e6};
-  if (field.ends_with("_time_s")) return {0, 60};
+  if (field.ends_with("_time_s")) return {0.01, 60};
   if (field.ends_with("_m_s") || field.ends_with("_rad_s")) return {0.001, 100};
   return {0, 10};
 }

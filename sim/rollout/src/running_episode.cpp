@@ -87,14 +87,14 @@ Observation EpisodeStepper::Running::Observe() const {
 EpisodeImage::Content EpisodeStepper::Running::Save() const {
   const Observer* observer = world_.observer();
   return {world_.SaveWorld(), world_.memory(), course_.state(), now_,
-          observer != nullptr ? observer->Memory() : std::any()};
+          observer != nullptr ? observer->Save() : std::any()};
 }
 
 void EpisodeStepper::Running::Restore(const EpisodeImage::Content& image) {
   world_.Restore(image.world, image.memory);
   course_.Restore(image.course);
   now_ = image.now;
-  if (world_.observer() != nullptr) world_.observer()->Remember(image.observer);
+  if (world_.observer() != nullptr) world_.observer()->Restore(image.observer);
 }
 
 }  // namespace doorforge

@@ -29,9 +29,9 @@ class Observer {
   /// Called at the beginning, after each stage and at each decision.
   virtual void Watch(const SceneSnapshot& /*snapshot*/) {}
   /// What an observer remembers from look to look and a later look depends on, for
-  /// EpisodeStepper::Save(); Remember() puts it back.
-  virtual std::any Memory() const { return {}; }
-  virtual void Remember(const std::any& /*memory*/) {}
+  /// EpisodeStepper::Save(); Restore() puts it back.
+  virtual std::any Save() const { return {}; }
+  virtual void Restore(const std::any& /*memory*/) {}
 };
 
 }  // namespace doorforge

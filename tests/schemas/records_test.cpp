@@ -119,7 +119,8 @@ TEST(Scene, TheRecordHasTheLimitsWhereTheyAreNotTheDefaults) {
 TEST(EpisodeLimits, EveryFieldIsCheckedAndTheFirstWrongOneNamed) {
   EXPECT_NO_THROW(CheckEpisodeLimits({}, "config.scene.episode"));
   std::size_t fields = 0;
-  EpisodeLimits::VisitFields(EpisodeLimits(), [&](const char*, auto) { ++fields; });
+  const EpisodeLimits standard;
+  EpisodeLimits::VisitFields(standard, [&](const char*, auto) { ++fields; });
   for (std::size_t wrong = 0; wrong < fields; ++wrong) {
     EpisodeLimits limits;
     std::size_t at = 0;

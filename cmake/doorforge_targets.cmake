@@ -18,9 +18,10 @@ set(DOORFORGE_ALLOWED_networks core schemas)
 set(DOORFORGE_ALLOWED_policy core schemas networks)
 set(DOORFORGE_ALLOWED_training core schemas networks policy)
 set(DOORFORGE_ALLOWED_report core schemas)
-set(DOORFORGE_ALLOWED_evaluate core schemas physics sensor rollout networks policy report)
+set(DOORFORGE_ALLOWED_registry core schemas physics sensor rollout networks policy)
+set(DOORFORGE_ALLOWED_evaluate core schemas physics sensor rollout networks policy registry report)
 set(DOORFORGE_ALLOWED_deploy core schemas physics sensor rollout networks policy)
-set(DOORFORGE_ALLOWED_verbs core schemas report evaluate)
+set(DOORFORGE_ALLOWED_verbs core schemas registry report evaluate)
 
 # Contraction off: an asset, an episode and a cloud must not depend on whether the compiler fused
 # a multiply with an add.

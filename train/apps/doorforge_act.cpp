@@ -23,6 +23,7 @@
 #include "doorforge/deploy/act_answer.h"
 #include "doorforge/deploy/answer_picture.h"
 #include "doorforge/deploy/online_controller.h"
+#include "doorforge/registry/policy_options.h"
 
 namespace doorforge {
 namespace {
@@ -52,19 +53,22 @@ void AddInputs(CLI::App& app, Options& options) {
   app.add_flag("--stream", options.setup.sees_every_decision,
                "instead of --depth and --state: a decision for every line of standard input, "
                "{\"depth\": FILE, \"state\": FILE} or {\"depth\": FILE, \"handle\": FILE}");
-  app.add_option("--handle", options.handle,
+  app.add_option("--handle-mask", options.handle,
                  "instead of --state, before the robot moves: which pixels show the handle (grey "
                  "PNG, not 0 where it is); says where and how to take hold");
+  AddEarlierName(app, "--handle", "--handle-mask", options.handle);
   app.add_option("--camera", options.camera, "intrinsics and pose of the camera (YAML)")
       ->required();
 }
 
 void AddPolicies(CLI::App& app, Options& options) {
-  app.add_option("--policy", options.setup.opener, "folder of a policy of `doorforge train open`");
+  app.add_option("--opener", options.setup.opener,
+                 "who opens the door: a folder that `doorforge train open` wrote");
+  AddEarlierName(app, "--policy", "--opener", options.setup.opener);
   app.add_option("--handler", options.setup.handler,
-                 "folder of a policy of `doorforge train handle`");
+                 "who turns the handle: a folder that `doorforge train handle` wrote");
   app.add_option("--grasper", options.setup.grasper,
-                 "folder of a policy of `doorforge train grasp`");
+                 "who chooses where to take hold: a folder that `doorforge train grasp` wrote");
   app.add_option("--stage", options.stage,
                  "which of them acts: open, handle, or auto: as the state says (unlocked)")
       ->check(CLI::IsMember({"auto", "open", "handle"}))
@@ -101,10 +105,11 @@ void CheckOptions(const Options& options) {
   const bool one = !options.depth.empty() && options.state.empty() != options.handle.empty();
   const bool none = options.depth.empty() && options.state.empty() && options.handle.empty();
   const OnlineControllerSetup& setup = options.setup;
-  require(setup.sees_every_decision ? none : one,
-          "--depth and either --state or --handle, or --stream in place of them, are required");
+  require(
+      setup.sees_every_decision ? none : one,
+      "--depth and either --state or --handle-mask, or --stream in place of them, are required");
   require(!setup.opener.empty() || !setup.handler.empty() || !setup.grasper.empty(),
-          "--policy, --handler or --grasper is required");
+          "--opener, --handler or --grasper is required");
   require(!setup.sees_every_decision || options.picture.empty(),
           "--picture is of one answer, and --stream gives many; leave one of them out");
 }
@@ -145,11 +150,11 @@ Options Parse(int argc, char** argv) {
       "examples, with pictures of a simulated door, from the folder of the sources:\n"
       "  doorforge act --depth data/sight/lever/grasp/depth.png --camera "
       "data/sight/lever/grasp/camera.yaml \\\n"
-      "      --handle data/sight/lever/grasp/mask.png --grasper data/policies/grasper\n"
+      "      --handle-mask data/sight/lever/grasp/mask.png --grasper data/policies/grasper\n"
       "  doorforge act --depth data/sight/lever/open/depth.png --camera "
       "data/sight/lever/open/camera.yaml \\\n"
-      "      --state data/sight/lever/open/state.yaml --policy data/policies/opener --text\n"
-      "  doorforge act --stream --camera camera.yaml --policy run/opener --handler run/handler");
+      "      --state data/sight/lever/open/state.yaml --opener data/policies/opener --text\n"
+      "  doorforge act --stream --camera camera.yaml --opener run/opener --handler run/handler");
   ParseVerb(app, argc, argv);
   CheckOptions(options);
   return options;
@@ -195,11 +200,20 @@ int Stream(OnlineController& controller, const Options& options) {
   return held ? 1 : 0;
 }
 
+// The words of the other verbs for policies are understood, and told why they do not go here.
+void CheckPolicies(const OnlineControllerSetup& setup) {
+  const std::string needs = "rules read what only the simulator knows, and no robot does";
+  TrainedPolicyFolder(Stage::kOpen, setup.opener, "--opener", needs);
+  TrainedPolicyFolder(Stage::kHandle, setup.handler, "--handler", needs);
+  TrainedPolicyFolder(Stage::kGrasp, setup.grasper, "--grasper", needs);
+}
+
 int Act(Options options) {
   options.setup.config = ConfigOf(options);
   if (options.stage != "auto") options.setup.stage = StageNamed(options.stage);
   RequireNoFile(options.picture, options.overwrite);
   options.setup.camera = ReadCalibratedCamera(options.camera);
+  CheckPolicies(options.setup);
   OnlineController controller(options.setup);
   for (const std::string& note : controller.notes())
     std::fprintf(stderr, "doorforge: note: %s\n", note.c_str());

@@ -58,7 +58,7 @@ Options Parse(int argc, char** argv) {
       "  doorforge compose --body interior_flush_01 --handle interior_lever_tube_01 --out d\n"
       "  doorforge sight --door d --out sight\n"
       "  doorforge act --depth sight/open/depth.png --camera sight/open/camera.yaml \\\n"
-      "      --state sight/open/state.yaml --policy data/policies/opener --picture answer.png");
+      "      --state sight/open/state.yaml --opener data/policies/opener --picture answer.png");
   ParseVerb(app, argc, argv);
   return options;
 }

@@ -118,7 +118,7 @@ EpisodeRun::Failure EpisodeRun::TakeHold() {
 EpisodeRun::Failure EpisodeRun::TakeHold(GraspChooser& chooser) {
   Watch("start");
   chosen_ = true;
-  std::optional<ChosenGrasp> chosen = chooser.Choose(Snapshot("start"));
+  std::optional<GraspAction> chosen = chooser.Choose(Snapshot("start"));
   if (!chosen) {
     problem_ = "no point to take hold of is in view";
     return EpisodeOutcome::kNotReached;
@@ -139,7 +139,7 @@ EpisodeRun::Failure EpisodeRun::TakeHold(GraspChooser& chooser) {
   return unreached;
 }
 
-void EpisodeRun::RecordChoice(ChosenGrasp chosen) {
+void EpisodeRun::RecordChoice(GraspAction chosen) {
   if (roles_.recorded != Stage::kGrasp) return;
   Observation observation;
   observation.cloud = std::move(chosen.cloud);

@@ -36,7 +36,7 @@ class EpisodeRun {
   bool IsTurned() const;
   bool EndsTurn() const;
   Failure TurnFailure(bool lost);
-  void RecordChoice(ChosenGrasp chosen);
+  void RecordChoice(GraspAction chosen);
   void Step(const RobotCommand& command);
   void StepHand();
   int StepsIn(double seconds) const;

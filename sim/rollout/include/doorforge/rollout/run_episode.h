@@ -10,6 +10,7 @@
 #include "doorforge/rollout/observer.h"
 #include "doorforge/schemas/door_asset.h"
 #include "doorforge/schemas/episode.h"
+#include "doorforge/schemas/grasp_policy.h"
 #include "doorforge/schemas/policy.h"
 #include "doorforge/schemas/scene.h"
 
@@ -41,19 +42,13 @@ Proprioception ProprioceptionOf(const RobotModel& robot, const WorldState& state
 Episode RunEpisode(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
                    Policy& opening, Observer* observer);
 
-/// A grasp that somebody chose by looking at the closed door.
-struct ChosenGrasp {
-  LabelledCloud cloud;                                  ///< What was seen; point 0 is the contact.
-  Eigen::Vector3d contact_m = Eigen::Vector3d::Zero();  ///< In the world, on the surface seen.
-  Eigen::Matrix3d world_from_hand_rotation = Eigen::Matrix3d::Identity();
-};
-
-/// Chooses where the hand takes hold, once, before the robot moves.
+/// Chooses where the hand takes hold, once, before the robot moves, from where everything is. The
+/// way from there to what a GraspPolicy sees is GraspFromPolicy.
 class GraspChooser {
  public:
   virtual ~GraspChooser() = default;
   /// Nothing where no point to take hold of is in view.
-  virtual std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) = 0;
+  virtual std::optional<GraspAction> Choose(const SceneSnapshot& snapshot) = 0;
 };
 
 /// How far beyond the contact point the tool centre goes along the hand's z: with the pads' middle

@@ -128,7 +128,7 @@ class OnlineController {
   bool Predicts() const;
   Actor& ActorOf(Stage stage);
   ActAnswer Answer(Stage stage, Actor& actor, const RobotState& state, const RobotSight& sight);
-  ActAnswer Answer(const GraspChoice& choice, const HandleSight& sight) const;
+  ActAnswer Answer(const GraspAction& choice, const HandleSight& sight) const;
   std::optional<Foreignness> ForeignnessOf(const std::optional<Familiarity>& familiarity,
                                            const SightNumbers& numbers) const;
 

@@ -7,7 +7,9 @@
 
 #include "doorforge/core/command_line.h"
 #include "doorforge/core/folder_lock.h"
-#include "doorforge/datagen/describe_dataset.h"
+#include "doorforge/dataset/describe_dataset.h"
+
+#include "robot_meshes.h"
 
 namespace doorforge {
 
@@ -35,7 +37,8 @@ CLI::App* AddReobserve(CLI::App& app, ReobserveRequest& request) {
   return verb;
 }
 
-int RunReobserve(const ReobserveRequest& request) {
+int RunReobserve(ReobserveRequest request) {
+  request.robot_meshes = RobotMeshes();
   const FolderLock lock(request.out, "doorforge dataset re-observe", Writers::kTogether);
   const CollectSummary summary = ReobserveDataset(request);
   if (summary.stopped_by_signal != 0) {

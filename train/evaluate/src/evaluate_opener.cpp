@@ -15,7 +15,7 @@
 #include "doorforge/evaluate/take_pictures.h"
 #include "doorforge/physics/load_robot.h"
 #include "doorforge/policy/policy_file.h"
-#include "doorforge/rollout/camera_observer.h"
+#include "doorforge/registry/run_policy_set.h"
 #include "doorforge/rollout/opening_expert.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/schemas/door_set.h"
@@ -54,8 +54,9 @@ TrialPolicies PoliciesOf(const PolicySetFactory& factory, const EvaluationConfig
   Require(HasProprioception(*robot), ErrorCode::kInvalidConfig,
           "config.scene.physics.base: a policy knows sliders or a fixed base, found " + base);
   return {[&factory] { return factory.Make(); },
-          [&config, robot](const Scene& scene, const DoorAsset& door) {
-            return std::make_unique<CameraObserver>(scene, door, *robot, config.cloud);
+          [&config, robot, remembered = factory.Remembered()](const Scene& scene,
+                                                              const DoorAsset& door) {
+            return CameraOf({scene, door, *robot, config.cloud}, remembered);
           }};
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "doorforge/core/error.h"
+#include "doorforge/policy/policy_file.h"
 #include "doorforge/policy/turning_policy.h"
 
 namespace doorforge {
@@ -31,6 +32,13 @@ bool PolicySetFactory::IsExpertAlone() const {
 
 bool PolicySetFactory::PredictsSwitch() const {
   return handler_.IsFolder() && switch_source_ == SwitchSource::kPolicy;
+}
+
+RememberedViewConfig PolicySetFactory::Remembered() const {
+  if (!handler_.IsFolder()) return {.finer = 0};
+  const NetworkView view =
+      ReadPolicy(handler_.folder, NameOf(Stage::kHandle)).networks.normalisation.view;
+  return {view.remembered_finer, static_cast<double>(view.cloud_within_m)};
 }
 
 void PolicySetFactory::AddOpener(PolicySet& set) const {

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/registry/run_policy_set.h"
 
-#include "doorforge/rollout/camera_observer.h"
 #include "doorforge/rollout/grasp_look.h"
 
 namespace doorforge {
@@ -17,6 +16,15 @@ std::unique_ptr<GraspFromPolicy> GraspOf(const PolicySet& set, const EpisodePlac
   return std::make_unique<GraspFromPolicy>(
       *set.grasp, scene, place.door, place.robot,
       [camera](const SceneSnapshot& snapshot) { return camera->Look(snapshot).visible; });
+}
+
+std::unique_ptr<CameraObserver> CameraOf(const EpisodePlace& place,
+                                         const RememberedViewConfig& remembered) {
+  auto camera =
+      std::make_unique<CameraObserver>(place.scene, place.door, place.robot, place.cloud);
+  if (remembered.IsOn())
+    camera->Remember({place.scene, place.door, place.robot, place.cloud, remembered});
+  return camera;
 }
 
 Episode RunPolicySet(const EpisodePlace& place, const PolicySet& set, Observer* observer) {

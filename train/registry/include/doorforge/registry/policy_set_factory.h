@@ -5,6 +5,7 @@
 #include <string>
 
 #include "doorforge/registry/policy_registry.h"
+#include "doorforge/rollout/remembered_view.h"
 #include "doorforge/schemas/policy_set.h"
 
 namespace doorforge {
@@ -42,6 +43,10 @@ class PolicySetFactory {
   const PolicyChoice& opener() const { return opener_; }
   const PolicyChoice& handler() const { return handler_; }
   const PolicyChoice& grasper() const { return grasper_; }
+
+  /// What the policy that turns the handle remembers of the door, by its record; nothing for
+  /// policies that have none. Throws as ReadPolicy().
+  RememberedViewConfig Remembered() const;
 
   /// Whether nothing but the rules of the expert acts.
   bool IsExpertAlone() const;

@@ -5,8 +5,10 @@
 #include <memory>
 
 #include "doorforge/physics/robot_model.h"
+#include "doorforge/rollout/camera_observer.h"
 #include "doorforge/rollout/grasp_from_policy.h"
 #include "doorforge/rollout/observer.h"
+#include "doorforge/rollout/remembered_view.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/schemas/door_asset.h"
 #include "doorforge/schemas/episode.h"
@@ -29,6 +31,13 @@ struct EpisodePlace {
 ///
 /// @throws as CameraObserver.
 std::unique_ptr<GraspFromPolicy> GraspOf(const PolicySet& set, const EpisodePlace& place);
+
+/// The camera of who opens and who turns, which remembers the closed door where that is on. The
+/// place's door and robot must outlive it.
+///
+/// @throws as CameraObserver.
+std::unique_ptr<CameraObserver> CameraOf(const EpisodePlace& place,
+                                         const RememberedViewConfig& remembered);
 
 /// Runs the three stages of an episode with the policies of a set and records the opening, as
 /// RunStages().

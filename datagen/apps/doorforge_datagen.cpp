@@ -9,11 +9,25 @@
 #include "doorforge/core/nearest_name.h"
 #include "doorforge/core/program.h"
 
-#include "datagen_verb.h"
-#include "dataset_verb.h"
+#include "verb_options.h"
+#include "verbs.h"
 
 namespace doorforge {
 namespace {
+
+int RunDatasetVerb(int argc, char** argv) {
+  CLI::App app("Checks and describes datasets.", "doorforge dataset");
+  app.require_subcommand(1);
+  app.footer("examples:\n  doorforge dataset verify data/open\n  doorforge dataset info data/open");
+  const Subcommand subcommands[] = {AddVerify(app), AddMerge(app), AddReobserve(app),
+                                    AddStatus(app), AddInfo(app),  AddExport(app),
+                                    AddCard(app)};
+  ParseDataVerb(app, argc, argv);
+  for (const Subcommand& subcommand : subcommands) {
+    if (subcommand.app->parsed()) return subcommand.run();
+  }
+  return 0;  // not reached: the parser asks for a subcommand
+}
 
 int Run(int argc, char** argv) {
   const std::string verb = argc > 1 ? argv[1] : "";

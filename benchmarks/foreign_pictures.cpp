@@ -263,7 +263,7 @@ int Run(const Options& options) {
   Judge grasper("grasp", options.grasper);
   Judge handler("handle", options.handler);
   Judge opener("open", options.opener);
-  DoorSelection selection = DoorSelectionOf(options.doors);
+  DoorSelection selection = DoorSelectionOf(options.doors, "train");
   selection.per_category = options.per_category;
   const std::vector<FoundDoor> doors = FindDoorSet(selection, 1).doors;
   DoorShelf shelf(doors);

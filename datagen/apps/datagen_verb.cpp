@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 struct Options {
   Stage stage = Stage::kOpen;
   std::vector<std::string> doors;
-  PolicyFolders policies;
+  CollectionWords policies;
   std::string robot;
   std::string out;
   std::string config;
@@ -57,12 +57,15 @@ void AddOptions(CLI::App& app, Options& options) {
   app.add_option("--episodes", options.episodes, "episodes to run, failed ones included")
       ->check(CLI::Range(1, 10000000));
   app.add_option("--seed", options.seed, "decides every random choice");
+  const PolicyRegistry registry = BuiltInPolicies();
   app.add_option("--opener", options.policies.opener,
-                 "trained policy that opens, instead of the rule (handle, grasp)");
+                 "who opens the door (handle, grasp): " + registry.Choices(Stage::kOpen))
+      ->capture_default_str();
   app.add_option("--handler", options.policies.handler,
-                 "trained policy that turns the handle, instead of the rule (grasp)");
+                 "who turns the handle (grasp): " + registry.Choices(Stage::kHandle))
+      ->capture_default_str();
   app.add_option("--learner", options.policies.learner,
-                 "trained policy of this stage that drives and is corrected by the rule (open, "
+                 "trained policy of this stage that drives and is corrected by the expert (open, "
                  "handle; config: learner_decisions), or whose grasps are tried (grasp)");
   app.add_option("--robot", options.robot, "URDF of the robot; the embedded one if left out");
   app.add_option("--config", options.config, "YAML file with settings");

@@ -31,6 +31,8 @@ namespace fs = std::filesystem;
 
 struct Options {
   EvaluationRequest request;
+  std::vector<std::string> doors;
+  std::string split;
   std::string out;
   std::string config;
   std::vector<std::string> settings;
@@ -46,11 +48,12 @@ void AddOptions(CLI::App& app, Options& options) {
   EvaluationRequest& request = options.request;
   AddPolicyOptions(app, request.registry, request.policies);
   AddEarlierName(app, "--policy", "--opener", request.policies.opener);
-  app.add_option("--doors", options.request.doors.folders,
-                 "folders of composed doors, searched in depth")
+  app.add_option(
+         "--doors", options.doors,
+         "folders of composed doors, searched in depth; with a split such as full:test only "
+         "its doors")
       ->required();
-  app.add_option("--split", options.request.doors.split,
-                 "only doors of these parts: a split and its side, such as full:test");
+  app.add_option("--split", options.split, "the same: a split and its side, such as full:test");
   app.add_option("-n,--per-category", options.request.doors.per_category,
                  "at most so many doors of each category, all handles and bodies as evenly as "
                  "the number allows; 0: all")
@@ -103,6 +106,16 @@ Options Parse(int argc, char** argv, const EvalVerbSetup& setup) {
           "--opener is required: " + setup.registry.Choices(Stage::kOpen) + "; see `" +
               setup.program + " --help`");
   return options;
+}
+
+DoorSelection DoorsOf(const Options& options) {
+  DoorSelection doors = DoorSelectionOf(options.doors, "test");
+  Require(doors.split.empty() || options.split.empty(), ErrorCode::kInvalidArgument,
+          "--doors " + doors.split + " and --split " + options.split +
+              ": two splits; leave one of them out");
+  if (!options.split.empty()) doors.split = options.split;
+  doors.per_category = options.request.doors.per_category;
+  return doors;
 }
 
 EvaluationConfig ConfigOf(const Options& options) {
@@ -162,6 +175,7 @@ int RunEvalVerb(int argc, char** argv, const EvalVerbSetup& setup) {
   return RunProgram([&] {
     Options options = Parse(argc, argv, setup);
     options.request.config = ConfigOf(options);
+    options.request.doors = DoorsOf(options);
     options.request.command = CommandLine(argc, argv, setup.program);
     return NamingConfig(options.config, [&] { return Evaluate(options); });
   });

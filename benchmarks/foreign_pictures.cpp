@@ -200,7 +200,7 @@ class ShownGrasp : public GraspChooser {
         rng_(std::move(rng)),
         policy_(MakeGraspPolicy(judge.record.networks)) {}
 
-  std::optional<GraspAction> Choose(const SceneSnapshot& snapshot) override {
+  std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override {
     const DepthImage depth = camera_.Look(snapshot).depth;
     const Eigen::Vector3d approach = -snapshot.door[kHandleLink].linear().col(0);
     std::optional<GraspAction> grasp;

@@ -308,7 +308,7 @@ TEST_F(RobotSightTest, TheProgramDecidesAsThePolicyDidInTheSimulator) {
 class Onlooker : public GraspChooser {
  public:
   explicit Onlooker(CameraObserver& camera) : camera_(camera) {}
-  std::optional<GraspAction> Choose(const SceneSnapshot& snapshot) override {
+  std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override {
     depth = camera_.Look(snapshot).depth;
     approach = -snapshot.door[kHandleLink].linear().col(0);
     return std::nullopt;

@@ -179,9 +179,9 @@ class FixedGrasp : public GraspChooser {
         tcp_from_hand_(robot.hand_from_tcp().linear().transpose()),
         offset_m_(offset_m) {}
 
-  std::optional<GraspAction> Choose(const SceneSnapshot& snapshot) override {
+  std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override {
     const RigidTransform grasp = snapshot.door[kHandleLink] * handle_from_grasp_;
-    GraspAction chosen;
+    ChosenGrasp chosen;
     chosen.contact_m = grasp * (offset_m_ - kGraspInsertion * Eigen::Vector3d::UnitZ());
     chosen.world_from_hand_rotation = grasp.linear() * tcp_from_hand_;
     return chosen;

@@ -16,7 +16,17 @@ GraspFromPolicy::GraspFromPolicy(GraspPolicy& policy, const Scene& scene, const 
       clearance_(robot),
       visible_(std::move(visible)) {}
 
-std::optional<GraspAction> GraspFromPolicy::Choose(const SceneSnapshot& snapshot) {
+std::optional<ChosenGrasp> GraspFromPolicy::Choose(const SceneSnapshot& snapshot) {
+  std::optional<GraspAction> action = ActionAt(snapshot);
+  if (!action) return std::nullopt;
+  ChosenGrasp chosen;
+  chosen.cloud = std::move(action->cloud);
+  chosen.contact_m = action->contact_m;
+  chosen.world_from_hand_rotation = action->world_from_hand_rotation;
+  return chosen;
+}
+
+std::optional<GraspAction> GraspFromPolicy::ActionAt(const SceneSnapshot& snapshot) {
   GraspObservation observation;
   observation.visible = visible_(snapshot);
   observation.approach = -snapshot.door[kHandleLink].linear().col(0);

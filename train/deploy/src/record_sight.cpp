@@ -74,7 +74,7 @@ class Onlooker : public GraspChooser {
  public:
   Onlooker(const Scene& scene, const DoorAsset& door, const RobotModel& robot)
       : camera_(scene, door, robot, {}, /*sees_robot=*/false) {}
-  std::optional<GraspAction> Choose(const SceneSnapshot& snapshot) override {
+  std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override {
     depth = camera_.Look(snapshot).depth;
     return std::nullopt;  // nothing more of this episode is wanted
   }

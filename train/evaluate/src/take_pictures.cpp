@@ -116,11 +116,11 @@ void AddSight(const FinishedTrials& finished, std::size_t index, const SceneSnap
 // Remembers the beginning of an episode and the grasp that was chosen then; there the episode ends.
 class Onlooker : public GraspChooser {
  public:
-  explicit Onlooker(GraspChooser& grasp) : grasp_(grasp) {}
+  explicit Onlooker(GraspFromPolicy& grasp) : grasp_(grasp) {}
 
-  std::optional<GraspAction> Choose(const SceneSnapshot& snapshot) override {
+  std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override {
     start = snapshot;
-    action = grasp_.Choose(snapshot);
+    action = grasp_.ActionAt(snapshot);
     return std::nullopt;
   }
 
@@ -128,7 +128,7 @@ class Onlooker : public GraspChooser {
   std::optional<GraspAction> action;
 
  private:
-  GraspChooser& grasp_;
+  GraspFromPolicy& grasp_;
 };
 
 // For each category the first trial that opened and those that did not, until one is pictured.

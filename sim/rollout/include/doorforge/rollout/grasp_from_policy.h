@@ -27,12 +27,14 @@ class GraspFromPolicy : public GraspChooser {
   GraspFromPolicy(GraspPolicy& policy, const Scene& scene, const DoorAsset& door,
                   const RobotModel& robot, VisibleCloud visible);
 
-  /// The action's cloud is to be of this extent about the contact, for a record; without, it is the
-  /// policy's own.
+  /// The chosen grasp's cloud is to be of this extent about the contact, for a record; without, it
+  /// is the policy's own.
   void RecordWith(const CloudExtent& extent) { recorded_ = extent; }
 
   /// Throws as the policy.
-  std::optional<GraspAction> Choose(const SceneSnapshot& snapshot) override;
+  std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override;
+  /// The same choice as the policy made it, with what it says of it.
+  std::optional<GraspAction> ActionAt(const SceneSnapshot& snapshot);
 
  private:
   GraspPolicy& policy_;

@@ -4,11 +4,15 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <iostream>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/nearest_name.h"
+
+#include "describe_command.h"
 
 namespace doorforge {
 namespace {
@@ -100,6 +104,10 @@ CLI::Option* AddSettings(CLI::App& app, std::vector<std::string>& settings,
 }
 
 void ParseVerb(CLI::App& app, int argc, char** argv) {
+  if (argc == 2 && std::string_view(argv[1]) == kDescribeCommand) {
+    std::cout << DescribeCommand(app).dump(2) << '\n';
+    std::exit(0);
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // for the help

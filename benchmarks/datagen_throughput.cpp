@@ -35,7 +35,7 @@
 #include "doorforge/schemas/door_set.h"
 #include "doorforge/schemas/episode_arrays.h"
 
-#include "robot_meshes.h"
+#include "doorforge/robot_meshes/robot_meshes.h"
 #include "stage_episode.h"
 #include "stage_run.h"
 

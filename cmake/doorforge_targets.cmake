@@ -1,6 +1,8 @@
 # The one table of allowed dependencies between rooms. A target may link only the rooms listed
 # here; tests/architecture/layering_test.py checks the same table against #include lines.
 set(DOORFORGE_ALLOWED_core "")
+set(DOORFORGE_ALLOWED_cli core)
+set(DOORFORGE_ALLOWED_pipeline core)
 set(DOORFORGE_ALLOWED_schemas core)
 set(DOORFORGE_ALLOWED_mesh core)
 set(DOORFORGE_ALLOWED_solids core mesh)
@@ -11,13 +13,14 @@ set(DOORFORGE_ALLOWED_exporters core schemas)
 set(DOORFORGE_ALLOWED_compose core schemas mesh parts exporters)
 set(DOORFORGE_ALLOWED_validate core schemas mesh parts exporters)
 set(DOORFORGE_ALLOWED_physics core schemas)
+set(DOORFORGE_ALLOWED_robot_meshes core schemas mesh physics)
 set(DOORFORGE_ALLOWED_sensor core schemas)
 set(DOORFORGE_ALLOWED_rollout core schemas physics sensor)
 set(DOORFORGE_ALLOWED_datagen core schemas rollout)
 set(DOORFORGE_ALLOWED_networks core schemas)
 set(DOORFORGE_ALLOWED_policy core schemas networks)
 set(DOORFORGE_ALLOWED_training core schemas networks policy)
-set(DOORFORGE_ALLOWED_evaluate core schemas physics sensor rollout networks policy)
+set(DOORFORGE_ALLOWED_evaluate core cli schemas physics sensor rollout networks policy)
 
 # Contraction off: an asset, an episode and a cloud must not depend on whether the compiler fused
 # a multiply with an add.

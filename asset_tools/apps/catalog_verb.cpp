@@ -1,17 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "catalog_verb.h"
-
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "doorforge/catalogue/catalogue.h"
+#include "doorforge/cli/command_line.h"
 #include "doorforge/core/committed_file.h"
+#include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
@@ -21,7 +22,7 @@
 #include "doorforge/mesh/work_budget.h"
 #include "doorforge/schemas/split.h"
 
-#include "verb_options.h"
+#include "verbs.h"
 
 namespace doorforge {
 namespace {

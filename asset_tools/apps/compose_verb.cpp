@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "compose_verb.h"
-
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -15,13 +13,17 @@
 #include <utility>
 #include <vector>
 
+#include <CLI/CLI.hpp>
 #include <fnmatch.h>
 
 #include "doorforge/catalogue/catalogue.h"
+#include "doorforge/cli/answer.h"
+#include "doorforge/cli/command_line.h"
 #include "doorforge/compose/compose.h"
 #include "doorforge/compose/shared_doors.h"
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/config_file.h"
+#include "doorforge/core/error.h"
 #include "doorforge/core/folder_lock.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/parallel_for.h"
@@ -34,14 +36,13 @@
 #include "doorforge/schemas/door_index.h"
 #include "doorforge/validate/validate_door.h"
 
-#include "counted.h"
 #include "mesh_options.h"
 #include "own_part.h"
 #include "validate_verb.h"
-#include "verb_options.h"
 #ifdef DOORFORGE_WITH_PREVIEW
 #include "preview_verb.h"
 #endif
+#include "verbs.h"
 
 namespace doorforge {
 namespace {

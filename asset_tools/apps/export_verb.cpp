@@ -1,16 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "export_verb.h"
-
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "doorforge/cli/command_line.h"
 #include "doorforge/core/committed_file.h"
+#include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
@@ -20,7 +21,7 @@
 #include "doorforge/mesh/work_budget.h"
 #include "doorforge/validate/validate_door.h"
 
-#include "verb_options.h"
+#include "verbs.h"
 
 namespace doorforge {
 namespace {

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "import_verb.h"
-
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -9,15 +7,19 @@
 #include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
+#include "doorforge/cli/answer.h"
+#include "doorforge/cli/command_line.h"
 #include "doorforge/core/config_file.h"
+#include "doorforge/core/error.h"
 #include "doorforge/core/folder_lock.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/importers/import_objects.h"
 
-#include "counted.h"
 #include "mesh_options.h"
-#include "verb_options.h"
+#include "verbs.h"
 
 namespace doorforge {
 namespace {

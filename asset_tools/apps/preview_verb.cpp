@@ -9,6 +9,10 @@
 #include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
+#include "doorforge/cli/command_line.h"
+#include "doorforge/core/error.h"
 #include "doorforge/core/output_file.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
@@ -22,7 +26,6 @@
 #include "episode_sheet.h"
 #endif
 #include "handle_views.h"
-#include "verb_options.h"
 
 namespace doorforge {
 namespace {

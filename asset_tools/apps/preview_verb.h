@@ -10,6 +10,6 @@ namespace doorforge {
 void WritePreview(const std::filesystem::path& folder, const std::filesystem::path& png);
 
 /// `doorforge preview PATH... --out FILE.png`. argv[0] is the verb. Returns the exit code.
-int RunPreviewVerb(int argc, char** argv);
+
 
 }  // namespace doorforge

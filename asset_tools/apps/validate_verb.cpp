@@ -10,8 +10,12 @@
 #include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "doorforge/cli/answer.h"
+#include "doorforge/cli/command_line.h"
+#include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
@@ -20,9 +24,7 @@
 #include "doorforge/validate/fix_door.h"
 #include "doorforge/validate/validate_door.h"
 
-#include "counted.h"
 #include "missing_records.h"
-#include "verb_options.h"
 #ifdef DOORFORGE_WITH_OPENABLE
 #include "openable_check.h"
 #endif

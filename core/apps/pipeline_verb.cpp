@@ -1,17 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline_verb.h"
-
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
-#include "doorforge/core/command_line.h"
+#include "doorforge/cli/command_line.h"
 #include "doorforge/core/error.h"
+#include "doorforge/pipeline/pipeline_graph.h"
+#include "doorforge/pipeline/pipeline_run.h"
 
-#include "pipeline_graph.h"
-#include "pipeline_run.h"
+#include "verbs.h"
 
 namespace doorforge {
 namespace {

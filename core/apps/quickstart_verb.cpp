@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "quickstart_verb.h"
-
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -9,7 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "doorforge/core/command_line.h"
+#include "doorforge/cli/command_line.h"
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/file_system.h"
@@ -17,10 +15,11 @@
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
 #include "doorforge/core/record_id.h"
+#include "doorforge/pipeline/pipeline_graph.h"
+#include "doorforge/pipeline/pipeline_run.h"
+#include "doorforge/pipeline/quickstart_split.h"
 
-#include "pipeline_graph.h"
-#include "pipeline_run.h"
-#include "quickstart_split.h"
+#include "verbs.h"
 
 namespace doorforge {
 namespace {

@@ -25,7 +25,7 @@
 #include "episode_records.h"
 #include "recorded_robot.h"
 #include "recording_camera.h"
-#include "robot_meshes.h"
+#include "doorforge/robot_meshes/robot_meshes.h"
 
 namespace doorforge {
 namespace {

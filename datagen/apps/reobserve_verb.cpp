@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <iostream>
 
-#include "doorforge/core/command_line.h"
+#include "doorforge/cli/command_line.h"
 #include "doorforge/core/folder_lock.h"
 #include "doorforge/datagen/describe_dataset.h"
 

@@ -13,7 +13,7 @@
 #include "doorforge/core/program.h"
 #include "doorforge/rollout/run_episode.h"
 
-#include "robot_meshes.h"
+#include "doorforge/robot_meshes/robot_meshes.h"
 
 namespace doorforge {
 namespace {

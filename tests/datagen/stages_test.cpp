@@ -24,7 +24,7 @@
 #include "recorded_robot.h"
 #include "recording_camera.h"
 #include "reobserve.h"
-#include "robot_meshes.h"
+#include "doorforge/robot_meshes/robot_meshes.h"
 #include "stage_run.h"
 
 namespace doorforge {

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/core/command_line.h"
+#include "doorforge/cli/command_line.h"
 
 #include <algorithm>
 #include <cstdlib>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -13,7 +15,7 @@
 namespace doorforge {
 namespace {
 
-constexpr const char* kSet = "--set";
+constexpr const char* kSet = "--set";  // as AddSettings() calls it
 
 bool IsOption(const std::string& word) { return word.size() > 1 && word.starts_with('-'); }
 
@@ -90,16 +92,21 @@ std::string CommandOf(const CLI::App& app) {
   return command;
 }
 
-}  // namespace
-
-CLI::Option* AddSettings(CLI::App& app, std::vector<std::string>& settings,
-                         const std::string& about) {
-  return app.add_option(kSet, settings, about + "; repeatable")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+void RefuseEmptyValues(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& value : option->results())
+      if (value.empty())
+        throw Error(ErrorCode::kInvalidArgument,
+                    option->get_name() +
+                        ": its value is empty; is a variable unset? Leave the option out to do "
+                        "without it");
+  }
+  for (const CLI::App* verb : app.get_subcommands()) RefuseEmptyValues(*verb);
 }
 
-void ParseVerb(CLI::App& app, int argc, char** argv) {
+}  // namespace
+
+void ParseVerb(CLI::App& app, int argc, char** argv, EmptyValues empty) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // for the help
@@ -109,6 +116,7 @@ void ParseVerb(CLI::App& app, int argc, char** argv) {
     throw Error(ErrorCode::kInvalidArgument, fault + (fault.ends_with('?') ? " see `" : "; see `") +
                                                  CommandOf(app) + " --help`");
   }
+  if (empty == EmptyValues::kRefuse) RefuseEmptyValues(app);
 }
 
 }  // namespace doorforge

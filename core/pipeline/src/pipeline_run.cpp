@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline_run.h"
+#include "doorforge/pipeline/pipeline_run.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "robot_meshes.h"
+#include "doorforge/robot_meshes/robot_meshes.h"
 
 #ifdef DOORFORGE_WITH_MESH_READING
 #include "doorforge/mesh/import_mesh.h"

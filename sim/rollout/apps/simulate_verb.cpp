@@ -25,7 +25,7 @@
 #include "doorforge/schemas/door_set.h"
 
 #include "film.h"
-#include "robot_meshes.h"
+#include "doorforge/robot_meshes/robot_meshes.h"
 
 namespace doorforge {
 namespace {

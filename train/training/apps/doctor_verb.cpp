@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doctor_verb.h"
-
 #include <cstdio>
 #include <iostream>
 #include <string>
@@ -11,11 +9,13 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "doorforge/core/command_line.h"
+#include "doorforge/cli/command_line.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/networks/instruction_set.h"
 #include "doorforge/training/linear_algebra.h"
+
+#include "verbs.h"
 
 namespace doorforge {
 namespace {

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "train_verb.h"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -17,7 +15,7 @@
 #include <malloc.h>
 #endif
 
-#include "doorforge/core/command_line.h"
+#include "doorforge/cli/command_line.h"
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/config_io.h"
@@ -35,6 +33,8 @@
 #include "doorforge/training/train_stage.h"
 #include "doorforge/training/trainer_state_file.h"
 #include "doorforge/training/training_page.h"
+
+#include "verbs.h"
 
 namespace doorforge {
 namespace {

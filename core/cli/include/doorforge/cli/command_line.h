@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,13 +13,11 @@ class Option;
 
 namespace doorforge {
 
-/// Adds `--set KEY=VALUE`, which every verb with settings has. Each takes one setting and leaves
-/// what follows it to the others; several are given as several `--set`.
-///
-/// @param about What it does, for the help: "a.b=c overrides one setting".
-/// @param settings Those given, in order; must live until the arguments are parsed.
-CLI::Option* AddSettings(CLI::App& app, std::vector<std::string>& settings,
-                         const std::string& about);
+/// Whether an option may be given an empty text.
+enum class EmptyValues {
+  kAccept,
+  kRefuse,  ///< `--task "$UNSET"` must not pass for no `--task`.
+};
 
 /// Parses the arguments of a verb (argv[0] is its name). Prints the help and ends the process where
 /// it was asked for.
@@ -26,6 +25,45 @@ CLI::Option* AddSettings(CLI::App& app, std::vector<std::string>& settings,
 /// @throws Error(kInvalidArgument) on wrong use. An option or a subcommand that there is not is
 ///     told before all else, with the nearest one that there is: what is missing often was
 ///     misspelled.
-void ParseVerb(CLI::App& app, int argc, char** argv);
+void ParseVerb(CLI::App& app, int argc, char** argv, EmptyValues empty = EmptyValues::kAccept);
+
+/// @name Options that several verbs have
+/// Each has one name and one kind of value in all verbs. `about` is the text of the help: what the
+/// option means to this verb. A variable must live until the arguments are parsed; what it holds
+/// before that is the default.
+/// @{
+
+/// Adds `--config FILE`.
+CLI::Option* AddConfig(CLI::App& app, std::string& config, const std::string& about);
+
+/// Adds `--set KEY=VALUE`, which every verb with settings has. Each takes one setting and leaves
+/// what follows it to the others; several are given as several `--set`.
+///
+/// @param settings Those given, in order.
+/// @param about What it does, for the help: "a.b=c overrides one setting".
+CLI::Option* AddSettings(CLI::App& app, std::vector<std::string>& settings,
+                         const std::string& about);
+
+/// Adds `--seed N`. The help shows the default.
+CLI::Option* AddSeed(CLI::App& app, std::uint64_t& seed, const std::string& about);
+
+/// Adds `--threads N`, where 0 stands for all processors.
+CLI::Option* AddThreads(CLI::App& app, int& threads,
+                        const std::string& about = "0: all processors");
+
+/// Adds `--overwrite`.
+CLI::Option* AddOverwrite(CLI::App& app, bool& overwrite, const std::string& about);
+
+/// Adds `--json`.
+CLI::Option* AddJson(CLI::App& app, bool& json,
+                     const std::string& about = "print one JSON document");
+
+/// Adds `--max-seconds S`, more than 0, for verbs that work on many objects or on a mesh from
+/// elsewhere.
+CLI::Option* AddMaxSeconds(CLI::App& app, double& max_seconds,
+                           const std::string& about =
+                               "processor time that one object may take before it is given up "
+                               "(300)");
+/// @}
 
 }  // namespace doorforge

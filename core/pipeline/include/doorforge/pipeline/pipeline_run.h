@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "pipeline_graph.h"
+#include "doorforge/pipeline/pipeline_graph.h"
 
 namespace doorforge {
 

@@ -2,24 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 #include <filesystem>
-#include <iostream>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "doorforge/authoring/part_batch.h"
 #include "doorforge/catalogue/catalogue.h"
+#include "doorforge/cli/answer.h"
 #include "doorforge/cli/command_line.h"
-#include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
-#include "doorforge/core/json_file.h"
-#include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
-#include "doorforge/core/progress.h"
-#include "doorforge/core/record_id.h"
 #include "doorforge/core/rigid_transform.h"
-#include "doorforge/mesh/work_budget.h"
 #include "doorforge/schemas/split.h"
 
 #include "verbs.h"
@@ -77,10 +72,7 @@ int List(const Options& options) {
   if (options.json) {
     Json parts = Json::array();
     for (const CatalogueEntry& entry : entries) parts.push_back(ToJson(entry));
-    std::cout << JsonText(
-                     Json{{"schema", "doorforge.catalog"}, {"schema_version", 1}, {"parts", parts}},
-                     2)
-              << '\n';
+    PrintJson({{"schema", "doorforge.catalog"}, {"schema_version", 1}, {"parts", parts}});
     return 0;
   }
   for (const CatalogueEntry& entry : entries)
@@ -115,7 +107,7 @@ int Show(const Options& options) {
   json["pieces"] = Json::array();
   for (const PartPiece& piece : part.pieces) json["pieces"].push_back(PieceToJson(piece));
   if (options.json) {
-    std::cout << JsonText(json, 2) << '\n';
+    PrintJson(json);
     return 0;
   }
   std::printf("%s: %s of category %s, mechanism %s, family %s\n%s\n", part.id.c_str(),
@@ -129,23 +121,9 @@ int Show(const Options& options) {
 
 int Build(const Options& options) {
   const std::vector<CatalogueEntry> entries = Chosen(options);
-  const Existing existing = options.overwrite ? Existing::kReplace : Existing::kRefuse;
-  RequireWritable(options.out);
-  std::vector<std::string> problems(entries.size());
-  Progress progress("building parts", entries.size());
-  ParallelFor(entries.size(), options.threads, [&](std::size_t i) {
-    try {
-      if (StopRequested() != 0) throw Error(ErrorCode::kIncomplete, "stopped before its turn");
-      StagedFolder staged(OutputBelow(options.out, entries[i].id), kPartFolder, existing);
-      WritePart(BuildCataloguePart(entries[i]), staged.path());
-      staged.Commit();
-    } catch (const Error& error) {
-      problems[i] = error.what();
-    } catch (const std::exception&) {
-      problems[i] = CurrentProblem(entries[i].id);
-    }
-    progress.Advance();
-  });
+  const std::vector<std::string> problems =
+      BuildParts(entries, options.out, options.overwrite ? Existing::kReplace : Existing::kRefuse,
+                 options.threads);
   std::size_t failed = 0;
   Json parts = Json::array();
   for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -158,15 +136,10 @@ int Build(const Options& options) {
     std::fprintf(stderr, "doorforge: %s: %s\n", entries[i].id.c_str(), problems[i].c_str());
   }
   if (options.json)
-    std::cout << JsonText(Json{{"schema", "doorforge.catalog_build"},
-                               {"schema_version", 1},
-                               {"parts", parts}},
-                          2)
-              << '\n';
+    PrintJson({{"schema", "doorforge.catalog_build"}, {"schema_version", 1}, {"parts", parts}});
   else
     std::printf("%zu parts built in %s\n", entries.size() - failed, options.out.c_str());
-  if (const int signal = StopRequested()) return 128 + signal;
-  return failed == 0 ? 0 : 1;
+  return ExitCodeOfBatch(failed);
 }
 
 }  // namespace
@@ -180,15 +153,14 @@ int RunCatalogVerb(int argc, char** argv) {
   CLI::App* build = app.add_subcommand("build", "writes parts: DIR/<id>/part.json and meshes");
   show->add_option("ID", options.id, "id of a part")->required();
   build->add_option("--out", options.out, "folder of the parts")->required();
-  build->add_option("--threads", options.threads, "0: all processors");
-  build->add_flag("--overwrite", options.overwrite, "replace parts that are there already");
+  AddThreads(*build, options.threads);
+  AddOverwrite(*build, options.overwrite, "replace parts that are there already");
   for (CLI::App* verb : {list, build}) {
     verb->add_option("--category", options.category, "only this category");
     verb->add_option("--split", options.split,
                      "only parts of this split: a name in data/splits or a file");
   }
-  for (CLI::App* verb : {list, show, build})
-    verb->add_flag("--json", options.json, "print one JSON document");
+  for (CLI::App* verb : {list, show, build}) AddJson(*verb, options.json);
   app.footer(
       "examples:\n"
       "  doorforge catalog list --category interior\n"

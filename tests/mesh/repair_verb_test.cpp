@@ -11,9 +11,9 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/mesh/import_mesh.h"
+#include "doorforge/mesh/mesh_writer.h"
 #include "doorforge/mesh/repair_mesh.h"
 
-#include "mesh_writer.h"
 #include "shapes.h"
 
 namespace doorforge {

@@ -4,32 +4,25 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <iostream>
-#include <new>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "doorforge/cli/answer.h"
 #include "doorforge/cli/command_line.h"
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/error.h"
-#include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
-#include "doorforge/core/program.h"
-#include "doorforge/mesh/import_mesh.h"
-#include "doorforge/mesh/repair_mesh.h"
-#include "doorforge/mesh/work_budget.h"
-
-#include "mesh_writer.h"
+#include "doorforge/mesh/mesh_writer.h"
+#include "doorforge/mesh/repair_file.h"
 
 namespace doorforge {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 struct Options {
   std::string input;
@@ -50,17 +43,16 @@ Options OptionsOf(int argc, char** argv) {
   app.add_option("IN", options.input, "mesh: .obj .stl .ply .dae .gltf .glb .fbx .3ds .off")
       ->required();
   app.add_option("OUT", options.output, "closed mesh: .obj .stl .ply")->required();
-  app.add_flag("--json", options.json, "print the report as one JSON document");
+  AddJson(app, options.json, "print the report as one JSON document");
   app.add_option("--report", options.report, "where to write the report (OUT.report.json)");
-  app.add_flag("--overwrite", options.overwrite, "replace OUT and its report");
-  app.add_option("--config", options.config, "YAML file with settings of the repair");
+  AddOverwrite(app, options.overwrite, "replace OUT and its report");
+  AddConfig(app, options.config, "YAML file with settings of the repair");
   AddSettings(app, options.settings, "one setting, such as max_triangles=2000");
   app.add_option("--wrap", options.wrap,
                  "alpha wrap: never, auto (where exact repair fails) or always")
       ->check(CLI::IsMember({"never", "auto", "always"}));
-  app.add_option("--max-seconds", options.max_seconds,
-                 "processor time that it may take before it is given up (300)")
-      ->check(CLI::PositiveNumber);
+  AddMaxSeconds(app, options.max_seconds,
+                "processor time that it may take before it is given up (300)");
   app.footer(
       "settings and defaults: alpha_fraction 0.01, offset_fraction 0.000833, max_hole_fraction\n"
       "0.05, max_flat_hole_share 0.15, max_cap_fraction 0.01, max_triangles 6000 (0: any number)\n"
@@ -89,15 +81,6 @@ void CheckOutputs(const Options& options) {
   }
 }
 
-Json RecordOf(const Options& options, const RepairConfig& config, const RepairReport& report) {
-  Json record = ToJson(report);
-  record["input"] = {{"path", options.input}, {"sha256", Sha256OfFile(options.input)}};
-  record["config"] = ToJson(config);
-  record["config_sha256"] = Sha256Hex(JsonText(record["config"]));
-  record["code_version"] = CodeVersion();
-  return record;
-}
-
 void Print(const Options& options, const RepairReport& report) {
   const auto millimetres = [](double metres) { return 1000 * metres; };
   std::printf("%s: %s", options.input.c_str(), std::string(NameOf(report.outcome)).c_str());
@@ -115,35 +98,21 @@ void Print(const Options& options, const RepairReport& report) {
               millimetres(report.visible_input_to_output.max_m));
 }
 
-RepairResult Repaired(const Options& options, const RepairConfig& config) {
-  const TriangleMesh mesh = MergedPieces(ImportMesh(options.input));
-  const WorkBudget budget(options.input, options.max_seconds);
-  try {
-    return RepairMesh(mesh, config);
-  } catch (const Error& error) {
-    if (error.code() == ErrorCode::kInvalidConfig) throw;
-    throw Error(error.code(), CurrentProblem(options.input));
-  } catch (const std::bad_alloc&) {
-    throw Error(ErrorCode::kFormat, CurrentProblem(options.input));
-  }
-}
-
 }  // namespace
 
 int RunRepairVerb(int argc, char** argv) {
   const Options options = OptionsOf(argc, argv);
   const RepairConfig config = ConfigOf(options);
   CheckOutputs(options);
-  const RepairResult result =
-      NamingConfig(options.config, [&] { return Repaired(options, config); });
-  const Json record = RecordOf(options, config, result.report);
+  const auto [result, record] = NamingConfig(
+      options.config, [&] { return RepairMeshFile(options.input, config, options.max_seconds); });
   if (result.mesh) {
     const Existing existing = options.overwrite ? Existing::kReplace : Existing::kRefuse;
     CommitFile(options.output, WriterFor(options.output)(result.mesh->mesh()), existing);
     CommitFile(options.report, JsonText(record, 2) + "\n", existing);
   }
   if (options.json)
-    std::cout << JsonText(record, 2) << '\n';
+    PrintJson(record);
   else
     Print(options, result.report);
   return result.mesh ? 0 : 1;

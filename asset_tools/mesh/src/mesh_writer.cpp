@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "mesh_writer.h"
+#include "doorforge/mesh/mesh_writer.h"
 
 #include <array>
 #include <bit>

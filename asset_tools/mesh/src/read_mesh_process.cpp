@@ -1,12 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-
-// doorforge-read-mesh PATH MAX_FILE_BYTES MAX_TRIANGLES MEMORY_BYTES SECONDS MAX_PICTURE_BYTES
-//     FILES_BELOW PARENT_PROCESS
-//
-// Reads one mesh file on behalf of ImportMesh() and writes the result to file descriptor 3. It is
-// a program of its own so that a hostile file can neither crash nor hang the caller, and so that
-// the caller's threads and locks do not matter.
+#include "doorforge/mesh/read_mesh_process.h"
 
 #include <algorithm>
 #include <cctype>
@@ -119,23 +113,24 @@ bool Send(std::string_view message) {
 }
 
 }  // namespace
-}  // namespace doorforge
 
-int main(int argc, char** argv) {
-  using namespace doorforge;  // NOLINT
-  if (argc != 9) {
+int ReadMeshForParent(std::span<char* const> arguments) {
+  if (arguments.size() != 9) {
     std::fprintf(stderr, "doorforge-read-mesh is started by the other doorforge programs\n");
     return 2;
   }
+  const auto number = [&](std::size_t i) { return std::strtoull(arguments[i], nullptr, 10); };
   MeshImportLimits limits;
-  limits.max_file_bytes = std::strtoull(argv[2], nullptr, 10);
-  limits.max_triangles = std::strtoull(argv[3], nullptr, 10);
-  limits.memory_bytes = std::strtoull(argv[4], nullptr, 10);
-  limits.max_picture_bytes = std::strtoull(argv[6], nullptr, 10);
-  limits.files_below = argv[7];
-  EndWith(static_cast<pid_t>(std::strtol(argv[8], nullptr, 10)));
+  limits.max_file_bytes = number(2);
+  limits.max_triangles = number(3);
+  limits.memory_bytes = number(4);
+  limits.max_picture_bytes = number(6);
+  limits.files_below = arguments[7];
+  EndWith(static_cast<pid_t>(std::strtol(arguments[8], nullptr, 10)));
   GiveUpRights();
-  LimitProcess(limits.memory_bytes, std::strtoull(argv[5], nullptr, 10));
-  if (!Send(MessageFor(argv[1], limits))) return 3;
+  LimitProcess(limits.memory_bytes, number(5));
+  if (!Send(MessageFor(arguments[1], limits))) return 3;
   return memory_lacked ? kExitMemoryLacked : 0;
 }
+
+}  // namespace doorforge

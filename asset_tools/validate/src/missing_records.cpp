@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "missing_records.h"
+#include "doorforge/validate/missing_records.h"
 
 #include <algorithm>
 #include <cstdint>

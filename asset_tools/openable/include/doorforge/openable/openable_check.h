@@ -10,9 +10,9 @@
 
 namespace doorforge {
 
-/// SWP and OPN: moves the leaf past its frame, simulates latch, handle and hinge under a turn and a
-/// pull, and looks for a grasp of the robot's gripper. The rules and their limits are the door
-/// room's, the measures those of physics and rollout; only a program may know both.
+/// The check of the rules SWP and OPN, for DoorValidator: moves the leaf past its frame, simulates
+/// latch, handle and hinge under a turn and a pull, and looks for a grasp of the robot's gripper.
+/// The rules and their limits are those of `validate`, the measures those of physics and rollout.
 class OpenableCheck {
  public:
   /// Throws as LoadMobileFranka().

@@ -8,10 +8,6 @@
 
 namespace doorforge {
 
-/// `doorforge validate PATH...`. argv[0] is the verb. Returns 0 without errors, 1 with errors, 3 if
-/// a path could not be read (the others are validated all the same).
-int RunValidateVerb(int argc, char** argv);
-
 /// With the simulated check; null in a build without the simulation.
 std::unique_ptr<DoorValidator> OpenableValidator();
 

@@ -26,18 +26,16 @@
 #include <sys/resource.h>
 #include <time.h>
 
+#include "doorforge/collect/stage_episode.h"
+#include "doorforge/collect/stage_run.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/program.h"
-#include "doorforge/datagen/collect.h"
+#include "doorforge/dataset/collect.h"
 #include "doorforge/rollout/camera_observer.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/rollout/standing_place.h"
 #include "doorforge/schemas/door_set.h"
 #include "doorforge/schemas/episode_arrays.h"
-
-#include "doorforge/robot_meshes/robot_meshes.h"
-#include "stage_episode.h"
-#include "stage_run.h"
 
 namespace doorforge {
 namespace {
@@ -101,15 +99,14 @@ StageRequest RequestFor(const std::string& doors, std::uint64_t episodes) {
   StageConfig config = DefaultsOf(Stage::kOpen);
   config.episodes = episodes;
   config.seed = 3;
-  return {config, {doors}, {}, 0};
+  return {config, {doors}, {}, 0, {}};
 }
 
 Split MeasureSplit(const std::string& doors, const fs::path& scratch, std::uint64_t episodes) {
   const StageRequest request = RequestFor(doors, episodes);
   StageRun run(request);
   DoorShelf shelf(run.doors());
-  const RobotModel robot =
-      LoadRobot("", RobotBaseNamed(request.config.scene.physics.base), RobotMeshes());
+  const RobotModel robot = LoadRobot("", RobotBaseNamed(request.config.scene.physics.base));
   ShardWriter writer(scratch / "split", {0, "open", "train", ""});
   Split split;
   for (const PlannedShard& shard : run.plan().shards) {

@@ -265,7 +265,7 @@ int Run(const Options& options) {
   Judge opener("open", options.opener);
   DoorSelection selection = DoorSelectionOf(options.doors);
   selection.per_category = options.per_category;
-  const std::vector<FoundDoor> doors = FindDoorSet(selection, 1);
+  const std::vector<FoundDoor> doors = FindDoorSet(selection, 1).doors;
   DoorShelf shelf(doors);
   const RobotModel robot = LoadRobot({}, RobotBase::kSliders);
   for (std::size_t d = 0; d < doors.size() && StopRequested() == 0; ++d) {

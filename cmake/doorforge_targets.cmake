@@ -19,11 +19,15 @@ set(DOORFORGE_ALLOWED_physics core schemas)
 set(DOORFORGE_ALLOWED_robot_meshes core schemas mesh physics)
 set(DOORFORGE_ALLOWED_sensor core schemas)
 set(DOORFORGE_ALLOWED_rollout core schemas physics sensor)
-set(DOORFORGE_ALLOWED_datagen core schemas rollout)
 set(DOORFORGE_ALLOWED_networks core schemas)
 set(DOORFORGE_ALLOWED_policy core schemas networks)
+set(DOORFORGE_ALLOWED_dataset core schemas)
+set(DOORFORGE_ALLOWED_collect core schemas physics sensor rollout networks policy dataset)
 set(DOORFORGE_ALLOWED_training core schemas networks policy)
-set(DOORFORGE_ALLOWED_evaluate core cli schemas physics sensor rollout networks policy)
+set(DOORFORGE_ALLOWED_report core schemas)
+set(DOORFORGE_ALLOWED_evaluate core schemas physics sensor rollout networks policy report)
+set(DOORFORGE_ALLOWED_deploy core schemas physics sensor rollout networks policy)
+set(DOORFORGE_ALLOWED_verbs core cli schemas report evaluate)
 
 # Contraction off: an asset, an episode and a cloud must not depend on whether the compiler fused
 # a multiply with an add.

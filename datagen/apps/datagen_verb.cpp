@@ -13,6 +13,9 @@
 
 #include <unistd.h>
 
+#include "doorforge/collect/forecast.h"
+#include "doorforge/collect/stage_run.h"
+#include "doorforge/collect/trained_policy.h"
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/error.h"
@@ -20,13 +23,11 @@
 #include "doorforge/core/free_space.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
-#include "doorforge/datagen/describe_dataset.h"
-#include "doorforge/datagen/task_number.h"
+#include "doorforge/dataset/describe_dataset.h"
+#include "doorforge/dataset/task_number.h"
+#include "doorforge/robot_meshes/robot_meshes.h"
 
-#include "forecast.h"
 #include "slurm_verb.h"
-#include "stage_run.h"
-#include "trained_policy.h"
 #include "verb_options.h"
 
 namespace doorforge {
@@ -101,7 +102,7 @@ StageRequest RequestOf(const Options& options) {
   if (options.episodes) config.episodes = *options.episodes;
   if (options.seed) config.seed = *options.seed;
   if (!options.robot.empty()) config.scene.robot = options.robot;
-  return {config, options.doors, options.policies, options.threads};
+  return {config, options.doors, options.policies, options.threads, RobotMeshes()};
 }
 
 // Whether there is nothing but what a writer leaves that was killed at its first file, or has while

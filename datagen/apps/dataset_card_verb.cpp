@@ -8,7 +8,7 @@
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/folder_lock.h"
-#include "doorforge/datagen/dataset_card.h"
+#include "doorforge/dataset/dataset_card.h"
 
 #include "dataset_downstream.h"
 

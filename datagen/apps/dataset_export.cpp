@@ -9,7 +9,7 @@
 
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/progress.h"
-#include "doorforge/datagen/export_robomimic.h"
+#include "doorforge/dataset/export_robomimic.h"
 
 #include "dataset_downstream.h"
 

@@ -11,8 +11,8 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/output_file.h"
-#include "doorforge/datagen/describe_dataset.h"
-#include "doorforge/datagen/describe_episodes.h"
+#include "doorforge/dataset/describe_dataset.h"
+#include "doorforge/dataset/describe_episodes.h"
 #include "doorforge/sensor/picture.h"
 
 #include "dataset_downstream.h"

@@ -11,8 +11,8 @@
 
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
-#include "doorforge/datagen/collection_status.h"
-#include "doorforge/datagen/task_number.h"
+#include "doorforge/dataset/collection_status.h"
+#include "doorforge/dataset/task_number.h"
 
 #include "dataset_downstream.h"
 

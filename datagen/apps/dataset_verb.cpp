@@ -7,15 +7,16 @@
 #include <string>
 #include <vector>
 
+#include "doorforge/collect/regenerate_dataset.h"
 #include "doorforge/core/folder_lock.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/progress.h"
-#include "doorforge/datagen/describe_dataset.h"
-#include "doorforge/datagen/merge_dataset.h"
-#include "doorforge/datagen/verify_dataset.h"
+#include "doorforge/dataset/describe_dataset.h"
+#include "doorforge/dataset/merge_dataset.h"
+#include "doorforge/dataset/verify_dataset.h"
+#include "doorforge/robot_meshes/robot_meshes.h"
 
 #include "dataset_downstream.h"
-#include "regenerate_verb.h"
 #include "reobserve_verb.h"
 #include "verb_options.h"
 
@@ -23,6 +24,13 @@ namespace doorforge {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct RegenerateOptions {
+  std::string share;  // "1%"; empty: nothing is made again
+  std::vector<std::string> doors;
+  std::string robot;
+  PolicyFolders policies;
+};
 
 struct Options {
   std::string folder;
@@ -32,6 +40,38 @@ struct Options {
   ReobserveRequest reobserve;
   bool json = false;
 };
+
+void AddRegenerateOptions(CLI::App& app, RegenerateOptions& options) {
+  auto* share = app.add_option("--regenerate", options.share,
+                               "make a share of the episodes again from their seeds, such as 1%, "
+                               "and compare every byte");
+  app.add_option("--doors", options.doors, "the doors that the dataset was made with")
+      ->needs(share);
+  app.add_option("--robot", options.robot,
+                 "URDF of the dataset's robot; needed where its config.yaml names a file that is "
+                 "not in the dataset's folder")
+      ->needs(share);
+  PolicyFolders& policies = options.policies;
+  app.add_option("--handler", policies.handler, "the policy that turned the handle")->needs(share);
+  app.add_option("--opener", policies.opener, "the policy that opened")->needs(share);
+  app.add_option("--learner", policies.learner, "the policy that drove or took hold")->needs(share);
+}
+
+void CheckRegenerateOptions(const RegenerateOptions& options) {
+  ParseFraction(options.share);
+  Require(!options.doors.empty(), ErrorCode::kInvalidArgument,
+          "--regenerate: needs --doors, with what the dataset was made with");
+}
+
+std::vector<DatasetFinding> Regenerate(const Options& options) {
+  const RegenerateOptions& given = options.regenerate;
+  const RegenerateResult result =
+      RegenerateDataset({options.folder, ParseFraction(given.share), given.doors, given.robot,
+                         given.policies, options.threads, RobotMeshes()});
+  std::fprintf(stderr, "doorforge: %zu episodes made again, %zu differences\n", result.episodes,
+               result.findings.size());
+  return result.findings;
+}
 
 std::size_t CountIndices(const fs::path& folder) {
   std::size_t count = 0;
@@ -69,8 +109,7 @@ int Merge(const Options& options) {
 int Verify(const Options& options) {
   std::vector<DatasetFinding> findings = VerifyWithProgress(options);
   if (!AnyFault(findings) && !options.regenerate.share.empty())
-    for (DatasetFinding& finding : Regenerate(options.folder, options.threads, options.regenerate))
-      findings.push_back(std::move(finding));
+    for (DatasetFinding& finding : Regenerate(options)) findings.push_back(std::move(finding));
   if (options.json) {
     std::cout << JsonText(FindingsToJson(findings), 2) << '\n';
   } else {

@@ -7,7 +7,8 @@
 
 #include "doorforge/cli/command_line.h"
 #include "doorforge/core/folder_lock.h"
-#include "doorforge/datagen/describe_dataset.h"
+#include "doorforge/dataset/describe_dataset.h"
+#include "doorforge/robot_meshes/robot_meshes.h"
 
 namespace doorforge {
 
@@ -35,7 +36,8 @@ CLI::App* AddReobserve(CLI::App& app, ReobserveRequest& request) {
   return verb;
 }
 
-int RunReobserve(const ReobserveRequest& request) {
+int RunReobserve(ReobserveRequest request) {
+  request.robot_meshes = RobotMeshes();
   const FolderLock lock(request.out, "doorforge dataset re-observe", Writers::kTogether);
   const CollectSummary summary = ReobserveDataset(request);
   if (summary.stopped_by_signal != 0) {

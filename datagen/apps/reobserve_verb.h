@@ -4,13 +4,13 @@
 
 #include <CLI/CLI.hpp>
 
-#include "reobserve.h"
+#include "doorforge/collect/reobserve.h"
 
 namespace doorforge {
 
 /// `dataset re-observe`.
 CLI::App* AddReobserve(CLI::App& app, ReobserveRequest& request);
 /// Returns the exit code.
-int RunReobserve(const ReobserveRequest& request);
+int RunReobserve(ReobserveRequest request);
 
 }  // namespace doorforge

@@ -10,8 +10,8 @@
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/program.h"
-#include "doorforge/datagen/slurm_script.h"
-#include "doorforge/datagen/task_number.h"
+#include "doorforge/dataset/slurm_script.h"
+#include "doorforge/dataset/task_number.h"
 
 namespace doorforge {
 namespace {

@@ -7,7 +7,7 @@
 //   evaluate_own_policy --doors run/doors --split full:test -n 50 --seeds 3 --out run/report
 
 #include "doorforge/core/rigid_transform.h"
-#include "doorforge/evaluate/eval_verb.h"
+#include "doorforge/verbs/eval_verb.h"
 
 // Leads the hand on a circle about the hinge, a little ahead of where it is.
 class CircleAboutHinge : public doorforge::Policy {

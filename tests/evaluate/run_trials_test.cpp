@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "doorforge/core/error.h"
-#include "doorforge/evaluate/success_statistics.h"
 #include "doorforge/evaluate/take_pictures.h"
+#include "doorforge/report/success_statistics.h"
 #include "doorforge/rollout/opening_expert.h"
 
 #include "../physics/primitive_door.h"

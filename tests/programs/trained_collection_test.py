@@ -77,6 +77,14 @@ class TrainedCollection(ProgramTest):
         self.assertEqual(tars, {name: digest for name, digest in digests(self.folder / "again").items()
                                 if name.endswith(".tar")})
 
+        # its clouds hold what was seen before the hand came, unless told otherwise, which the learner then is not made for
+        for name, member in members(self.folder / "corrected"):
+            if name.endswith(".meta.json"):
+                self.assertEqual(json.loads(member)["remembered_finer"], 2)
+        refused = self.collect("handle", "forgetful", 1, *learner, "--set", "remembered.finer=0")
+        self.assert_refused(refused, 2)
+        self.assertIn("remembered.finer=2", refused.stderr)
+
         # a grasp policy's own grasps are tried: none of them is drawn by chance, and they can be made again
         grasper = self.train("grasp", 1, "grasper", data="one")
         self.assert_ends(self.collect("grasp", "own", 2, *policies, "--learner", grasper), 0)

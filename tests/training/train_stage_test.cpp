@@ -315,5 +315,26 @@ TEST(Sampler, VisitsEverySampleOnceAnEpochInAnOrderOfItsOwn) {
             std::vector<std::size_t>(second.begin() + 40, second.begin() + 50));
 }
 
+TEST(TrainStage, RefusesCloudsThatAreMadeInTwoWaysAndRecordsTheOne) {
+  auto train = testing::MakeSyntheticSamples(3, 8);
+  for (TrainingSample& sample : train.samples) {
+    sample.remembered_finer = 2;
+    sample.cloud_within_m = 0.25F;
+  }
+  TrainConfig config;
+  config.epochs = 1;
+  config.batch_size = 4;
+  const NetworkView view = TrainStage(train.samples, {}, config, {}).networks.normalisation.view;
+  EXPECT_EQ(view.remembered_finer, 2);
+  EXPECT_EQ(view.cloud_within_m, 0.25F);
+  train.samples[5].remembered_finer = 0;
+  try {
+    TrainStage(train.samples, {}, config, {});
+    FAIL() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("remembered_finer"), std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace doorforge

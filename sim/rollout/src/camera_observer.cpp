@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <string>
+#include <utility>
 
 #include "doorforge/core/error.h"
 
@@ -88,6 +89,8 @@ CameraObserver::CameraObserver(const Scene& scene, const DoorAsset& door, const 
 
 Rng CameraObserver::Stream(const std::string& purpose) const { return {seed_, stream_ + purpose}; }
 
+void CameraObserver::Remember(RememberedView before) { before_ = std::move(before); }
+
 Sight CameraObserver::Look(const SceneSnapshot& snapshot) {
   const std::vector<RigidTransform> poses = LinkPosesOf(snapshot);
   Sight sight;
@@ -97,6 +100,8 @@ Sight CameraObserver::Look(const SceneSnapshot& snapshot) {
   sight.visible = CropCloud(sight.depth, believed_, config_);
   sight.sampled = SampleCloud(sight.visible, snapshot.robot.world_from_tcp.translation(),
                               {config_.point_count});
+  if (before_ && snapshot.stage == "unlock" && !sight.visible.label.empty())
+    sight.sampled.cloud = before_->With(sight.visible, snapshot.robot.world_from_tcp.translation());
   return sight;
 }
 

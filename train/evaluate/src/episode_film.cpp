@@ -4,11 +4,10 @@
 
 #include <array>
 
+#include "doorforge/report/html_numbers.h"
 #include "doorforge/rollout/camera_observer.h"
 #include "doorforge/sensor/picture.h"
 #include "doorforge/sensor/scene_picture.h"
-
-#include "html_text.h"
 
 namespace doorforge::internal {
 namespace {

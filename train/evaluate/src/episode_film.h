@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "doorforge/evaluate/report_page.h"
 #include "doorforge/physics/robot_model.h"
+#include "doorforge/report/report_page.h"
 #include "doorforge/rollout/observer.h"
 #include "doorforge/schemas/scene.h"
 

@@ -107,6 +107,13 @@ void AddHandler(const EvaluationRequest& request, Players& players) {
   players.handle = std::move(handler);
 }
 
+// What the policy that turns the handle remembers, by its record.
+RememberedViewConfig RememberedBy(const EvaluationRequest& request) {
+  if (request.handler.empty()) return {.finer = 0};
+  const NetworkView& view = ReadPolicy(request.handler, "handle").networks.normalisation.view;
+  return {view.remembered_finer, static_cast<double>(view.cloud_within_m)};
+}
+
 Contender ContenderOf(const EvaluationRequest& request) {
   if (IsExpertAlone(request)) return Expert();
   const std::string& base = request.config.scene.physics.base;
@@ -125,8 +132,12 @@ Contender ContenderOf(const EvaluationRequest& request) {
             AddGrasper(request, players);
             return players;
           },
-          [&request, robot](const Scene& scene, const DoorAsset& door) {
-            return std::make_unique<CameraObserver>(scene, door, *robot, request.config.cloud);
+          [&request, robot, remembered = RememberedBy(request)](const Scene& scene,
+                                                                const DoorAsset& door) {
+            const CloudConfig& cloud = request.config.cloud;
+            auto camera = std::make_unique<CameraObserver>(scene, door, *robot, cloud);
+            if (remembered.IsOn()) camera->Remember({scene, door, *robot, cloud, remembered});
+            return camera;
           }};
 }
 

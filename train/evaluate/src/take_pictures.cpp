@@ -8,8 +8,10 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/parallel_for.h"
-#include "doorforge/evaluate/success_statistics.h"
 #include "doorforge/physics/load_robot.h"
+#include "doorforge/report/html_numbers.h"
+#include "doorforge/report/outcome_text.h"
+#include "doorforge/report/success_statistics.h"
 #include "doorforge/rollout/camera_observer.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/sensor/affordance_picture.h"
@@ -18,8 +20,6 @@
 #include "doorforge/sensor/scene_picture.h"
 
 #include "episode_film.h"
-#include "html_text.h"
-#include "outcome_text.h"
 
 namespace doorforge {
 namespace {

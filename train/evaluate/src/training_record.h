@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "doorforge/evaluate/report.h"
+#include "doorforge/report/report.h"
 
 // What a policy and its data set say about the training.
 

@@ -193,6 +193,8 @@ NetworkView ViewFromJson(const Json& json, const std::string& path) {
   if (json.contains("zoom")) view.zoom = static_cast<float>(ValueOf<double>(json, "zoom", path));
   if (json.contains("cloud_within_m"))
     view.cloud_within_m = static_cast<float>(ValueOf<double>(json, "cloud_within_m", path));
+  if (json.contains("remembered_finer"))
+    view.remembered_finer = ValueOf<int>(json, "remembered_finer", path);
   if (json.contains("near_points")) view.near_points = ValueOf<int>(json, "near_points", path);
   return view;
 }
@@ -267,6 +269,7 @@ Json NormalisationToJson(const StageNormalisation& normalisation) {
           {"context_m", normalisation.view.context_m},
           {"zoom", normalisation.view.zoom},
           {"cloud_within_m", normalisation.view.cloud_within_m},
+          {"remembered_finer", normalisation.view.remembered_finer},
           {"near_points", normalisation.view.near_points},
           {"cloud_centre_m", normalisation.cloud_centre_m},
           {"cloud_scale", 1},

@@ -36,12 +36,17 @@ std::array<float, 3> ApproachOf(const DatasetReader& reader, std::size_t episode
   return ToArray(-scene.world_from_door.linear().col(0).cast<float>());
 }
 
-// 0 in data sets of earlier builds, whose clouds were of the whole door.
-float CloudWithinOf(const DatasetReader& reader, std::size_t episode) {
+// What an episode's clouds are made of; data sets of earlier builds say nothing of it.
+void AddMakeOfClouds(const DatasetReader& reader, std::size_t episode,
+                     std::span<TrainingSample> samples) {
   const std::string path = "episode " + reader.entry(episode).key + ": meta.json";
   const nlohmann::ordered_json meta = reader.Meta(episode);
-  if (!meta.contains("cloud_within_m")) return 0;
-  return static_cast<float>(ValueOf<double>(meta, "cloud_within_m", path));
+  for (TrainingSample& sample : samples) {
+    if (meta.contains("cloud_within_m"))
+      sample.cloud_within_m = static_cast<float>(ValueOf<double>(meta, "cloud_within_m", path));
+    if (meta.contains("remembered_finer"))
+      sample.remembered_finer = ValueOf<int>(meta, "remembered_finer", path);
+  }
 }
 
 void RequireFinite(std::span<const float> values, const char* name, const std::string& key) {
@@ -112,9 +117,8 @@ std::vector<TrainingSample> SamplesOf(const DatasetReader& reader, const std::st
                                           std::to_string(kCloudPoints));
     RequireFinite(arrays, reader.entry(i).key);
     AppendEpisode(arrays, samples);
-    if (FamilyOf(stage) != NetworkFamily::kGrasp) continue;
-    samples.back().approach = ApproachOf(reader, i);
-    samples.back().cloud_within_m = CloudWithinOf(reader, i);
+    AddMakeOfClouds(reader, i, std::span(samples).last(arrays.decisions));
+    if (FamilyOf(stage) == NetworkFamily::kGrasp) samples.back().approach = ApproachOf(reader, i);
   }
   return samples;
 }

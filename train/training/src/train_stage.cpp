@@ -77,13 +77,18 @@ void AddScaled(const StageLosses& losses, double factor, StageLosses& sum) {
   for (const auto value : kLosses) sum.*value += factor * losses.*value;
 }
 
-// The clouds' extent, which is one.
-float CloudWithin(std::span<const TrainingSample> samples) {
-  for (const TrainingSample& sample : samples)
+// All clouds are made in one way, which the policy's record tells whoever lets it act.
+void RequireLikeClouds(std::span<const TrainingSample> samples) {
+  for (const TrainingSample& sample : samples) {
     Require(sample.cloud_within_m == samples.front().cloud_within_m, ErrorCode::kInvalidArgument,
             "the data sets' clouds have different extents (cloud_within_m in meta.json); train "
             "from those with the same");
-  return samples.front().cloud_within_m;
+    Require(sample.remembered_finer == samples.front().remembered_finer,
+            ErrorCode::kInvalidArgument,
+            "some of the data sets' clouds hold what was seen before the robot came, and others "
+            "do not, or not as finely (remembered_finer in meta.json); train from those with the "
+            "same, or make them alike with `doorforge dataset re-observe`");
+  }
 }
 
 NetworkView ViewOf(const TrainConfig& config, std::span<const TrainingSample> samples) {
@@ -95,7 +100,9 @@ NetworkView ViewOf(const TrainConfig& config, std::span<const TrainingSample> sa
   }
   view.context_m = static_cast<float>(config.context_m);
   view.zoom = static_cast<float>(config.zoom);
-  view.cloud_within_m = CloudWithin(samples);
+  RequireLikeClouds(samples);
+  view.cloud_within_m = samples.front().cloud_within_m;
+  view.remembered_finer = samples.front().remembered_finer;
   if (config.family == NetworkFamily::kGrasp) view.near_points = config.near_points;
   return view;
 }

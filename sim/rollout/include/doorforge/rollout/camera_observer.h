@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "doorforge/rollout/observer.h"
+#include "doorforge/rollout/remembered_view.h"
 #include "doorforge/schemas/door_asset.h"
 #include "doorforge/schemas/scene.h"
 #include "doorforge/sensor/depth_camera.h"
@@ -40,6 +42,9 @@ class CameraObserver : public Observer {
   CameraObserver(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
                  const CloudConfig& config = {}, bool sees_robot = true);
 
+  /// From now on the clouds of the stage "unlock" are joined with what is remembered.
+  void Remember(RememberedView before);
+
   Sight Look(const SceneSnapshot& snapshot);
   LabelledCloud Observe(const SceneSnapshot& snapshot) override;
 
@@ -52,6 +57,7 @@ class CameraObserver : public Observer {
   CameraModel believed_;
   CloudConfig config_;
   DepthCamera camera_;
+  std::optional<RememberedView> before_;
   int looks_ = 0;
 };
 

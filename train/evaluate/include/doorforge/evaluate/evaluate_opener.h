@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "doorforge/evaluate/evaluation_config.h"
-#include "doorforge/evaluate/report.h"
-#include "doorforge/evaluate/report_page.h"
+#include "doorforge/report/report.h"
+#include "doorforge/report/report_page.h"
 #include "doorforge/schemas/door_set.h"
 #include "doorforge/schemas/policy.h"
 

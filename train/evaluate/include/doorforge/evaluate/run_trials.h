@@ -8,10 +8,10 @@
 #include <optional>
 #include <vector>
 
-#include "doorforge/evaluate/evaluated_episode.h"
 #include "doorforge/evaluate/evaluation_config.h"
 #include "doorforge/physics/robot_model.h"
 #include "doorforge/policy/grasp_policy.h"
+#include "doorforge/report/evaluated_episode.h"
 #include "doorforge/rollout/observer.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/schemas/door_asset.h"

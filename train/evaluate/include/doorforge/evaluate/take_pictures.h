@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "doorforge/evaluate/report_page.h"
 #include "doorforge/evaluate/run_trials.h"
+#include "doorforge/report/report_page.h"
 
 namespace doorforge {
 

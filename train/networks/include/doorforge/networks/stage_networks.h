@@ -56,10 +56,10 @@ PolicyState StateOf(StateKind kind, const Proprioception& proprioception);
 struct NetworkView {
   ViewFrame frame = ViewFrame::kWorld;
   StateKind state = StateKind::kJoints;
-  float context_m = 0;  ///< CloudWindow::radius_m of every cloud.
-  float zoom = 1;       ///< CloudWindow::zoom of every cloud.
-  /// Where a grasp is chosen: TrainingSample::cloud_within_m of what was learned from.
-  float cloud_within_m = 0;
+  float context_m = 0;       ///< CloudWindow::radius_m of every cloud.
+  float zoom = 1;            ///< CloudWindow::zoom of every cloud.
+  float cloud_within_m = 0;  ///< TrainingSample::cloud_within_m of what was learned from.
+  int remembered_finer = 0;  ///< TrainingSample::remembered_finer of what was learned from.
   /// Where a grasp is chosen: how many of the points nearest to the contact the discriminator
   /// reads, in the hand's own frame, instead of the cloud and the rotation; 0: those, as
   /// UniDoorManip.

@@ -28,6 +28,9 @@ struct TrainingSample {
   std::array<float, 3> approach{};
   /// How far from point 0 the cloud's points were taken [m]; 0: wherever any was visible.
   float cloud_within_m = 0;
+  /// How many times finer than the camera's picture that was from before the robot came, whose
+  /// points the cloud holds as well; 0: the cloud is of what was visible at the decision.
+  int remembered_finer = 0;
 };
 
 }  // namespace doorforge

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "doorforge/collect/trained_policy.h"
+#include "doorforge/dataset/regenerate.h"
+#include "doorforge/physics/load_robot.h"
+
+namespace doorforge {
+
+/// A dataset of which a share is made again, and what it was made with.
+struct RegenerateDatasetRequest {
+  std::filesystem::path folder;    ///< The dataset's.
+  double fraction = 0.01;          ///< Of the planned episodes, in (0, 1].
+  std::vector<std::string> doors;  ///< Folders with the doors of the dataset.
+  std::string robot;               ///< URDF of the robot, where config.yaml names one that is not
+                                   ///< in the dataset's folder; empty: none is given.
+  PolicyFolders policies;          ///< That acted.
+  int threads = 0;                 ///< 0: all processors.
+  RobotMeshReader robot_meshes;    ///< Reads the meshes of that robot; see LoadRobot().
+};
+
+/// Makes a share of a dataset's episodes again, from its own config.yaml and the doors, robot and
+/// policies that are given, and compares every byte; see RegenerateEpisodes().
+///
+/// @throws Error(kInvalidArgument) if build, doors, robot or policies are not those that the
+///     dataset was made with, or it is of an early build that noted no plan; as StageRun and
+///     RegenerateEpisodes().
+RegenerateResult RegenerateDataset(const RegenerateDatasetRequest& request);
+
+}  // namespace doorforge

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "doorforge/collect/stage_episode.h"
+#include "doorforge/dataset/collect.h"
+#include "doorforge/dataset/collection_plan.h"
+#include "doorforge/physics/load_robot.h"
+#include "doorforge/schemas/door_set.h"
+
+namespace doorforge {
+
+/// What a collection is made from, as a user names it.
+struct StageRequest {
+  StageConfig config;
+  std::vector<std::string> doors;  ///< As DoorSelectionOf().
+  PolicyFolders policies;
+  int threads = 0;
+  RobotMeshReader robot_meshes;  ///< Reads the meshes of config.scene.robot; see LoadRobot().
+};
+
+/// A collection of one stage, ready to run: everything that can be refused has been. Not copied,
+/// not moved; Run() is thread-safe.
+class StageRun {
+ public:
+  /// @throws Error(kInvalidConfig), Error(kInvalidArgument) if the robot or a policy is not one for
+  ///     this stage or no door is left, Error(kMissing or kFormat) as the readers of doors and
+  ///     policies.
+  explicit StageRun(const StageRequest& request);
+  StageRun(const StageRun&) = delete;
+  StageRun& operator=(const StageRun&) = delete;
+
+  const StageConfig& config() const { return config_; }
+  const CollectionPlan& plan() const { return plan_; }
+  /// Those that the stage has a use for: "handle" has none for doors without a latch.
+  const std::vector<FoundDoor>& doors() const { return doors_; }
+
+  /// For Collect(): folder, threads and task are the caller's.
+  CollectRequest Request() const;
+  CollectedEpisode Run(const PlannedEpisode& planned);
+
+ private:
+  std::string ConfigText() const;
+  /// Those that act.
+  std::vector<TrainedPolicy> Trained() const;
+
+  StageConfig config_;
+  RobotModel robot_;
+  std::unique_ptr<PolicyPool> handler_;
+  std::unique_ptr<PolicyPool> opener_;
+  std::unique_ptr<PolicyPool> learner_;
+  std::unique_ptr<GraspPool> grasp_learner_;
+  std::vector<FoundDoor> doors_;
+  DoorShelf shelf_;
+  CollectionPlan plan_;
+};
+
+}  // namespace doorforge

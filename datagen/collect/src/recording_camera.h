@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "doorforge/rollout/camera_observer.h"
+#include "doorforge/rollout/occlusion.h"
+
+namespace doorforge {
+
+/// The policy's camera, which also keeps what an episode's record says of its looks: how many
+/// points were visible, what was hidden, the depth images of the preview.
+class RecordingCamera : public Observer {
+ public:
+  /// As CameraObserver's constructor. Without `sees_robot` only the door is there.
+  RecordingCamera(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
+                  const CloudConfig& config, bool sees_robot = true);
+
+  /// As CameraObserver's.
+  void Remember(RememberedView before) { camera_.Remember(std::move(before)); }
+
+  LabelledCloud Observe(const SceneSnapshot& snapshot) override;
+  /// The same look, but every point that is visible.
+  LabelledCloud LookAtAll(const SceneSnapshot& snapshot);
+
+  /// Points inside the crop before sampling, of the first `looks` looks.
+  std::vector<int> Visible(std::size_t looks) const;
+  /// Hidden shares by name, one number a look each, of the first `looks` looks.
+  nlohmann::ordered_json OcclusionRecord(std::size_t looks) const;
+  /// Depth at the first and at the last of the first `looks` looks; empty if there was none. Who
+  /// acts after the recorded stage looks through this camera too.
+  std::string PreviewPng(std::size_t looks) const;
+
+ private:
+  Sight Look(const SceneSnapshot& snapshot);
+
+  CameraModel model_;
+  double max_depth_m_;
+  CameraObserver camera_;
+  OcclusionMeter occlusion_;
+  std::vector<DepthImage> depth_;
+  std::vector<int> visible_;
+  std::vector<Occlusion> hidden_;
+};
+
+}  // namespace doorforge

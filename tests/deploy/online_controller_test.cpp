@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/deploy/online_controller.h"
+
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/error.h"
+#include "doorforge/core/rigid_transform.h"
+
+#include "../program_answer.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kData = fs::path(DOORFORGE_SOURCE_DIR) / "data";
+
+fs::path SightOf(const std::string& stage) { return kData / "sight" / "lever" / stage; }
+
+DepthImage DepthOf(const std::string& stage) {
+  return DecodeDepthPng(ReadFile(SightOf(stage) / "depth.png"), 0.001, "depth");
+}
+
+OnlineControllerSetup SetupFor(const std::string& stage) {
+  OnlineControllerSetup setup;
+  setup.camera = ReadCalibratedCamera(SightOf(stage) / "camera.yaml");
+  return setup;
+}
+
+nlohmann::json ProgramAnswerOf(const std::string& arguments) {
+  return nlohmann::json::parse(
+      AnswerOf(DOORFORGE_BINARY_DIR "/bin/doorforge-act act " + arguments + " 2>/dev/null").text);
+}
+
+std::string FilesOf(const std::string& stage) {
+  const std::string folder = SightOf(stage).string();
+  return "--depth " + folder + "/depth.png --camera " + folder + "/camera.yaml";
+}
+
+TEST(OnlineController, PicturesInMemoryAreAnsweredAsFilesAreByTheProgram) {
+  OnlineControllerSetup setup = SetupFor("open");
+  setup.opener = (kData / "policies" / "opener").string();
+  OnlineController controller(setup);
+  const RobotState state = ReadRobotState(SightOf("open") / "state.yaml", controller.robot());
+  const ActAnswer answer = controller.Decide(DepthOf("open"), state);
+  const auto program =
+      ProgramAnswerOf(FilesOf("open") + " --state " + (SightOf("open") / "state.yaml").string() +
+                      " --policy " + setup.opener);
+  const RigidTransform hand = TransformFromJson(program["world_from_hand"], "program");
+  EXPECT_LT((hand.matrix() - answer.world_from_hand.matrix()).norm(), 1e-9);
+  EXPECT_EQ(program["visible_points"], answer.visible_points);
+  EXPECT_NEAR(program["expected_gain_rad"].get<double>(), answer.expected_gain_rad, 1e-9);
+  EXPECT_EQ(controller.last_seen().depth.depth_m, DepthOf("open").depth_m);
+}
+
+TEST(OnlineController, ItTakesHoldOfAHandleInMemoryAsTheProgramDoesOfOneInAFile) {
+  OnlineControllerSetup setup = SetupFor("grasp");
+  setup.grasper = (kData / "policies" / "grasper").string();
+  OnlineController controller(setup);
+  const fs::path mask = SightOf("grasp") / "mask.png";
+  const ActAnswer answer =
+      controller.DecideGrasp(DepthOf("grasp"), DecodeMaskPng(ReadFile(mask), "mask"));
+  const auto program = ProgramAnswerOf(FilesOf("grasp") + " --handle " + mask.string() +
+                                       " --grasper " + setup.grasper);
+  const RigidTransform hand = TransformFromJson(program["world_from_hand"], "program");
+  EXPECT_LT((hand.matrix() - answer.world_from_hand.matrix()).norm(), 1e-9);
+  EXPECT_EQ(program["handle_points"], *answer.handle_points);
+}
+
+TEST(OnlineController, WhatCannotBeUsedIsCalledByTheNamesThatItsUserGave) {
+  OnlineControllerSetup setup = SetupFor("open");
+  setup.opener = (kData / "policies" / "opener").string();
+  OnlineController controller(setup);
+  const RobotState state = ReadRobotState(SightOf("open") / "state.yaml", controller.robot());
+  DepthImage small = DepthOf("open");
+  small.height /= 2;
+  small.depth_m.resize(small.depth_m.size() / 2);
+  const auto refusal = [&](const InputNames& names) -> std::string {
+    try {
+      controller.Decide(small, state, names);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kInvalidArgument);
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal({}).find("the depth picture and the camera: "), 0U) << refusal({});
+  EXPECT_EQ(refusal({.depth = "/camera/depth", .camera = "/camera/info"})
+                .find("/camera/depth and /camera/info: "),
+            0U);
+}
+
+TEST(OnlineController, NobodyForAStageIsRefusedWithTheWayOut) {
+  OnlineControllerSetup setup = SetupFor("open");
+  setup.handler = (kData / "policies" / "handler").string();
+  OnlineController controller(setup);
+  const RobotState state = ReadRobotState(SightOf("open") / "state.yaml", controller.robot());
+  try {
+    controller.Decide(DepthOf("open"), state);
+    FAIL() << "an opener is missing";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("opens"), std::string::npos) << error.what();
+  }
+}
+
+TEST(OnlineController, TheExampleRunsOnTheSamplePictures) {
+  const ProgramAnswer answer =
+      AnswerOf(DOORFORGE_BINARY_DIR "/bin/control_loop " + kData.string() + " 2>&1");
+  EXPECT_EQ(answer.code, 0) << answer.text;
+  std::size_t steps = 0;
+  for (std::size_t at = 0; (at = answer.text.find("hold:     no", at)) != std::string::npos; ++at)
+    ++steps;
+  EXPECT_EQ(steps, 3U) << answer.text;
+}
+
+}  // namespace
+}  // namespace doorforge

@@ -1,0 +1,235 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+
+// From a real depth picture and a robot's state to the hand's next pose.
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "doorforge/cli/command_line.h"
+#include "doorforge/core/config_file.h"
+#include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
+#include "doorforge/core/output_file.h"
+#include "doorforge/core/program.h"
+#include "doorforge/deploy/act_answer.h"
+#include "doorforge/deploy/answer_picture.h"
+#include "doorforge/deploy/online_controller.h"
+
+namespace doorforge {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  OnlineControllerSetup setup;
+  std::string camera;
+  std::string stage = "auto";
+  std::string depth;
+  std::string state;
+  std::string handle;
+  std::string picture;
+  std::string foreign_limit;
+  std::string least_gain;
+  std::string config;
+  std::vector<std::string> settings;
+  std::optional<int> candidates;
+  bool text = false;
+  bool overwrite = false;
+};
+
+void AddInputs(CLI::App& app, Options& options) {
+  app.add_option("--depth", options.depth, "16-bit depth picture (PNG)");
+  app.add_option("--state", options.state, "robot's state at that moment (YAML)");
+  app.add_flag("--stream", options.setup.sees_every_decision,
+               "instead of --depth and --state: a decision for every line of standard input, "
+               "{\"depth\": FILE, \"state\": FILE} or {\"depth\": FILE, \"handle\": FILE}");
+  app.add_option("--handle", options.handle,
+                 "instead of --state, before the robot moves: which pixels show the handle (grey "
+                 "PNG, not 0 where it is); says where and how to take hold");
+  app.add_option("--camera", options.camera, "intrinsics and pose of the camera (YAML)")
+      ->required();
+}
+
+void AddPolicies(CLI::App& app, Options& options) {
+  app.add_option("--policy", options.setup.opener, "folder of a policy of `doorforge train open`");
+  app.add_option("--handler", options.setup.handler,
+                 "folder of a policy of `doorforge train handle`");
+  app.add_option("--grasper", options.setup.grasper,
+                 "folder of a policy of `doorforge train grasp`");
+  app.add_option("--stage", options.stage,
+                 "which of them acts: open, handle, or auto: as the state says (unlocked)")
+      ->check(CLI::IsMember({"auto", "open", "handle"}))
+      ->capture_default_str();
+  app.add_option("--base", options.setup.base, "what the robot stands on")
+      ->check(CLI::IsMember({"sliders", "fixed"}))
+      ->capture_default_str();
+  app.add_option("--candidates", options.candidates,
+                 "actions among which the critic chooses (config: policy.candidates, 1)");
+}
+
+void AddAnswers(CLI::App& app, Options& options) {
+  app.add_option("--foreign-limit", options.foreign_limit,
+                 "hold where a picture is farther from the training than so many of a hundred "
+                 "validation samples, or off (config: hold.foreign_percentile, 99)");
+  app.add_option("--least-gain", options.least_gain,
+                 "hold where less is expected [rad], or off (config: hold.least_gain_rad, 0, of "
+                 "an action; hold.least_door_angle_rad, 0.1, of a grasp)");
+  app.add_flag("--text", options.text, "a few lines for people instead of JSON");
+  app.add_option("--picture", options.picture,
+                 "PNG to draw the answer into: crop, hand now (white) and next (red), contact");
+  app.add_flag("--overwrite", options.overwrite, "replace the file of --picture");
+  app.add_option("--config", options.config, "YAML file with settings")->check(CLI::ExistingFile);
+  AddSettings(app, options.settings, "a.b=c overrides one setting, e.g. cloud.max_depth_m");
+}
+
+// What does not go together, before anything is read.
+void CheckOptions(const Options& options) {
+  const auto require = [](bool condition, const char* problem) {
+    if (!condition)
+      throw Error(ErrorCode::kInvalidArgument,
+                  std::string(problem) + "; see `doorforge act --help`");
+  };
+  const bool one = !options.depth.empty() && options.state.empty() != options.handle.empty();
+  const bool none = options.depth.empty() && options.state.empty() && options.handle.empty();
+  const OnlineControllerSetup& setup = options.setup;
+  require(setup.sees_every_decision ? none : one,
+          "--depth and either --state or --handle, or --stream in place of them, are required");
+  require(!setup.opener.empty() || !setup.handler.empty() || !setup.grasper.empty(),
+          "--policy, --handler or --grasper is required");
+  require(!setup.sees_every_decision || options.picture.empty(),
+          "--picture is of one answer, and --stream gives many; leave one of them out");
+}
+
+// "off" switches a hold off, a number sets its threshold.
+void SetHold(const std::string& text, const char* option, bool& on, double& threshold) {
+  if (text.empty()) return;
+  on = text != "off";
+  if (!on) return;
+  char* end = nullptr;
+  threshold = std::strtod(text.c_str(), &end);
+  if (*end != '\0' || !std::isfinite(threshold))
+    throw Error(ErrorCode::kInvalidArgument,
+                std::string(option) + ": found \"" + text + "\", expected a number or off");
+}
+
+OnlineControllerConfig ConfigOf(const Options& options) {
+  auto config = LoadConfig<OnlineControllerConfig>(options.config, options.settings);
+  if (options.candidates) config.policy.candidates = *options.candidates;
+  HoldConfig& hold = config.hold;
+  SetHold(options.foreign_limit, "--foreign-limit", hold.foreign, hold.foreign_percentile);
+  SetHold(options.least_gain, "--least-gain", hold.gain, hold.least_gain_rad);
+  SetHold(options.least_gain, "--least-gain", hold.gain, hold.least_door_angle_rad);
+  return config;
+}
+
+Options Parse(int argc, char** argv) {
+  Options options;
+  CLI::App app("From a depth picture and the robot's state to the hand's next pose.",
+               "doorforge act");
+  AddInputs(app, options);
+  AddPolicies(app, options);
+  AddAnswers(app, options);
+  app.footer(
+      "Prints the hand's next pose, what it is expected to gain, and whether to hold instead.\n"
+      "docs/act.md has the files of camera and state. Exit code 1: an answer says hold, or a line\n"
+      "could not be answered.\n\n"
+      "examples, with pictures of a simulated door, from the folder of the sources:\n"
+      "  doorforge act --depth data/sight/lever/grasp/depth.png --camera "
+      "data/sight/lever/grasp/camera.yaml \\\n"
+      "      --handle data/sight/lever/grasp/mask.png --grasper data/policies/grasper\n"
+      "  doorforge act --depth data/sight/lever/open/depth.png --camera "
+      "data/sight/lever/open/camera.yaml \\\n"
+      "      --state data/sight/lever/open/state.yaml --policy data/policies/opener --text\n"
+      "  doorforge act --stream --camera camera.yaml --policy run/opener --handler run/handler");
+  ParseVerb(app, argc, argv);
+  CheckOptions(options);
+  return options;
+}
+
+ActAnswer AnswerLine(OnlineController& controller, const std::string& camera,
+                     const std::string& line) {
+  const Json request = ParseJson(line, "line");
+  if (!request.is_object())
+    throw Error(ErrorCode::kFormat, "expected a line {\"depth\": FILE, \"state\": FILE}");
+  if (request.contains("handle"))
+    return DecideGraspFromFiles(controller, ValueOf<std::string>(request, "depth", "line"),
+                                ValueOf<std::string>(request, "handle", "line"), camera);
+  return DecideFromFiles(controller, ValueOf<std::string>(request, "depth", "line"),
+                         ValueOf<std::string>(request, "state", "line"), camera);
+}
+
+// A picture that cannot be used is answered and the loop goes on: the robot holds still meanwhile.
+Json Refusal(const Error& error) {
+  return {{"schema", "doorforge.decision"},
+          {"schema_version", kDecisionSchemaVersion},
+          {"hold", true},
+          {"error", error.what()}};
+}
+
+int Stream(OnlineController& controller, const Options& options) {
+  bool held = false;
+  for (std::string line; StopRequested() == 0 && std::getline(std::cin, line);) {
+    if (line.empty()) continue;
+    std::string shown;
+    try {
+      const ActAnswer answer = AnswerLine(controller, options.camera, line);
+      held = held || !answer.hold_reasons.empty();
+      shown = options.text ? AnswerText(answer) : JsonText(AnswerToJson(answer));
+    } catch (const Error& error) {
+      held = true;
+      shown =
+          options.text ? "hold:     " + std::string(error.what()) + "\n" : JsonText(Refusal(error));
+    }
+    std::cout << shown << std::endl;  // flushed: a robot waits for it
+  }
+  if (StopRequested() != 0) return 128 + StopRequested();
+  return held ? 1 : 0;
+}
+
+int Act(Options options) {
+  options.setup.config = ConfigOf(options);
+  if (options.stage != "auto") options.setup.stage = StageNamed(options.stage);
+  RequireNoFile(options.picture, options.overwrite);
+  options.setup.camera = ReadCalibratedCamera(options.camera);
+  OnlineController controller(options.setup);
+  for (const std::string& note : controller.notes())
+    std::fprintf(stderr, "doorforge: note: %s\n", note.c_str());
+  if (options.setup.sees_every_decision) return Stream(controller, options);
+  const ActAnswer answer =
+      options.handle.empty()
+          ? DecideFromFiles(controller, options.depth, options.state, options.camera)
+          : DecideGraspFromFiles(controller, options.depth, options.handle, options.camera);
+  if (options.text)
+    std::cout << AnswerText(answer);
+  else
+    std::cout << JsonText(AnswerToJson(answer), 2) << "\n";
+  if (!options.picture.empty())
+    WritePng(options.picture, AnswerPicture(answer, controller, options.setup.config.cloud));
+  return answer.hold_reasons.empty() ? 0 : 1;
+}
+
+// `doorforge act ...` starts this program with the verb as first argument
+int Run(int argc, char** argv) {
+  if (argc > 1 && std::string_view(argv[1]) == "act") {
+    --argc;
+    ++argv;
+  }
+  const Options options = Parse(argc, argv);
+  return NamingConfig(options.config, [&] { return Act(options); });
+}
+
+}  // namespace
+}  // namespace doorforge
+
+int main(int argc, char** argv) {
+  return doorforge::RunProgram([&] { return doorforge::Run(argc, argv); });
+}

@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "doorforge/verbs/eval_verb.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "doorforge/cli/command_line.h"
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/config_file.h"
+#include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
+#include "doorforge/core/program.h"
+#include "doorforge/evaluate/evaluate_opener.h"
+#include "doorforge/report/report_folder.h"
+#include "doorforge/report/report_table.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  EvaluationRequest request;
+  std::string out;
+  std::string config;
+  std::vector<std::string> settings;
+  std::optional<std::string> unlock_switch;
+  std::optional<int> seeds;
+  std::optional<std::uint64_t> first_seed;
+  std::optional<int> episodes_per_door;
+  bool json = false;
+  bool overwrite = false;
+};
+
+void AddOptions(CLI::App& app, Options& options) {
+  if (!options.request.own.make_open)
+    app.add_option("--policy", options.request.policy,
+                   "folder of a trained policy, or `expert` for the rule-based one")
+        ->required();
+  app.add_option("--doors", options.request.doors.folders,
+                 "folders of composed doors, searched in depth")
+      ->required();
+  app.add_option("--split", options.request.doors.split,
+                 "only doors of these parts: a split and its side, such as full:test");
+  app.add_option("-n,--per-category", options.request.doors.per_category,
+                 "at most so many doors of each category, all handles and bodies as evenly as "
+                 "the number allows; 0: all")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--out", options.out,
+                 "folder for report.json and report.html; without it only the table is printed");
+  app.add_option("--data", options.request.data,
+                 "data sets that the policy was trained from: the report lists and shows their "
+                 "doors");
+  if (!options.request.own.make_handle)
+    app.add_option("--handler", options.request.handler,
+                   "folder of a policy of `doorforge train handle`; without it the rule turns the "
+                   "handle")
+        ->check(CLI::ExistingDirectory);
+  app.add_option("--switch", options.unlock_switch,
+                 "who says that the handle is turned: with --handler that policy itself "
+                 "(predicted), or the simulator (privileged); (config: switch, predicted)")
+      ->check(CLI::IsMember({"privileged", "predicted"}));
+  app.add_option("--grasper", options.request.grasper,
+                 "folder of a policy of `doorforge train grasp`, or `random` for sampled grasps; "
+                 "without it the expert takes hold");
+  app.add_option("--seeds", options.seeds, "repetitions with other scenes (config: seeds, 3)");
+  app.add_option("--seed", options.first_seed, "the first of them (config: first_seed, 1)");
+  app.add_option("--episodes-per-door", options.episodes_per_door,
+                 "in each seed (config: episodes_per_door, 1)");
+  app.add_option("--threads", options.request.threads,
+                 "0: all processors; the result does not depend on it")
+      ->check(CLI::Range(0, 1024));
+  app.add_option("--config", options.config, "YAML file with settings")->check(CLI::ExistingFile);
+  AddSettings(app, options.settings, "a.b=c overrides one setting");
+  app.add_flag("--allow-seen", options.request.allow_seen,
+               "evaluate on doors with parts that the policy was trained on, too");
+  app.add_flag("--json", options.json, "print report.json's document instead of a table");
+  app.add_flag("--overwrite", options.overwrite, "replace the report in --out");
+}
+
+Options Parse(int argc, char** argv, const OwnPolicies& own) {
+  Options options;
+  options.request.own = own;
+  CLI::App app(
+      "Success of a policy in closed loop: the expert or a trained grasper takes hold, the rule "
+      "or\n"
+      "a trained policy turns the handle, then the policy opens.\n"
+      "Prints success with 95 % intervals per category and the causes of failure, and writes\n"
+      "report.json and report.html.",
+      own.make_open ? own.name : "doorforge eval");
+  AddOptions(app, options);
+  if (!own.make_open)
+    app.footer(
+        "examples:\n"
+        "  doorforge eval --policy run/opener --handler run/handler --grasper run/grasper --doors "
+        "run/doors/test\n    --out run/report\n"
+        "  doorforge eval --policy run/policy --data run/data --doors run/doors/test --out "
+        "run/report\n"
+        "  doorforge eval --policy expert --doors run/doors --split full:test -n 50 --seeds 3 "
+        "--out "
+        "run/expert");
+  ParseVerb(app, argc, argv);
+  return options;
+}
+
+EvaluationConfig ConfigOf(const Options& options) {
+  auto config = LoadConfig<EvaluationConfig>(options.config, options.settings);
+  if (options.unlock_switch) config.unlock_switch = *options.unlock_switch;
+  Require(options.unlock_switch != "predicted" || !options.request.handler.empty(),
+          ErrorCode::kInvalidArgument,
+          "--switch predicted: a policy that turns the handle says when it is turned; give one "
+          "with --handler");
+  if (options.seeds) config.seeds = *options.seeds;
+  if (options.first_seed) config.first_seed = *options.first_seed;
+  if (options.episodes_per_door) config.episodes_per_door = *options.episodes_per_door;
+  return config;
+}
+
+// the command as a user would type it, with quotes where a shell needs them
+std::string CommandLine(int argc, char** argv, const OwnPolicies& own) {
+  std::string line = own.make_open ? own.name : "doorforge eval";
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const bool plain =
+        !argument.empty() && argument.find_first_of(" \t\"'$&|;<>()*?\\") == std::string::npos;
+    line += plain ? " " + argument : " '" + argument + "'";
+  }
+  return line;
+}
+
+int Evaluate(Options& options) {
+  // refused before hours of work, not after
+  std::optional<StagedFolder> staged;
+  if (!options.out.empty())
+    staged.emplace(options.out, kReportFolder,
+                   options.overwrite ? Existing::kReplace : Existing::kRefuse);
+  Evaluation evaluation;
+  try {
+    evaluation = EvaluateOpener(options.request);
+  } catch (const Error&) {
+    if (StopRequested() == 0) throw;
+    std::fprintf(stderr, "doorforge: interrupted; nothing was written\n");
+    return 128 + StopRequested();
+  }
+  for (const std::string& note : evaluation.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
+  if (staged) {
+    WriteReportFolder(evaluation.report, evaluation.pictures, *staged);
+    std::fprintf(stderr, "report: %s\n",
+                 fs::absolute(fs::path(options.out) / "report.html").lexically_normal().c_str());
+  }
+  const std::string text = options.json ? JsonText(ReportToJson(evaluation.report), 2) + "\n"
+                                        : ReportTable(evaluation.report);
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  return 0;
+}
+
+}  // namespace
+
+int RunEvalVerb(int argc, char** argv, const OwnPolicies& own) {
+  return RunProgram([&] {
+    Options options = Parse(argc, argv, own);
+    options.request.config = ConfigOf(options);
+    options.request.command = CommandLine(argc, argv, own);
+    return NamingConfig(options.config, [&] { return Evaluate(options); });
+  });
+}
+
+}  // namespace doorforge

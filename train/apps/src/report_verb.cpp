@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/verbs/report_verb.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "doorforge/cli/command_line.h"
+#include "doorforge/core/json_file.h"
+#include "doorforge/core/program.h"
+#include "doorforge/report/over_trainings.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::vector<fs::path> reports;
+  bool json = false;
+};
+
+Options Parse(int argc, char** argv) {
+  Options options;
+  CLI::App app(
+      "One table of the reports of several trainings, judged on the same doors and seeds: mean "
+      "and\n"
+      "spread over the trainings, and intervals by resampling bodies and handles.",
+      "doorforge report");
+  app.add_option("reports", options.reports, "folders of `doorforge eval --out`, or report.json")
+      ->required()
+      ->check(CLI::ExistingPath);
+  app.add_flag("--json", options.json, "print one JSON document");
+  app.footer("example:\n  doorforge report run1/report run2/report run3/report");
+  ParseVerb(app, argc, argv);
+  return options;
+}
+
+EvaluationReport ReadReport(const fs::path& place) {
+  const std::string file = (fs::is_directory(place) ? place / "report.json" : place).string();
+  return ReportFromJson(ReadJsonFile(file), file);
+}
+
+}  // namespace
+
+int RunReportVerb(int argc, char** argv) {
+  return RunProgram([&] {
+    const Options options = Parse(argc, argv);
+    std::vector<EvaluationReport> reports;
+    for (const fs::path& place : options.reports) reports.push_back(ReadReport(place));
+    const TrainingsSummary summary = SummariseTrainings(reports);
+    const std::string text =
+        options.json ? JsonText(TrainingsToJson(summary), 2) + "\n" : TrainingsTable(summary);
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    return 0;
+  });
+}
+
+}  // namespace doorforge

@@ -1,0 +1,226 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/deploy/online_controller.h"
+
+#include <cmath>
+#include <utility>
+
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/error.h"
+#include "doorforge/physics/load_robot.h"
+#include "doorforge/rollout/gripper_clearance.h"
+#include "doorforge/rollout/run_episode.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kMostPictureBytes = 512ULL << 20U;
+
+// What of a picture does not fit its camera or another picture is said of these inputs.
+template <class Look>
+auto NamingInputs(const std::string& inputs, const Look& look) {
+  try {
+    return look();
+  } catch (const Error& error) {
+    throw Error(error.code(), inputs + ": " + error.what());
+  }
+}
+
+DepthImage ReadDepth(const fs::path& path, const CalibratedCamera& camera) {
+  return DecodeDepthPng(ReadFile(path, kMostPictureBytes), camera.metres_per_unit, path.string());
+}
+
+}  // namespace
+
+void CheckOnlineControllerConfig(const OnlineControllerConfig& config) {
+  Require(config.cloud.point_count == 4096, ErrorCode::kInvalidConfig,
+          "cloud.point_count: policies read 4096 points");
+  Require(config.hold.foreign_percentile >= 0 && config.hold.foreign_percentile <= 100,
+          ErrorCode::kInvalidConfig,
+          "hold.foreign_percentile (--foreign-limit): expected a number in [0, 100], or off");
+  Require(
+      std::isfinite(config.hold.least_gain_rad) && std::isfinite(config.hold.least_door_angle_rad),
+      ErrorCode::kInvalidConfig,
+      "hold.least_gain_rad and least_door_angle_rad (--least-gain): expected a number, or off");
+}
+
+OnlineController::OnlineController(const OnlineControllerSetup& setup)
+    : setup_(setup), robot_(LoadRobot({}, RobotBaseNamed(setup.base))) {
+  CheckOnlineControllerConfig(setup.config);
+  opener_ = LoadActor(setup.opener, Stage::kOpen);
+  handler_ = LoadHandler(setup.handler);
+  grasper_ = LoadGrasper(setup.grasper);
+}
+
+std::optional<Familiarity> OnlineController::LoadFamiliarity(const std::string& folder,
+                                                             const PolicyRecord& record) {
+  auto familiarity =
+      ReadFamiliarity(folder, record.provenance.dataset_sha256, record.networks.family);
+  if (!familiarity)
+    notes_.push_back(folder +
+                     " has no familiar.safetensors: how foreign a picture is to this policy cannot "
+                     "be told; its training command, run again with --resume, adds it");
+  return familiarity;
+}
+
+std::optional<OnlineController::Actor> OnlineController::LoadActor(const std::string& folder,
+                                                                   Stage stage) {
+  if (folder.empty()) return std::nullopt;
+  PolicyRecord record = ReadPolicy(folder, NameOf(stage));
+  auto familiarity = LoadFamiliarity(folder, record);
+  GainCritic critic(record.networks);
+  Actor actor{MakePolicy(std::move(record.networks), setup_.config.policy), record.weights_sha256,
+              std::move(critic), std::move(familiarity)};
+  actor.policy->Reset();
+  return actor;
+}
+
+std::optional<OnlineController::Actor> OnlineController::LoadHandler(const std::string& folder) {
+  std::optional<Actor> actor = LoadActor(folder, Stage::kHandle);
+  if (!actor) return actor;
+  const auto classifier = ReadTurnedClassifier(
+      folder, ReadPolicy(folder, NameOf(Stage::kHandle)).provenance.dataset_sha256);
+  if (!classifier) return actor;
+  auto turning = std::make_unique<TurningPolicy>(std::move(actor->policy), *classifier);
+  actor->turning = turning.get();
+  actor->policy = std::move(turning);
+  return actor;
+}
+
+std::optional<OnlineController::Grasper> OnlineController::LoadGrasper(const std::string& folder) {
+  if (folder.empty()) return std::nullopt;
+  PolicyRecord record = ReadPolicy(folder, NameOf(Stage::kGrasp));
+  auto familiarity = LoadFamiliarity(folder, record);
+  return Grasper{MakeGraspPolicy(std::move(record.networks), setup_.config.grasp),
+                 record.weights_sha256, std::move(familiarity)};
+}
+
+ActAnswer OnlineController::DecideGrasp(DepthImage depth, PixelMask handle,
+                                        const InputNames& names) {
+  if (!grasper_)
+    throw Error(ErrorCode::kInvalidArgument,
+                "a grasp is to be chosen, and --grasper, which chooses it, was not given");
+  const double yaw = setup_.config.door_yaw_rad;
+  seen_ = {std::move(depth), std::move(handle)};
+  HandleSight sight = NamingInputs(names.depth + ", " + names.handle + " and " + names.camera, [&] {
+    return ObserveHandle(seen_.depth, *seen_.handle, setup_.camera,
+                         -Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0), setup_.config.cloud);
+  });
+  const GripperClearance clearance(robot_);
+  sight.view.fits = [&](const Eigen::Vector3d& contact_m, const Eigen::Matrix3d& rotation) {
+    return clearance.Fits(sight.view.visible, contact_m, rotation);
+  };
+  return Answer(*grasper_->policy->Choose(sight.view), sight);
+}
+
+ActAnswer OnlineController::Decide(DepthImage depth, const RobotState& state,
+                                   const InputNames& names) {
+  seen_ = {std::move(depth), {}};
+  const Stage stage = StageOf(state, names.state);
+  const RobotSight sight = NamingInputs(names.depth + " and " + names.camera, [&] {
+    return ObserveDepth(seen_.depth, setup_.camera, state, setup_.config.cloud);
+  });
+  return Answer(stage, ActorOf(stage), state, sight);
+}
+
+std::optional<Foreignness> OnlineController::ForeignnessOf(
+    const std::optional<Familiarity>& familiarity, const SightNumbers& numbers) const {
+  if (!familiarity) return std::nullopt;
+  const double distance = familiarity->DistanceOf(numbers);
+  return Foreignness{distance, familiarity->PercentileOf(distance),
+                     familiarity->DistanceAt(setup_.config.hold.foreign_percentile)};
+}
+
+ActAnswer OnlineController::Answer(const GraspChoice& choice, const HandleSight& sight) const {
+  RigidTransform world_from_tcp = RigidTransform::Identity();
+  world_from_tcp.linear() = choice.world_from_hand_rotation * robot_.hand_from_tcp().linear();
+  world_from_tcp.translation() =
+      choice.contact_m + kGraspInsertion * choice.world_from_hand_rotation.col(2);
+  ActAnswer answer;
+  answer.stage = Stage::kGrasp;
+  answer.world_from_hand = world_from_tcp * robot_.hand_from_tcp().inverse();
+  answer.contact_m = choice.contact_m;
+  answer.expected_gain_rad = choice.score_rad;
+  answer.foreign = ForeignnessOf(
+      grasper_->familiarity,
+      SightNumbersOf({choice.cloud.xyz, choice.cloud.label}, {}, NetworkFamily::kGrasp));
+  answer.candidates = setup_.config.grasp.points * setup_.config.grasp.orientations;
+  answer.visible_points = sight.visible_count;
+  answer.handle_points = sight.handle_count;
+  answer.weights_sha256 = grasper_->weights_sha256;
+  Judge(setup_.config.hold, answer);
+  return answer;
+}
+
+Stage OnlineController::StageOf(const RobotState& state, const std::string& name) {
+  if (setup_.stage) return *setup_.stage;
+  if (!state.unlocked && !unlocked_ && !Predicts())
+    throw Error(ErrorCode::kInvalidConfig,
+                name +
+                    ": the key \"unlocked\" is missing, which says whether the handle has "
+                    "been turned; pass --stage, or use --stream with a --handler that says it "
+                    "itself (it has a turned.safetensors)");
+  unlocked_ = unlocked_ || (state.unlocked ? *state.unlocked : handler_->turning->Turned());
+  return unlocked_ ? Stage::kOpen : Stage::kHandle;
+}
+
+// Whether the handle policy can say when the handle is turned: it has seen the episode so far.
+bool OnlineController::Predicts() const {
+  return setup_.sees_every_decision && handler_ && handler_->turning != nullptr;
+}
+
+OnlineController::Actor& OnlineController::ActorOf(Stage stage) {
+  std::optional<Actor>& actor = stage == Stage::kOpen ? opener_ : handler_;
+  if (!actor)
+    throw Error(ErrorCode::kInvalidArgument,
+                stage == Stage::kOpen
+                    ? "the door is to be opened, and --policy, which opens, was not given"
+                    : "the handle is to be turned (unlocked: false), and --handler, which turns "
+                      "it, was not given; pass it, or --stage open");
+  return *actor;
+}
+
+ActAnswer OnlineController::Answer(Stage stage, Actor& actor, const RobotState& state,
+                                   const RobotSight& sight) {
+  const Observation& observation = sight.observation;
+  const Action action = actor.policy->Act(observation);
+  ActAnswer answer;
+  answer.stage = stage;
+  answer.world_from_hand.linear() = action.world_from_hand_rotation;
+  answer.world_from_hand.translation() =
+      state.world_from_hand.translation() + action.position_delta_m;
+  answer.world_from_hand_now = state.world_from_hand;
+  answer.expected_gain_rad = actor.critic.GainOf(observation, action);
+  answer.foreign = ForeignnessOf(
+      actor.familiarity, SightNumbersOf({observation.cloud.xyz, observation.cloud.label},
+                                        observation.proprioception, NetworkFamily::kMotion));
+  answer.candidates = setup_.config.policy.candidates;
+  answer.visible_points = sight.visible_count;
+  answer.weights_sha256 = actor.weights_sha256;
+  Judge(setup_.config.hold, answer);
+  if (stage == Stage::kHandle && Predicts()) {
+    // an action on a picture of something else must not end the stage
+    if (!answer.hold_reasons.empty()) actor.turning->TakeBack();
+    answer.turned = actor.turning->Turned();
+  }
+  return answer;
+}
+
+ActAnswer DecideFromFiles(OnlineController& controller, const fs::path& depth,
+                          const fs::path& state, const std::string& camera) {
+  const RobotState robot_state = ReadRobotState(state, controller.robot());
+  return controller.Decide(ReadDepth(depth, controller.camera()), robot_state,
+                           {.depth = depth.string(), .state = state.string(), .camera = camera});
+}
+
+ActAnswer DecideGraspFromFiles(OnlineController& controller, const fs::path& depth,
+                               const fs::path& mask, const std::string& camera) {
+  DepthImage picture = ReadDepth(depth, controller.camera());
+  return controller.DecideGrasp(
+      std::move(picture), DecodeMaskPng(ReadFile(mask, kMostPictureBytes), mask.string()),
+      {.depth = depth.string(), .handle = mask.string(), .camera = camera});
+}
+
+}  // namespace doorforge

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "doorforge/report/evaluated_episode.h"
+#include "doorforge/report/success_statistics.h"
+#include "doorforge/schemas/door_identity.h"
+#include "doorforge/schemas/seen_parts.h"
+
+namespace doorforge {
+
+inline constexpr int kReportSchemaVersion = 5;
+
+/// One loss over a training run: epochs with the mean on the training and on the validation
+/// samples. All three have the same length; a validation value that was not measured is NaN (null
+/// in files).
+struct LossCurve {
+  std::string name;  ///< Such as "hand position".
+  std::string unit;  ///< Such as "m"; empty if it has none.
+  std::vector<double> epoch;
+  std::vector<double> train;
+  std::vector<double> validation;
+};
+
+/// Stands for a hash where a policy is no folder but a class of somebody's program.
+inline constexpr const char* kOwnPolicy = "own";
+
+/// Where the numbers come from: hashes name the inputs, so that a report can be checked or made
+/// again. No times of day: equal inputs give equal reports.
+struct ReportProvenance {
+  std::string policy;          ///< Name of the policy's folder or of one's own, or "expert".
+  std::string policy_sha256;   ///< Of its weights; empty for the expert and one's own.
+  std::string dataset_sha256;  ///< Of the data set it was trained from; empty if unknown.
+  /// Weights of who turned the handle, or kOwnPolicy; empty: the rule.
+  std::string handler_sha256 = {};
+  /// Weights of who chose the grasp, or "random"; empty: the expert.
+  std::string grasper_sha256 = {};
+  std::string code_version;  ///< CodeVersion() of the evaluating program.
+  std::string command;       ///< The command line.
+  nlohmann::ordered_json config = nlohmann::ordered_json::object();  ///< The effective config.
+};
+
+/// Whether opening began when the policy that turned the handle said so, and not the simulator.
+bool IsSwitchPredicted(const ReportProvenance& provenance);
+
+/// Everything an evaluation found out. Success rates, intervals and counts are not stored but
+/// computed from `episodes`, so that they cannot disagree.
+struct EvaluationReport {
+  ReportProvenance provenance;
+  std::vector<DoorIdentity> doors;           ///< Evaluated, sorted by id.
+  SeenParts trained_on;                      ///< By any of the policies; empty for the expert.
+  std::vector<DoorIdentity> training_doors;  ///< Of the opener's data set, if it was given.
+  std::vector<EvaluatedEpisode> episodes;    ///< Sorted by door, seed, episode.
+  std::vector<EvaluatedEpisode> reference;   ///< The expert on the same scenes; may be empty.
+  std::vector<LossCurve> losses;             ///< Of the training; empty for the expert.
+};
+
+/// Doors whose body or whose handle was trained on, by id, content or shape: they are not held out.
+std::vector<std::string> SeenDoors(std::span<const DoorIdentity> doors,
+                                   const SeenParts& trained_on);
+
+/// The record `report.json`, docs/format-report.md: the fields above and, computed, "success",
+/// "over_seeds", "over_angle" and "causes". Same report, same text.
+nlohmann::ordered_json ReportToJson(const EvaluationReport& report);
+/// Throws Error(kFormat); `path` names the record. What is computed is not read.
+EvaluationReport ReportFromJson(const nlohmann::ordered_json& json, const std::string& path);
+
+}  // namespace doorforge

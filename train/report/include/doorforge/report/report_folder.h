@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "doorforge/core/committed_file.h"
+#include "doorforge/report/report.h"
+#include "doorforge/report/report_page.h"
+
+namespace doorforge {
+
+/// The folder of a report, for StagedFolder.
+inline constexpr FolderKind kReportFolder{"a report", "report.json", "doorforge.report"};
+
+/// Writes report.json, report.html, config.yaml (the effective settings, which --config takes
+/// again) and the pictures of chosen grasps below heat_maps/, and commits the folder: whoever looks
+/// finds all of a report or nothing of it.
+///
+/// @throws Error(kIo) as CommitFile().
+void WriteReportFolder(const EvaluationReport& report, const ReportPictures& pictures,
+                       StagedFolder& folder);
+
+}  // namespace doorforge

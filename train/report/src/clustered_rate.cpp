@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "doorforge/core/error.h"
+#include "doorforge/core/rng.h"
+#include "doorforge/report/success_statistics.h"
+
+namespace doorforge {
+namespace {
+
+constexpr double kNormalQuantile975 = 1.959963984540054;
+constexpr int kResamples = 1000;
+
+/// The trials of one door: numbers of its parts, how many, and how much of them succeeded.
+struct Cell {
+  std::size_t body = 0;
+  std::size_t handle = 0;
+  double trials = 0;
+  double successes = 0;
+};
+
+struct Table {
+  std::vector<Cell> cells;
+  std::size_t bodies = 0;
+  std::size_t handles = 0;
+};
+
+Table TableOf(std::span<const ClusteredTrial> trials) {
+  std::map<std::string, std::size_t> bodies;
+  std::map<std::string, std::size_t> handles;
+  for (const ClusteredTrial& trial : trials) bodies[trial.body] = handles[trial.handle] = 0;
+  // numbered in the order of the names, whatever that of the trials
+  for (auto* names : {&bodies, &handles}) {
+    std::size_t number = 0;
+    for (auto& [name, place] : *names) place = number++;
+  }
+  std::map<std::pair<std::size_t, std::size_t>, Cell> cells;
+  for (const ClusteredTrial& trial : trials) {
+    const std::pair place(bodies.at(trial.body), handles.at(trial.handle));
+    Cell& cell = cells[place];
+    cell.body = place.first;
+    cell.handle = place.second;
+    ++cell.trials;
+    cell.successes += trial.success;
+  }
+  Table table{{}, bodies.size(), handles.size()};
+  for (const auto& [place, cell] : cells) table.cells.push_back(cell);
+  return table;
+}
+
+// How often each of `count` is drawn in as many draws.
+std::vector<double> Drawn(std::size_t count, Rng& rng) {
+  std::vector<double> drawn(count);
+  for (std::size_t i = 0; i < count; ++i) ++drawn[rng.Index(static_cast<std::uint32_t>(count))];
+  return drawn;
+}
+
+// The variance of the rate over resamples of bodies and handles.
+double ResampledVariance(const Table& table) {
+  Rng rng(0, "clustered_rate");
+  double sum = 0;
+  double squares = 0;
+  int count = 0;
+  for (int i = 0; i < kResamples; ++i) {
+    const std::vector<double> bodies = Drawn(table.bodies, rng);
+    const std::vector<double> handles = Drawn(table.handles, rng);
+    double trials = 0;
+    double successes = 0;
+    for (const Cell& cell : table.cells) {
+      const double weight = bodies[cell.body] * handles[cell.handle];
+      trials += weight * cell.trials;
+      successes += weight * cell.successes;
+    }
+    if (trials == 0) continue;  // no pair of what was drawn had been tried
+    const double rate = successes / trials;
+    sum += rate;
+    squares += rate * rate;
+    ++count;
+  }
+  if (count == 0) return 0;
+  return std::max(0.0, squares / count - (sum / count) * (sum / count));
+}
+
+}  // namespace
+
+Interval WilsonInterval(double successes, double trials) {
+  Require(successes >= 0 && successes <= trials, ErrorCode::kInvalidArgument,
+          std::to_string(successes) + " successes of " + std::to_string(trials) +
+              " trials: expected 0 <= successes <= trials");
+  if (trials == 0) return {};
+  const double p = successes / trials;
+  const double z2 = kNormalQuantile975 * kNormalQuantile975;
+  const double center = (p + z2 / (2 * trials)) / (1 + z2 / trials);
+  const double half = kNormalQuantile975 / (1 + z2 / trials) *
+                      std::sqrt(p * (1 - p) / trials + z2 / (4 * trials * trials));
+  // at 0 and n successes one end is exactly 0 or 1; rounding must not say otherwise
+  return {successes == 0 ? 0 : std::max(0.0, center - half),
+          successes == trials ? 1 : std::min(1.0, center + half)};
+}
+
+SuccessRate ClusteredRate(std::span<const ClusteredTrial> trials) {
+  if (trials.empty()) return {};
+  SuccessRate rate;
+  double successes = 0;
+  for (const ClusteredTrial& trial : trials) successes += trial.success;
+  rate.episodes = static_cast<int>(trials.size());
+  rate.successes = static_cast<int>(std::lround(successes));
+  rate.rate = successes / rate.episodes;
+  const Table table = TableOf(trials);
+  const double variance = ResampledVariance(table);
+  rate.trials = static_cast<double>(table.cells.size());
+  const double of_one = rate.rate * (1 - rate.rate);
+  if (variance > 0) rate.trials = std::clamp(of_one / variance, 1.0, rate.trials);
+  const Interval interval = WilsonInterval(rate.rate * rate.trials, rate.trials);
+  rate.low = std::min(interval.low, rate.rate);
+  rate.high = std::max(interval.high, rate.rate);
+  return rate;
+}
+
+}  // namespace doorforge

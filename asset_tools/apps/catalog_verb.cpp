@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -9,20 +8,16 @@
 #include <nlohmann/json.hpp>
 
 #include "doorforge/authoring/part_batch.h"
-#include "doorforge/catalogue/catalogue.h"
+#include "doorforge/catalogue/describe_catalogue.h"
 #include "doorforge/cli/answer.h"
 #include "doorforge/cli/command_line.h"
-#include "doorforge/core/error.h"
 #include "doorforge/core/program.h"
-#include "doorforge/core/rigid_transform.h"
-#include "doorforge/schemas/split.h"
 
 #include "verbs.h"
 
 namespace doorforge {
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 struct Options {
@@ -36,42 +31,14 @@ struct Options {
 };
 
 std::vector<CatalogueEntry> Chosen(const Options& options) {
-  if (!options.category.empty() && !CategoryNamed(options.category))
-    throw Error(ErrorCode::kInvalidArgument,
-                "--category: unknown category \"" + options.category +
-                    "\"; allowed are interior, window, car, safe, storagefurniture, refrigerator");
-  const std::vector<CatalogueEntry> catalogue = ListCatalogue(DataFolder());
-  std::vector<CatalogueEntry> chosen;
-  if (options.split.empty()) {
-    chosen = catalogue;
-  } else {
-    const fs::path path = DataFolder() / "splits" / (options.split + ".yaml");
-    for (const std::string& id :
-         PartsOf(ReadSplit(fs::exists(path) ? path : fs::path(options.split))))
-      chosen.push_back(FindCatalogueEntry(catalogue, id));
-  }
-  std::erase_if(chosen, [&](const CatalogueEntry& entry) {
-    return !options.category.empty() && NameOf(entry.category) != options.category;
-  });
-  if (chosen.empty())
-    throw Error(ErrorCode::kMissing,
-                "catalog: there are no parts of category \"" + options.category + "\" here");
-  return chosen;
-}
-
-Json ToJson(const CatalogueEntry& entry) {
-  return {{"id", entry.id},
-          {"role", NameOf(entry.role)},
-          {"category", NameOf(entry.category)},
-          {"mechanism", NameOf(entry.mechanism)},
-          {"family", entry.family}};
+  return SelectParts(DataFolder(), {.category = options.category, .split = options.split});
 }
 
 int List(const Options& options) {
   const std::vector<CatalogueEntry> entries = Chosen(options);
   if (options.json) {
     Json parts = Json::array();
-    for (const CatalogueEntry& entry : entries) parts.push_back(ToJson(entry));
+    for (const CatalogueEntry& entry : entries) parts.push_back(EntryToJson(entry));
     PrintJson({{"schema", "doorforge.catalog"}, {"schema_version", 1}, {"parts", parts}});
     return 0;
   }
@@ -82,32 +49,11 @@ int List(const Options& options) {
   return 0;
 }
 
-Json PieceToJson(const PartPiece& piece) {
-  Eigen::AlignedBox3d bounds;
-  for (const Eigen::Vector3d& vertex : piece.mesh.vertices) bounds.extend(vertex);
-  return {{"name", piece.name},
-          {"triangles", piece.mesh.triangles.size()},
-          {"hulls", piece.hulls.size()},
-          {"mass_kg", piece.mass.mass_kg},
-          {"size_m", Vector3ToJson(bounds.sizes())}};
-}
-
 int Show(const Options& options) {
   const CatalogueEntry entry = FindCatalogueEntry(ListCatalogue(DataFolder()), options.id);
   const Part part = BuildCataloguePart(entry);
-  Json json = {{"schema", "doorforge.catalog_part"}, {"schema_version", 1}};
-  json.update(ToJson(entry));
-  json["license"] = part.license;
-  json["recipe"] = entry.recipe.string();
-  json["content_sha256"] = ContentHash(part);
-  if (part.role == PartRole::kBody)
-    json["part_from_mount"] = TransformToJson(part.part_from_mount);
-  else
-    json["part_from_grasp"] = TransformToJson(part.part_from_grasp);
-  json["pieces"] = Json::array();
-  for (const PartPiece& piece : part.pieces) json["pieces"].push_back(PieceToJson(piece));
   if (options.json) {
-    PrintJson(json);
+    PrintJson(DescribePart(entry, part));
     return 0;
   }
   std::printf("%s: %s of category %s, mechanism %s, family %s\n%s\n", part.id.c_str(),
@@ -127,7 +73,7 @@ int Build(const Options& options) {
   std::size_t failed = 0;
   Json parts = Json::array();
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    Json part = ToJson(entries[i]);
+    Json part = EntryToJson(entries[i]);
     part["built"] = problems[i].empty();
     part["message"] = problems[i];
     parts.push_back(part);

@@ -5,7 +5,6 @@
 
 #include "doorforge/cli/verb_table.h"
 
-#include "repair_verb.h"
 #include "verbs.h"
 
 int main(int argc, char** argv) {

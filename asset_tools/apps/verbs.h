@@ -10,6 +10,7 @@ int RunComposeVerb(int argc, char** argv);   ///< `doorforge compose`
 int RunExportVerb(int argc, char** argv);    ///< `doorforge export DOOR...`
 int RunImportVerb(int argc, char** argv);    ///< `doorforge import SRC...`
 int RunPreviewVerb(int argc, char** argv);   ///< `doorforge preview PATH...`
+int RunRepairVerb(int argc, char** argv);    ///< `doorforge repair IN OUT`
 int RunValidateVerb(int argc, char** argv);  ///< `doorforge validate PATH...`
 
 }  // namespace doorforge

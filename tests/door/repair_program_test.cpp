@@ -1,19 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "repair_verb.h"
-
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "doorforge/core/committed_file.h"
-#include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/mesh/import_mesh.h"
 #include "doorforge/mesh/mesh_writer.h"
 #include "doorforge/mesh/repair_mesh.h"
 
+#include "../program_answer.h"
 #include "shapes.h"
 
 namespace doorforge {
@@ -21,11 +21,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class RepairVerb : public testing::Test {
+class RepairProgram : public testing::Test {
  protected:
   void SetUp() override {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(DOORFORGE_BINARY_DIR) / "repair_verb_test" / test->name();
+    folder_ = fs::path(DOORFORGE_BINARY_DIR) / "repair_program_test" / test->name();
     fs::remove_all(folder_);
     CommitFile(folder_ / "torus.stl", WriterFor("x.stl")(Torus(1, 0.3, 24, 12)));
     TriangleMesh crossing = Torus(1, 0.3, 60, 60);
@@ -36,22 +36,16 @@ class RepairVerb : public testing::Test {
 
   std::string In(const std::string& name) const { return (folder_ / name).string(); }
 
-  // Exit code as a program would give it.
-  static int Run(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), "repair");
-    std::vector<char*> argv;
-    for (std::string& argument : arguments) argv.push_back(argument.data());
-    try {
-      return RunRepairVerb(static_cast<int>(argv.size()), argv.data());
-    } catch (const Error& error) {
-      return ExitCodeOf(error.code());
-    }
+  static int Run(const std::vector<std::string>& arguments) {
+    std::string command = std::string(DOORFORGE_BINARY_DIR) + "/bin/doorforge-assets repair";
+    for (const std::string& argument : arguments) command += " '" + argument + "'";
+    return AnswerOf(command + " 2>&1").code;
   }
 
   fs::path folder_;
 };
 
-TEST_F(RepairVerb, WritesAClosedMeshOfEachFormatWithItsReport) {
+TEST_F(RepairProgram, WritesAClosedMeshOfEachFormatWithItsReport) {
   for (const char* out : {"a.obj", "b.stl", "c.PLY"}) {
     ASSERT_EQ(Run({In("torus.stl"), In(out)}), 0);
     EXPECT_TRUE(ClosedMesh::From(MergedPieces(ImportMesh(In(out)))));
@@ -61,20 +55,20 @@ TEST_F(RepairVerb, WritesAClosedMeshOfEachFormatWithItsReport) {
   }
 }
 
-TEST_F(RepairVerb, ReportsAMeshThatCannotBeClosedAndWritesNothing) {
+TEST_F(RepairProgram, ReportsAMeshThatCannotBeClosedAndWritesNothing) {
   EXPECT_EQ(Run({In("crossing.ply"), In("a.obj"), "--wrap", "never"}), 1);
   EXPECT_FALSE(fs::exists(In("a.obj")));
   EXPECT_FALSE(fs::exists(In("a.obj.report.json")));
 }
 
-TEST_F(RepairVerb, OverwritesOnlyWhenAsked) {
+TEST_F(RepairProgram, OverwritesOnlyWhenAsked) {
   ASSERT_EQ(Run({In("torus.stl"), In("a.obj")}), 0);
   EXPECT_EQ(Run({In("torus.stl"), In("a.obj")}), 2);
   EXPECT_EQ(Run({In("torus.stl"), In("a.obj"), "--overwrite", "--set", "max_triangles=200"}), 0);
   EXPECT_LE(MergedPieces(ImportMesh(In("a.obj"))).triangles.size(), 200U);
 }
 
-TEST_F(RepairVerb, TellsWrongUseFromUnreadableInput) {
+TEST_F(RepairProgram, TellsWrongUseFromUnreadableInput) {
   EXPECT_EQ(Run({In("torus.stl")}), 2);
   EXPECT_EQ(Run({In("torus.stl"), In("a.obj"), "--wrap", "perhaps"}), 2);
   EXPECT_EQ(Run({In("torus.stl"), In("a.obj"), "--set", "max_triangle=1"}), 2);

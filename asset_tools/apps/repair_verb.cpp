@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "repair_verb.h"
-
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -18,6 +16,8 @@
 #include "doorforge/core/json_file.h"
 #include "doorforge/mesh/mesh_writer.h"
 #include "doorforge/mesh/repair_file.h"
+
+#include "verbs.h"
 
 namespace doorforge {
 namespace {

@@ -98,7 +98,8 @@ function(doorforge_add_library room)
   else()
     doorforge_precompile(${target} doorforge_core)
   endif()
-  install(TARGETS ${target} EXPORT doorforgeTargets FILE_SET HEADERS)
+  install(TARGETS ${target} EXPORT doorforgeTargets ARCHIVE COMPONENT development
+          FILE_SET HEADERS COMPONENT development)
 endfunction()
 
 # doorforge_add_program(<name> SOURCES <.cpp> ROOMS <rooms> [PRIVATE <targets>])
@@ -111,7 +112,8 @@ function(doorforge_add_program name)
   target_compile_options(${name} PRIVATE ${DOORFORGE_COMPILE_OPTIONS})
   set_target_properties(${name} PROPERTIES CXX_EXTENSIONS OFF)
   doorforge_precompile(${name} doorforge)
-  install(TARGETS ${name})
+  install(TARGETS ${name} COMPONENT programs)
+  set_property(GLOBAL APPEND PROPERTY DOORFORGE_PROGRAMS ${name})
 endfunction()
 
 function(doorforge_install_package)
@@ -122,10 +124,11 @@ function(doorforge_install_package)
   foreach(room IN LISTS components)
     string(APPEND DOORFORGE_PACKAGE_TABLE "set(doorforge_packages_${room} ${DOORFORGE_PACKAGES_${room}})\n")
   endforeach()
-  install(EXPORT doorforgeTargets NAMESPACE doorforge:: DESTINATION ${destination})
+  install(EXPORT doorforgeTargets NAMESPACE doorforge:: DESTINATION ${destination} COMPONENT development)
   configure_package_config_file(cmake/doorforgeConfig.cmake.in doorforgeConfig.cmake
                                 INSTALL_DESTINATION ${destination})
   write_basic_package_version_file(doorforgeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/doorforgeConfig.cmake
-                ${CMAKE_CURRENT_BINARY_DIR}/doorforgeConfigVersion.cmake DESTINATION ${destination})
+                ${CMAKE_CURRENT_BINARY_DIR}/doorforgeConfigVersion.cmake
+          DESTINATION ${destination} COMPONENT development)
 endfunction()

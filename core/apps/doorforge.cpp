@@ -12,8 +12,10 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "doorforge/cli/command_line.h"
 #include "doorforge/cli/verb_table.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/nearest_name.h"
@@ -29,6 +31,9 @@ struct FrontVerb {
   const char* program;  // empty: the front program itself
   const char* does;
 };
+
+constexpr const char* kAbout = "door assets and door-opening data for robot learning";
+constexpr const char* kExample = "example:\n  doorforge quickstart --out run/quickstart";
 
 constexpr std::array kVerbs = {
     FrontVerb{"quickstart", "", "the whole chain at small size, ends in report.html"},
@@ -54,17 +59,37 @@ constexpr std::array kVerbs = {
     FrontVerb{"doctor", "doorforge-train", "what is installed, and what to do about it"},
 };
 
+// A build without a room does not offer its verbs.
+bool IsBuilt(const FrontVerb& verb) {
+  return std::filesystem::exists(ProgramFolder() / verb.program);
+}
+
+void PrintDescription() {
+  nlohmann::ordered_json verbs = nlohmann::ordered_json::array();
+  for (const FrontVerb& verb : kVerbs) {
+    if (IsBuilt(verb))
+      verbs.push_back({{"name", verb.name}, {"program", verb.program}, {"about", verb.does}});
+  }
+  const nlohmann::ordered_json json = {
+      {"name", "doorforge"},
+      {"about", kAbout},
+      {"footer", kExample},
+      {"options",
+       {{{"names", {"-h", "--help"}}, {"about", "lists the verbs"}},
+        {{"names", {"--version"}}, {"about", "version and commit"}}}},
+      {"verbs", verbs}};
+  std::printf("%s\n", json.dump(2).c_str());
+}
+
 void PrintHelp() {
   std::printf(
-      "doorforge %s: door assets and door-opening data for robot learning\n\n"
+      "doorforge %s: %s\n\n"
       "usage: doorforge VERB [ARGUMENTS]     doorforge VERB --help\n\n",
-      CodeVersion().c_str());
-  // a build without a room does not offer its verbs
+      CodeVersion().c_str(), kAbout);
   for (const FrontVerb& verb : kVerbs) {
-    if (std::filesystem::exists(ProgramFolder() / verb.program))
-      std::printf("  %-11s %s\n", verb.name, verb.does);
+    if (IsBuilt(verb)) std::printf("  %-11s %s\n", verb.name, verb.does);
   }
-  std::printf("\nexample:\n  doorforge quickstart --out run/quickstart\n");
+  std::printf("\n%s\n", kExample);
 }
 
 const FrontVerb& FindVerb(const std::string& name) {
@@ -84,6 +109,10 @@ int Run(int argc, char** argv) {
   const std::string name = argc > 1 ? argv[1] : "--help";
   if (name == "--help" || name == "-h" || name == "help") {
     PrintHelp();
+    return 0;
+  }
+  if (name == kDescribeCommand) {
+    PrintDescription();
     return 0;
   }
   if (name == "--version") {

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <ctime>
 #include <new>
+#include <sstream>
 
 #include <spawn.h>
 #include <sys/wait.h>
@@ -73,15 +74,30 @@ int StopRequested() { return stop_signal; }
 
 fs::path ProgramFolder() { return fs::read_symlink("/proc/self/exe").parent_path(); }
 
+std::vector<fs::path> ProgramFolders() {
+  std::vector<fs::path> folders = {ProgramFolder()};
+  const char* path = std::getenv("PATH");
+  std::istringstream listed(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(listed, folder, ':');) {
+    // a name without a slash in front would mean wherever the caller stands
+    if (!folder.starts_with('/')) continue;
+    std::error_code absent;
+    const fs::path front = fs::canonical(fs::path(folder) / "doorforge", absent);
+    if (!absent) folders.push_back(front.parent_path());
+  }
+  return folders;
+}
+
 fs::path DataFolder() {
   if (const char* folder = std::getenv("DOORFORGE_DATA")) return folder;
-  for (const fs::path& folder :
-       {ProgramFolder().parent_path() / "share/doorforge", fs::path(DOORFORGE_SOURCE_DATA)}) {
+  for (const fs::path& programs : ProgramFolders()) {
+    const fs::path folder = (programs / DOORFORGE_DATA_FROM_PROGRAMS).lexically_normal();
     if (fs::is_directory(folder / "robots")) return folder;
   }
   throw Error(ErrorCode::kMissing,
-              "no data folder beside the program; set DOORFORGE_DATA to the folder that holds "
-              "catalog/ and robots/");
+              (ProgramFolder() / DOORFORGE_DATA_FROM_PROGRAMS).lexically_normal().string() +
+                  ": no such folder, nor is there one beside a `doorforge` on PATH; set "
+                  "DOORFORGE_DATA to the folder that holds catalog/ and robots/");
 }
 
 int RunChild(const std::vector<std::string>& argv) {

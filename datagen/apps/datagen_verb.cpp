@@ -1,34 +1,28 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "datagen_verb.h"
-
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include <unistd.h>
+#include <CLI/CLI.hpp>
 
+#include "doorforge/cli/command_line.h"
+#include "doorforge/collect/collect_stage.h"
+#include "doorforge/collect/collection_script.h"
 #include "doorforge/collect/forecast.h"
-#include "doorforge/collect/stage_run.h"
-#include "doorforge/collect/trained_policy.h"
-#include "doorforge/core/committed_file.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/error.h"
-#include "doorforge/core/folder_lock.h"
-#include "doorforge/core/free_space.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/dataset/describe_dataset.h"
 #include "doorforge/dataset/task_number.h"
+#include "doorforge/dataset/task_summary.h"
 #include "doorforge/robot_meshes/robot_meshes.h"
 
-#include "slurm_verb.h"
-#include "verb_options.h"
+#include "verbs.h"
 
 namespace doorforge {
 namespace {
@@ -50,7 +44,9 @@ struct Options {
   std::string task;
   int tasks = 0;
   int task_offset = 0;
-  SlurmOptions slurm;
+  std::string script_file;  // for Slurm; empty: the collection is run here
+  SlurmScript script;
+  bool submit = false;
   bool resume = false;
   bool overwrite = false;
   bool json = false;
@@ -79,6 +75,27 @@ void AddOptions(CLI::App& app, Options& options) {
   app.add_flag("--json", options.json, "print one JSON document");
 }
 
+// What gives a collection to Slurm instead of running it here.
+void AddSlurmOptions(CLI::App& app, Options& options) {
+  SlurmScript& script = options.script;
+  auto* file = app.add_option("--slurm", options.script_file,
+                              "write a script that runs this collection as Slurm arrays of --tasks "
+                              "tasks, with the merge and the verification after them");
+  app.add_flag("--submit", options.submit, "and submit it")->needs(file);
+  app.add_option("--slurm-array", script.array_size, "Slurm's MaxArraySize")
+      ->check(CLI::Range(1, 4000001))
+      ->capture_default_str()
+      ->needs(file);
+  app.add_option("--slurm-parallel", script.parallel, "most tasks of an array at once, 0: all")
+      ->check(CLI::Range(0, 4000001))
+      ->needs(file);
+  app.add_option("--slurm-memory", script.memory, "a task's memory, as sbatch --mem takes it")
+      ->capture_default_str()
+      ->needs(file);
+  app.add_option("--slurm-option", script.options, "another one for sbatch: --partition=long")
+      ->needs(file);
+}
+
 // What belongs to a run that writes.
 void AddOutput(CLI::App& app, Options& options) {
   app.add_option("--out", options.out, "folder of the dataset")->required();
@@ -93,7 +110,7 @@ void AddOutput(CLI::App& app, Options& options) {
   app.add_flag("--resume", options.resume,
                "go on in --out, which is done without it where the settings are the same");
   app.add_flag("--overwrite", options.overwrite, "replace the dataset in --out");
-  AddSlurmOptions(app, options.slurm);
+  AddSlurmOptions(app, options);
 }
 
 StageRequest RequestOf(const Options& options) {
@@ -103,45 +120,6 @@ StageRequest RequestOf(const Options& options) {
   if (options.seed) config.seed = *options.seed;
   if (!options.robot.empty()) config.scene.robot = options.robot;
   return {config, options.doors, options.policies, options.threads, RobotMeshes()};
-}
-
-// Whether there is nothing but what a writer leaves that was killed at its first file, or has while
-// it writes.
-bool HoldsNothing(const fs::path& folder) {
-  return std::all_of(fs::directory_iterator(folder), fs::directory_iterator(),
-                     [](const fs::directory_entry& entry) {
-                       const std::string name = entry.path().filename().string();
-                       return name.starts_with(".config.yaml.tmp-") ||
-                              name == FolderLock::kFileName;
-                     });
-}
-
-// All but the lock of whoever removes it.
-void RemoveDataset(const fs::path& folder) {
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().filename() != FolderLock::kFileName) fs::remove_all(entry.path());
-  }
-}
-
-// Whether the folder is one to go on in is decided where config.yaml is compared.
-void PrepareFolder(const Options& options) {
-  const fs::path out = options.out;
-  if (HoldsNothing(out)) return;
-  if (!fs::exists(out / "config.yaml"))
-    throw Error(ErrorCode::kInvalidArgument,
-                options.out +
-                    ": exists and holds no dataset (no config.yaml); choose another "
-                    "folder");
-  if (!options.overwrite) return;
-  RequireKind(out, kDatasetFolder);
-  RemoveDataset(out);
-}
-
-// The tasks of a collection write side by side; who replaces what is there writes alone.
-FolderLock LockOf(const Options& options) {
-  Require(!fs::exists(options.out) || fs::is_directory(options.out), ErrorCode::kInvalidArgument,
-          options.out + ": is a file; --out takes a folder");
-  return {options.out, "doorforge datagen", options.overwrite ? Writers::kOne : Writers::kTogether};
 }
 
 CollectionTask TaskOf(const Options& options) {
@@ -156,30 +134,6 @@ CollectionTask TaskOf(const Options& options) {
   return task;
 }
 
-nlohmann::ordered_json TaskToJson(const CollectSummary& summary, const CollectionTask& task) {
-  return {{"schema", "doorforge.collection_task"},
-          {"schema_version", 1},
-          {"task", task.number},
-          {"tasks", task.count},
-          {"shards", summary.shards},
-          {"episodes", summary.written},
-          {"failures", summary.failures},
-          {"bytes", summary.bytes}};
-}
-
-int FinishTask(const CollectSummary& summary, const CollectionTask& task, const Options& options) {
-  if (options.json) {
-    std::cout << JsonText(TaskToJson(summary, task), 2) << '\n';
-  } else {
-    std::printf("task %d/%d: %llu shards, %llu of %llu episodes succeeded, %.1f MiB in %s\n",
-                task.number, task.count, static_cast<unsigned long long>(summary.shards),
-                static_cast<unsigned long long>(summary.written),
-                static_cast<unsigned long long>(summary.planned),
-                static_cast<double>(summary.bytes) / (1 << 20), options.out.c_str());
-  }
-  return 0;
-}
-
 int Finish(const CollectSummary& summary, const CollectionTask& task, const Options& options) {
   if (summary.stopped_by_signal != 0) {
     std::fprintf(stderr,
@@ -187,7 +141,11 @@ int Finish(const CollectSummary& summary, const CollectionTask& task, const Opti
                  options.out.c_str());
     return 128 + summary.stopped_by_signal;
   }
-  if (task.count > 1) return FinishTask(summary, task, options);
+  if (task.count > 1) {
+    std::cout << (options.json ? JsonText(TaskSummaryToJson(summary, task), 2) + "\n"
+                               : TaskSummaryText(summary, task, options.out));
+    return 0;
+  }
   const nlohmann::ordered_json description = DescribeDataset(options.out);
   std::cout << (options.json ? JsonText(description, 2) + "\n" : DescriptionText(description));
   if (summary.written > 0) return 0;
@@ -196,48 +154,35 @@ int Finish(const CollectSummary& summary, const CollectionTask& task, const Opti
   return 1;
 }
 
-// Refuses what certainly has no room, and warns where there may be none: episodes have about 16
-// decisions where they open, 1 to 25 in general, and clouds are nearly all of their bytes.
-void RequireSpaceForShards(const Options& options, const StageRun& run,
-                           const CollectionTask& task) {
-  constexpr double kBytesAPoint = 13;
-  const double decisions = run.config().stage == Stage::kGrasp ? 1 : 16;
-  const double whole = static_cast<double>(run.config().episodes) * decisions * kBytesAPoint *
-                       run.config().cloud.point_count / task.count;
-  const double needed = whole - BytesBelow(options.out);
-  const std::string lack = LackOfSpace(options.out, needed);
-  if (lack.empty()) return;
-  const std::string text = lack + "; make room, choose another --out, or ask for fewer --episodes";
-  if (!LackOfSpace(options.out, needed / 4).empty()) throw Error(ErrorCode::kIo, text);
+void Warn(const std::string& text) {
   std::fprintf(stderr, "doorforge: warning: %s\n", text.c_str());
 }
 
-int CollectStage(const Options& options) {
+int CollectOrGoOn(const Options& options) {
   const CollectionTask task = TaskOf(options);
-  StageRun run(RequestOf(options));
-  const FolderLock lock = LockOf(options);
-  PrepareFolder(options);
-  RequireSpaceForShards(options, run, task);
-  CollectRequest request = run.Request();
-  request.folder = options.out;
-  request.threads = options.threads;
-  request.task = task;
-  const CollectSummary summary = Collect(
-      run.plan(), [&](const PlannedEpisode& planned) { return run.Run(planned); }, request);
+  const CollectSummary summary =
+      CollectStage({RequestOf(options), options.out, task, options.overwrite, Warn});
   return Finish(summary, task, options);
 }
 
-int GiveToSlurm(const Options& options, std::vector<std::string> arguments) {
+int GiveToSlurm(const Options& options, const std::vector<std::string>& arguments) {
   Require(options.task.empty() && options.task_offset == 0, ErrorCode::kInvalidArgument,
           "--task and --task-offset: --slurm numbers the tasks itself; give --tasks N");
-  const StageRun run(RequestOf(options));
-  {
-    const FolderLock lock = LockOf(options);
-    PrepareFolder(options);
-  }
-  return RunSlurm(
-      {options.out, std::move(arguments), options.tasks, options.threads, run.plan().shards.size()},
-      options.slurm, options.overwrite ? Existing::kReplace : Existing::kRefuse);
+  SlurmScript script = options.script;
+  script.program = (ProgramFolder() / "doorforge").string();
+  script.work_folder = fs::current_path().string();
+  script.dataset = options.out;
+  script.arguments = arguments;
+  script.tasks = options.tasks;
+  script.threads = options.threads;
+  const std::string& file = options.script_file;
+  const CollectionScript written =
+      WriteCollectionScript({RequestOf(options), file, script, options.overwrite});
+  std::fprintf(stderr, "doorforge: %s: %d tasks of %zu shards in %zu arrays\n", file.c_str(),
+               written.tasks, written.shards, written.arrays);
+  if (options.submit) return RunChild({"/bin/bash", fs::absolute(file).string()});
+  std::printf("bash %s\n", file.c_str());
+  return 0;
 }
 
 int PrintPlan(const Options& options) {
@@ -297,10 +242,10 @@ int RunDatagenVerb(int argc, char** argv) {
       "angle");
   const CLI::App* plan = AddPlan(app, options);
   app.footer("example:\n  doorforge datagen open --doors doors/train --out data --episodes 200");
-  ParseDataVerb(app, argc, argv);
-  if (!options.slurm.file.empty()) return GiveToSlurm(options, {argv, argv + argc});
+  ParseVerb(app, argc, argv, EmptyValues::kRefuse);
+  if (!options.script_file.empty()) return GiveToSlurm(options, {argv, argv + argc});
   return NamingConfig(options.config,
-                      [&] { return plan->parsed() ? PrintPlan(options) : CollectStage(options); });
+                      [&] { return plan->parsed() ? PrintPlan(options) : CollectOrGoOn(options); });
 }
 
 }  // namespace doorforge

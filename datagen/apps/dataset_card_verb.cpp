@@ -1,16 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <string>
 
-#include "doorforge/core/committed_file.h"
-#include "doorforge/core/error.h"
-#include "doorforge/core/folder_lock.h"
 #include "doorforge/dataset/dataset_card.h"
 
-#include "dataset_downstream.h"
+#include "verbs.h"
 
 namespace doorforge {
 
@@ -28,10 +24,6 @@ OldReadme ReadmeOf(const Options& options) {
 }
 
 int WriteCard(const Options& options) {
-  Require(std::filesystem::is_directory(options.folder), ErrorCode::kMissing,
-          options.folder + ": no such folder");
-  const FolderLock lock(options.folder, "doorforge dataset card", Writers::kOne);
-  RemoveStaleFiles(SystemFiles(), options.folder);
   WriteDatasetCard(options.folder, ReadmeOf(options));
   std::printf("%s/README.md\n%s/croissant.json\n", options.folder.c_str(), options.folder.c_str());
   return 0;
@@ -39,9 +31,9 @@ int WriteCard(const Options& options) {
 
 }  // namespace
 
-std::function<int()> AddCard(CLI::App& verb) {
+Subcommand AddCard(CLI::App& dataset) {
   const auto options = std::make_shared<Options>();
-  CLI::App* app = verb.add_subcommand(
+  CLI::App* app = dataset.add_subcommand(
       "card", "writes README.md (YAML front matter) and croissant.json into the dataset");
   app->add_option("folder", options->folder, "the dataset's folder")->required();
   auto* overwrite =
@@ -51,7 +43,7 @@ std::function<int()> AddCard(CLI::App& verb) {
                 "leave README.md as it is; `verify` takes it as it is from now on")
       ->excludes(overwrite);
   app->footer("example:\n  doorforge dataset card data");
-  return [options, app] { return app->parsed() ? WriteCard(*options) : -1; };
+  return {app, [options] { return WriteCard(*options); }};
 }
 
 }  // namespace doorforge

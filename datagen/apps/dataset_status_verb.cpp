@@ -14,7 +14,7 @@
 #include "doorforge/dataset/collection_status.h"
 #include "doorforge/dataset/task_number.h"
 
-#include "dataset_downstream.h"
+#include "verbs.h"
 
 namespace doorforge {
 namespace {
@@ -72,9 +72,9 @@ int Status(const Options& options) {
 
 }  // namespace
 
-std::function<int()> AddStatus(CLI::App& verb) {
+Subcommand AddStatus(CLI::App& dataset) {
   const auto options = std::make_shared<Options>();
-  CLI::App* app = verb.add_subcommand(
+  CLI::App* app = dataset.add_subcommand(
       "status", "how far a collection is, while its tasks run or after: shards, rate, time left");
   app->add_option("folder", options->folders,
                   "the dataset's folder, and those of tasks that write into others")
@@ -92,7 +92,7 @@ std::function<int()> AddStatus(CLI::App& verb) {
       "complete,\n4 if not.\n\n"
       "examples:\n  doorforge dataset status data --watch\n"
       "  doorforge dataset status data --tasks 16 --json");
-  return [options, app] { return app->parsed() ? Status(*options) : -1; };
+  return {app, [options] { return Status(*options); }};
 }
 
 }  // namespace doorforge

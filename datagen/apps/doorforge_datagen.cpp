@@ -3,30 +3,35 @@
 
 // The program that makes and checks datasets.
 
-#include <string>
+#include <CLI/CLI.hpp>
 
-#include "doorforge/core/error.h"
-#include "doorforge/core/nearest_name.h"
-#include "doorforge/core/program.h"
+#include "doorforge/cli/command_line.h"
+#include "doorforge/cli/verb_table.h"
 
-#include "datagen_verb.h"
-#include "dataset_verb.h"
+#include "verbs.h"
 
 namespace doorforge {
 namespace {
 
-int Run(int argc, char** argv) {
-  const std::string verb = argc > 1 ? argv[1] : "";
-  if (verb == "datagen") return RunDatagenVerb(argc - 1, argv + 1);
-  if (verb == "dataset") return RunDatasetVerb(argc - 1, argv + 1);
-  throw Error(ErrorCode::kInvalidArgument, "unknown verb \"" + verb + "\"; did you mean \"" +
-                                               NearestName(verb, {"datagen", "dataset"}) +
-                                               "\"? `doorforge --help` lists all");
+int RunDatasetVerb(int argc, char** argv) {
+  CLI::App app("Checks and describes datasets.", "doorforge dataset");
+  app.require_subcommand(1);
+  app.footer("examples:\n  doorforge dataset verify data/open\n  doorforge dataset info data/open");
+  const Subcommand subcommands[] = {AddVerify(app), AddMerge(app), AddReobserve(app),
+                                    AddStatus(app), AddInfo(app),  AddExport(app),
+                                    AddCard(app)};
+  ParseVerb(app, argc, argv, EmptyValues::kRefuse);
+  for (const Subcommand& subcommand : subcommands) {
+    if (subcommand.app->parsed()) return subcommand.run();
+  }
+  return 0;  // not reached: the parser asks for a subcommand
 }
 
 }  // namespace
 }  // namespace doorforge
 
 int main(int argc, char** argv) {
-  return doorforge::RunProgram([&] { return doorforge::Run(argc, argv); });
+  constexpr doorforge::Verb kVerbs[] = {{"datagen", doorforge::RunDatagenVerb},
+                                        {"dataset", doorforge::RunDatasetVerb}};
+  return doorforge::RunVerbs(kVerbs, argc, argv);
 }

@@ -9,6 +9,7 @@
 #include "doorforge/dataset/regenerate.h"
 #include "doorforge/dataset/slurm_script.h"
 #include "doorforge/dataset/task_number.h"
+#include "doorforge/dataset/task_summary.h"
 
 #include "../program_answer.h"
 #include "synthetic.h"
@@ -201,6 +202,23 @@ TEST_F(TaskFromEnvironmentTest, RefusesNumbersThatAreEmptyOrOutOfRange) {
     ::setenv("SLURM_ARRAY_TASK_ID", text, 1);
     EXPECT_THROW(TaskFromEnvironment(8, 0), Error) << text;
   }
+}
+
+TEST(TaskSummary, SaysWhatATaskDid) {
+  CollectSummary summary;
+  summary.planned = 9;
+  summary.written = 7;
+  summary.failures = {{"slipped", 2}};
+  summary.shards = 3;
+  summary.bytes = 5 << 20;
+  EXPECT_EQ(TaskSummaryText(summary, {1, 4}, "data"),
+            "task 1/4: 3 shards, 7 of 9 episodes succeeded, 5.0 MiB in data\n");
+  const nlohmann::ordered_json json = TaskSummaryToJson(summary, {1, 4});
+  EXPECT_EQ(json.at("task"), 1);
+  EXPECT_EQ(json.at("tasks"), 4);
+  EXPECT_EQ(json.at("episodes"), 7);
+  EXPECT_EQ(json.at("failures").at("slipped"), 2);
+  EXPECT_EQ(json.at("bytes"), 5242880);
 }
 
 TEST(CutIntoArrays, HoldsEachTaskOnce) {

@@ -327,5 +327,23 @@ TEST_F(VerifyDatasetTest, CountsItsFindings) {
   EXPECT_EQ(json.at("counts").at("DST001"), 2);
 }
 
+TEST(FindingsText, TellsFaultsFromNotes) {
+  const DatasetFinding fault{"DST001", "a.tar", "7 bytes", "8 bytes", "copy it again"};
+  const DatasetFinding note{"DST014", "b.txt", "no part of it", "", "", DatasetSeverity::kNote};
+  EXPECT_EQ(FindingsText({note, fault}, "data/"),
+            "note    b.txt: no part of it\n"
+            "DST001  a.tar\n"
+            "        found   7 bytes\n"
+            "        allowed 8 bytes\n"
+            "        fix     copy it again\n"
+            "data/: 1 faults\n");
+  EXPECT_EQ(FindingsText({note}, "data"), "note    b.txt: no part of it\ndata: no faults\n");
+}
+
+TEST_F(VerifyDatasetTest, CountsTheShardsThatItWillCheck) {
+  EXPECT_EQ(CountShards(folder_), plan_.shards.size());
+  EXPECT_THROW(CountShards(folder_ / "nothing"), Error);
+}
+
 }  // namespace
 }  // namespace doorforge

@@ -30,6 +30,7 @@
 #include "doorforge/policy/turned_classifier.h"
 #include "doorforge/rollout/camera_observer.h"
 #include "doorforge/rollout/gripper_clearance.h"
+#include "doorforge/rollout/remembered_view.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/sensor/picture.h"
 
@@ -223,6 +224,16 @@ class RobotSightTest : public testing::Test {
     return answers;
   }
 
+  // The picture without its last column, which no camera of the same shape makes.
+  static fs::path WriteCutPicture(const fs::path& path) {
+    const DepthImage whole = DecodeDepthPng(ReadFile(path), 0.001, "whole");
+    DepthImage cut = whole;
+    cut.width -= 1;
+    cut.depth_m.resize(static_cast<std::size_t>(cut.width) * static_cast<std::size_t>(cut.height));
+    WriteDepthPng(folder_ / "cut.png", cut);
+    return folder_ / "cut.png";
+  }
+
   static fs::path WriteState(const std::string& name, const Json& change) {
     Json state = ReadJsonFile(State(0));
     for (const auto& [key, value] : change.items()) {
@@ -387,6 +398,60 @@ TEST_F(RobotSightTest, TheProgramTakesHoldAsTheGrasperDoesInTheSimulator) {
   refused(grasper + look, 2, "2 x 1 pixels");
   WritePng(folder_ / "mask.png", DepthPreview(depth));
   refused(grasper + look, 3, "8 or 16-bit grey");
+}
+
+TEST_F(RobotSightTest, AHandlerThatRemembersIsGivenThePictureFromBeforeAndAsksForIt) {
+  const DoorAsset door = MakePrimitiveDoor({});
+  Scene finer = scene_;
+  finer.camera.width *= 2;
+  finer.camera.height *= 2;
+  CameraObserver camera(finer, door, robot_, {}, /*sees_robot=*/false);
+  Onlooker onlooker(camera);
+  const auto opener = MakePolicy(UntrainedNetworks());
+  RunStages(scene_, door, robot_, {.grasp = &onlooker, .open = opener.get()}, nullptr);
+  const fs::path before = folder_ / "before.png";
+  WriteDepthPng(before, onlooker.depth);
+
+  // the picture is the simulator's in whole millimetres
+  const auto handler = folder_ / "remembers";
+  StageNetworks networks = UntrainedNetworks();
+  networks.normalisation.view.remembered_finer = 2;
+  networks.normalisation.view.cloud_within_m = 0.25F;
+  PolicyProvenance provenance;
+  provenance.stage = "handle";
+  provenance.dataset_sha256 = std::string(64, 'a');
+  WritePolicy(handler, networks, provenance);
+  const std::string inputs = "--stage handle --handler " + handler.string() + " --depth " +
+                             Depth(0).string() + " --state " + State(0).string();
+  const ProgramAnswer answer =
+      RunAct(With("camera.yaml", inputs + " --before " + before.string()), "2>/dev/null");
+  ASSERT_EQ(answer.code, 0) << answer.text;
+  RememberedView simulated(scene_, door, robot_, {}, {.finer = 2, .within_m = 0.25});
+  Observation observation;
+  observation.cloud = simulated.With(CropCloud(pictures_[0], scene_.camera),
+                                     (hands_[0] * robot_.hand_from_tcp()).translation());
+  observation.proprioception = episode_.decisions[0].proprioception;
+  const auto policy = MakePolicy(networks);
+  const Eigen::Vector3d moves =
+      Vector3FromJson(Json::parse(answer.text)["position_delta_m"], "delta");
+  EXPECT_LT((moves - policy->Act(observation).position_delta_m).norm(), 0.002);
+  observation.cloud = ObserveCloud(pictures_[0], scene_.camera, hands_[0].translation()).cloud;
+  EXPECT_GT((moves - policy->Act(observation).position_delta_m).norm(), 1e-4)
+      << "these weights do not care what is remembered, so the test shows nothing";
+
+  const ProgramAnswer refused = RunAct(With("camera.yaml", inputs));
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.text.find("--before"), std::string::npos) << refused.text;
+  const ProgramAnswer other =
+      RunAct(With("camera.yaml", inputs + " --before " + WriteCutPicture(before).string()));
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.text.find("pixels"), std::string::npos) << other.text;
+  const std::string line =
+      Json{{"before", before.string()}, {"depth", Depth(0).string()}, {"state", State(0).string()}}
+          .dump();
+  const auto streamed =
+      Stream(With("camera.yaml", "--stage handle --handler " + handler.string()), line + "\n");
+  EXPECT_EQ(streamed.at(0)["position_delta_m"], Json::parse(answer.text)["position_delta_m"]);
 }
 
 TEST_F(RobotSightTest, TheStateSaysWhoActsAndWhatIsUnlockedStaysSo) {

@@ -117,6 +117,43 @@ TEST(StageDataset, SaysOfTheHandlesDecisionsWhichTurnedIt) {
   EXPECT_TRUE(ReadStageDataset({{other}}, "open", 0.25).turned_train.empty());
 }
 
+// One episode with three decisions, the last of which brought the handle to 34 degrees and back,
+// and whose rewards are no angles.
+std::vector<bool> TurnedOf(EpisodeOutcome outcome, double simulated_s) {
+  const fs::path folder = EmptyFolder("rewarded");
+  ShardWriter writer(folder / "handle" / "train", {0, "handle", "train", "config"});
+  Episode episode;
+  episode.outcome = outcome;
+  episode.simulated_s = simulated_s;
+  episode.scene.latch.handle_done_angle_rad = 0.44;
+  for (const double handle_rad : {0.1, 0.3, 0.6}) {
+    Decision decision;
+    decision.cloud.xyz.assign(3 * kCloudPoints, 0.5F);
+    decision.cloud.label.assign(kCloudPoints, 0);
+    decision.proprioception.fill(0.1F);
+    decision.action.fill(0.1F);
+    decision.executed.fill(0.1F);
+    decision.handle_rad = handle_rad;
+    decision.score_rad = 7 - 10 * handle_rad;
+    decision.time_s = 2 + static_cast<double>(episode.decisions.size()) / 6;
+    episode.decisions.push_back(decision);
+  }
+  writer.Add("ep100000", 3, EncodeEpisode(episode, EpisodeMetaToJson(episode), ""));
+  writer.Commit();
+  WriteProvenance(folder);
+  std::vector<bool> turned;
+  for (const TurnedExample& example : ReadStageDataset({{folder}}, "handle", 0).turned_train)
+    turned.push_back(example.turned);
+  return turned;
+}
+
+TEST(StageDataset, WhetherAHandleIsTurnedIsNotReadFromTheReward) {
+  using Turned = std::vector<bool>;
+  EXPECT_EQ(TurnedOf(EpisodeOutcome::kOpened, 5), (Turned{false, true, true}));
+  EXPECT_EQ(TurnedOf(EpisodeOutcome::kGripLost, 3), (Turned{false, true, true}));
+  EXPECT_EQ(TurnedOf(EpisodeOutcome::kCollision, 2.5), (Turned{false, true, false}));
+}
+
 TEST(StageDataset, UsesTheSplitForValidationWhereThereIsOne) {
   const fs::path folder = EmptyFolder("val");
   WriteDataset(folder, "train", 2);

@@ -35,6 +35,7 @@ struct Options {
   std::string stage = "auto";
   std::string depth;
   std::string state;
+  std::string before;
   std::string handle;
   std::string picture;
   std::string foreign_limit;
@@ -52,6 +53,9 @@ void AddInputs(CLI::App& app, Options& options) {
   app.add_flag("--stream", options.setup.sees_every_decision,
                "instead of --depth and --state: a decision for every line of standard input, "
                "{\"depth\": FILE, \"state\": FILE} or {\"depth\": FILE, \"handle\": FILE}");
+  app.add_option("--before", options.before,
+                 "depth picture by the same camera from before the robot came, which a --handler "
+                 "may remember; in a stream {\"before\": FILE, ...} does the same");
   app.add_option("--handle", options.handle,
                  "instead of --state, before the robot moves: which pixels show the handle (grey "
                  "PNG, not 0 where it is); says where and how to take hold");
@@ -160,6 +164,8 @@ ActAnswer AnswerLine(OnlineController& controller, const std::string& camera,
   const Json request = ParseJson(line, "line");
   if (!request.is_object())
     throw Error(ErrorCode::kFormat, "expected a line {\"depth\": FILE, \"state\": FILE}");
+  if (request.contains("before"))
+    RememberFromFile(controller, ValueOf<std::string>(request, "before", "line"), camera);
   if (request.contains("handle"))
     return DecideGraspFromFiles(controller, ValueOf<std::string>(request, "depth", "line"),
                                 ValueOf<std::string>(request, "handle", "line"), camera);
@@ -203,6 +209,7 @@ int Act(Options options) {
   OnlineController controller(options.setup);
   for (const std::string& note : controller.notes())
     std::fprintf(stderr, "doorforge: note: %s\n", note.c_str());
+  if (!options.before.empty()) RememberFromFile(controller, options.before, options.camera);
   if (options.setup.sees_every_decision) return Stream(controller, options);
   const ActAnswer answer =
       options.handle.empty()

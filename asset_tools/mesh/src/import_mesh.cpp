@@ -68,7 +68,7 @@ std::vector<char*> PointersTo(std::vector<std::string>& texts) {
 
 fs::path ReaderProgram() {
   if (const char* program = std::getenv("DOORFORGE_READ_MESH")) return program;
-  for (const fs::path& folder : {ProgramFolder(), fs::path(DOORFORGE_INSTALLED_PROGRAMS)}) {
+  for (const fs::path& folder : ProgramFolders()) {
     if (fs::exists(folder / "doorforge-read-mesh")) return folder / "doorforge-read-mesh";
   }
   throw Error(ErrorCode::kMissing, (ProgramFolder() / "doorforge-read-mesh").string() +

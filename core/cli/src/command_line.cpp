@@ -4,13 +4,17 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <iostream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/nearest_name.h"
+
+#include "describe_command.h"
 
 namespace doorforge {
 namespace {
@@ -107,6 +111,10 @@ void RefuseEmptyValues(const CLI::App& app) {
 }  // namespace
 
 void ParseVerb(CLI::App& app, int argc, char** argv, EmptyValues empty) {
+  if (argc == 2 && std::string_view(argv[1]) == kDescribeCommand) {
+    std::cout << DescribeCommand(app).dump(2) << '\n';
+    std::exit(0);
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // for the help

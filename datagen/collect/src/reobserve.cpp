@@ -13,6 +13,7 @@
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/error.h"
+#include "doorforge/core/folder_lock.h"
 #include "doorforge/core/free_space.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
@@ -340,6 +341,7 @@ void RequireSpaceForClouds(const SourceDataset& source, const ReobserveConfig& c
 }  // namespace
 
 CollectSummary ReobserveDataset(const ReobserveRequest& request) {
+  const FolderLock lock(request.out, "doorforge dataset re-observe", Writers::kTogether);
   const SourceDataset source(request.folder);
   const SourceConfig source_config = ReadSourceConfig(request.folder, request.robot);
   const ReobserveConfig config = ConfigOf(request, source_config.config);

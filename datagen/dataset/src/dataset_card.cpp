@@ -11,6 +11,7 @@
 
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
+#include "doorforge/core/folder_lock.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/schemas/dataset.h"
@@ -415,6 +416,9 @@ bool IsOurs(const fs::path& folder, const std::string& record, const RecordSums&
 }  // namespace
 
 void WriteDatasetCard(const fs::path& folder, OldReadme readme) {
+  Require(fs::is_directory(folder), ErrorCode::kMissing, folder.string() + ": no such folder");
+  const FolderLock lock(folder, "doorforge dataset card", Writers::kOne);
+  RemoveStaleFiles(SystemFiles(), folder);
   const Contents contents = ReadContents(folder);
   const DatasetCardFiles card{ReadmeOf(contents), CroissantOf(contents)};
   const std::string croissant = JsonText(card.croissant, 2) + "\n";

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <cstring>
 #include <map>
 #include <optional>
@@ -289,6 +290,26 @@ RobomimicSummary ExportRobomimic(const RobomimicRequest& request) {
   partial.Commit(request.existing);
   summary.bytes = fs::file_size(request.out);
   return summary;
+}
+
+Json ExportToJson(const RobomimicRequest& request, const RobomimicSummary& summary) {
+  return {{"schema", "doorforge.dataset_export"},
+          {"schema_version", 1},
+          {"to", "robomimic"},
+          {"stage", request.stage},
+          {"out", request.out.string()},
+          {"demos", summary.demos},
+          {"samples", summary.samples},
+          {"bytes", summary.bytes}};
+}
+
+std::string ExportText(const RobomimicRequest& request, const RobomimicSummary& summary) {
+  char text[120];
+  std::snprintf(text, sizeof text, ": %llu demos, %llu samples, %.1f MiB\n",
+                static_cast<unsigned long long>(summary.demos),
+                static_cast<unsigned long long>(summary.samples),
+                static_cast<double>(summary.bytes) / (1 << 20));
+  return request.out.string() + text;
 }
 
 }  // namespace doorforge

@@ -184,11 +184,25 @@ ShardFiles FindShards(const fs::path& folder) {
   return files;
 }
 
+void RequireFolder(const fs::path& folder) {
+  if (!fs::is_directory(folder))
+    throw Error(ErrorCode::kMissing, folder.string() + ": no such folder");
+}
+
 }  // namespace
 
+std::size_t CountShards(const fs::path& folder) {
+  RequireFolder(folder);
+  std::size_t count = 0;
+  std::error_code error;
+  for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end;
+       it.increment(error))
+    count += it->path().filename().string().ends_with(".index.json") ? 1 : 0;
+  return count;
+}
+
 std::vector<DatasetFinding> VerifyDataset(const VerifyRequest& request) {
-  if (!fs::is_directory(request.folder))
-    throw Error(ErrorCode::kMissing, request.folder.string() + ": no such folder");
+  RequireFolder(request.folder);
   ShardFiles files = FindShards(request.folder);
   std::vector<Findings> by_shard(files.indices.size());
   ParallelFor(files.indices.size(), request.threads, [&](std::size_t i) {
@@ -225,6 +239,22 @@ nlohmann::ordered_json FindingsToJson(const std::vector<DatasetFinding>& finding
           {"schema_version", 1},
           {"findings", list},
           {"counts", counts}};
+}
+
+std::string FindingsText(const std::vector<DatasetFinding>& findings, const fs::path& folder) {
+  std::string text;
+  std::size_t faults = 0;
+  for (const DatasetFinding& finding : findings) {
+    if (finding.severity == DatasetSeverity::kNote) {
+      text += "note    " + finding.where + ": " + finding.measured + "\n";
+      continue;
+    }
+    ++faults;
+    text += finding.code + "  " + finding.where + "\n        found   " + finding.measured +
+            "\n        allowed " + finding.allowed + "\n        fix     " + finding.fix + "\n";
+  }
+  return text + folder.string() + ": " +
+         (faults == 0 ? "no faults" : std::to_string(faults) + " faults") + "\n";
 }
 
 }  // namespace doorforge

@@ -92,16 +92,16 @@ BoltBody::BoltBody(btMultiBodyDynamicsWorld& world, BulletBody& door, const Bolt
 }
 
 BoltBody::~BoltBody() {
-  if (strike_shape_) world_.removeCollisionObject(&strike_);
+  if (strike_shape_) world_.removeCollisionObject(strike_.get());
 }
 
 void BoltBody::PlaceStrike(const RigidTransform& world_from_door) {
   strike_shape_ = MakeHull(bolt_.strike_hull, RigidTransform::Identity(), kMargin);
-  strike_.setCollisionShape(strike_shape_.get());
-  strike_.setWorldTransform(ToBullet(world_from_door * bolt_.base_from_strike));
-  strike_.setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT);
-  strike_.setFriction(1);
-  world_.addCollisionObject(&strike_, static_cast<int>(ContactSide::kStrike),
+  strike_->setCollisionShape(strike_shape_.get());
+  strike_->setWorldTransform(ToBullet(world_from_door * bolt_.base_from_strike));
+  strike_->setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT);
+  strike_->setFriction(1);
+  world_.addCollisionObject(strike_.get(), static_cast<int>(ContactSide::kStrike),
                             MaskOf(ContactSide::kStrike));
 }
 

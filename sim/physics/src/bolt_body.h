@@ -45,7 +45,7 @@ class BoltBody {
   Bolt bolt_;
   BoltLinks links_;
   std::unique_ptr<btCollisionShape> strike_shape_;
-  btCollisionObject strike_;
+  std::unique_ptr<btCollisionObject> strike_ = std::make_unique<btCollisionObject>();
 };
 
 }  // namespace doorforge::internal

@@ -76,7 +76,7 @@ DoorBody::DoorBody(btMultiBodyDynamicsWorld& world, const RigidTransform& world_
 }
 
 DoorBody::~DoorBody() {
-  if (!frame_hulls_.empty()) world_.removeCollisionObject(&frame_);
+  if (!frame_hulls_.empty()) world_.removeCollisionObject(frame_.get());
 }
 
 std::optional<Bolt> DoorBody::MakeBolt(const DoorAsset& door, const Latch& latch) {
@@ -101,13 +101,13 @@ std::vector<BulletLink> DoorBody::LinksOf(const DoorAsset& door, double handle_f
 void DoorBody::AddFrame(const RigidTransform& world_from_door) {
   for (const TriangleMesh& mesh : HullsOf(door_.links[kBaseLink])) {
     frame_hulls_.push_back(MakeHull(mesh, RigidTransform::Identity()));
-    frame_shape_.addChildShape(btTransform::getIdentity(), frame_hulls_.back().get());
+    frame_shape_->addChildShape(btTransform::getIdentity(), frame_hulls_.back().get());
   }
   if (frame_hulls_.empty()) return;
-  frame_.setCollisionShape(&frame_shape_);
-  frame_.setWorldTransform(ToBullet(world_from_door));
-  frame_.setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT);
-  world_.addCollisionObject(&frame_, static_cast<int>(ContactSide::kDoor),
+  frame_->setCollisionShape(frame_shape_.get());
+  frame_->setWorldTransform(ToBullet(world_from_door));
+  frame_->setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT);
+  world_.addCollisionObject(frame_.get(), static_cast<int>(ContactSide::kDoor),
                             static_cast<int>(ContactSide::kRobot));
 }
 

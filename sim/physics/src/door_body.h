@@ -42,6 +42,7 @@ class DoorBody {
   double handle_rad() const { return body_.Position(kHandle); }
   double handle_rad_s() const { return body_.Velocity(kHandle); }
   const LatchState& latch() const { return state_; }
+  void RestoreLatch(const LatchState& state) { state_ = state; }
   bool HasBolt() const { return bolt_ != nullptr; }
   double bolt_m() const { return bolt_ ? bolt_->position_m() : 0; }
   double bolt_m_s() const { return bolt_ ? bolt_->velocity_m_s() : 0; }
@@ -68,9 +69,10 @@ class DoorBody {
   BulletBody body_;
   double hinge_inertia_ = 0;   // about the joint's axis, as the multibody has it [kg m^2]
   double handle_inertia_ = 0;  // the same
-  btCompoundShape frame_shape_;
+  // Bullet's objects are allocated, so that they lie in the world's BulletMemory.
+  std::unique_ptr<btCompoundShape> frame_shape_ = std::make_unique<btCompoundShape>();
   std::vector<std::unique_ptr<btCollisionShape>> frame_hulls_;
-  btCollisionObject frame_;
+  std::unique_ptr<btCollisionObject> frame_ = std::make_unique<btCollisionObject>();
   std::unique_ptr<BoltBody> bolt_;
 };
 

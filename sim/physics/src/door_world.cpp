@@ -6,10 +6,12 @@
 
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
+#include <BulletDynamics/Featherstone/btMultiBodyInplaceSolverIslandCallback.h>
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
 
+#include "bullet_memory.h"
 #include "contact_report.h"
 #include "door_body.h"
 #include "robot_body.h"
@@ -49,67 +51,53 @@ void Check(const Scene& scene, const RobotModel& robot) {
               robot.name() + '"');
 }
 
-}  // namespace
-
-class DoorWorld::Runtime {
- public:
-  Runtime(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
-          const JointVector& start);
-  Runtime(const Runtime&) = delete;
-  Runtime& operator=(const Runtime&) = delete;
-
-  void Step(const RobotCommand& command);
-  void Place(const WorldState& at);
-  DoorContacts Contacts() const;
-
-  Scene scene;
-  DoorAsset door;
-  RobotModel robot;
-  WorldState state;
-  std::optional<StateFault> fault;
-  double extra_hinge_torque = 0;
-  double extra_handle_torque = 0;
-
- private:
-  void ConfigureSolver();
-  void ReadState();
-  void RememberRotations();
-  void TurnCachedNormals();
-
-  btDefaultCollisionConfiguration collision_configuration_;
-  mutable btCollisionDispatcher dispatcher_{&collision_configuration_};
-  std::unique_ptr<internal::SelfCollisionFilter> self_collisions_;
-  btDbvtBroadphase broadphase_;
-  internal::RowSolver solver_;
-  btMultiBodyDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &collision_configuration_};
-  std::unique_ptr<internal::RobotBody> robot_body_;
-  std::unique_ptr<internal::DoorBody> door_body_;
-  std::unique_ptr<internal::WorldMonitor> monitor_;
-  std::vector<btMatrix3x3> rotation_before_;  // of every collision object, before the step
-};
-
-DoorWorld::Runtime::Runtime(const Scene& the_scene, const DoorAsset& the_door,
-                            const RobotModel& the_robot, const JointVector& start)
-    : scene(the_scene), door(the_door), robot(the_robot) {
-  Check(scene.physics);
-  Check(scene, robot);
-  RequireSimulatable(door, "simulated world");
-  internal::SwitchProfilingOff();
-  ConfigureSolver();
-  self_collisions_ = std::make_unique<internal::SelfCollisionFilter>(robot);
-  world_.getPairCache()->setOverlapFilterCallback(self_collisions_.get());
-  robot_body_ = std::make_unique<internal::RobotBody>(world_, scene, robot, start);
-  door_body_ = std::make_unique<internal::DoorBody>(world_, scene.world_from_door, door,
-                                                    scene.latch, scene.physics.handle_friction);
-  monitor_ = std::make_unique<internal::WorldMonitor>(robot_body_->body(), door_body_->body(),
-                                                      robot, door);
-  ReadState();
+// More pairs than robot and door have near each other; with more, Bullet allocates one by one.
+// Its own default of 4096 would make every world and every image of one 8 MB larger.
+btDefaultCollisionConstructionInfo SmallPools() {
+  btDefaultCollisionConstructionInfo info;
+  info.m_defaultMaxPersistentManifoldPoolSize = 256;
+  info.m_defaultMaxCollisionAlgorithmPoolSize = 256;
+  return info;
 }
 
-void DoorWorld::Runtime::ConfigureSolver() {
-  world_.setGravity(btVector3(0, 0, 0));
-  btContactSolverInfo& info = world_.getSolverInfo();
-  info.m_numIterations = scene.physics.solver_iterations;
+/// Bullet's world, which keeps a part of itself where no BulletMemory is asked.
+class IslandWorld : public btMultiBodyDynamicsWorld {
+ public:
+  using btMultiBodyDynamicsWorld::btMultiBodyDynamicsWorld;
+  void AddTo(internal::BulletMemory& memory) {
+    memory.AddRegion(static_cast<btMultiBodyDynamicsWorld*>(this),
+                     sizeof(btMultiBodyDynamicsWorld));
+    memory.AddRegion(m_solverMultiBodyIslandCallback, sizeof(*m_solverMultiBodyIslandCallback));
+  }
+};
+
+/// All that Bullet knows of a scene. To be made, used and destroyed within a scope of its memory.
+struct BulletScene {
+  BulletScene(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
+              const JointVector& start, internal::SelfCollisionFilter& self_collisions) {
+    ConfigureSolver(scene.physics);
+    world.getPairCache()->setOverlapFilterCallback(&self_collisions);
+    robot_body = std::make_unique<internal::RobotBody>(world, scene, robot, start);
+    door_body = std::make_unique<internal::DoorBody>(world, scene.world_from_door, door,
+                                                     scene.latch, scene.physics.handle_friction);
+  }
+
+  void ConfigureSolver(const PhysicsConfig& physics);
+  void AddTo(internal::BulletMemory& memory);
+
+  btDefaultCollisionConfiguration collision_configuration{SmallPools()};
+  btCollisionDispatcher dispatcher{&collision_configuration};
+  btDbvtBroadphase broadphase;
+  internal::RowSolver solver;
+  IslandWorld world{&dispatcher, &broadphase, &solver, &collision_configuration};
+  std::unique_ptr<internal::RobotBody> robot_body;
+  std::unique_ptr<internal::DoorBody> door_body;
+};
+
+void BulletScene::ConfigureSolver(const PhysicsConfig& physics) {
+  world.setGravity(btVector3(0, 0, 0));
+  btContactSolverInfo& info = world.getSolverInfo();
+  info.m_numIterations = physics.solver_iterations;
   info.m_erp = 0.2;
   info.m_erp2 = 0.2;
   info.m_frictionERP = 0.2;
@@ -121,21 +109,101 @@ void DoorWorld::Runtime::ConfigureSolver() {
   info.m_solverMode = SOLVER_USE_WARMSTARTING | SOLVER_SIMD | SOLVER_USE_2_FRICTION_DIRECTIONS;
 }
 
+// What Bullet itself allocates is in the memory anyway.
+void BulletScene::AddTo(internal::BulletMemory& memory) {
+  memory.AddRegion(&dispatcher, sizeof dispatcher);
+  memory.AddRegion(&broadphase, sizeof broadphase);
+  // the row solver's own members live for one step
+  memory.AddRegion(static_cast<btMultiBodyConstraintSolver*>(&solver),
+                   sizeof(btMultiBodyConstraintSolver));
+  world.AddTo(memory);
+}
+
+}  // namespace
+
+/// A state with all that the next steps depend on.
+struct WorldImage::Content {
+  std::weak_ptr<const void> world;  // the one that it is of
+  internal::BulletMemory::Image bullet;
+  WorldState state;
+  std::optional<StateFault> fault;
+  LatchState latch;
+  internal::WorldMonitor::Memory monitor;
+  double extra_hinge_torque = 0;
+  double extra_handle_torque = 0;
+};
+
+class DoorWorld::Runtime {
+ public:
+  Runtime(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
+          const JointVector& start);
+  ~Runtime();
+  Runtime(const Runtime&) = delete;
+  Runtime& operator=(const Runtime&) = delete;
+
+  void Step(const RobotCommand& command);
+  void Place(const WorldState& at);
+  DoorContacts Contacts() const;
+  WorldImage::Content Save() const;
+  void Restore(const WorldImage::Content& image);
+
+  Scene scene;
+  DoorAsset door;
+  RobotModel robot;
+  WorldState state;
+  std::optional<StateFault> fault;
+  double extra_hinge_torque = 0;
+  double extra_handle_torque = 0;
+
+ private:
+  void ReadState();
+  void RememberRotations();
+  void TurnCachedNormals();
+
+  std::shared_ptr<const void> identity_ = std::make_shared<int>();
+  internal::BulletMemory memory_;
+  std::unique_ptr<internal::SelfCollisionFilter> self_collisions_;
+  std::unique_ptr<BulletScene> bullet_;
+  std::unique_ptr<internal::WorldMonitor> monitor_;
+  std::vector<btMatrix3x3> rotation_before_;  // of every collision object, before the step
+};
+
+DoorWorld::Runtime::Runtime(const Scene& the_scene, const DoorAsset& the_door,
+                            const RobotModel& the_robot, const JointVector& start)
+    : scene(the_scene), door(the_door), robot(the_robot) {
+  Check(scene.physics);
+  Check(scene, robot);
+  RequireSimulatable(door, "simulated world");
+  internal::SwitchProfilingOff();
+  self_collisions_ = std::make_unique<internal::SelfCollisionFilter>(robot);
+  const internal::BulletMemory::Scope scope(memory_);
+  bullet_ = std::make_unique<BulletScene>(scene, door, robot, start, *self_collisions_);
+  bullet_->AddTo(memory_);
+  monitor_ = std::make_unique<internal::WorldMonitor>(bullet_->robot_body->body(),
+                                                      bullet_->door_body->body(), robot, door);
+  ReadState();
+}
+
+DoorWorld::Runtime::~Runtime() {
+  const internal::BulletMemory::Scope scope(memory_);
+  bullet_.reset();
+}
+
 void DoorWorld::Runtime::ReadState() {
-  state.robot_position = robot_body_->Positions();
-  state.robot_velocity = robot_body_->Velocities();
-  state.hinge_rad = door_body_->hinge_rad();
-  state.hinge_rad_s = door_body_->hinge_rad_s();
-  state.handle_rad = door_body_->handle_rad();
-  state.handle_rad_s = door_body_->handle_rad_s();
-  state.locked = door_body_->latch().locked;
-  state.handle_done = door_body_->latch().handle_done;
-  state.bolt_m = door_body_->bolt_m();
-  state.bolt_m_s = door_body_->bolt_m_s();
+  state.robot_position = bullet_->robot_body->Positions();
+  state.robot_velocity = bullet_->robot_body->Velocities();
+  state.hinge_rad = bullet_->door_body->hinge_rad();
+  state.hinge_rad_s = bullet_->door_body->hinge_rad_s();
+  state.handle_rad = bullet_->door_body->handle_rad();
+  state.handle_rad_s = bullet_->door_body->handle_rad_s();
+  state.locked = bullet_->door_body->latch().locked;
+  state.handle_done = bullet_->door_body->latch().handle_done;
+  state.bolt_m = bullet_->door_body->bolt_m();
+  state.bolt_m_s = bullet_->door_body->bolt_m_s();
 }
 
 void DoorWorld::Runtime::RememberRotations() {
-  const btCollisionObjectArray& objects = world_.getCollisionObjectArray();
+  const btCollisionObjectArray& objects = bullet_->world.getCollisionObjectArray();
   rotation_before_.clear();
   for (int i = 0; i < objects.size(); ++i) {
     objects[i]->setUserIndex(i);
@@ -147,8 +215,8 @@ void DoorWorld::Runtime::RememberRotations() {
 // a hand that turns a knob the old normals lean over, and squeeze alone would turn the knob: 2 N m
 // at a friction of 0.02. So the normals are turned along with the body that they are on.
 void DoorWorld::Runtime::TurnCachedNormals() {
-  for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
-    btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(i);
+  for (int i = 0; i < bullet_->dispatcher.getNumManifolds(); ++i) {
+    btPersistentManifold& manifold = *bullet_->dispatcher.getManifoldByIndexInternal(i);
     const btCollisionObject* body = manifold.getBody1();
     const btMatrix3x3 turn =
         body->getWorldTransform().getBasis() *
@@ -166,37 +234,63 @@ void DoorWorld::Runtime::Step(const RobotCommand& command) {
     fault = StateFault{Implausibility::kNotFinite, "command", 0, 0, state.time_s};
     return;
   }
-  robot_body_->Command(command);
-  door_body_->ApplyTorques(extra_hinge_torque, extra_handle_torque, scene.physics.time_step_s);
+  const internal::BulletMemory::Scope scope(memory_);
+  bullet_->robot_body->Command(command);
+  bullet_->door_body->ApplyTorques(extra_hinge_torque, extra_handle_torque,
+                                   scene.physics.time_step_s);
   extra_hinge_torque = 0;
   extra_handle_torque = 0;
   fault = monitor_->BeforeStep(state.time_s);
   if (fault) return;
   RememberRotations();
-  world_.stepSimulation(scene.physics.time_step_s, 0);
+  bullet_->world.stepSimulation(scene.physics.time_step_s, 0);
   TurnCachedNormals();
-  door_body_->UpdateLatch();
+  bullet_->door_body->UpdateLatch();
   state.time_s += scene.physics.time_step_s;
   ReadState();
-  fault = monitor_->AfterStep(dispatcher_, scene.physics.time_step_s);
+  fault = monitor_->AfterStep(bullet_->dispatcher, scene.physics.time_step_s);
 }
 
 void DoorWorld::Runtime::Place(const WorldState& at) {
   Require(at.robot_position.size() == state.robot_position.size() &&
               at.robot_velocity.size() == state.robot_velocity.size(),
           ErrorCode::kInvalidArgument, "the state is one of a robot with other joints");
+  const internal::BulletMemory::Scope scope(memory_);
   for (int i = 0; i < static_cast<int>(at.robot_position.size()); ++i)
-    robot_body_->body().PlaceJoint(i, at.robot_position[i], at.robot_velocity[i]);
-  door_body_->body().PlaceJoint(0, at.hinge_rad, at.hinge_rad_s);
-  door_body_->body().PlaceJoint(1, at.handle_rad, at.handle_rad_s);
-  robot_body_->body().SyncColliders();
-  door_body_->body().SyncColliders();
+    bullet_->robot_body->body().PlaceJoint(i, at.robot_position[i], at.robot_velocity[i]);
+  bullet_->door_body->body().PlaceJoint(0, at.hinge_rad, at.hinge_rad_s);
+  bullet_->door_body->body().PlaceJoint(1, at.handle_rad, at.handle_rad_s);
+  bullet_->robot_body->body().SyncColliders();
+  bullet_->door_body->body().SyncColliders();
   ReadState();
 }
 
 DoorContacts DoorWorld::Runtime::Contacts() const {
-  return internal::ReportContacts(dispatcher_, *robot_body_, *door_body_,
+  return internal::ReportContacts(bullet_->dispatcher, *bullet_->robot_body, *bullet_->door_body,
                                   scene.physics.time_step_s);
+}
+
+WorldImage::Content DoorWorld::Runtime::Save() const {
+  return {identity_,
+          memory_.Copy(),
+          state,
+          fault,
+          bullet_->door_body->latch(),
+          monitor_->memory(),
+          extra_hinge_torque,
+          extra_handle_torque};
+}
+
+void DoorWorld::Runtime::Restore(const WorldImage::Content& image) {
+  Require(image.world.lock() == identity_, ErrorCode::kInvalidArgument,
+          "the image is of another world; a world can be put back into its own states alone");
+  memory_.Restore(image.bullet);
+  state = image.state;
+  fault = image.fault;
+  bullet_->door_body->RestoreLatch(image.latch);
+  monitor_->Restore(image.monitor);
+  extra_hinge_torque = image.extra_hinge_torque;
+  extra_handle_torque = image.extra_handle_torque;
 }
 
 DoorWorld::DoorWorld(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
@@ -231,6 +325,26 @@ RobotPose DoorWorld::PoseOfRobot() const {
 }
 
 void DoorWorld::Place(const WorldState& state) { runtime_->Place(state); }
+
+WorldImage DoorWorld::Save() const {
+  WorldImage image;
+  image.content_ = std::make_shared<const WorldImage::Content>(runtime_->Save());
+  return image;
+}
+
+void DoorWorld::Restore(const WorldImage& image) {
+  Require(image.content_ != nullptr, ErrorCode::kInvalidArgument,
+          "the image is empty; take one with Save() first");
+  runtime_->Restore(*image.content_);
+}
+
+std::size_t WorldImage::size_bytes() const {
+  if (content_ == nullptr) return 0;
+  std::size_t size = 0;
+  for (const auto* parts : {&content_->bullet.blocks, &content_->bullet.regions})
+    for (const auto& bytes : *parts) size += bytes.size();
+  return size;
+}
 
 const std::optional<StateFault>& DoorWorld::fault() const { return runtime_->fault; }
 

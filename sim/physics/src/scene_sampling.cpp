@@ -230,6 +230,8 @@ Scene SampleScene(const DoorAsset& door, std::uint64_t seed, std::uint64_t episo
   if (door.opening == Opening::kPush)
     scene.grasp_from_noisy_grasp = scene.grasp_from_noisy_grasp * ClearOfTheJamb(door);
   scene.physics = config.physics;
+  CheckEpisodeLimits(config.episode, "config.scene.episode");
+  scene.limits = config.episode;
   scene.camera = CameraOf(config.camera);
   if (config.randomisation != "strong") return scene;
   VaryLatch(scene.latch, Rng(seed, stream + "latch"));

@@ -30,6 +30,17 @@ class WorldMonitor {
   /// To be called after the step.
   std::optional<StateFault> AfterStep(btCollisionDispatcher& dispatcher, double time_step_s);
 
+  /// What it knows of earlier steps.
+  struct Memory {
+    StateWatch watch;
+    WatchedStep step;
+  };
+  Memory memory() const { return {watch_, step_}; }
+  void Restore(const Memory& memory) {
+    watch_ = memory.watch;
+    step_ = memory.step;
+  }
+
  private:
   static constexpr int kDoorJoints = 2;  // hinge and handle are watched one by one
 

@@ -70,10 +70,13 @@ std::optional<OnlineController::Actor> OnlineController::LoadActor(const std::st
   if (folder.empty()) return std::nullopt;
   PolicyRecord record = ReadPolicy(folder, NameOf(stage));
   auto familiarity = LoadFamiliarity(folder, record);
+  const NetworkView view = record.networks.normalisation.view;
   GainCritic critic(record.networks);
   Actor actor{MakePolicy(std::move(record.networks), setup_.config.policy), record.weights_sha256,
               std::move(critic), std::move(familiarity)};
   actor.policy->Reset();
+  actor.remembers = view.remembered_finer > 0;
+  actor.within_m = static_cast<double>(view.cloud_within_m);
   return actor;
 }
 
@@ -108,6 +111,7 @@ ActAnswer OnlineController::DecideGrasp(DepthImage depth, PixelMask handle,
     return ObserveHandle(seen_.depth, *seen_.handle, setup_.camera,
                          -Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0), setup_.config.cloud);
   });
+  before_ = sight.view.visible;
   const GripperClearance clearance(robot_);
   sight.view.fits = [&](const Eigen::Vector3d& contact_m, const Eigen::Matrix3d& rotation) {
     return clearance.Fits(sight.view.visible, contact_m, rotation);
@@ -119,10 +123,26 @@ ActAnswer OnlineController::Decide(DepthImage depth, const RobotState& state,
                                    const InputNames& names) {
   seen_ = {std::move(depth), {}};
   const Stage stage = StageOf(state, names.state);
-  const RobotSight sight = NamingInputs(names.depth + " and " + names.camera, [&] {
-    return ObserveDepth(seen_.depth, setup_.camera, state, setup_.config.cloud);
-  });
-  return Answer(stage, ActorOf(stage), state, sight);
+  Actor& actor = ActorOf(stage);
+  const RobotSight sight =
+      NamingInputs(names.depth + " and " + names.camera, [&] { return SightOf(actor, state); });
+  return Answer(stage, actor, state, sight);
+}
+
+void OnlineController::Remember(const DepthImage& before, const InputNames& names) {
+  before_ = NamingInputs(names.depth + " and " + names.camera,
+                         [&] { return ObserveBefore(before, setup_.camera, setup_.config.cloud); });
+}
+
+RobotSight OnlineController::SightOf(const Actor& actor, const RobotState& state) const {
+  const CloudConfig& cloud = setup_.config.cloud;
+  if (!actor.remembers) return ObserveDepth(seen_.depth, setup_.camera, state, cloud);
+  if (!before_)
+    throw Error(ErrorCode::kInvalidArgument,
+                "the policy that turns the handle remembers what the camera saw before the robot "
+                "came, and there is no such picture; pass it as --before, in a stream as "
+                "\"before\"");
+  return ObserveDepth(seen_.depth, setup_.camera, state, {*before_, actor.within_m}, cloud);
 }
 
 std::optional<Foreignness> OnlineController::ForeignnessOf(
@@ -213,6 +233,12 @@ ActAnswer DecideFromFiles(OnlineController& controller, const fs::path& depth,
   const RobotState robot_state = ReadRobotState(state, controller.robot());
   return controller.Decide(ReadDepth(depth, controller.camera()), robot_state,
                            {.depth = depth.string(), .state = state.string(), .camera = camera});
+}
+
+void RememberFromFile(OnlineController& controller, const fs::path& before,
+                      const std::string& camera) {
+  controller.Remember(ReadDepth(before, controller.camera()),
+                      {.depth = before.string(), .camera = camera});
 }
 
 ActAnswer DecideGraspFromFiles(OnlineController& controller, const fs::path& depth,

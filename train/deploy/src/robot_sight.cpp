@@ -16,6 +16,7 @@
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/nearest_name.h"
 #include "doorforge/physics/door_world.h"
+#include "doorforge/rollout/remembered_view.h"
 #include "doorforge/rollout/run_episode.h"
 
 namespace doorforge {
@@ -24,6 +25,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::uint64_t kMostBytes = 1ULL << 20U;
+constexpr int kFinest = 8;             // times the camera's pixels along each side
 constexpr double kBeyondLimit = 0.05;  // of a joint's range
 constexpr double kHandApart = 0.02;    // [m]
 constexpr double kHandTurned = 5 * std::numbers::pi / 180;
@@ -233,6 +235,31 @@ RobotSight ObserveDepth(const DepthImage& depth, const CalibratedCamera& camera,
   sight.observation.cloud = std::move(sampled.cloud);
   sight.observation.proprioception = state.proprioception;
   sight.visible_count = sampled.visible_count;
+  return sight;
+}
+
+LabelledCloud ObserveBefore(const DepthImage& depth, CalibratedCamera camera,
+                            const CloudConfig& config) {
+  PinholeView& view = camera.view;
+  const int finer = depth.width / view.width;
+  const bool fits = depth.width == finer * view.width && depth.height == finer * view.height;
+  if (fits && finer >= 1 && finer <= kFinest) {
+    view.width *= finer;
+    view.height *= finer;
+    for (double* length : {&view.fx, &view.fy, &view.cx, &view.cy}) *length *= finer;
+  }
+  return VisiblePoints(depth, camera, config);
+}
+
+RobotSight ObserveDepth(const DepthImage& depth, const CalibratedCamera& camera,
+                        const RobotState& state, const RememberedPoints& before,
+                        const CloudConfig& config) {
+  LabelledCloud visible = VisiblePoints(depth, camera, config);
+  RobotSight sight;
+  sight.visible_count = static_cast<int>(visible.label.size());
+  sight.observation.cloud = JoinedCloud(std::move(visible), before.visible, state.tcp_in_world_m,
+                                        {config.point_count, before.within_m});
+  sight.observation.proprioception = state.proprioception;
   return sight;
 }
 

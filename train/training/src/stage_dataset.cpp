@@ -79,7 +79,17 @@ void AppendEpisode(const EpisodeArrays& arrays, std::vector<TrainingSample>& sam
   }
 }
 
-// When the handle was "handle done": its angle after each executed action, against the scene's.
+// Whether the episode went on after its last decision: the stage "handle" had succeeded.
+bool WentOn(const Episode& episode) {
+  const PhysicsConfig& physics = episode.scene.physics;
+  const double action_s = physics.steps_per_action * physics.time_step_s;
+  return episode.outcome == EpisodeOutcome::kOpened ||
+         episode.simulated_s > episode.decisions.back().time_s + 1.5 * action_s;
+}
+
+// When the handle was "handle done": its angle before the next decision, against the scene's; after
+// the last one, whether the episode went on to the opening. What an action was worth does not say
+// it: that is a reward, and may become another one.
 std::vector<TurnedExample> TurnedExamplesOf(const DatasetReader& reader, std::size_t begin,
                                             std::size_t end) {
   constexpr double kRounding = 1e-6;  // [rad] of the shards' single precision
@@ -87,18 +97,22 @@ std::vector<TurnedExample> TurnedExamplesOf(const DatasetReader& reader, std::si
   for (std::size_t i = begin; i < end; ++i) {
     const EpisodeArrays arrays = reader.Arrays(i);
     const std::string path = "episode " + reader.entry(i).key + ": meta.json";
-    const double done =
-        EpisodeFromMeta(reader.Meta(i), path).scene.latch.handle_done_angle_rad - kRounding;
+    const Episode episode = EpisodeFromMeta(reader.Meta(i), path);
+    Require(episode.decisions.size() == arrays.decisions, ErrorCode::kFormat,
+            path + ".decision_time_s: found " + std::to_string(episode.decisions.size()) +
+                " times, expected those of " + std::to_string(arrays.decisions) + " decisions");
+    const double done = episode.scene.latch.handle_done_angle_rad - kRounding;
     const auto executed = arrays.executed.empty() ? arrays.action : arrays.executed;
     const auto proprioception = [&](std::size_t t) {
       return RowOf<std::tuple_size_v<Proprioception>>(arrays.proprio, t);
     };
     for (std::size_t t = 0; t < arrays.decisions; ++t) {
       const auto action = RowOf<std::tuple_size_v<ActionVector>>(executed, t);
-      const double handle_rad =
-          static_cast<double>(arrays.joints[2 * t + 1]) + static_cast<double>(arrays.score[t]);
-      examples.push_back(
-          {HandMotionOf(proprioception(0), proprioception(t), action), handle_rad >= done});
+      const std::size_t next = t + 1;
+      const bool turned = next < arrays.decisions
+                              ? static_cast<double>(arrays.joints[2 * next + 1]) >= done
+                              : WentOn(episode);
+      examples.push_back({HandMotionOf(proprioception(0), proprioception(t), action), turned});
     }
   }
   return examples;

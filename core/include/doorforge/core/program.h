@@ -22,8 +22,14 @@ int StopRequested();
 /// Folder of the running executable, where the other doorforge programs lie.
 std::filesystem::path ProgramFolder();
 
-/// Folder with `catalog/`, `robots/` and `splits/`: $DOORFORGE_DATA, else the installed share
-/// folder beside the executable, else the source tree the build came from. Throws Error(kMissing).
+/// Folders in which the programs and, relative to them, the data are looked for: that of the running
+/// executable, then those of each `doorforge` on $PATH, links followed. So a program of somebody
+/// else that links these libraries finds the installation that its user calls.
+std::vector<std::filesystem::path> ProgramFolders();
+
+/// Folder with `catalog/`, `robots/` and `splits/`: $DOORFORGE_DATA, else the first of
+/// `share/doorforge` beside ProgramFolders(), in a build tree as in an installation. No path of the
+/// machine that built it is known, so both may be moved. Throws Error(kMissing).
 std::filesystem::path DataFolder();
 
 /// Runs a program (argv[0] is its path) and waits. Returns its exit code, or 128 + signal.

@@ -11,6 +11,7 @@
 #include "doorforge/core/rigid_transform.h"
 #include "doorforge/schemas/camera_model.h"
 #include "doorforge/schemas/door_asset.h"
+#include "doorforge/schemas/episode_limits.h"
 
 namespace doorforge {
 
@@ -121,6 +122,8 @@ struct Scene {
   /// Offset of the expert's grasp from the door's grasp frame, in the grasp frame.
   RigidTransform grasp_from_noisy_grasp = RigidTransform::Identity();
   PhysicsConfig physics;
+  EpisodeLimits
+      limits;  ///< The record has them, as "episode_limits", where they are not the defaults.
   CameraModel camera;
 };
 

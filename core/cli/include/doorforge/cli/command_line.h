@@ -19,8 +19,13 @@ enum class EmptyValues {
   kRefuse,  ///< `--task "$UNSET"` must not pass for no `--task`.
 };
 
-/// Parses the arguments of a verb (argv[0] is its name). Prints the help and ends the process where
-/// it was asked for.
+/// As the only argument it makes a verb print its name, options and subcommands as a JSON document,
+/// and the front program those of all verbs. The build makes man pages and completion of it; it is
+/// no part of the help.
+inline constexpr const char* kDescribeCommand = "--describe-command";
+
+/// Parses the arguments of a verb (argv[0] is its name). Prints the help, or the description that
+/// kDescribeCommand wants, and ends the process where it was asked for.
 ///
 /// @throws Error(kInvalidArgument) on wrong use. An option or a subcommand that there is not is
 ///     told before all else, with the nearest one that there is: what is missing often was

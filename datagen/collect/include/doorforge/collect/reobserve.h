@@ -55,7 +55,8 @@ struct ReobserveRequest {
 /// but clouds, labels, previews and what meta.json says of the look stays as it is; keys, shards
 /// and failures too, so that the two datasets are pairs. With the settings as they were, the clouds
 /// are the same, byte by byte. Of the stage "grasp", point 0 of a cloud is the visible point
-/// nearest to the contact. Stopped, the same call goes on.
+/// nearest to the contact. Stopped, the same call goes on. Locks the new
+/// folder meanwhile.
 ///
 /// @throws Error(kInvalidArgument) if the dataset holds no joint states (those of earlier builds),
 ///     if a door is not in `doors` or not the one of the dataset, or as Collect(); Error(kMissing

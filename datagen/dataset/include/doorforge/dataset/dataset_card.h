@@ -34,9 +34,10 @@ enum class OldReadme {
 };
 
 /// Writes both files into the dataset's folder, and their lines of SHA256SUMS where there is one;
-/// README.md replaces the short one of `datagen`.
+/// README.md replaces the short one of `datagen`. Locks the folder meanwhile.
 ///
-/// @throws Error(kInvalidArgument) if there is a README.md or croissant.json that was not written
+/// @throws Error(kMissing) if it is no folder; Error(kInvalidArgument) if somebody else writes into
+///     it, or there is a README.md or croissant.json that was not written
 ///     here, see OldReadme; Error(kFormat) if SHA256SUMS is damaged; as MakeDatasetCard().
 void WriteDatasetCard(const std::filesystem::path& folder,
                       OldReadme readme = OldReadme::kRefuseOthers);

@@ -7,6 +7,8 @@
 #include <functional>
 #include <string>
 
+#include <nlohmann/json.hpp>
+
 #include "doorforge/core/committed_file.h"
 
 namespace doorforge {
@@ -53,5 +55,12 @@ std::uint64_t CountEpisodes(const std::filesystem::path& folder, const std::stri
 ///     and is not to be replaced, Error(kIo) if it cannot be written or the disk has no room for it
 ///     (checked before anything is written), Error(kFormat) on damaged shards.
 RobomimicSummary ExportRobomimic(const RobomimicRequest& request);
+
+/// {"schema": "doorforge.dataset_export", "schema_version", ...}
+nlohmann::ordered_json ExportToJson(const RobomimicRequest& request,
+                                    const RobomimicSummary& summary);
+
+/// The same as a line for people.
+std::string ExportText(const RobomimicRequest& request, const RobomimicSummary& summary);
 
 }  // namespace doorforge

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -46,10 +47,20 @@ struct VerifyRequest {
 /// @throws Error(kMissing) if `folder` is not a folder.
 std::vector<DatasetFinding> VerifyDataset(const VerifyRequest& request);
 
+/// Number of shards below a dataset's folder, for progress. Throws Error(kMissing) if it is not a
+/// folder.
+std::size_t CountShards(const std::filesystem::path& folder);
+
 /// Whether there is more than notes.
 bool AnyFault(const std::vector<DatasetFinding>& findings);
 
 /// {"schema", "schema_version", "findings": [...], "counts": {code: number}}
 nlohmann::ordered_json FindingsToJson(const std::vector<DatasetFinding>& findings);
+
+/// The same for people; the last line says how many faults there are.
+///
+/// @param folder The dataset's, as the user named it.
+std::string FindingsText(const std::vector<DatasetFinding>& findings,
+                         const std::filesystem::path& folder);
 
 }  // namespace doorforge

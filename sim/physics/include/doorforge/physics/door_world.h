@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -55,6 +56,19 @@ struct DoorContacts {
   bool BothPads() const { return pad_points[0] > 0 && pad_points[1] > 0; }
 };
 
+/// Everything that the next steps of one DoorWorld depend on: joints, speeds, latch, cached
+/// contacts with their impulses, the broadphase's trees. Of the world that it was saved from,
+/// alone; a value whose copies share the bytes.
+class WorldImage {
+ public:
+  std::size_t size_bytes() const;  ///< About; 0 for an empty one.
+
+ private:
+  friend class DoorWorld;
+  struct Content;
+  std::shared_ptr<const Content> content_;
+};
+
 /// The simulated scene: robot, door and latch in a Bullet multibody world, double precision.
 ///
 /// Contacts are Coulomb friction between convex hulls; nothing is ever glued to the gripper. The
@@ -97,6 +111,15 @@ class DoorWorld {
   /// @throws Error(kInvalidArgument) if `state` has another number of joints.
   void Place(const WorldState& state);
 
+  /// The state as it is now, to come back to. The world goes on as if it had not been asked.
+  WorldImage Save() const;
+  /// Puts the world back into a state: the same commands then give the same bits as they did after
+  /// Save(), as often as wanted and in any order of images.
+  ///
+  /// @throws Error(kInvalidArgument) if the image is empty, or was saved from another world: images
+  ///     do not outlive their world, and cannot be written to a file.
+  void Restore(const WorldImage& image);
+
   /// What made the simulated state impossible, see StateWatch; nothing as long as it is plausible.
   const std::optional<StateFault>& fault() const;
 
@@ -104,6 +127,7 @@ class DoorWorld {
   std::string StateHash() const;
 
  private:
+  friend class WorldImage;
   class Runtime;
   std::unique_ptr<Runtime> runtime_;
 };

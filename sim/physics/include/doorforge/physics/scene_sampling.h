@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "doorforge/schemas/door_asset.h"
@@ -35,6 +36,7 @@ CameraModel CameraOf(const CameraConfig& config);
 
 struct SceneConfig {
   PhysicsConfig physics;
+  EpisodeLimits episode;  ///< Written into files only where they are not the defaults.
   CameraConfig camera;
   /// URDF of the robot; empty: the built-in one. Programs load it by LoadRobot(); SampleScene()
   /// does not look at it.
@@ -53,6 +55,9 @@ struct SceneConfig {
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
     visit("physics", self.physics);
+    // Configurations are recorded with the data: those from before there was a choice stay as they
+    // are, byte by byte. A configuration that is read is not const.
+    if (!std::is_const_v<Self> || self.episode != EpisodeLimits{}) visit("episode", self.episode);
     visit("camera", self.camera);
     visit("robot", self.robot);
     visit("randomisation", self.randomisation);
@@ -78,8 +83,8 @@ struct SceneConfig {
 /// degrees away from the jamb and, on a knob, is rolled back by half its turn. Throws as
 /// RequireSimulatable(); Error(kInvalidArgument) where the frame of a pushed door stands between
 /// robot and handle, as the back of a cupboard does; Error(kInvalidConfig) on an unknown
-/// randomisation, a height_jitter_m out of 0..0.5 and as CameraOf(). A stronger randomisation
-/// leaves the draws of a weaker one as they are.
+/// randomisation, a height_jitter_m out of 0..0.5, as CheckEpisodeLimits() and as CameraOf(). A
+/// stronger randomisation leaves the draws of a weaker one as they are.
 Scene SampleScene(const DoorAsset& door, std::uint64_t seed, std::uint64_t episode,
                   const SceneConfig& config = {});
 

@@ -47,6 +47,8 @@ class CameraObserver : public Observer {
 
   Sight Look(const SceneSnapshot& snapshot);
   LabelledCloud Observe(const SceneSnapshot& snapshot) override;
+  std::any Save() const override { return looks_; }
+  void Restore(const std::any& memory) override { looks_ = std::any_cast<int>(memory); }
 
  private:
   Rng Stream(const std::string& purpose) const;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <any>
 #include <array>
 #include <string_view>
 
@@ -27,6 +28,10 @@ class Observer {
   virtual LabelledCloud Observe(const SceneSnapshot& snapshot) = 0;
   /// Called at the beginning, after each stage and at each decision.
   virtual void Watch(const SceneSnapshot& /*snapshot*/) {}
+  /// What an observer remembers from look to look and a later look depends on, for
+  /// EpisodeStepper::Save(); Restore() puts it back.
+  virtual std::any Save() const { return {}; }
+  virtual void Restore(const std::any& /*memory*/) {}
 };
 
 }  // namespace doorforge

@@ -7,6 +7,7 @@
 
 #include "doorforge/physics/door_world.h"
 #include "doorforge/physics/robot_model.h"
+#include "doorforge/rollout/grasp_plan.h"
 #include "doorforge/rollout/observer.h"
 #include "doorforge/schemas/door_asset.h"
 #include "doorforge/schemas/episode.h"
@@ -46,6 +47,11 @@ struct ChosenGrasp {
   LabelledCloud cloud;                                  ///< What was seen; point 0 is the contact.
   Eigen::Vector3d contact_m = Eigen::Vector3d::Zero();  ///< In the world, on the surface seen.
   Eigen::Matrix3d world_from_hand_rotation = Eigen::Matrix3d::Identity();
+  /// How the arm gets there, of whoever has planned that as well; without it, PlanReach() does.
+  std::optional<GraspPlan> plan = std::nullopt;
+  /// Whether the hand has to arrive and both pads to touch the handle before the episode goes on;
+  /// else one pad is enough, to see what comes of it.
+  bool both_pads = false;
 };
 
 /// Chooses where the hand takes hold, once, before the robot moves.
@@ -63,8 +69,8 @@ inline constexpr double kGraspInsertion = 0.012;  // [m]
 /// Who acts at each stage, and whose decisions the episode holds.
 struct EpisodeRoles {
   Stage recorded = Stage::kOpen;
-  GraspChooser* grasp = nullptr;  ///< Null: PlanGrasp()'s grasp.
-  Policy* handle = nullptr;       ///< Null: the rule of RunEpisode(), which turns it in one go.
+  GraspChooser* grasp = nullptr;  ///< Null: ExpertGrasp.
+  Policy* handle = nullptr;       ///< Null: ExpertUnlock, which turns it in one go.
   /// Asked after each action of `handle`, and not before the first: whether the handle is turned.
   /// Opening begins after the first yes, whatever the simulator knows, also of doors without a
   /// latch. Null: the simulator's flag, turned to "handle done" and unlocked, which doors without

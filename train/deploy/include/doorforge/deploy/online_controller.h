@@ -86,11 +86,17 @@ class OnlineController {
   ///     CheckOnlineControllerConfig(), or for a base that there is not.
   explicit OnlineController(const OnlineControllerSetup& setup);
 
+  /// Keeps what is seen before the robot comes, for a handler that remembers it. The picture of
+  /// DecideGrasp() is kept by itself.
+  ///
+  /// @throws Error(kInvalidArgument) as ObserveBefore().
+  void Remember(const DepthImage& before, const InputNames& names = {});
+
   /// The hand's next pose.
   ///
   /// @throws Error(kInvalidArgument) as ObserveDepth(), or if nobody acts at the stage that the
-  ///     state is in; Error(kInvalidConfig) if neither the state nor a policy says whether the
-  ///     handle is turned.
+  ///     state is in, or who acts remembers and nothing was kept; Error(kInvalidConfig) if neither
+  ///     the state nor a policy says whether the handle is turned.
   ActAnswer Decide(DepthImage depth, const RobotState& state, const InputNames& names = {});
 
   /// Where and how to take hold of the handle that the mask shows, before the robot moves.
@@ -112,6 +118,8 @@ class OnlineController {
     GainCritic critic;
     std::optional<Familiarity> familiarity;
     TurningPolicy* turning = nullptr;  // the same, where it says when the handle is turned
+    bool remembers = false;            // RememberedPoints, of so much:
+    double within_m = 0;
   };
   struct Grasper {
     std::unique_ptr<GraspPolicy> policy;
@@ -127,6 +135,7 @@ class OnlineController {
   Stage StageOf(const RobotState& state, const std::string& name);
   bool Predicts() const;
   Actor& ActorOf(Stage stage);
+  RobotSight SightOf(const Actor& actor, const RobotState& state) const;
   ActAnswer Answer(Stage stage, Actor& actor, const RobotState& state, const RobotSight& sight);
   ActAnswer Answer(const GraspChoice& choice, const HandleSight& sight) const;
   std::optional<Foreignness> ForeignnessOf(const std::optional<Familiarity>& familiarity,
@@ -139,6 +148,7 @@ class OnlineController {
   std::optional<Actor> handler_;
   std::optional<Grasper> grasper_;
   SeenPicture seen_;
+  std::optional<LabelledCloud> before_;
   bool unlocked_ = false;
 };
 
@@ -147,6 +157,8 @@ class OnlineController {
 /// @throws as the controller, as ReadRobotState(), and Error(kMissing or kFormat) naming the file.
 ActAnswer DecideFromFiles(OnlineController& controller, const std::filesystem::path& depth,
                           const std::filesystem::path& state, const std::string& camera);
+void RememberFromFile(OnlineController& controller, const std::filesystem::path& before,
+                      const std::string& camera);
 ActAnswer DecideGraspFromFiles(OnlineController& controller, const std::filesystem::path& depth,
                                const std::filesystem::path& mask, const std::string& camera);
 

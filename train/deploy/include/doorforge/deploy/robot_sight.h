@@ -56,6 +56,25 @@ struct RobotSight {
 RobotSight ObserveDepth(const DepthImage& depth, const CalibratedCamera& camera,
                         const RobotState& state, const CloudConfig& config = {});
 
+/// What a policy remembers of the time before the robot came.
+struct RememberedPoints {
+  LabelledCloud visible;  ///< Every point that was visible then, in the world.
+  double within_m = 0;    ///< CloudExtent::within_m of the joint cloud.
+};
+
+/// The points of a picture that was taken before the robot came.
+///
+/// @param depth By `camera`, or by the same camera with a whole number of times, at most 8, as many
+///     pixels along each side.
+/// @throws Error(kInvalidArgument) as ObserveDepth().
+LabelledCloud ObserveBefore(const DepthImage& depth, CalibratedCamera camera,
+                            const CloudConfig& config = {});
+
+/// As ObserveDepth(), joined with what is remembered, as JoinedCloud() does.
+RobotSight ObserveDepth(const DepthImage& depth, const CalibratedCamera& camera,
+                        const RobotState& state, const RememberedPoints& before,
+                        const CloudConfig& config = {});
+
 /// What a grasper is given of a picture of the closed door, and how much of it there is.
 struct HandleSight {
   GraspView view;

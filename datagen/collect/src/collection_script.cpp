@@ -1,24 +1,23 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "slurm_verb.h"
+#include "doorforge/collect/collection_script.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <filesystem>
-#include <utility>
+#include <string>
+#include <vector>
 
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
-#include "doorforge/core/program.h"
-#include "doorforge/dataset/slurm_script.h"
-#include "doorforge/dataset/task_number.h"
+#include "doorforge/core/folder_lock.h"
+
+#include "dataset_folder.h"
 
 namespace doorforge {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostTasksByDefault = 1000;
+constexpr std::size_t kMostTasksByDefault = 1000;
 
 struct Flag {
   const char* name;
@@ -75,46 +74,21 @@ void CommitScript(const fs::path& file, const std::string& text, Existing existi
 
 }  // namespace
 
-void AddSlurmOptions(CLI::App& app, SlurmOptions& options) {
-  auto* file = app.add_option("--slurm", options.file,
-                              "write a script that runs this collection as Slurm arrays of --tasks "
-                              "tasks, with the merge and the verification after them");
-  app.add_flag("--submit", options.submit, "and submit it")->needs(file);
-  app.add_option("--slurm-array", options.array_size, "Slurm's MaxArraySize")
-      ->check(CLI::Range(1, 4000001))
-      ->capture_default_str()
-      ->needs(file);
-  app.add_option("--slurm-parallel", options.parallel, "most tasks of an array at once, 0: all")
-      ->check(CLI::Range(0, 4000001))
-      ->needs(file);
-  app.add_option("--slurm-memory", options.memory, "a task's memory, as sbatch --mem takes it")
-      ->capture_default_str()
-      ->needs(file);
-  app.add_option("--slurm-option", options.options, "another one for sbatch: --partition=long")
-      ->needs(file);
-}
-
-int RunSlurm(const SlurmJob& job, const SlurmOptions& options, Existing existing) {
-  SlurmScript script;
-  script.program = (ProgramFolder() / "doorforge").string();
-  script.work_folder = fs::current_path().string();
-  script.dataset = FolderText(job.dataset);
-  script.arguments = ArgumentsOfTask(job.arguments);
-  script.tasks = job.tasks > 0
-                     ? job.tasks
-                     : static_cast<int>(std::min<std::size_t>(job.shards, kMostTasksByDefault));
-  script.array_size = options.array_size;
-  script.parallel = options.parallel;
-  script.threads = std::max(job.threads, 1);
-  script.memory = options.memory;
-  script.options = options.options;
-  CommitScript(options.file, SlurmScriptText(script), existing);
-  std::fprintf(stderr, "doorforge: %s: %d tasks of %zu shards in %zu arrays\n",
-               options.file.c_str(), script.tasks, job.shards,
-               CutIntoArrays(script.tasks, script.array_size).size());
-  if (options.submit) return RunChild({"/bin/bash", fs::absolute(options.file).string()});
-  std::printf("bash %s\n", options.file.c_str());
-  return 0;
+CollectionScript WriteCollectionScript(const CollectionScriptRequest& request) {
+  const StageRun run(request.stage);
+  SlurmScript script = request.script;
+  {
+    const FolderLock lock = LockDatasetFolder(script.dataset, request.replace);
+    PrepareDatasetFolder(script.dataset, request.replace);
+  }
+  const std::size_t shards = run.plan().shards.size();
+  if (script.tasks == 0) script.tasks = static_cast<int>(std::min(shards, kMostTasksByDefault));
+  script.threads = std::max(script.threads, 1);
+  script.dataset = FolderText(script.dataset);
+  script.arguments = ArgumentsOfTask(script.arguments);
+  CommitScript(request.file, SlurmScriptText(script),
+               request.replace ? Existing::kReplace : Existing::kRefuse);
+  return {script.tasks, shards, CutIntoArrays(script.tasks, script.array_size).size()};
 }
 
 }  // namespace doorforge

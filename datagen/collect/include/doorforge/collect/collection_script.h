@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+#include "doorforge/collect/stage_run.h"
+#include "doorforge/dataset/slurm_script.h"
+
+namespace doorforge {
+
+/// A collection that is given to Slurm instead of being run here.
+struct CollectionScriptRequest {
+  StageRequest stage;
+  std::filesystem::path file;  ///< Of the script.
+  /// What the tasks are and may take. Here `dataset` may be relative; `arguments` are those of the
+  /// call that asks for the script, of which a task gets what is its own; of `tasks`, 0 means one a
+  /// shard, at most 1000; of `threads`, 0 means 1.
+  SlurmScript script;
+  /// True: another script in `file` is replaced, and a dataset in `script.dataset` removed.
+  bool replace = false;
+};
+
+/// What the written script will run.
+struct CollectionScript {
+  int tasks = 0;
+  std::size_t shards = 0;  ///< Of the plan.
+  std::size_t arrays = 0;
+};
+
+/// Checks the collection as if it were run, and writes the script that runs it as Slurm arrays. The
+/// same script again is no fault.
+///
+/// @throws Error(kInvalidArgument) if another file is in the script's place, or the dataset's
+/// folder
+///     holds something else; as StageRun and SlurmScriptText().
+CollectionScript WriteCollectionScript(const CollectionScriptRequest& request);
+
+}  // namespace doorforge

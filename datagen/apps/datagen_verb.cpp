@@ -7,6 +7,9 @@
 #include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
+#include "doorforge/cli/command_line.h"
 #include "doorforge/collect/collect_stage.h"
 #include "doorforge/collect/collection_script.h"
 #include "doorforge/collect/forecast.h"
@@ -17,9 +20,8 @@
 #include "doorforge/dataset/describe_dataset.h"
 #include "doorforge/dataset/task_number.h"
 #include "doorforge/dataset/task_summary.h"
+#include "doorforge/robot_meshes/robot_meshes.h"
 
-#include "robot_meshes.h"
-#include "verb_options.h"
 #include "verbs.h"
 
 namespace doorforge {
@@ -57,13 +59,10 @@ void AddOptions(CLI::App& app, Options& options) {
   app.add_option("--episodes", options.episodes, "episodes to run, failed ones included")
       ->check(CLI::Range(1, 10000000));
   app.add_option("--seed", options.seed, "decides every random choice");
-  const PolicyRegistry registry = BuiltInPolicies();
-  app.add_option("--opener", options.policies.opener,
-                 "who opens the door (handle, grasp): " + registry.Choices(Stage::kOpen))
-      ->capture_default_str();
-  app.add_option("--handler", options.policies.handler,
-                 "who turns the handle (grasp): " + registry.Choices(Stage::kHandle))
-      ->capture_default_str();
+  AddWord(app, "--opener", options.policies.opener,
+          "who opens (handle, grasp): " + BuiltInPolicies().Choices(Stage::kOpen));
+  AddWord(app, "--handler", options.policies.handler,
+          "who turns the handle (grasp): " + BuiltInPolicies().Choices(Stage::kHandle));
   app.add_option("--learner", options.policies.learner,
                  "trained policy of this stage that drives and is corrected by the expert (open, "
                  "handle; config: learner_decisions), or whose grasps are tried (grasp)");
@@ -243,7 +242,7 @@ int RunDatagenVerb(int argc, char** argv) {
       "angle");
   const CLI::App* plan = AddPlan(app, options);
   app.footer("example:\n  doorforge datagen open --doors doors/train --out data --episodes 200");
-  ParseDataVerb(app, argc, argv);
+  ParseVerb(app, argc, argv, EmptyValues::kRefuse);
   if (!options.script_file.empty()) return GiveToSlurm(options, {argv, argv + argc});
   return NamingConfig(options.config,
                       [&] { return plan->parsed() ? PrintPlan(options) : CollectOrGoOn(options); });

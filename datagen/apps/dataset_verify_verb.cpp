@@ -11,8 +11,8 @@
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/progress.h"
 #include "doorforge/dataset/verify_dataset.h"
+#include "doorforge/robot_meshes/robot_meshes.h"
 
-#include "robot_meshes.h"
 #include "verbs.h"
 
 namespace doorforge {

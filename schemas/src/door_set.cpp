@@ -262,15 +262,15 @@ DoorIdentity IdentityOf(const DatasetDoor& door) {
 }
 
 DoorSelection DoorSelectionOf(const std::vector<std::string>& words,
-                              const std::string& default_side) {
-  DoorSelection selection{.folders = {}, .default_side = default_side};
+                              const std::string& default_side, const std::string& split) {
+  DoorSelection selection{.folders = {}, .split = split, .default_side = default_side};
   for (const std::string& word : words) {
     if (!NamesASplit(word)) {
       selection.folders.emplace_back(word);
       continue;
     }
     Require(selection.split.empty(), ErrorCode::kInvalidArgument,
-            "--doors " + word + ": a second split; give one");
+            "--doors " + word + ": a second split beside " + selection.split + "; give one");
     selection.split = word;
   }
   if (selection.folders.empty())

@@ -14,7 +14,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "doorforge/core/command_line.h"
+#include "doorforge/cli/command_line.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
@@ -66,13 +66,11 @@ void AddInputs(CLI::App& app, Options& options) {
 }
 
 void AddPolicies(CLI::App& app, Options& options) {
-  app.add_option("--opener", options.setup.opener,
-                 "who opens the door: a folder that `doorforge train open` wrote");
+  const std::string folder = ": a folder of `doorforge train ";
+  AddWord(app, "--opener", options.setup.opener, "who opens the door" + folder + "open`");
   AddEarlierName(app, "--policy", "--opener", options.setup.opener);
-  app.add_option("--handler", options.setup.handler,
-                 "who turns the handle: a folder that `doorforge train handle` wrote");
-  app.add_option("--grasper", options.setup.grasper,
-                 "who chooses where to take hold: a folder that `doorforge train grasp` wrote");
+  AddWord(app, "--handler", options.setup.handler, "who turns the handle" + folder + "handle`");
+  AddWord(app, "--grasper", options.setup.grasper, "who takes hold" + folder + "grasp`");
   app.add_option("--stage", options.stage,
                  "which of them acts: open, handle, or auto: as the state says (unlocked)")
       ->check(CLI::IsMember({"auto", "open", "handle"}))
@@ -206,20 +204,13 @@ int Stream(OnlineController& controller, const Options& options) {
   return held ? 1 : 0;
 }
 
-// The words of the other verbs for policies are understood, and told why they do not go here.
-void CheckPolicies(const OnlineControllerSetup& setup) {
-  const std::string needs = "rules read what only the simulator knows, and no robot does";
-  TrainedPolicyFolder(Stage::kOpen, setup.opener, "--opener", needs);
-  TrainedPolicyFolder(Stage::kHandle, setup.handler, "--handler", needs);
-  TrainedPolicyFolder(Stage::kGrasp, setup.grasper, "--grasper", needs);
-}
-
 int Act(Options options) {
   options.setup.config = ConfigOf(options);
   if (options.stage != "auto") options.setup.stage = StageNamed(options.stage);
   RequireNoFile(options.picture, options.overwrite);
   options.setup.camera = ReadCalibratedCamera(options.camera);
-  CheckPolicies(options.setup);
+  RequireTrainedPolicies({options.setup.opener, options.setup.handler, options.setup.grasper},
+                         "rules read what only the simulator knows, and no robot does");
   OnlineController controller(options.setup);
   for (const std::string& note : controller.notes())
     std::fprintf(stderr, "doorforge: note: %s\n", note.c_str());

@@ -12,7 +12,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "doorforge/core/command_line.h"
+#include "doorforge/cli/command_line.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/output_file.h"

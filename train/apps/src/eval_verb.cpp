@@ -13,7 +13,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "doorforge/core/command_line.h"
+#include "doorforge/cli/command_line.h"
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/error.h"
@@ -33,6 +33,7 @@ struct Options {
   EvaluationRequest request;
   std::vector<std::string> doors;
   std::string split;
+  int per_category = 0;
   std::string out;
   std::string config;
   std::vector<std::string> settings;
@@ -54,7 +55,7 @@ void AddOptions(CLI::App& app, Options& options) {
          "its doors")
       ->required();
   app.add_option("--split", options.split, "the same: a split and its side, such as full:test");
-  app.add_option("-n,--per-category", options.request.doors.per_category,
+  app.add_option("-n,--per-category", options.per_category,
                  "at most so many doors of each category, all handles and bodies as evenly as "
                  "the number allows; 0: all")
       ->check(CLI::NonNegativeNumber);
@@ -93,29 +94,16 @@ Options Parse(int argc, char** argv, const EvalVerbSetup& setup) {
       "report.json and report.html.",
       setup.program);
   AddOptions(app, options);
-  app.footer("examples:\n  " + setup.program +
-             " --opener run/opener --handler run/handler --grasper run/grasper --doors "
-             "run/doors/test\n    --out run/report\n  " +
-             setup.program +
-             " --opener run/opener --data run/data --doors run/doors/test --out run/report\n  " +
-             setup.program +
-             " --opener expert --doors run/doors --split full:test -n 50 --seeds 3 --out "
-             "run/expert");
+  const std::string line = "\n  " + setup.program + " --doors run/doors/test --opener ";
+  app.footer("examples:" + line +
+             "run/opener --handler run/handler --grasper run/grasper --out run/report" + line +
+             "run/opener --data run/data --out run/report" + line +
+             "expert --split full:test -n 50");
   ParseVerb(app, argc, argv);
   Require(!options.request.policies.opener.empty(), ErrorCode::kInvalidArgument,
           "--opener is required: " + setup.registry.Choices(Stage::kOpen) + "; see `" +
               setup.program + " --help`");
   return options;
-}
-
-DoorSelection DoorsOf(const Options& options) {
-  DoorSelection doors = DoorSelectionOf(options.doors, "test");
-  Require(doors.split.empty() || options.split.empty(), ErrorCode::kInvalidArgument,
-          "--doors " + doors.split + " and --split " + options.split +
-              ": two splits; leave one of them out");
-  if (!options.split.empty()) doors.split = options.split;
-  doors.per_category = options.request.doors.per_category;
-  return doors;
 }
 
 EvaluationConfig ConfigOf(const Options& options) {
@@ -129,18 +117,6 @@ EvaluationConfig ConfigOf(const Options& options) {
   if (options.first_seed) config.first_seed = *options.first_seed;
   if (options.episodes_per_door) config.episodes_per_door = *options.episodes_per_door;
   return config;
-}
-
-// the command as a user would type it, with quotes where a shell needs them
-std::string CommandLine(int argc, char** argv, const std::string& program) {
-  std::string line = program;
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    const bool plain =
-        !argument.empty() && argument.find_first_of(" \t\"'$&|;<>()*?\\") == std::string::npos;
-    line += plain ? " " + argument : " '" + argument + "'";
-  }
-  return line;
 }
 
 int Evaluate(Options& options) {
@@ -175,8 +151,9 @@ int RunEvalVerb(int argc, char** argv, const EvalVerbSetup& setup) {
   return RunProgram([&] {
     Options options = Parse(argc, argv, setup);
     options.request.config = ConfigOf(options);
-    options.request.doors = DoorsOf(options);
-    options.request.command = CommandLine(argc, argv, setup.program);
+    options.request.doors = DoorSelectionOf(options.doors, "test", options.split);
+    options.request.doors.per_category = options.per_category;
+    options.request.command = CommandLineText(setup.program, argc, argv);
     return NamingConfig(options.config, [&] { return Evaluate(options); });
   });
 }

@@ -20,8 +20,7 @@ std::unique_ptr<GraspFromPolicy> GraspOf(const PolicySet& set, const EpisodePlac
 
 std::unique_ptr<CameraObserver> CameraOf(const EpisodePlace& place,
                                          const RememberedViewConfig& remembered) {
-  auto camera =
-      std::make_unique<CameraObserver>(place.scene, place.door, place.robot, place.cloud);
+  auto camera = std::make_unique<CameraObserver>(place.scene, place.door, place.robot, place.cloud);
   if (remembered.IsOn())
     camera->Remember({place.scene, place.door, place.robot, place.cloud, remembered});
   return camera;

@@ -35,9 +35,10 @@ struct DoorSelection {
 /// The selection that the words of a verb's --doors mean: folders, and at most one split.
 ///
 /// @param default_side As DoorSelection::default_side; each verb's own.
+/// @param split One that was given apart from the words; empty: none was.
 /// @throws Error(kInvalidArgument) if there are two splits or no folder.
 DoorSelection DoorSelectionOf(const std::vector<std::string>& words,
-                              const std::string& default_side);
+                              const std::string& default_side, const std::string& split = {});
 
 /// A door that was found, without its meshes.
 struct FoundDoor {

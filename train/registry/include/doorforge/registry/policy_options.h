@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include "doorforge/registry/policy_set_factory.h"
@@ -19,19 +18,11 @@ namespace doorforge {
 ///     parsed.
 void AddPolicyOptions(CLI::App& app, const PolicyRegistry& registry, PolicyWords& words);
 
-/// Goes on accepting an option's earlier name, with a note on standard error that tells the new
-/// one. It is not in the help.
+/// For who runs trained policies alone: refuses the names of others.
 ///
-/// @param value As of the new option, which must have been added before.
-void AddEarlierName(CLI::App& app, const std::string& earlier, const std::string& now,
-                    std::string& value);
-
-/// The folder of a trained policy, for who runs none but those; `word` may be empty, which gives an
-/// empty path.
-///
-/// @param needs Why, for the message: "on a robot nobody knows what its rules read".
-/// @throws Error as PolicyRegistry::Find(), and Error(kInvalidArgument) on the name of a row.
-std::filesystem::path TrainedPolicyFolder(Stage stage, const std::string& word,
-                                          const std::string& option, const std::string& needs);
+/// @param words May be empty: nobody acts at that stage.
+/// @param why For the message: "a robot does not know what rules read".
+/// @throws Error as PolicyRegistry::Find(), and Error(kInvalidArgument) on the name of a policy.
+void RequireTrainedPolicies(const PolicyWords& words, const std::string& why);
 
 }  // namespace doorforge

@@ -22,9 +22,9 @@ int StopRequested();
 /// Folder of the running executable, where the other doorforge programs lie.
 std::filesystem::path ProgramFolder();
 
-/// Folders in which the programs and, relative to them, the data are looked for: that of the running
-/// executable, then those of each `doorforge` on $PATH, links followed. So a program of somebody
-/// else that links these libraries finds the installation that its user calls.
+/// Folders in which the programs and, relative to them, the data are looked for: that of the
+/// running executable, then those of each `doorforge` on $PATH, links followed. So a program of
+/// somebody else that links these libraries finds the installation that its user calls.
 std::vector<std::filesystem::path> ProgramFolders();
 
 /// Folder with `catalog/`, `robots/` and `splits/`: $DOORFORGE_DATA, else the first of

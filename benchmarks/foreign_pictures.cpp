@@ -203,25 +203,25 @@ class ShownGrasp : public GraspChooser {
   std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override {
     const DepthImage depth = camera_.Look(snapshot).depth;
     const Eigen::Vector3d approach = -snapshot.door[kHandleLink].linear().col(0);
-    std::optional<ChosenGrasp> grasp;
+    std::optional<GraspAction> grasp;
     for (const Shot& shot : ForeignLooks(depth, view_, rng_)) {
-      const std::optional<GraspChoice> choice = Judged(shot, approach);
+      const std::optional<GraspAction> choice = Judged(shot, approach);
       if (choice && shot.kind == "sound")
-        grasp = ChosenGrasp{choice->cloud, choice->contact_m, choice->world_from_hand_rotation};
+        grasp = GraspAction{choice->cloud, choice->contact_m, choice->world_from_hand_rotation};
     }
     return grasp;
   }
 
  private:
-  std::optional<GraspChoice> Judged(const Shot& shot, const Eigen::Vector3d& approach) {
+  std::optional<GraspAction> Judged(const Shot& shot, const Eigen::Vector3d& approach) {
     Findings& found = judge_.Of(shot.kind);
-    GraspView view;
+    GraspObservation view;
     view.visible = CropCloud(shot.depth, shot.view);
     view.approach = approach;
     view.sample = [&](const Eigen::Vector3d& start, double within_m) {
       return SampleCloud(view.visible, start, {kPoints, within_m}).cloud;
     };
-    std::optional<GraspChoice> choice;
+    std::optional<GraspAction> choice;
     if (!view.visible.label.empty()) choice = policy_->Choose(view);
     if (!choice) {
       ++found.refused;
@@ -229,7 +229,7 @@ class ShownGrasp : public GraspChooser {
     }
     found.distances.push_back(judge_.familiarity.DistanceOf(
         SightNumbersOf({choice->cloud.xyz, choice->cloud.label}, {}, NetworkFamily::kGrasp)));
-    found.gains.push_back(choice->score_rad);
+    found.gains.push_back(choice->explanation->expected_opening_rad);
     return choice;
   }
 
@@ -263,7 +263,7 @@ int Run(const Options& options) {
   Judge grasper("grasp", options.grasper);
   Judge handler("handle", options.handler);
   Judge opener("open", options.opener);
-  DoorSelection selection = DoorSelectionOf(options.doors);
+  DoorSelection selection = DoorSelectionOf(options.doors, "train");
   selection.per_category = options.per_category;
   const std::vector<FoundDoor> doors = FindDoorSet(selection, 1).doors;
   DoorShelf shelf(doors);

@@ -156,7 +156,7 @@ void PrintGrasps(int repetitions) {
   const auto policy = MakeGraspPolicy(
       InitialNetworks(MeasureNormalisation(made.samples, frame), false, 4, NetworkFamily::kGrasp));
   const LabelledCloud cloud = ClosedDoor();
-  const GraspView view{.visible = cloud, .sample = [&](const Eigen::Vector3d& start, double) {
+  const GraspObservation view{.visible = cloud, .sample = [&](const Eigen::Vector3d& start, double) {
                          return From(cloud, start);
                        }};
   const auto seconds = SecondsOf(repetitions, [&] { policy->Choose(view); });

@@ -48,10 +48,10 @@
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/mesh/import_mesh.h"
+#include "doorforge/mesh/mesh_writer.h"
 #include "doorforge/mesh/repair_mesh.h"
 #include "doorforge/mesh/surface_deviation.h"
 
-#include "mesh_writer.h"
 
 namespace doorforge {
 namespace {

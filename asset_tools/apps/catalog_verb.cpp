@@ -1,32 +1,23 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "catalog_verb.h"
-
 #include <cstdio>
-#include <filesystem>
-#include <iostream>
 #include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "doorforge/catalogue/catalogue.h"
-#include "doorforge/core/committed_file.h"
-#include "doorforge/core/json_file.h"
-#include "doorforge/core/parallel_for.h"
+#include "doorforge/authoring/part_batch.h"
+#include "doorforge/catalogue/describe_catalogue.h"
+#include "doorforge/cli/answer.h"
+#include "doorforge/cli/command_line.h"
 #include "doorforge/core/program.h"
-#include "doorforge/core/progress.h"
-#include "doorforge/core/record_id.h"
-#include "doorforge/core/rigid_transform.h"
-#include "doorforge/mesh/work_budget.h"
-#include "doorforge/schemas/split.h"
 
-#include "verb_options.h"
+#include "verbs.h"
 
 namespace doorforge {
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 struct Options {
@@ -40,46 +31,15 @@ struct Options {
 };
 
 std::vector<CatalogueEntry> Chosen(const Options& options) {
-  if (!options.category.empty() && !CategoryNamed(options.category))
-    throw Error(ErrorCode::kInvalidArgument,
-                "--category: unknown category \"" + options.category +
-                    "\"; allowed are interior, window, car, safe, storagefurniture, refrigerator");
-  const std::vector<CatalogueEntry> catalogue = ListCatalogue(DataFolder());
-  std::vector<CatalogueEntry> chosen;
-  if (options.split.empty()) {
-    chosen = catalogue;
-  } else {
-    const fs::path path = DataFolder() / "splits" / (options.split + ".yaml");
-    for (const std::string& id :
-         PartsOf(ReadSplit(fs::exists(path) ? path : fs::path(options.split))))
-      chosen.push_back(FindCatalogueEntry(catalogue, id));
-  }
-  std::erase_if(chosen, [&](const CatalogueEntry& entry) {
-    return !options.category.empty() && NameOf(entry.category) != options.category;
-  });
-  if (chosen.empty())
-    throw Error(ErrorCode::kMissing,
-                "catalog: there are no parts of category \"" + options.category + "\" here");
-  return chosen;
-}
-
-Json ToJson(const CatalogueEntry& entry) {
-  return {{"id", entry.id},
-          {"role", NameOf(entry.role)},
-          {"category", NameOf(entry.category)},
-          {"mechanism", NameOf(entry.mechanism)},
-          {"family", entry.family}};
+  return SelectParts(DataFolder(), {.category = options.category, .split = options.split});
 }
 
 int List(const Options& options) {
   const std::vector<CatalogueEntry> entries = Chosen(options);
   if (options.json) {
     Json parts = Json::array();
-    for (const CatalogueEntry& entry : entries) parts.push_back(ToJson(entry));
-    std::cout << JsonText(
-                     Json{{"schema", "doorforge.catalog"}, {"schema_version", 1}, {"parts", parts}},
-                     2)
-              << '\n';
+    for (const CatalogueEntry& entry : entries) parts.push_back(EntryToJson(entry));
+    PrintJson({{"schema", "doorforge.catalog"}, {"schema_version", 1}, {"parts", parts}});
     return 0;
   }
   for (const CatalogueEntry& entry : entries)
@@ -89,32 +49,11 @@ int List(const Options& options) {
   return 0;
 }
 
-Json PieceToJson(const PartPiece& piece) {
-  Eigen::AlignedBox3d bounds;
-  for (const Eigen::Vector3d& vertex : piece.mesh.vertices) bounds.extend(vertex);
-  return {{"name", piece.name},
-          {"triangles", piece.mesh.triangles.size()},
-          {"hulls", piece.hulls.size()},
-          {"mass_kg", piece.mass.mass_kg},
-          {"size_m", Vector3ToJson(bounds.sizes())}};
-}
-
 int Show(const Options& options) {
   const CatalogueEntry entry = FindCatalogueEntry(ListCatalogue(DataFolder()), options.id);
   const Part part = BuildCataloguePart(entry);
-  Json json = {{"schema", "doorforge.catalog_part"}, {"schema_version", 1}};
-  json.update(ToJson(entry));
-  json["license"] = part.license;
-  json["recipe"] = entry.recipe.string();
-  json["content_sha256"] = ContentHash(part);
-  if (part.role == PartRole::kBody)
-    json["part_from_mount"] = TransformToJson(part.part_from_mount);
-  else
-    json["part_from_grasp"] = TransformToJson(part.part_from_grasp);
-  json["pieces"] = Json::array();
-  for (const PartPiece& piece : part.pieces) json["pieces"].push_back(PieceToJson(piece));
   if (options.json) {
-    std::cout << JsonText(json, 2) << '\n';
+    PrintJson(DescribePart(entry, part));
     return 0;
   }
   std::printf("%s: %s of category %s, mechanism %s, family %s\n%s\n", part.id.c_str(),
@@ -128,27 +67,13 @@ int Show(const Options& options) {
 
 int Build(const Options& options) {
   const std::vector<CatalogueEntry> entries = Chosen(options);
-  const Existing existing = options.overwrite ? Existing::kReplace : Existing::kRefuse;
-  RequireWritable(options.out);
-  std::vector<std::string> problems(entries.size());
-  Progress progress("building parts", entries.size());
-  ParallelFor(entries.size(), options.threads, [&](std::size_t i) {
-    try {
-      if (StopRequested() != 0) throw Error(ErrorCode::kIncomplete, "stopped before its turn");
-      StagedFolder staged(OutputBelow(options.out, entries[i].id), kPartFolder, existing);
-      WritePart(BuildCataloguePart(entries[i]), staged.path());
-      staged.Commit();
-    } catch (const Error& error) {
-      problems[i] = error.what();
-    } catch (const std::exception&) {
-      problems[i] = CurrentProblem(entries[i].id);
-    }
-    progress.Advance();
-  });
+  const std::vector<std::string> problems =
+      BuildParts(entries, options.out, options.overwrite ? Existing::kReplace : Existing::kRefuse,
+                 options.threads);
   std::size_t failed = 0;
   Json parts = Json::array();
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    Json part = ToJson(entries[i]);
+    Json part = EntryToJson(entries[i]);
     part["built"] = problems[i].empty();
     part["message"] = problems[i];
     parts.push_back(part);
@@ -157,15 +82,10 @@ int Build(const Options& options) {
     std::fprintf(stderr, "doorforge: %s: %s\n", entries[i].id.c_str(), problems[i].c_str());
   }
   if (options.json)
-    std::cout << JsonText(Json{{"schema", "doorforge.catalog_build"},
-                               {"schema_version", 1},
-                               {"parts", parts}},
-                          2)
-              << '\n';
+    PrintJson({{"schema", "doorforge.catalog_build"}, {"schema_version", 1}, {"parts", parts}});
   else
     std::printf("%zu parts built in %s\n", entries.size() - failed, options.out.c_str());
-  if (const int signal = StopRequested()) return 128 + signal;
-  return failed == 0 ? 0 : 1;
+  return ExitCodeOfBatch(failed);
 }
 
 }  // namespace
@@ -179,15 +99,14 @@ int RunCatalogVerb(int argc, char** argv) {
   CLI::App* build = app.add_subcommand("build", "writes parts: DIR/<id>/part.json and meshes");
   show->add_option("ID", options.id, "id of a part")->required();
   build->add_option("--out", options.out, "folder of the parts")->required();
-  build->add_option("--threads", options.threads, "0: all processors");
-  build->add_flag("--overwrite", options.overwrite, "replace parts that are there already");
+  AddThreads(*build, options.threads);
+  AddOverwrite(*build, options.overwrite, "replace parts that are there already");
   for (CLI::App* verb : {list, build}) {
     verb->add_option("--category", options.category, "only this category");
     verb->add_option("--split", options.split,
                      "only parts of this split: a name in data/splits or a file");
   }
-  for (CLI::App* verb : {list, show, build})
-    verb->add_flag("--json", options.json, "print one JSON document");
+  for (CLI::App* verb : {list, show, build}) AddJson(*verb, options.json);
   app.footer(
       "examples:\n"
       "  doorforge catalog list --category interior\n"

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "import_verb.h"
-
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -9,15 +7,19 @@
 #include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
+#include "doorforge/cli/answer.h"
+#include "doorforge/cli/command_line.h"
 #include "doorforge/core/config_file.h"
+#include "doorforge/core/error.h"
 #include "doorforge/core/folder_lock.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/importers/import_objects.h"
 
-#include "counted.h"
 #include "mesh_options.h"
-#include "verb_options.h"
+#include "verbs.h"
 
 namespace doorforge {
 namespace {
@@ -67,12 +69,12 @@ Options Parse(int argc, char** argv) {
       ->delimiter(',')
       ->allow_extra_args(false);
   AddReadOptions(app, options.read);
-  app.add_option("--config", options.config, "YAML file with the settings of import");
+  AddConfig(app, options.config, "YAML file with the settings of import");
   AddSettings(app, options.settings, "a.b=c overrides one setting");
-  app.add_option("--threads", options.threads, "0: all processors");
+  AddThreads(app, options.threads);
   AddMaxSeconds(app, options.max_seconds);
-  app.add_flag("--overwrite", options.overwrite, "replace parts that are there already");
-  app.add_flag("--json", options.json, "print one JSON document");
+  AddOverwrite(app, options.overwrite, "replace parts that are there already");
+  AddJson(app, options.json);
   app.footer(
       "examples:\n"
       "  doorforge import unidoormanip_objects/LeverDoor --out parts\n"
@@ -161,7 +163,7 @@ int RunImportVerb(int argc, char** argv) {
                          options.overwrite ? Existing::kReplace : Existing::kRefuse);
   });
   if (options.json)
-    std::cout << JsonText(ToJson(report), 2) << '\n';
+    PrintJson(ToJson(report));
   else
     PrintTable(report);
   return ExitCodeFor(report);

@@ -15,18 +15,18 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "doorforge/core/command_line.h"
+#include "doorforge/cli/command_line.h"
+#include "doorforge/cli/verb_table.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/nearest_name.h"
 #include "doorforge/core/program.h"
 
-#include "pipeline_verb.h"
-#include "quickstart_verb.h"
+#include "verbs.h"
 
 namespace doorforge {
 namespace {
 
-struct Verb {
+struct FrontVerb {
   const char* name;
   const char* program;  // empty: the front program itself
   const char* does;
@@ -36,32 +36,37 @@ constexpr const char* kAbout = "door assets and door-opening data for robot lear
 constexpr const char* kExample = "example:\n  doorforge quickstart --out run/quickstart";
 
 constexpr std::array kVerbs = {
-    Verb{"quickstart", "", "the whole chain at small size, ends in report.html"},
-    Verb{"pipeline", "", "collect, train and evaluate all stages, step by step"},
-    Verb{"catalog", "doorforge-assets", "list, show and build the embedded door parts"},
-    Verb{"import", "doorforge-assets", "foreign door objects -> parts"},
-    Verb{"repair", "doorforge-assets", "any mesh -> a closed mesh with a measured report"},
-    Verb{"compose", "doorforge-assets", "a body and a handle -> a door (door.json, URDF, meshes)"},
-    Verb{"validate", "doorforge-assets", "every fault of parts and doors, with its measure"},
-    Verb{"export", "doorforge-assets", "doors for other simulators: MJCF, SDF, GLB, USDA, URDF"},
-    Verb{"preview", "doorforge-assets", "pictures of parts and doors"},
-    Verb{"simulate", "doorforge-simulate", "the rule-based expert on doors, with film strips"},
-    Verb{"datagen", "doorforge-datagen", "collect a stage's dataset shards"},
-    Verb{"dataset", "doorforge-datagen", "verify and describe datasets"},
-    Verb{"train", "doorforge-train", "train a stage's policy from shards"},
-    Verb{"eval", "doorforge-eval", "success of a policy per category, with a report"},
-    Verb{"report", "doorforge-eval", "one table of the reports of several trainings"},
-    Verb{"act", "doorforge-act", "a real depth picture -> the hand's next pose"},
-    Verb{"sight", "doorforge-sight", "a simulated door as the pictures and states that act reads"},
-    Verb{"doctor", "doorforge-train", "what is installed, and what to do about it"},
+    FrontVerb{"quickstart", "", "the whole chain at small size, ends in report.html"},
+    FrontVerb{"pipeline", "", "collect, train and evaluate all stages, step by step"},
+    FrontVerb{"catalog", "doorforge-assets", "list, show and build the embedded door parts"},
+    FrontVerb{"import", "doorforge-assets", "foreign door objects -> parts"},
+    FrontVerb{"repair", "doorforge-assets", "any mesh -> a closed mesh with a measured report"},
+    FrontVerb{"compose", "doorforge-assets",
+              "a body and a handle -> a door (door.json, URDF, meshes)"},
+    FrontVerb{"validate", "doorforge-assets", "every fault of parts and doors, with its measure"},
+    FrontVerb{"export", "doorforge-assets",
+              "doors for other simulators: MJCF, SDF, GLB, USDA, URDF"},
+    FrontVerb{"preview", "doorforge-assets", "pictures of parts and doors"},
+    FrontVerb{"simulate", "doorforge-simulate", "the rule-based expert on doors, with film strips"},
+    FrontVerb{"datagen", "doorforge-datagen", "collect a stage's dataset shards"},
+    FrontVerb{"dataset", "doorforge-datagen", "verify and describe datasets"},
+    FrontVerb{"train", "doorforge-train", "train a stage's policy from shards"},
+    FrontVerb{"eval", "doorforge-eval", "success of a policy per category, with a report"},
+    FrontVerb{"report", "doorforge-eval", "one table of the reports of several trainings"},
+    FrontVerb{"act", "doorforge-act", "a real depth picture -> the hand's next pose"},
+    FrontVerb{"sight", "doorforge-sight",
+              "a simulated door as the pictures and states that act reads"},
+    FrontVerb{"doctor", "doorforge-train", "what is installed, and what to do about it"},
 };
 
 // A build without a room does not offer its verbs.
-bool IsBuilt(const Verb& verb) { return std::filesystem::exists(ProgramFolder() / verb.program); }
+bool IsBuilt(const FrontVerb& verb) {
+  return std::filesystem::exists(ProgramFolder() / verb.program);
+}
 
 void PrintDescription() {
   nlohmann::ordered_json verbs = nlohmann::ordered_json::array();
-  for (const Verb& verb : kVerbs) {
+  for (const FrontVerb& verb : kVerbs) {
     if (IsBuilt(verb))
       verbs.push_back({{"name", verb.name}, {"program", verb.program}, {"about", verb.does}});
   }
@@ -81,25 +86,23 @@ void PrintHelp() {
       "doorforge %s: %s\n\n"
       "usage: doorforge VERB [ARGUMENTS]     doorforge VERB --help\n\n",
       CodeVersion().c_str(), kAbout);
-  for (const Verb& verb : kVerbs) {
+  for (const FrontVerb& verb : kVerbs) {
     if (IsBuilt(verb)) std::printf("  %-11s %s\n", verb.name, verb.does);
   }
   std::printf("\n%s\n", kExample);
 }
 
-const Verb& FindVerb(const std::string& name) {
+const FrontVerb& FindVerb(const std::string& name) {
   if (name.starts_with('-'))
     throw Error(ErrorCode::kInvalidArgument, "unknown option \"" + name + "\"; did you mean \"" +
                                                  NearestName(name, {"--help", "--version"}) +
                                                  "\"? `doorforge --help` lists all");
   std::vector<std::string> names;
-  for (const Verb& verb : kVerbs) {
+  for (const FrontVerb& verb : kVerbs) {
     if (name == verb.name) return verb;
     names.emplace_back(verb.name);
   }
-  throw Error(ErrorCode::kInvalidArgument, "unknown verb \"" + name + "\"; did you mean \"" +
-                                               NearestName(name, names) +
-                                               "\"? `doorforge --help` lists all");
+  RefuseVerb(name, names);
 }
 
 int Run(int argc, char** argv) {
@@ -116,7 +119,7 @@ int Run(int argc, char** argv) {
     std::printf("%s\n", CodeVersion().c_str());
     return 0;
   }
-  const Verb& verb = FindVerb(name);
+  const FrontVerb& verb = FindVerb(name);
   if (name == "quickstart") return RunQuickstartVerb(argc - 1, argv + 1);
   if (name == "pipeline") return RunPipelineVerb(argc - 1, argv + 1);
   const std::string program = (ProgramFolder() / verb.program).string();

@@ -1,17 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline_verb.h"
-
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
-#include "doorforge/core/command_line.h"
+#include "doorforge/cli/command_line.h"
 #include "doorforge/core/error.h"
+#include "doorforge/pipeline/pipeline_graph.h"
+#include "doorforge/pipeline/pipeline_run.h"
 
-#include "pipeline_graph.h"
-#include "pipeline_run.h"
+#include "verbs.h"
 
 namespace doorforge {
 namespace {
@@ -46,14 +45,14 @@ void ParseOptions(int argc, char** argv, Options& options) {
       ->expected(1, 2);
   app.add_option("--out", options.run.out, "folder for everything that is made")->required();
   app.add_option("--doors", options.doors, "folders of composed doors, instead of the catalogue's");
-  app.add_option("--threads", options.run.threads, "threads, 0: all; changes no byte")
+  AddThreads(app, options.run.threads, "threads, 0: all; changes no byte")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   AddSettings(app, options.settings, "changes one of the preset's settings");
   app.add_flag("--dry-run", options.dry_run,
                "print the steps, why each would run, and the expected time and space");
-  app.add_flag("--json", options.run.json, "the plan as one JSON document");
-  app.add_flag("--overwrite", options.run.overwrite,
+  AddJson(app, options.run.json, "the plan as one JSON document");
+  AddOverwrite(app, options.run.overwrite,
                "replace what steps made whose inputs have changed since");
   app.add_flag(
       "--any-build", options.run.any_build,

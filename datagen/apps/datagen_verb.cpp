@@ -7,6 +7,9 @@
 #include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
+#include "doorforge/cli/command_line.h"
 #include "doorforge/collect/collect_stage.h"
 #include "doorforge/collect/collection_script.h"
 #include "doorforge/collect/forecast.h"
@@ -17,9 +20,8 @@
 #include "doorforge/dataset/describe_dataset.h"
 #include "doorforge/dataset/task_number.h"
 #include "doorforge/dataset/task_summary.h"
+#include "doorforge/robot_meshes/robot_meshes.h"
 
-#include "robot_meshes.h"
-#include "verb_options.h"
 #include "verbs.h"
 
 namespace doorforge {
@@ -30,7 +32,7 @@ namespace fs = std::filesystem;
 struct Options {
   Stage stage = Stage::kOpen;
   std::vector<std::string> doors;
-  PolicyFolders policies;
+  CollectionWords policies;
   std::string robot;
   std::string out;
   std::string config;
@@ -57,12 +59,12 @@ void AddOptions(CLI::App& app, Options& options) {
   app.add_option("--episodes", options.episodes, "episodes to run, failed ones included")
       ->check(CLI::Range(1, 10000000));
   app.add_option("--seed", options.seed, "decides every random choice");
-  app.add_option("--opener", options.policies.opener,
-                 "trained policy that opens, instead of the rule (handle, grasp)");
-  app.add_option("--handler", options.policies.handler,
-                 "trained policy that turns the handle, instead of the rule (grasp)");
+  AddWord(app, "--opener", options.policies.opener,
+          "who opens (handle, grasp): " + BuiltInPolicies().Choices(Stage::kOpen));
+  AddWord(app, "--handler", options.policies.handler,
+          "who turns the handle (grasp): " + BuiltInPolicies().Choices(Stage::kHandle));
   app.add_option("--learner", options.policies.learner,
-                 "trained policy of this stage that drives and is corrected by the rule (open, "
+                 "trained policy of this stage that drives and is corrected by the expert (open, "
                  "handle; config: learner_decisions), or whose grasps are tried (grasp)");
   app.add_option("--robot", options.robot, "URDF of the robot; the embedded one if left out");
   app.add_option("--config", options.config, "YAML file with settings");
@@ -239,7 +241,7 @@ int RunDatagenVerb(int argc, char** argv) {
       "angle");
   const CLI::App* plan = AddPlan(app, options);
   app.footer("example:\n  doorforge datagen open --doors doors/train --out data --episodes 200");
-  ParseDataVerb(app, argc, argv);
+  ParseVerb(app, argc, argv, EmptyValues::kRefuse);
   if (!options.script_file.empty()) return GiveToSlurm(options, {argv, argv + argc});
   return NamingConfig(options.config,
                       [&] { return plan->parsed() ? PrintPlan(options) : CollectOrGoOn(options); });

@@ -4,11 +4,11 @@
 #include <iostream>
 #include <memory>
 
+#include "doorforge/cli/command_line.h"
 #include "doorforge/collect/reobserve.h"
-#include "doorforge/core/command_line.h"
 #include "doorforge/dataset/describe_dataset.h"
+#include "doorforge/robot_meshes/robot_meshes.h"
 
-#include "robot_meshes.h"
 #include "verbs.h"
 
 namespace doorforge {

@@ -11,8 +11,8 @@
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/progress.h"
 #include "doorforge/dataset/verify_dataset.h"
+#include "doorforge/robot_meshes/robot_meshes.h"
 
-#include "robot_meshes.h"
 #include "verbs.h"
 
 namespace doorforge {
@@ -68,7 +68,7 @@ void AddRegenerateOptions(CLI::App& app, Options& options) {
                  "URDF of the dataset's robot; needed where its config.yaml names a file that is "
                  "not in the dataset's folder")
       ->needs(share);
-  PolicyFolders& policies = given.policies;
+  CollectionWords& policies = given.policies;
   app.add_option("--handler", policies.handler, "the policy that turned the handle")->needs(share);
   app.add_option("--opener", policies.opener, "the policy that opened")->needs(share);
   app.add_option("--learner", policies.learner, "the policy that drove or took hold")->needs(share);

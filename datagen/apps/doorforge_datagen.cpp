@@ -3,13 +3,11 @@
 
 // The program that makes and checks datasets.
 
-#include <string>
+#include <CLI/CLI.hpp>
 
-#include "doorforge/core/error.h"
-#include "doorforge/core/nearest_name.h"
-#include "doorforge/core/program.h"
+#include "doorforge/cli/command_line.h"
+#include "doorforge/cli/verb_table.h"
 
-#include "verb_options.h"
 #include "verbs.h"
 
 namespace doorforge {
@@ -22,25 +20,18 @@ int RunDatasetVerb(int argc, char** argv) {
   const Subcommand subcommands[] = {AddVerify(app), AddMerge(app), AddReobserve(app),
                                     AddStatus(app), AddInfo(app),  AddExport(app),
                                     AddCard(app)};
-  ParseDataVerb(app, argc, argv);
+  ParseVerb(app, argc, argv, EmptyValues::kRefuse);
   for (const Subcommand& subcommand : subcommands) {
     if (subcommand.app->parsed()) return subcommand.run();
   }
   return 0;  // not reached: the parser asks for a subcommand
 }
 
-int Run(int argc, char** argv) {
-  const std::string verb = argc > 1 ? argv[1] : "";
-  if (verb == "datagen") return RunDatagenVerb(argc - 1, argv + 1);
-  if (verb == "dataset") return RunDatasetVerb(argc - 1, argv + 1);
-  throw Error(ErrorCode::kInvalidArgument, "unknown verb \"" + verb + "\"; did you mean \"" +
-                                               NearestName(verb, {"datagen", "dataset"}) +
-                                               "\"? `doorforge --help` lists all");
-}
-
 }  // namespace
 }  // namespace doorforge
 
 int main(int argc, char** argv) {
-  return doorforge::RunProgram([&] { return doorforge::Run(argc, argv); });
+  constexpr doorforge::Verb kVerbs[] = {{"datagen", doorforge::RunDatagenVerb},
+                                        {"dataset", doorforge::RunDatasetVerb}};
+  return doorforge::RunVerbs(kVerbs, argc, argv);
 }

@@ -54,6 +54,9 @@ bool NamesASplit(const std::string& word) {
 
 std::set<std::string> PartsOfSide(const DoorSelection& selection) {
   const SplitSide named = SplitSideOf(selection.split, selection.default_side);
+  Require(!named.side.empty(), ErrorCode::kInvalidArgument,
+          "split \"" + selection.split + "\": which side? Write " + selection.split +
+              ":train, :validation, :test or :unseen_categories");
   const Split split = ReadSplit(named.file);
   const auto sides = SidesOf(split);
   const auto found = sides.find(named.side);
@@ -258,15 +261,16 @@ DoorIdentity IdentityOf(const DatasetDoor& door) {
           .license = door.license};
 }
 
-DoorSelection DoorSelectionOf(const std::vector<std::string>& words) {
-  DoorSelection selection;
+DoorSelection DoorSelectionOf(const std::vector<std::string>& words,
+                              const std::string& default_side, const std::string& split) {
+  DoorSelection selection{.folders = {}, .split = split, .default_side = default_side};
   for (const std::string& word : words) {
     if (!NamesASplit(word)) {
       selection.folders.emplace_back(word);
       continue;
     }
     Require(selection.split.empty(), ErrorCode::kInvalidArgument,
-            "--doors " + word + ": a second split; give one");
+            "--doors " + word + ": a second split beside " + selection.split + "; give one");
     selection.split = word;
   }
   if (selection.folders.empty())

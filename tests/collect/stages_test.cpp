@@ -309,7 +309,7 @@ TEST_F(StagesTest, AnotherCameraIsInTheRecord) {
 TEST_F(StagesTest, RefusesAPolicyBeforeAnyWork) {
   StageRequest request = RequestFor(Stage::kGrasp, 2);
   request.policies.opener = (folder_ / "policy").string();
-  EXPECT_NE(Refusal(request).find("no policy here"), std::string::npos);
+  EXPECT_NE(Refusal(request).find("no such folder"), std::string::npos);
 
   fs::create_directories(request.policies.opener);
   const auto write = [&](const std::string& name, const std::string& text) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/core/command_line.h"
+#include "doorforge/cli/command_line.h"
 
 #include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
@@ -81,6 +81,28 @@ TEST(CommandLine, SubcommandsAreSuggestedAndTheirOptionsToo) {
             "unknown option \"--sise\"; did you mean \"--size\"? see `doorforge try list --help`");
   EXPECT_EQ(refusal({}), "a subcommand is required: list, show; see `doorforge try --help`");
   EXPECT_EQ(refusal({"list", "--size", "3"}), "");
+}
+
+TEST(CommandLine, AnEmptyValueIsRefusedWhereItMustNotPassForNone) {
+  const auto refusal = [](EmptyValues empty) -> std::string {
+    CLI::App app{"", "doorforge try"};
+    std::string size;
+    app.add_subcommand("list")->add_option("--size", size);
+    std::vector<std::string> words = {"try", "list", "--size", ""};
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    try {
+      ParseVerb(app, 4, pointers.data(), empty);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kInvalidArgument);
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal(EmptyValues::kAccept), "");
+  EXPECT_EQ(refusal(EmptyValues::kRefuse),
+            "--size: its value is empty; is a variable unset? Leave the option out to do without "
+            "it");
 }
 
 TEST(CommandLine, WhatIsMissingIsStillTold) {

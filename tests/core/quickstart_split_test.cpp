@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "../../core/apps/quickstart_split.h"
+#include "doorforge/pipeline/quickstart_split.h"
 
 #include <set>
 

@@ -51,7 +51,7 @@ TEST(OnlineController, PicturesInMemoryAreAnsweredAsFilesAreByTheProgram) {
   const ActAnswer answer = controller.Decide(DepthOf("open"), state);
   const auto program =
       ProgramAnswerOf(FilesOf("open") + " --state " + (SightOf("open") / "state.yaml").string() +
-                      " --policy " + setup.opener);
+                      " --opener " + setup.opener);
   const RigidTransform hand = TransformFromJson(program["world_from_hand"], "program");
   EXPECT_LT((hand.matrix() - answer.world_from_hand.matrix()).norm(), 1e-9);
   EXPECT_EQ(program["visible_points"], answer.visible_points);
@@ -66,7 +66,7 @@ TEST(OnlineController, ItTakesHoldOfAHandleInMemoryAsTheProgramDoesOfOneInAFile)
   const fs::path mask = SightOf("grasp") / "mask.png";
   const ActAnswer answer =
       controller.DecideGrasp(DepthOf("grasp"), DecodeMaskPng(ReadFile(mask), "mask"));
-  const auto program = ProgramAnswerOf(FilesOf("grasp") + " --handle " + mask.string() +
+  const auto program = ProgramAnswerOf(FilesOf("grasp") + " --handle-mask " + mask.string() +
                                        " --grasper " + setup.grasper);
   const RigidTransform hand = TransformFromJson(program["world_from_hand"], "program");
   EXPECT_LT((hand.matrix() - answer.world_from_hand.matrix()).norm(), 1e-9);
@@ -107,6 +107,41 @@ TEST(OnlineController, NobodyForAStageIsRefusedWithTheWayOut) {
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("opens"), std::string::npos) << error.what();
   }
+}
+
+// What its options were called is still understood, and told.
+TEST(ActOptions, EarlierNamesAnswerAlikeWithANote) {
+  const std::string sight = FilesOf("grasp");
+  const std::string mask = (SightOf("grasp") / "mask.png").string();
+  const std::string grasper = " --grasper " + (kData / "policies" / "grasper").string();
+  EXPECT_EQ(ProgramAnswerOf(sight + " --handle " + mask + grasper),
+            ProgramAnswerOf(sight + " --handle-mask " + mask + grasper));
+  const std::string opener = (kData / "policies" / "opener").string();
+  const std::string state = " --state " + (SightOf("open") / "state.yaml").string();
+  const ProgramAnswer noted = AnswerOf(DOORFORGE_BINARY_DIR "/bin/doorforge-act act " +
+                                       FilesOf("open") + state + " --policy " + opener + " 2>&1");
+  EXPECT_EQ(noted.code, 0) << noted.text;
+  EXPECT_NE(noted.text.find("note: --policy is called --opener now"), std::string::npos)
+      << noted.text;
+  const ProgramAnswer both =
+      AnswerOf(DOORFORGE_BINARY_DIR "/bin/doorforge-act act " + FilesOf("open") + state +
+               " --policy " + opener + " --opener " + opener + " 2>&1");
+  EXPECT_EQ(both.code, 2) << both.text;
+  EXPECT_NE(both.text.find("leave --policy out"), std::string::npos) << both.text;
+}
+
+TEST(ActOptions, TheExpertCannotActOnARobotAndAnUnknownPolicyIsToldWithWhatThereIs) {
+  const std::string files =
+      FilesOf("open") + " --state " + (SightOf("open") / "state.yaml").string();
+  const auto refusal = [&](const std::string& opener) {
+    const ProgramAnswer answer = AnswerOf(DOORFORGE_BINARY_DIR "/bin/doorforge-act act " + files +
+                                          " --opener " + opener + " 2>&1");
+    EXPECT_EQ(answer.code, 2) << answer.text;
+    return answer.text;
+  };
+  EXPECT_NE(refusal("expert").find("only the simulator knows"), std::string::npos)
+      << refusal("expert");
+  EXPECT_NE(refusal("openr").find("`doorforge train open`"), std::string::npos);
 }
 
 TEST(OnlineController, TheExampleRunsOnTheSamplePictures) {

@@ -195,7 +195,7 @@ class RobotSightTest : public testing::Test {
 
   static ProgramAnswer Open(const fs::path& policy, const fs::path& depth,
                             const std::string& more = "", const std::string& errors = "2>&1") {
-    return RunAct("--camera " + (folder_ / "camera.yaml").string() + " --policy " +
+    return RunAct("--camera " + (folder_ / "camera.yaml").string() + " --opener " +
                       policy.string() + " --stage open --depth " + depth.string() + " --state " +
                       State(0).string() + " " + more,
                   errors);
@@ -203,7 +203,7 @@ class RobotSightTest : public testing::Test {
 
   static std::string With(const std::string& camera, const std::string& more) {
     // what untrained networks expect is arbitrary
-    return "--least-gain off --camera " + (folder_ / camera).string() + " --policy " +
+    return "--least-gain off --camera " + (folder_ / camera).string() + " --opener " +
            (folder_ / "opener").string() + " " + more;
   }
 
@@ -363,7 +363,7 @@ TEST_F(RobotSightTest, TheProgramTakesHoldAsTheGrasperDoesInTheSimulator) {
       "--least-gain off --camera " + (folder_ / "camera.yaml").string() +
       " --set grasp.orientations=5 --set door_yaw_rad=" + std::to_string(yaw);
   const std::string grasper = " --grasper " + (folder_ / "grasper").string();
-  const std::string look = " --depth " + (folder_ / "closed.png").string() + " --handle " +
+  const std::string look = " --depth " + (folder_ / "closed.png").string() + " --handle-mask " +
                            (folder_ / "mask.png").string();
   const ProgramAnswer answer = RunAct(common + grasper + look, "2>/dev/null");
   ASSERT_EQ(answer.code, 0);
@@ -375,7 +375,8 @@ TEST_F(RobotSightTest, TheProgramTakesHoldAsTheGrasperDoesInTheSimulator) {
   EXPECT_LT((hand.linear() - expected->world_from_hand_rotation).norm(), 1e-4);
   const Eigen::Vector3d tcp = (hand * robot_.hand_from_tcp()).translation();
   EXPECT_NEAR((tcp - expected->contact_m).dot(hand.linear().col(2)), kGraspInsertion, 1e-5);
-  EXPECT_NEAR(decision["expected_door_angle_rad"].get<double>(), expected->score_rad, 1e-4);
+  EXPECT_NEAR(decision["expected_door_angle_rad"].get<double>(),
+              expected->explanation->expected_opening_rad, 1e-4);
   EXPECT_EQ(decision["expected_gain_rad"], decision["expected_door_angle_rad"]);
   EXPECT_TRUE(decision["foreign"].is_null());
   EXPECT_EQ(
@@ -387,7 +388,7 @@ TEST_F(RobotSightTest, TheProgramTakesHoldAsTheGrasperDoesInTheSimulator) {
     EXPECT_EQ(refusal.code, code) << refusal.text;
     EXPECT_NE(refusal.text.find(reason), std::string::npos) << refusal.text;
   };
-  refused(" --policy " + (folder_ / "opener").string() + look, 2, "--grasper");
+  refused(" --opener " + (folder_ / "opener").string() + look, 2, "--grasper");
   refused(" --grasper " + (folder_ / "opener").string() + look, 3, "stage \"open\"");
   refused(grasper + look + " --state " + State(0).string(), 2, "either --state or --handle");
   CommitFile(folder_ / "mask.png",
@@ -558,7 +559,7 @@ TEST_F(RobotSightTest, ACameraFileWithAMissingKeyAndAPolicyOfAnotherStageAreRefu
   EXPECT_NE(refusal("narrow.yaml").find("256 x 256"), std::string::npos);
   EXPECT_NE(refusal("no_fx.yaml").find("\"fx\" is missing"), std::string::npos);
   const ProgramAnswer answer = RunAct("--camera " + (folder_ / "camera.yaml").string() +
-                                      " --policy " + (folder_ / "handler").string() + " --depth " +
+                                      " --opener " + (folder_ / "handler").string() + " --depth " +
                                       Depth(0).string() + " --state " + State(0).string());
   EXPECT_EQ(answer.code, 3) << answer.text;
   EXPECT_NE(answer.text.find("handle"), std::string::npos) << answer.text;
@@ -597,7 +598,7 @@ TEST_F(RobotSightTest, WhereLessIsExpectedThanAskedForItSaysHold) {
   EXPECT_NE(wrong.text.find("a number or off"), std::string::npos) << wrong.text;
   EXPECT_EQ(Open(opener, Depth(0), "--foreign-limit 101").code, 2);
   const std::vector<Json> answers =
-      Stream("--camera " + (folder_ / "camera.yaml").string() + " --policy " + opener.string() +
+      Stream("--camera " + (folder_ / "camera.yaml").string() + " --opener " + opener.string() +
                  " --stage open --least-gain 3",
              Line(Depth(0), State(0)) + "{}\n", 1);
   EXPECT_EQ(answers.at(0)["hold"], true);
@@ -615,7 +616,7 @@ TEST_F(RobotSightTest, AWallARoomAndAPictureUpsideDownAreForeignAndHeld) {
   };
   for (std::size_t i = 0; i < pictures_.size(); ++i) {
     const ProgramAnswer answer =
-        RunAct("--camera " + (folder_ / "camera.yaml").string() + " --policy " +
+        RunAct("--camera " + (folder_ / "camera.yaml").string() + " --opener " +
                    (folder_ / "familiar").string() + " --stage open --least-gain off --depth " +
                    Depth(i).string() + " --state " + State(i).string(),
                "2>/dev/null");
@@ -754,8 +755,8 @@ TEST_F(RobotSightTest, ARecordedEpisodeIsReadByTheProgram) {
   }
   const ProgramAnswer grasp =
       RunAct("--least-gain off --camera " + (out / "grasp/camera.yaml").string() + " --depth " +
-             (out / "grasp/depth.png").string() + " --handle " + (out / "grasp/mask.png").string() +
-             " --grasper " + (folder_ / "grasper").string());
+             (out / "grasp/depth.png").string() + " --handle-mask " +
+             (out / "grasp/mask.png").string() + " --grasper " + (folder_ / "grasper").string());
   EXPECT_EQ(grasp.code, 0) << grasp.text;
 }
 

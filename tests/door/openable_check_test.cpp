@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "openable_check.h"
+#include "doorforge/openable/openable_check.h"
 
 #include <functional>
 #include <set>

@@ -92,7 +92,7 @@ class EvaluateOpenerTest : public testing::Test {
 
   static EvaluationRequest RequestFor(const std::string& doors) {
     EvaluationRequest request;
-    request.policy = folder_ / "policy";
+    request.policies.opener = folder_ / "policy";
     request.doors.folders = {folder_ / doors};
     request.data = {folder_ / "data"};
     request.config.seeds = 1;
@@ -122,7 +122,7 @@ TEST_F(EvaluateOpenerTest, RunsTheNetworksInClosedLoopBesideTheExpert) {
   ASSERT_EQ(report.episodes.size(), 1U);
   ASSERT_EQ(report.reference.size(), 1U);
   EXPECT_EQ(report.provenance.policy, "policy");
-  EXPECT_EQ(report.provenance.policy_sha256, ReadPolicy(request.policy).weights_sha256);
+  EXPECT_EQ(report.provenance.policy_sha256, ReadPolicy(request.policies.opener).weights_sha256);
   EXPECT_EQ(report.training_doors.size(), 1U);
   EXPECT_EQ(evaluation.pictures.doors.size(), 2U) << "the held-out door and a preview from a shard";
   EXPECT_EQ(evaluation.pictures.doors.at("body_a__handle_a"), "a preview's bytes");
@@ -156,10 +156,10 @@ TEST_F(EvaluateOpenerTest, ThePolicyItselfKnowsWhatWasSeen) {
   ASSERT_EQ(report.trained_on.bodies.size(), 1U);
   EXPECT_EQ(report.trained_on.bodies[0].id, "body_a");
 
-  PolicyRecord old = ReadPolicy(request.policy);
+  PolicyRecord old = ReadPolicy(request.policies.opener);
   old.provenance.trained_on = {};
   WritePolicy(folder_ / "old", old.networks, old.provenance);
-  request.policy = folder_ / "old";
+  request.policies.opener = folder_ / "old";
   EXPECT_NE(RefusalOf(request).find("does not say which bodies"), std::string::npos);
 
   WriteDataset(DoorNamed("body_c", "handle_c"), folder_ / "other_data");
@@ -170,31 +170,32 @@ TEST_F(EvaluateOpenerTest, ThePolicyItselfKnowsWhatWasSeen) {
 
 TEST_F(EvaluateOpenerTest, ATrainedHandlePolicyTurnsTheHandleAndItsDoorsAreSeenToo) {
   EvaluationRequest request = RequestFor("held_out");
-  request.policy = "expert";
+  request.policies.opener = "expert";
   request.data.clear();
   request.config.expert_reference = false;
   const EvaluationReport ruled = EvaluateOpener(request).report;
   EXPECT_FALSE(IsSwitchPredicted(ruled.provenance)) << "a rule has the simulator's answer";
   const std::string by_rule = ruled.episodes.at(0).state_sha256;
-  request.handler = folder_ / "handler";
+  request.policies.handler = folder_ / "handler";
   request.config.unlock_switch = "privileged";
   const EvaluationReport report = EvaluateOpener(request).report;
   EXPECT_NE(report.episodes.at(0).state_sha256, by_rule);
-  EXPECT_EQ(report.provenance.handler_sha256, ReadPolicy(request.handler, "handle").weights_sha256);
+  EXPECT_EQ(report.provenance.handler_sha256,
+            ReadPolicy(request.policies.handler, "handle").weights_sha256);
 
   request.doors.folders = {folder_ / "half_seen"};
   EXPECT_NE(RefusalOf(request).find("body_b__handle_a"), std::string::npos);
-  request.handler = folder_ / "policy";
+  request.policies.handler = folder_ / "policy";
   EXPECT_THROW(EvaluateOpener(request), Error) << "an opener does not turn handles";
 }
 
 TEST_F(EvaluateOpenerTest, AHandlePolicyThatSaysWhenItIsDoneIsBelieved) {
   EvaluationRequest request = RequestFor("held_out");
-  request.policy = "expert";
+  request.policies.opener = "expert";
   request.data.clear();
   request.config.expert_reference = false;
   const fs::path handler = folder_ / "handler";
-  request.handler = handler;
+  request.policies.handler = handler.string();
   EXPECT_NE(RefusalOf(request).find("run its training command again with --resume"),
             std::string::npos);
 
@@ -240,27 +241,28 @@ TEST_F(EvaluateOpenerTest, AProgramWithItsOwnPolicyEvaluatesItWithOneCommand) {
 
 TEST_F(EvaluateOpenerTest, ATrainedGrasperTakesHoldAndItsDoorsAreSeenToo) {
   EvaluationRequest request = RequestFor("held_out");
-  request.policy = "expert";
+  request.policies.opener = "expert";
   request.data.clear();
   request.config.expert_reference = false;
   request.config.grasp.orientations = 4;
   const std::string by_rule = EvaluateOpener(request).report.episodes.at(0).state_sha256;
-  request.grasper = folder_ / "grasper";
+  request.policies.grasper = folder_ / "grasper";
   const Evaluation evaluation = EvaluateOpener(request);
   const EvaluationReport& report = evaluation.report;
   EXPECT_NE(report.episodes.at(0).state_sha256, by_rule);
   ASSERT_EQ(evaluation.pictures.grasps.size(), 1U) << "a heat map";
   EXPECT_NE(evaluation.pictures.grasps[0].picture.caption.find("affordance"), std::string::npos);
-  EXPECT_EQ(report.provenance.grasper_sha256, ReadPolicy(request.grasper, "grasp").weights_sha256);
+  EXPECT_EQ(report.provenance.grasper_sha256,
+            ReadPolicy(request.policies.grasper, "grasp").weights_sha256);
   const EvaluationReport back = ReportFromJson(ReportToJson(report), "report");
   EXPECT_EQ(back.provenance.grasper_sha256, report.provenance.grasper_sha256);
 
   request.doors.folders = {folder_ / "half_seen"};
   EXPECT_NE(RefusalOf(request).find("body_b__handle_a"), std::string::npos);
-  request.grasper = folder_ / "policy";
+  request.policies.grasper = folder_ / "policy";
   EXPECT_THROW(EvaluateOpener(request), Error) << "an opener does not choose grasps";
 
-  request.grasper = "random";
+  request.policies.grasper = "random";
   const Evaluation sampled = EvaluateOpener(request);
   EXPECT_EQ(sampled.report.provenance.grasper_sha256, "random");
   EXPECT_TRUE(sampled.pictures.grasps.empty());
@@ -268,7 +270,7 @@ TEST_F(EvaluateOpenerTest, ATrainedGrasperTakesHoldAndItsDoorsAreSeenToo) {
 
 TEST_F(EvaluateOpenerTest, TheExpertNeedsNeitherPolicyNorData) {
   EvaluationRequest request = RequestFor("seen");
-  request.policy = "expert";
+  request.policies.opener = "expert";
   request.data.clear();
   request.config.scene.physics.max_opening_actions = 25;
   const Evaluation evaluation = EvaluateOpener(request);

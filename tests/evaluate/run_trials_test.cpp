@@ -53,8 +53,8 @@ TrialPlan PlanFor(const std::vector<DoorAsset>& doors, const EvaluationConfig& c
           doors.size(), config};
 }
 
-Contender Tiring() {
-  return {[] { return Players{std::make_unique<TiringPolicy>()}; }, nullptr};
+TrialPolicies Tiring() {
+  return {[] { return PolicySet{std::make_unique<TiringPolicy>()}; }};
 }
 
 TEST(RunTrials, EveryDoorIsTriedInEverySeed) {
@@ -116,7 +116,7 @@ TEST(RunTrials, TheExpertOpensWhatAPolicyThatStopsDoesNot) {
   config.seeds = 1;
   const auto doors = Doors();
   const TrialPlan trials = PlanFor(doors, config);
-  const Contender expert{[] { return Players{std::make_unique<OpeningExpert>()}; }, nullptr};
+  const TrialPolicies expert{[] { return PolicySet{std::make_unique<OpeningExpert>()}; }};
   const auto good = Summarise(RunTrials(trials, expert));
   const auto bad = Summarise(RunTrials(trials, Tiring()));
   EXPECT_EQ(good.opened.successes, 3);
@@ -150,21 +150,18 @@ TEST(TakePictures, GivesEveryDoorAFilmOfEachOutcomeAndTheCamerasView) {
 
 // the two rooms must agree on how a record says it
 TEST(RunTrials, AGrasperWithoutAHandleInViewIsACauseOfItsOwn) {
-  class Blind : public GraspChooser {
+  class Blind : public GraspPolicy {
    public:
-    std::optional<ChosenGrasp> Choose(const SceneSnapshot&) override { return std::nullopt; }
+    std::optional<GraspAction> Choose(const GraspObservation&) override { return std::nullopt; }
   };
   EvaluationConfig config;
   config.seeds = 1;
   const std::vector<DoorAsset> doors = {Doors().front()};
-  const Contender blind{[] {
-                          Players players{std::make_unique<TiringPolicy>()};
-                          players.make_grasp = [](const auto&...) {
-                            return std::make_unique<Blind>();
-                          };
-                          return players;
-                        },
-                        nullptr};
+  const TrialPolicies blind{[] {
+    PolicySet set{std::make_unique<TiringPolicy>()};
+    set.grasp = std::make_unique<Blind>();
+    return set;
+  }};
   const TrialPlan trials = PlanFor(doors, config);
   const auto rows = RunTrials(trials, blind);
   EXPECT_EQ(rows.at(0).outcome, EpisodeOutcome::kNotReached);
@@ -186,26 +183,28 @@ TEST(TakePictures, ShowsTheGraspOfADoorThatOpenedAndOfOneThatDidNotInEachCategor
     row.outcome = EpisodeOutcome::kHandleSlipped;
   }
   rows.front().outcome = EpisodeOutcome::kOpened;
-  // a grasper that takes hold where the handle is, and sees none on the safe
-  const auto explain = [](const Scene& scene, const DoorAsset& door, const RobotModel&,
-                          const SceneSnapshot& snapshot) -> std::optional<GraspChoice> {
-    EXPECT_EQ(snapshot.stage, "start");
-    if (door.category == Category::kSafe) return std::nullopt;
-    GraspChoice choice;
-    choice.contact_m = (snapshot.door[kHandleLink] * door.handle_from_grasp).translation();
-    for (const double coordinate : choice.contact_m)
-      choice.point_xyz.push_back(static_cast<float>(coordinate));
-    choice.affordance_rad = {0.5F};
-    choice.world_from_hand_rotation = (scene.world_from_door.linear());
-    return choice;
+  // takes hold where the handle is, and sees none on the safe
+  class Explaining : public GraspPolicy {
+   public:
+    bool Explains() const override { return true; }
+    std::optional<GraspAction> Choose(const GraspObservation& seen) override {
+      if (seen.episode.starts_with("none/")) return std::nullopt;
+      GraspAction action;
+      action.contact_m = seen.privileged.world_from_tcp.translation();
+      action.world_from_hand_rotation = seen.privileged.world_from_tcp.linear();
+      GraspExplanation& explanation = action.explanation.emplace();
+      for (const double coordinate : action.contact_m)
+        explanation.point_xyz.push_back(static_cast<float>(coordinate));
+      explanation.affordance_rad = {0.5F};
+      return action;
+    }
   };
-  const Contender contender{[&] {
-                              Players players{std::make_unique<TiringPolicy>()};
-                              players.explain_grasp = explain;
-                              return players;
-                            },
-                            nullptr};
-  const auto grasps = TakeGraspPictures({trials, rows}, contender, 2);
+  const TrialPolicies explaining{[] {
+    PolicySet set{std::make_unique<TiringPolicy>()};
+    set.grasp = std::make_unique<Explaining>();
+    return set;
+  }};
+  const auto grasps = TakeGraspPictures({trials, rows}, explaining, 2);
   ASSERT_EQ(grasps.size(), 2U);
   EXPECT_TRUE(grasps[0].opened);
   EXPECT_FALSE(grasps[1].opened);
@@ -224,7 +223,7 @@ TEST(TakePictures, RefusesRowsOfAnotherPolicy) {
   const std::vector<DoorAsset> doors = {Doors().front()};
   const TrialPlan trials = PlanFor(doors, config);
   const auto rows = RunTrials(trials, Tiring());
-  const Contender expert{[] { return Players{std::make_unique<OpeningExpert>()}; }, nullptr};
+  const TrialPolicies expert{[] { return PolicySet{std::make_unique<OpeningExpert>()}; }};
   EXPECT_THROW(TakePictures({trials, rows}, expert), Error);
 }
 

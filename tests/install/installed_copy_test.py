@@ -112,8 +112,8 @@ class InstalledCopy(unittest.TestCase):
         self.assertTrue((self.folder / "closed.obj").exists())
 
     def test_the_shipped_policies_and_pictures(self):
-        for stage, inputs in (("grasp", ("--handle", "mask.png", "--grasper", "grasper")),
-                              ("open", ("--state", "state.yaml", "--policy", "opener"))):
+        for stage, inputs in (("grasp", ("--handle-mask", "mask.png", "--grasper", "grasper")),
+                              ("open", ("--state", "state.yaml", "--opener", "opener"))):
             sight = self.data / "sight/lever" / stage
             done = self.doorforge("act", "--depth", sight / "depth.png", "--camera", sight / "camera.yaml", inputs[0],
                                   sight / inputs[1], inputs[2], self.data / "policies" / inputs[3], codes=(0, 1))

@@ -42,7 +42,7 @@ class ChangedMesh(ProgramTest):
         verbs = {
             "simulate": ["simulate", "--door", door],
             "datagen": ["datagen", "open", "--doors", door, "--out", out, "--episodes", 1],
-            "eval": ["eval", "--policy", "expert", "--doors", door, "--seeds", 1],
+            "eval": ["eval", "--opener", "expert", "--doors", door, "--seeds", 1],
             "export": ["export", door, "--to", "urdf", "--out", out],
             "preview": ["preview", door, "--out", self.folder / "door.png"],
             "preview --episode": ["preview", "--episode", "--door", door, "--out", self.folder / "film.png"],

@@ -19,7 +19,7 @@ WITH_SETTINGS = {
     "datagen plan": (["WORD", "--doors", "OUT"], "stage is required"),
     "dataset re-observe": (["WORD", "--out", "OUT", "--doors", "OUT"], "folder is required"),
     "train": (["WORD", "--data", "OUT", "--out", "OUT/policy"], "stage is required"),
-    "eval": (["--policy", "expert", "--doors", "OUT", "WORD"], None),
+    "eval": (["--opener", "expert", "--doors", "OUT", "WORD"], None),
     "act": (["--camera", "OUT", "WORD"], None),
     "sight": (["--door", "OUT", "--out", "OUT/sight", "WORD"], None),
     "pipeline": (["WORD", "--out", "OUT"], "preset is required"),
@@ -81,7 +81,7 @@ class Suggestions(ProgramTest):
 
     def test_of_options(self):
         self.assert_suggests("compose --bodi interior_flush_01", "--body")
-        self.assert_suggests("eval --polcy expert", "--policy")
+        self.assert_suggests("eval --openr expert", "--opener")
         self.assert_suggests("simulate --dor x", "--door")
         self.assert_suggests("dataset info data --hmtl x", "--html")
         self.assert_suggests("doctor --jsn", "--json")

@@ -29,7 +29,7 @@ class DoorIndex(ProgramTest):
         return data
 
     def evaluate(self, doors: pathlib.Path) -> dict:
-        result = run("eval", "--policy", "expert", "--doors", doors, "-n", 2, "--seeds", 1, "--json")
+        result = run("eval", "--opener", "expert", "--doors", doors, "-n", 2, "--seeds", 1, "--json")
         self.assert_ends(result, 0)
         report = json.loads(result.stdout)
         del report["provenance"]["command"]
@@ -78,7 +78,7 @@ class DoorIndex(ProgramTest):
             door["sha256"] = "0" * 64
         (doors / INDEX).write_text(json.dumps(index))
         record.unlink()
-        for command in (["eval", "--policy", "expert", "--doors", doors, "--seeds", 1],
+        for command in (["eval", "--opener", "expert", "--doors", doors, "--seeds", 1],
                         ["simulate", "--door", doors],
                         ["datagen", "open", "--doors", doors, "--out", self.folder / "forged", "--episodes", 2]):
             self.assert_refused(run(*command), 3)

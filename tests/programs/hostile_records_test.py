@@ -117,7 +117,7 @@ class HostileRecords(ProgramTest):
             settings = self.folder / "x.yaml"
             settings.write_text(text)
             for command in (["simulate", "--door", door], ["datagen", "open", "--doors", door, "--out", self.folder / "d"],
-                            ["eval", "--policy", "expert", "--doors", door], ["compose", "--out", self.folder / "d"],
+                            ["eval", "--opener", "expert", "--doors", door], ["compose", "--out", self.folder / "d"],
                             ["train", "open", "--data", self.folder, "--out", self.folder / "d"],
                             ["repair", self.folder / "a.obj", self.folder / "b.obj"],
                             ["import", self.folder, "--out", self.folder / "d"]):

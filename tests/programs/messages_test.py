@@ -21,10 +21,10 @@ class ActMessages(ProgramTest):
                    self.camera, *more)
 
     def open(self):
-        return self.act("--state", self.state, "--policy", self.folder / "tested_opener")
+        return self.act("--state", self.state, "--opener", self.folder / "tested_opener")
 
     def grasp(self):
-        return self.act("--handle", self.mask, "--grasper", self.folder / "tested_grasper")
+        return self.act("--handle-mask", self.mask, "--grasper", self.folder / "tested_grasper")
 
     def assert_names(self, result, *paths) -> None:
         self.assert_refused(result, 2)

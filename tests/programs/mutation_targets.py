@@ -29,7 +29,7 @@ def door_targets() -> list[Target]:
     record, shapes = ("tested_door/door.json",), ("tested_door/meshes/*/*.obj",)
     door = "IN/tested_door"
     simulate = ("simulate", "--door", door, "--seeds", "1")
-    evaluate = ("eval", "--policy", "expert", "--doors", door, "--seeds", "1", "--set", "expert_reference=false",
+    evaluate = ("eval", "--opener", "expert", "--doors", door, "--seeds", "1", "--set", "expert_reference=false",
                 "--out", "OUT/report")
     collect = ("datagen", "open", "--episodes", "1", "--set", "preview=false", "--out", "OUT/set", "--doors")
     return [
@@ -96,7 +96,7 @@ def config_targets() -> list[Target]:
                 "--epochs", "1"),  # as many as a changed file asks for would be made, for hours and rightly
                outcomes=DIVERGED),
         Target("eval --config", "configs", ("tested_evaluation.yaml",),
-               ("eval", "--policy", "expert", "--doors", door, "--config", "IN/CHANGED")),
+               ("eval", "--opener", "expert", "--doors", door, "--config", "IN/CHANGED")),
         Target("compose --config", "configs", ("tested_door.yaml",),
                ("compose", "--config", "IN/CHANGED", "--out", "OUT/door"), weight=2),
         Target("import --config", "foreign", ("tested_import.yaml",),
@@ -150,9 +150,9 @@ def act_targets() -> list[Target]:
     # the picture is a slanted plane, on which a policy rightly says hold
     sound = ("act", "--least-gain", "off", "--foreign-limit", "off", "--depth", "IN/tested_depth.png", "--camera",
              "IN/tested_camera.yaml")
-    opener = sound + ("--state", "IN/tested_state.yaml", "--policy", "IN/tested_opener")
+    opener = sound + ("--state", "IN/tested_state.yaml", "--opener", "IN/tested_opener")
     handler = opener + ("--handler", "IN/tested_handler", "--stage", "handle")
-    grasper = sound + ("--handle", "IN/tested_mask.png", "--grasper", "IN/tested_grasper")
+    grasper = sound + ("--handle-mask", "IN/tested_mask.png", "--grasper", "IN/tested_grasper")
     return [
         Target("act depth", "sight", ("tested_depth.png",), opener, weight=3),
         Target("act camera", "sight", ("tested_camera.yaml",), opener, weight=3),

@@ -30,7 +30,7 @@ class ShippedPolicies(ProgramTest):
     def test_given_the_grasp_they_open_doors_that_they_never_saw(self):
         for body, handle in DOORS.items():
             self.assert_ends(run("compose", "--body", body, "--handle", handle, "--out", self.folder / "doors" / body), 0)
-        result = run("eval", "--policy", POLICIES / "opener", "--handler", POLICIES / "handler", "--doors",
+        result = run("eval", "--opener", POLICIES / "opener", "--handler", POLICIES / "handler", "--doors",
                      self.folder / "doors", "--seeds", 2, "--set", "expert_reference=false", "--out", self.folder / "report")
         self.assert_ends(result, 0)
         episodes = json.loads((self.folder / "report/report.json").read_text())["episodes"]

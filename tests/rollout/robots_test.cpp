@@ -17,7 +17,7 @@
 
 #include "../physics/box_arm.h"
 #include "../physics/primitive_door.h"
-#include "robot_meshes.h"
+#include "doorforge/robot_meshes/robot_meshes.h"
 
 namespace doorforge {
 namespace {

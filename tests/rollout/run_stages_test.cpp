@@ -8,6 +8,7 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/physics/scene_sampling.h"
+#include "doorforge/rollout/grasp_from_policy.h"
 #include "doorforge/rollout/handle_expert.h"
 #include "doorforge/rollout/opening_expert.h"
 #include "doorforge/rollout/random_grasp.h"
@@ -271,8 +272,9 @@ TEST_F(RunStagesTest, SampledGraspsAreOnTheHandleAndTurnedAsAskedFor) {
   Sampled sampled;
   for (int i = 0; i < kCount; ++i) {
     scene.episode = static_cast<std::uint64_t>(i);
-    RandomGrasp random(scene, door, robot_, config, CloudExtent{64},
-                       [](const auto&) { return SmallCloud(); });
+    RandomGraspPolicy policy(config);
+    GraspFromPolicy random(policy, scene, door, robot_, [](const auto&) { return SmallCloud(); });
+    random.RecordWith({64});
     const auto chosen = random.Choose(snapshot);
     ASSERT_TRUE(chosen.has_value());
     ASSERT_EQ(chosen->cloud.label.size(), 64U);
@@ -292,7 +294,8 @@ TEST_F(RunStagesTest, SampledGraspsAreOnTheHandleAndTurnedAsAskedFor) {
 TEST_F(RunStagesTest, NothingIsChosenWhereNoHandleIsInView) {
   const DoorAsset door = MakePrimitiveDoor({});
   const Scene scene = SampleScene(door, 1, 0);
-  RandomGrasp random(scene, door, robot_, {}, CloudExtent{64}, [](const auto&) {
+  RandomGraspPolicy policy;
+  GraspFromPolicy random(policy, scene, door, robot_, [](const auto&) {
     LabelledCloud cloud = SmallCloud();
     std::fill(cloud.label.begin(), cloud.label.end(), std::uint8_t{0});
     return cloud;

@@ -152,18 +152,19 @@ TEST_F(DoorSetTest, ASplitTakesDoorsOfWhichBothPartsAreOnItsSide) {
     RefusalOf(ErrorCode::kMissing, [&] { find(":train"); });
     RefusalOf(ErrorCode::kMissing, [&] { find("", "train"); });
     RefusalOf(ErrorCode::kInvalidArgument, [&] { find(":tset"); });
+    RefusalOf(ErrorCode::kInvalidArgument, [&] { find("", ""); });
   }
 }
 
 TEST_F(DoorSetTest, AmongTheWordsOfDoorsMayBeOneSplit) {
   std::ofstream(folder_ / "own.yaml") << "";
   const std::string split = (folder_ / "own.yaml").string();
-  const DoorSelection selection = DoorSelectionOf({split + ":test", folder_.string()});
+  const DoorSelection selection = DoorSelectionOf({split + ":test", folder_.string()}, "train");
   EXPECT_EQ(selection.split, split + ":test");
   EXPECT_EQ(selection.default_side, "train");
   EXPECT_EQ(selection.folders, std::vector<fs::path>{folder_});
-  RefusalOf(ErrorCode::kInvalidArgument, [&] { DoorSelectionOf({split, split, "doors"}); });
-  RefusalOf(ErrorCode::kInvalidArgument, [&] { DoorSelectionOf({split}); });
+  RefusalOf(ErrorCode::kInvalidArgument, [&] { DoorSelectionOf({split, split, "doors"}, "test"); });
+  RefusalOf(ErrorCode::kInvalidArgument, [&] { DoorSelectionOf({split}, "test"); });
 }
 
 TEST_F(DoorSetTest, TheSameDoorTwiceCountsOnceButAnIdMustNotMeanTwoDoors) {

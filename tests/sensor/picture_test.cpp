@@ -12,7 +12,7 @@
 
 #include "doorforge/core/error.h"
 
-#include "../../sim/sensor/src/caption_lines.h"
+#include "caption_lines.h"
 
 namespace doorforge {
 namespace {

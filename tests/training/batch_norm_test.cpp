@@ -17,7 +17,7 @@
 #include "doorforge/training/train_stage.h"
 #include "doorforge/training/trainer_state_file.h"
 
-#include "../../train/training/src/device_encoder.h"
+#include "device_encoder.h"
 #include "door_cloud.h"
 #include "reference_network.h"
 #include "synthetic_samples.h"

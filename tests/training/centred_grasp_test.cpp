@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "../../train/policy/src/centred_grasp.h"
+#include "centred_grasp.h"
 
 #include <cmath>
 #include <functional>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "../../train/training/src/grasp_augmentation.h"
+#include "grasp_augmentation.h"
 
 #include <cmath>
 #include <numbers>

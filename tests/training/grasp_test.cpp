@@ -216,21 +216,23 @@ TEST(TrainGrasp, PrefersThePointsAndTheTurnsThatOpenDoorsItHasNotSeen) {
   constexpr int kWorlds = 8;
   for (std::uint64_t i = 0; i < kWorlds; ++i) {
     const GraspWorld world(900000 + i);
-    const GraspView view{world.cloud, kApproach,
-                         [&](const Eigen::Vector3d& start, double) { return world.From(start); }};
+    const GraspObservation view{world.cloud, kApproach, [&](const Eigen::Vector3d& start, double) {
+                                  return world.From(start);
+                                }};
     const auto choice = policy->Choose(view);
     ASSERT_TRUE(choice.has_value());
-    EXPECT_EQ(choice->affordance_rad.size(), std::size_t{kCloudPoints / 16});
+    EXPECT_EQ(choice->explanation->affordance_rad.size(), std::size_t{kCloudPoints / 16});
     const Eigen::Map<const Eigen::Vector3f> rated(choice->cloud.xyz.data());
     EXPECT_LT(std::abs(choice->contact_m.y() - world.handle_y), 0.012) << "it stays on the bar";
     EXPECT_EQ(rated, plain->Choose(view)->contact_m.cast<float>()) << "where it is not centred";
     opened += world.Angle(choice->contact_m, choice->world_from_hand_rotation) > 0 ? 1 : 0;
-    for (std::size_t k = 0; k < choice->affordance_rad.size(); ++k)
-      (choice->point_xyz[3 * k + 2] > world.handle_z ? upper : lower) += choice->affordance_rad[k];
+    for (std::size_t k = 0; k < choice->explanation->affordance_rad.size(); ++k)
+      (choice->explanation->point_xyz[3 * k + 2] > world.handle_z ? upper : lower) +=
+          choice->explanation->affordance_rad[k];
     const auto again = policy->Choose(view);
     EXPECT_EQ(again->contact_m, choice->contact_m);
     EXPECT_EQ(again->world_from_hand_rotation, choice->world_from_hand_rotation);
-    GraspView narrow = view;
+    GraspObservation narrow = view;
     narrow.fits = [&](const Eigen::Vector3d& contact_m, const Eigen::Matrix3d& rotation) {
       return contact_m != choice->contact_m && rotation != choice->world_from_hand_rotation;
     };
@@ -300,27 +302,27 @@ TEST(GraspPolicy, InTheHandsFrameItChoosesAlikeWhereverTheDoorIsAndSeesNoFarther
                               }});
     };
     const GraspWorld here(17);
-    const GraspChoice a = choose(here);
-    const GraspChoice b = choose(Moved(here, by));
-    ASSERT_EQ(a.affordance_rad.size(), b.affordance_rad.size());
+    const GraspAction a = choose(here);
+    const GraspAction b = choose(Moved(here, by));
+    ASSERT_EQ(a.explanation->affordance_rad.size(), b.explanation->affordance_rad.size());
     double difference = 0;
-    for (std::size_t i = 0; i < a.affordance_rad.size(); ++i)
-      difference =
-          std::max<double>(difference, std::abs(a.affordance_rad[i] - b.affordance_rad[i]));
+    for (std::size_t i = 0; i < a.explanation->affordance_rad.size(); ++i)
+      difference = std::max<double>(difference, std::abs(a.explanation->affordance_rad[i] -
+                                                         b.explanation->affordance_rad[i]));
     if (config.frame == "world") {
       EXPECT_GT(difference, 1e-3);
       continue;
     }
     EXPECT_LT(difference, 1e-4);
-    EXPECT_NEAR(a.score_rad, b.score_rad, 1e-4);
+    EXPECT_NEAR(a.explanation->expected_opening_rad, b.explanation->expected_opening_rad, 1e-4);
     GraspWorld other_leaf = here;
     for (std::size_t i = kCloudPoints / 16; i < kCloudPoints; ++i) {
       if ((here.Point(i) - Eigen::Vector3d(0.05, here.handle_y, here.handle_z)).norm() > 0.5)
         other_leaf.cloud.xyz[3 * i] += 0.4F;
     }
-    const GraspChoice c = choose(other_leaf);
-    EXPECT_EQ(c.affordance_rad, a.affordance_rad);
-    EXPECT_EQ(c.score_rad, a.score_rad);
+    const GraspAction c = choose(other_leaf);
+    EXPECT_EQ(c.explanation->affordance_rad, a.explanation->affordance_rad);
+    EXPECT_EQ(c.explanation->expected_opening_rad, a.explanation->expected_opening_rad);
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "../../train/training/src/head_objectives.h"
+#include "head_objectives.h"
 
 #include <cmath>
 #include <functional>
@@ -14,7 +14,7 @@
 #include "doorforge/networks/heads.h"
 #include "doorforge/networks/point_encoder.h"
 
-#include "../../train/training/src/network_batch.h"
+#include "network_batch.h"
 #include "synthetic_samples.h"
 
 namespace doorforge {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "../../train/training/src/ordered_calls.h"
+#include "ordered_calls.h"
 
 #include <chrono>
 #include <future>

@@ -13,9 +13,9 @@
 #include "doorforge/core/rng.h"
 #include "doorforge/networks/point_operators.h"
 
-#include "../../train/networks/src/packed_encoder.h"
-#include "../../train/training/src/device_encoder.h"
+#include "device_encoder.h"
 #include "door_cloud.h"
+#include "packed_encoder.h"
 #include "reference_network.h"
 
 namespace doorforge {

@@ -15,8 +15,8 @@
 
 #include "doorforge/core/error.h"
 
-#include "../../train/training/src/best_networks.h"
-#include "../../train/training/src/sampler.h"
+#include "best_networks.h"
+#include "sampler.h"
 #include "synthetic_samples.h"
 
 namespace doorforge {

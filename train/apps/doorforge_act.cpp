@@ -14,7 +14,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "doorforge/core/command_line.h"
+#include "doorforge/cli/command_line.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
@@ -23,6 +23,7 @@
 #include "doorforge/deploy/act_answer.h"
 #include "doorforge/deploy/answer_picture.h"
 #include "doorforge/deploy/online_controller.h"
+#include "doorforge/registry/policy_options.h"
 
 namespace doorforge {
 namespace {
@@ -56,19 +57,20 @@ void AddInputs(CLI::App& app, Options& options) {
   app.add_option("--before", options.before,
                  "depth picture by the same camera from before the robot came, which a --handler "
                  "may remember; in a stream {\"before\": FILE, ...} does the same");
-  app.add_option("--handle", options.handle,
+  app.add_option("--handle-mask", options.handle,
                  "instead of --state, before the robot moves: which pixels show the handle (grey "
                  "PNG, not 0 where it is); says where and how to take hold");
+  AddEarlierName(app, "--handle", "--handle-mask", options.handle);
   app.add_option("--camera", options.camera, "intrinsics and pose of the camera (YAML)")
       ->required();
 }
 
 void AddPolicies(CLI::App& app, Options& options) {
-  app.add_option("--policy", options.setup.opener, "folder of a policy of `doorforge train open`");
-  app.add_option("--handler", options.setup.handler,
-                 "folder of a policy of `doorforge train handle`");
-  app.add_option("--grasper", options.setup.grasper,
-                 "folder of a policy of `doorforge train grasp`");
+  const std::string folder = ": a folder of `doorforge train ";
+  AddWord(app, "--opener", options.setup.opener, "who opens the door" + folder + "open`");
+  AddEarlierName(app, "--policy", "--opener", options.setup.opener);
+  AddWord(app, "--handler", options.setup.handler, "who turns the handle" + folder + "handle`");
+  AddWord(app, "--grasper", options.setup.grasper, "who takes hold" + folder + "grasp`");
   app.add_option("--stage", options.stage,
                  "which of them acts: open, handle, or auto: as the state says (unlocked)")
       ->check(CLI::IsMember({"auto", "open", "handle"}))
@@ -105,10 +107,11 @@ void CheckOptions(const Options& options) {
   const bool one = !options.depth.empty() && options.state.empty() != options.handle.empty();
   const bool none = options.depth.empty() && options.state.empty() && options.handle.empty();
   const OnlineControllerSetup& setup = options.setup;
-  require(setup.sees_every_decision ? none : one,
-          "--depth and either --state or --handle, or --stream in place of them, are required");
+  require(
+      setup.sees_every_decision ? none : one,
+      "--depth and either --state or --handle-mask, or --stream in place of them, are required");
   require(!setup.opener.empty() || !setup.handler.empty() || !setup.grasper.empty(),
-          "--policy, --handler or --grasper is required");
+          "--opener, --handler or --grasper is required");
   require(!setup.sees_every_decision || options.picture.empty(),
           "--picture is of one answer, and --stream gives many; leave one of them out");
 }
@@ -149,11 +152,11 @@ Options Parse(int argc, char** argv) {
       "examples, with pictures of a simulated door, from the folder of the sources:\n"
       "  doorforge act --depth data/sight/lever/grasp/depth.png --camera "
       "data/sight/lever/grasp/camera.yaml \\\n"
-      "      --handle data/sight/lever/grasp/mask.png --grasper data/policies/grasper\n"
+      "      --handle-mask data/sight/lever/grasp/mask.png --grasper data/policies/grasper\n"
       "  doorforge act --depth data/sight/lever/open/depth.png --camera "
       "data/sight/lever/open/camera.yaml \\\n"
-      "      --state data/sight/lever/open/state.yaml --policy data/policies/opener --text\n"
-      "  doorforge act --stream --camera camera.yaml --policy run/opener --handler run/handler");
+      "      --state data/sight/lever/open/state.yaml --opener data/policies/opener --text\n"
+      "  doorforge act --stream --camera camera.yaml --opener run/opener --handler run/handler");
   ParseVerb(app, argc, argv);
   CheckOptions(options);
   return options;
@@ -206,6 +209,8 @@ int Act(Options options) {
   if (options.stage != "auto") options.setup.stage = StageNamed(options.stage);
   RequireNoFile(options.picture, options.overwrite);
   options.setup.camera = ReadCalibratedCamera(options.camera);
+  RequireTrainedPolicies({options.setup.opener, options.setup.handler, options.setup.grasper},
+                         "rules read what only the simulator knows, and no robot does");
   OnlineController controller(options.setup);
   for (const std::string& note : controller.notes())
     std::fprintf(stderr, "doorforge: note: %s\n", note.c_str());

@@ -12,7 +12,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "doorforge/core/command_line.h"
+#include "doorforge/cli/command_line.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/output_file.h"
@@ -58,7 +58,7 @@ Options Parse(int argc, char** argv) {
       "  doorforge compose --body interior_flush_01 --handle interior_lever_tube_01 --out d\n"
       "  doorforge sight --door d --out sight\n"
       "  doorforge act --depth sight/open/depth.png --camera sight/open/camera.yaml \\\n"
-      "      --state sight/open/state.yaml --policy data/policies/opener --picture answer.png");
+      "      --state sight/open/state.yaml --opener data/policies/opener --picture answer.png");
   ParseVerb(app, argc, argv);
   return options;
 }

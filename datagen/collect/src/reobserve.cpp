@@ -346,8 +346,8 @@ CollectSummary ReobserveDataset(const ReobserveRequest& request) {
   const SourceConfig source_config = ReadSourceConfig(request.folder, request.robot);
   const ReobserveConfig config = ConfigOf(request, source_config.config);
   RequireSpaceForClouds(source, config, request.out);
-  const std::vector<FoundDoor> doors =
-      FindRecordedDoors(DoorSelectionOf(request.doors), source.provenance().doors, request.threads);
+  const std::vector<FoundDoor> doors = FindRecordedDoors(
+      DoorSelectionOf(request.doors, "train"), source.provenance().doors, request.threads);
   Reobservation reobservation(source, config, {source_config.robot_file, request.robot_meshes},
                               doors);
   CollectRequest collect;

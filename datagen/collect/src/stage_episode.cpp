@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/collect/stage_episode.h"
 
+#include <memory>
 #include <optional>
-#include <utility>
 
-#include "doorforge/core/error.h"
 #include "doorforge/rollout/camera_observer.h"
+#include "doorforge/rollout/grasp_from_policy.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/rollout/standing_place.h"
 
@@ -15,20 +15,6 @@
 
 namespace doorforge {
 namespace {
-
-// Who acted: "expert", "sampled", or the trained policy's hashes; who learned, where somebody did.
-nlohmann::ordered_json PoliciesRecord(bool sampled, const TrainedPolicies& trained) {
-  const auto actor = [](const auto* pool, const char* untrained = "expert") {
-    return pool == nullptr ? nlohmann::ordered_json(untrained)
-                           : DatasetPolicyToJson(pool->policy().identity);
-  };
-  nlohmann::ordered_json record = {
-      {"grasp", sampled ? actor(trained.grasp_learner, "sampled") : "expert"},
-      {"unlock", actor(trained.handler)},
-      {"open", actor(trained.opener)}};
-  if (trained.learner != nullptr) record["learner"] = actor(trained.learner);
-  return record;
-}
 
 Rng StreamOf(const StageConfig& config, const PlannedEpisode& planned, const std::string& name) {
   return {config.seed, "datagen/" + name + "/" + std::to_string(planned.number)};
@@ -44,102 +30,14 @@ int LearnerDecisions(const StageConfig& config, const PlannedEpisode& planned) {
                                   .Index(static_cast<std::uint32_t>(config.learner_decisions)));
 }
 
-// The grasp of a trained policy, from the recorded look.
-class GraspOfLearner : public GraspChooser {
- public:
-  GraspOfLearner(GraspPool& pool, const RobotModel& robot, const CloudExtent& extent,
-                 RandomGrasp::Look look)
-      : policy_(pool.Take()), clearance_(robot), extent_(extent), look_(std::move(look)) {}
-
-  std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override {
-    return policy_->Choose(
-        {look_(snapshot), -snapshot.door[kHandleLink].linear().col(0), clearance_}, extent_);
-  }
-
- private:
-  GraspPool::Loan policy_;
-  GripperClearance clearance_;
-  CloudExtent extent_;
-  RandomGrasp::Look look_;
-};
-
-// The policies of one episode: lent ones where there are trained ones, rules elsewhere.
-class Actors {
- public:
-  Actors(const StageConfig& config, const TrainedPolicies& trained)
-      : handle_rule_(config.handle), open_rule_(config.expert) {
-    if (trained.handler != nullptr) handler_ = trained.handler->Take();
-    if (trained.opener != nullptr) opener_ = trained.opener->Take();
-    if (trained.learner != nullptr) learner_ = trained.learner->Take();
-  }
-
-  Policy* handle() { return handler_ ? handler_.get() : &handle_rule_; }
-  Policy* open() { return opener_ ? opener_.get() : &open_rule_; }
-  Policy* learner() { return learner_.get(); }
-
- private:
-  HandleExpert handle_rule_;
-  OpeningExpert open_rule_;
-  PolicyPool::Loan handler_;
-  PolicyPool::Loan opener_;
-  PolicyPool::Loan learner_;
-};
-
 }  // namespace
-
-// The plan of so many episodes takes half a gigabyte.
-constexpr std::uint64_t kMostEpisodes = 10'000'000;
-
-StageConfig DefaultsOf(Stage stage) {
-  StageConfig config;
-  config.stage = stage;
-  PhysicsConfig& physics = config.scene.physics;
-  switch (stage) {
-    case Stage::kOpen:
-      physics.max_opening_actions = 30;
-      physics.finish_hinge_rad = 1.05;
-      physics.action_noise_m = 0.01;
-      physics.action_noise_rad = 0.05;
-      break;
-    case Stage::kHandle:
-      // a hand on a locked door cannot give way: more noise would tear it off the handle
-      physics.action_noise_m = 0.004;
-      physics.action_noise_rad = 0.03;
-      config.collection.episodes_per_shard = 512;
-      config.learner_decisions = 6;
-      break;
-    case Stage::kGrasp:
-      config.collection.episodes_per_shard = 1024;
-      break;
-  }
-  return config;
-}
-
-void CheckStageConfig(const StageConfig& config) {
-  Require(config.episodes >= 1 && config.episodes <= kMostEpisodes, ErrorCode::kInvalidConfig,
-          "config.episodes: " + std::to_string(config.episodes) + ", expected 1 to " +
-              std::to_string(kMostEpisodes) + "; more than that, collect with several seeds");
-  Require(config.cloud.point_count >= 1 && config.cloud.point_count <= 1000000,
-          ErrorCode::kInvalidConfig, "config.cloud.point_count: out of 1..1000000");
-  CheckDepthNoise(config.cloud.noise);
-  CheckRandomGrasp(config.grasp);
-  CheckGraspLook(config.grasp_look);
-  CheckRememberedView(config.remembered);
-  Require(config.sampled_grasps >= 0 && config.sampled_grasps <= 1, ErrorCode::kInvalidConfig,
-          "config.sampled_grasps: out of 0..1");
-  Require(config.learner_decisions >= 1 && config.learner_decisions <= 1000,
-          ErrorCode::kInvalidConfig, "config.learner_decisions: out of 1..1000");
-  Require(config.scene.physics.max_handle_actions >= 1 &&
-              config.scene.physics.max_handle_actions <= 1000,
-          ErrorCode::kInvalidConfig, "config.scene.physics.max_handle_actions: out of 1..1000");
-}
 
 CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const DoorAsset& door,
                                  const RobotModel& robot, const StageConfig& config,
-                                 const TrainedPolicies& trained) {
+                                 StagePolicies& policies) {
   const Scene scene =
       SceneFor(robot, SampleScene(door, config.seed, planned.number, config.scene), door);
-  Actors actors(config, trained);
+  const auto set = policies.Take();
   const bool at_grasp = config.stage == Stage::kGrasp;
   const bool samples_grasp = SamplesGrasp(config, planned);
   const Scene recorded_scene = at_grasp ? SceneOf(config.grasp_look, scene) : scene;
@@ -156,24 +54,22 @@ CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const DoorAsset&
   std::optional<CameraObserver> policies_camera;
   if (at_grasp) {
     policies_camera.emplace(scene, door, robot, config.cloud);
-    const RememberedViewConfig of_handler = trained.handler == nullptr
-                                                ? RememberedViewConfig{.finer = 0}
-                                                : trained.handler->policy().remembered;
-    if (of_handler.IsOn())
-      policies_camera->Remember({scene, door, robot, config.cloud, of_handler});
+    if (policies.remembered().IsOn())
+      policies_camera->Remember({scene, door, robot, config.cloud, policies.remembered()});
   }
   const CloudExtent extent{config.cloud.point_count, within_m};
   const auto look = [&](const SceneSnapshot& snapshot) { return before->LookAtAll(snapshot); };
-  RandomGrasp by_chance(scene, door, robot, config.grasp, extent, look);
-  GraspChooser* grasp = &by_chance;
-  std::optional<GraspOfLearner> learnt;
-  if (trained.grasp_learner != nullptr)
-    grasp = &learnt.emplace(*trained.grasp_learner, robot, extent, look);
-  EpisodeRoles roles{.recorded = config.stage, .open = actors.open()};
-  if (config.stage != Stage::kOpen) roles.handle = actors.handle();
-  if (samples_grasp) roles.grasp = grasp;
-  if (trained.learner != nullptr) {
-    roles.learner = actors.learner();
+  EpisodeRoles roles{.recorded = config.stage, .open = set->open.get()};
+  if (config.stage != Stage::kOpen) roles.handle = set->handle.get();
+  std::optional<GraspFromPolicy> grasp;
+  if (samples_grasp) {
+    roles.grasp = &grasp.emplace(*set->grasp, scene, door, robot, look);
+    grasp->RecordWith(extent);
+  }
+  ObjectPool<std::unique_ptr<Policy>>::Lease driver;
+  if (policies.HasDriver()) {
+    driver = policies.TakeDriver();
+    roles.learner = driver->get();
     roles.learner_decisions = LearnerDecisions(config, planned);
   }
 
@@ -190,7 +86,7 @@ CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const DoorAsset&
   collected.meta["camera"] = CameraRecord(recorded_scene.camera);
   collected.meta["visible_points"] = camera.Visible(decisions);
   collected.meta["hidden"] = camera.OcclusionRecord(decisions);
-  collected.meta["policies"] = PoliciesRecord(samples_grasp, trained);
+  collected.meta["policies"] = policies.Record(samples_grasp);
   if (at_grasp) {
     collected.meta["robot_seen"] = false;
     collected.meta["cloud_within_m"] = within_m;

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/collect/stage_run.h"
 
-#include <cmath>
 #include <cstdio>
 #include <set>
 #include <utility>
@@ -26,55 +25,9 @@ RobotModel RobotFor(const StageConfig& config, const RobotMeshReader& read_mesh)
   return robot;
 }
 
-template <class Pool>
-std::unique_ptr<Pool> PoolOf(const std::string& folder, Stage stage, const std::string& role,
-                             const CloudConfig& cloud, typename Pool::Load load) {
-  if (folder.empty()) return nullptr;
-  const TrainedPolicy policy = ReadTrainedPolicy(folder, stage, role);
-  Require(policy.cloud_points == 0 || policy.cloud_points == cloud.point_count,
-          ErrorCode::kInvalidArgument,
-          folder + ": --" + role + " takes clouds of " + std::to_string(policy.cloud_points) +
-              " points; config.cloud.point_count is " + std::to_string(cloud.point_count));
-  auto pool = std::make_unique<Pool>(policy, load);
-  pool->Take();  // weights of another network are refused here, not in the first episode
-  return pool;
-}
-
-// A learner is corrected on the clouds that are recorded, so they are to be such as it takes.
-void CheckLearnersClouds(const PolicyPool* learner, const StageConfig& config) {
-  if (learner == nullptr || config.stage != Stage::kHandle) return;
-  const RememberedViewConfig& its = learner->policy().remembered;
-  const RememberedViewConfig& recorded = config.remembered;
-  const bool alike = its.finer == recorded.finer &&
-                     (!its.IsOn() || std::abs(its.within_m - recorded.within_m) < 1e-6);
-  char settings[120];
-  std::snprintf(settings, sizeof settings, "--set remembered.finer=%d --set remembered.within_m=%g",
-                its.finer, its.within_m);
-  Require(alike, ErrorCode::kInvalidArgument,
-          learner->policy().folder.string() +
-              ": the learner takes clouds that remember something else than those that are "
-              "recorded; pass " +
-              settings);
-}
-
 StageConfig Checked(const StageRequest& request) {
   CheckStageConfig(request.config);
-  Require(
-      request.policies.handler.empty() || request.config.stage == Stage::kGrasp,
-      ErrorCode::kInvalidArgument,
-      "--handler: belongs to `datagen grasp`, where the handle is turned after the stage that is "
-      "recorded");
-  Require(
-      request.policies.opener.empty() || request.config.stage != Stage::kOpen,
-      ErrorCode::kInvalidArgument,
-      "--opener: belongs to `datagen handle` and `datagen grasp`, where the door is opened after "
-      "the stage that is recorded");
   return request.config;
-}
-
-// The folder of the learner if it is one that grasps, or one that does not.
-std::string LearnerOf(const StageRequest& request, bool grasps) {
-  return (request.config.stage == Stage::kGrasp) == grasps ? request.policies.learner : "";
 }
 
 std::set<Mechanism> MechanismsFor(const StageConfig& config) {
@@ -90,7 +43,7 @@ std::set<Mechanism> MechanismsFor(const StageConfig& config) {
 }
 
 std::vector<FoundDoor> DoorsFor(const StageRequest& request) {
-  DoorSet set = FindDoorSet(DoorSelectionOf(request.doors), request.threads);
+  DoorSet set = FindDoorSet(DoorSelectionOf(request.doors, "train"), request.threads);
   for (const std::string& note : set.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
   std::vector<FoundDoor> doors = std::move(set.doors);
   const std::set<Mechanism> wanted = MechanismsFor(request.config);
@@ -134,28 +87,10 @@ std::string HashOf(const std::vector<FoundDoor>& doors) {
 StageRun::StageRun(const StageRequest& request)
     : config_(Checked(request)),
       robot_(RobotFor(config_, request.robot_meshes)),
-      handler_(PoolOf<PolicyPool>(request.policies.handler, Stage::kHandle, "handler",
-                                  config_.cloud, LoadTrainedPolicy)),
-      opener_(PoolOf<PolicyPool>(request.policies.opener, Stage::kOpen, "opener", config_.cloud,
-                                 LoadTrainedPolicy)),
-      learner_(PoolOf<PolicyPool>(LearnerOf(request, false), config_.stage, "learner",
-                                  config_.cloud, LoadTrainedPolicy)),
-      grasp_learner_(PoolOf<GraspPool>(LearnerOf(request, true), config_.stage, "learner",
-                                       config_.cloud, LoadLearnedGrasp)),
+      policies_(std::make_unique<StagePolicies>(config_, request.policies, request.registry)),
       doors_(DoorsFor(request)),
       shelf_(doors_),
-      plan_(MakePlan(PartsOf(doors_), config_.episodes, config_.seed, config_.collection)) {
-  CheckLearnersClouds(learner_.get(), config_);
-}
-
-std::vector<TrainedPolicy> StageRun::Trained() const {
-  std::vector<TrainedPolicy> trained;
-  for (const PolicyPool* pool : {handler_.get(), opener_.get(), learner_.get()}) {
-    if (pool != nullptr) trained.push_back(pool->policy());
-  }
-  if (grasp_learner_) trained.push_back(grasp_learner_->policy());
-  return trained;
-}
+      plan_(MakePlan(PartsOf(doors_), config_.episodes, config_.seed, config_.collection)) {}
 
 // The effective config. A comment names what else decides the bytes, so that a run on other doors,
 // with another build or another policy is noticed when it is resumed.
@@ -165,9 +100,7 @@ std::string StageRun::ConfigText() const {
       std::to_string(doors_.size()) + " doors, sha256 " + HashOf(doors_) + "\n# robot " +
       (robot_.name().empty() ? "embedded" : robot_.name() + ", sha256 " + robot_.sha256()) +
       ", rays by " + RayCasterVersion() + "\n";
-  for (const TrainedPolicy& policy : Trained())
-    text += "# " + TrainedPolicyText(policy) + ", loops for " + PolicyArithmetic() + "\n";
-  return text + JsonText(ToJson(config_), 2) + "\n";
+  return text + policies_->Text() + JsonText(ToJson(config_), 2) + "\n";
 }
 
 CollectRequest StageRun::Request() const {
@@ -177,7 +110,7 @@ CollectRequest StageRun::Request() const {
   request.provenance.code_version = CodeVersion();
   request.provenance.compiler = __VERSION__;
   request.provenance.libraries = {{"ray_caster", RayCasterVersion()}};
-  for (const TrainedPolicy& policy : Trained())
+  for (const TrainedPolicy& policy : policies_->Trained())
     request.provenance.policies.push_back(policy.identity);
   request.provenance.seed = config_.seed;
   for (const FoundDoor& door : doors_)
@@ -186,8 +119,7 @@ CollectRequest StageRun::Request() const {
 }
 
 CollectedEpisode StageRun::Run(const PlannedEpisode& planned) {
-  return RunStageEpisode(planned, *shelf_.Take(planned.door), robot_, config_,
-                         {handler_.get(), opener_.get(), learner_.get(), grasp_learner_.get()});
+  return RunStageEpisode(planned, *shelf_.Take(planned.door), robot_, config_, *policies_);
 }
 
 }  // namespace doorforge

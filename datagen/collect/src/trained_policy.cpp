@@ -2,16 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/collect/trained_policy.h"
 
-#include <utility>
-
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/record_id.h"
 #include "doorforge/networks/instruction_set.h"
-#include "doorforge/policy/grasp_policy.h"
 #include "doorforge/policy/policy_file.h"
-#include "doorforge/policy/stage_policy.h"
 
 namespace doorforge {
 namespace {
@@ -35,30 +31,6 @@ RememberedViewConfig RememberedOf(const nlohmann::ordered_json& json, const std:
   CheckRememberedView(remembered);
   return remembered;
 }
-
-class TrainedLearnedGrasp : public LearnedGrasp {
- public:
-  explicit TrainedLearnedGrasp(std::unique_ptr<GraspPolicy> policy) : policy_(std::move(policy)) {}
-
-  std::optional<ChosenGrasp> Choose(const ClosedDoor& door, const CloudExtent& extent) override {
-    GraspView view;
-    view.visible = door.visible;
-    view.approach = door.approach;
-    view.sample = [&](const Eigen::Vector3d& start, double within_m) {
-      return SampleCloud(door.visible, start, {extent.point_count, within_m}).cloud;
-    };
-    view.fits = [&](const Eigen::Vector3d& contact_m, const Eigen::Matrix3d& rotation) {
-      return door.clearance.Fits(door.visible, contact_m, rotation);
-    };
-    const std::optional<GraspChoice> choice = policy_->Choose(view);
-    if (!choice) return std::nullopt;
-    return ChosenGrasp{SampleCloud(door.visible, choice->contact_m, extent).cloud,
-                       choice->contact_m, choice->world_from_hand_rotation};
-  }
-
- private:
-  std::unique_ptr<GraspPolicy> policy_;
-};
 
 }  // namespace
 
@@ -97,14 +69,6 @@ TrainedPolicy ReadTrainedPolicy(const fs::path& folder, Stage stage, const std::
 
 std::string TrainedPolicyText(const TrainedPolicy& policy) {
   return policy.role + ": policy.json sha256 " + policy.identity.policy_sha256;
-}
-
-std::unique_ptr<Policy> LoadTrainedPolicy(const TrainedPolicy& policy) {
-  return LoadPolicy(policy.folder, {}, NameOf(policy.stage));
-}
-
-std::unique_ptr<LearnedGrasp> LoadLearnedGrasp(const TrainedPolicy& policy) {
-  return std::make_unique<TrainedLearnedGrasp>(LoadGraspPolicy(policy.folder));
 }
 
 std::string PolicyArithmetic() { return std::string(NameOf(BestInstructionSet())); }

@@ -1,56 +1,98 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include <CLI/CLI.hpp>
 
-#include "doorforge/core/command_line.h"
+// The program that lets the expert, or policies by name, open doors.
+
+#include <cmath>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "doorforge/cli/answer.h"
+#include "doorforge/cli/command_line.h"
+#include "doorforge/cli/verb_table.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/program.h"
-
-#include "simulate_verb.h"
+#include "doorforge/registry/policy_episodes.h"
+#include "doorforge/registry/policy_options.h"
+#include "doorforge/robot_meshes/robot_meshes.h"
+#include "doorforge/rollout/simulate_doors.h"
 
 namespace doorforge {
 namespace {
 
-int Main(int argc, char** argv) {
-  // the front program passes its verb on
-  if (argc > 1 && std::string(argv[1]) == "simulate") {
-    --argc;
-    ++argv;
-  }
-  CLI::App app("Lets the rule-based expert open doors in the physics and says what came of it.");
-  app.name("doorforge simulate");
+struct Options {
+  SimulationRun run;
+  PolicyWords policies;
+  std::string config;
+  bool json = false;
+};
+
+Options Parse(int argc, char** argv) {
+  CLI::App app("Lets the expert, or policies, open doors in the physics and says what came of it.",
+               "doorforge simulate");
   app.footer(
       "example:\n  doorforge compose --all --category interior --out doors\n"
       "  doorforge simulate --door doors --episodes 5");
-  SimulateOptions options;
-  std::string config;
+  Options options;
+  SimulationRun& run = options.run;
   std::string robot;
   std::vector<std::string> settings;
-  app.add_option("--door", options.doors, "a door's folder, or a folder of them")->required();
-  app.add_option("--seed", options.seed, "first seed")->capture_default_str();
-  app.add_option("--seeds", options.seeds, "number of seeds")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1000000));
-  app.add_option("--episodes", options.episodes, "episodes of each door in each seed")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1000000));
+  app.add_option("--door", run.doors, "a door's folder, or a folder of them")->required();
+  AddPolicyOptions(app, BuiltInPolicies(), options.policies);
+  AddSeed(app, run.seed, "first seed");
+  const auto add_count = [&](const char* name, int& count, const char* about) {
+    app.add_option(name, count, about)->capture_default_str()->check(CLI::Range(1, 1000000));
+  };
+  add_count("--seeds", run.seeds, "number of seeds");
+  add_count("--episodes", run.episodes, "episodes of each door in each seed");
   app.add_option("--robot", robot, "URDF of a robot; the built-in mobile Franka if left out")
       ->check(CLI::ExistingFile);
-  app.add_option("--film", options.film, "folder for a PNG of each episode");
-  app.add_flag("--overwrite", options.overwrite, "replace pictures that are in --film");
-  app.add_option("--threads", options.threads, "0: all processors")->check(CLI::Range(0, 4096));
-  app.add_option("--config", config, "YAML file with the settings of scene and expert");
+  app.add_option("--film", run.film, "folder for a PNG of each episode");
+  AddOverwrite(app, run.overwrite, "replace pictures that are in --film");
+  AddThreads(app, run.threads)->check(CLI::Range(0, 4096));
+  AddConfig(app, options.config, "YAML file with the settings of scene and expert");
   AddSettings(app, settings, "a.b=c overrides one setting");
-  app.add_flag("--json", options.json, "print one JSON document");
+  AddJson(app, options.json);
   ParseVerb(app, argc, argv);
-  options.config = LoadConfig<SimulateConfig>(config, settings);
-  if (!robot.empty()) options.config.scene.robot = robot;
-  return NamingConfig(config, [&] { return Simulate(options); });
+  run.config = LoadConfig<SimulateConfig>(options.config, settings);
+  if (!robot.empty()) run.config.scene.robot = robot;
+  run.read_meshes = RobotMeshes();
+  return options;
+}
+
+void PrintText(const std::vector<SimulatedEpisode>& episodes) {
+  for (const SimulatedEpisode& simulated : episodes)
+    std::cout << NameOf(simulated) << ": " << NameOf(simulated.episode.outcome) << " ("
+              << simulated.episode.detail << ")\n";
+  for (const auto& [group, tally] : TallyOutcomes(episodes)) {
+    const auto percent = [](double part) { return std::to_string(std::lround(100 * part)); };
+    std::cout << group << ": opened " << tally.opened << " of " << tally.episodes
+              << " (95 %: " << percent(tally.low) << " to " << percent(tally.high) << " %)";
+    for (const auto& [outcome, count] : tally.outcomes)
+      std::cout << ", " << outcome << " " << count;
+    std::cout << "\n";
+  }
+}
+
+// 0 if all doors were opened.
+int RunSimulateVerb(int argc, char** argv) {
+  const Options options = Parse(argc, argv);
+  const std::vector<SimulatedEpisode> episodes = NamingConfig(
+      options.config, [&] { return SimulateDoorsWith(options.policies, options.run); });
+  options.json ? PrintJson(SimulatedToJson(episodes)) : PrintText(episodes);
+  std::size_t closed = 0;
+  for (const SimulatedEpisode& simulated : episodes)
+    closed += simulated.episode.outcome == EpisodeOutcome::kOpened ? 0 : 1;
+  return ExitCodeOfBatch(closed);
 }
 
 }  // namespace
 }  // namespace doorforge
 
 int main(int argc, char** argv) {
-  return doorforge::RunProgram([&] { return doorforge::Main(argc, argv); });
+  return doorforge::RunOneVerb({"simulate", doorforge::RunSimulateVerb}, argc, argv);
 }

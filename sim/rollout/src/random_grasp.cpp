@@ -3,12 +3,13 @@
 #include "doorforge/rollout/random_grasp.h"
 
 #include <numbers>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/rigid_transform.h"
+#include "doorforge/core/rng.h"
 
 namespace doorforge {
 namespace {
@@ -55,6 +56,22 @@ void RequireSpread(double spread, const char* name) {
           std::string("config.grasp.") + name + ": out of 0..10");
 }
 
+// Near the handle's own grasp, or turned any way about the approach.
+Eigen::Matrix3d Orientation(const RandomGraspConfig& config, const GraspObservation& observation,
+                            Rng& rng) {
+  const double half_turn = std::numbers::pi / 2;
+  const bool near = rng.Uniform() < config.near_share;
+  const double turn =
+      near ? config.near_turn_rad * rng.Normal() : rng.Uniform(-half_turn, half_turn);
+  const double about_x = config.tilt_rad * rng.Normal();
+  const double about_y = config.tilt_rad * rng.Normal();
+  return observation.privileged.world_from_tcp.linear() *
+         RotationAbout(Eigen::Vector3d::UnitX(), about_x).linear() *
+         RotationAbout(Eigen::Vector3d::UnitY(), about_y).linear() *
+         RotationAbout(Eigen::Vector3d::UnitZ(), turn).linear() *
+         observation.hand_from_tcp.linear().transpose();
+}
+
 }  // namespace
 
 void CheckRandomGrasp(const RandomGraspConfig& config) {
@@ -65,42 +82,22 @@ void CheckRandomGrasp(const RandomGraspConfig& config) {
   RequireSpread(config.beside_m, "beside_m");
 }
 
-RandomGrasp::RandomGrasp(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
-                         const RandomGraspConfig& config, const CloudExtent& extent, Look look)
-    : config_(config),
-      extent_(extent),
-      look_(std::move(look)),
-      rng_(scene.seed, "grasp/" + scene.door_id + "/" + std::to_string(scene.episode)),
-      handle_from_grasp_(door.handle_from_grasp.linear()),
-      tcp_from_hand_(robot.hand_from_tcp().linear().transpose()) {
+RandomGraspPolicy::RandomGraspPolicy(const RandomGraspConfig& config) : config_(config) {
   CheckRandomGrasp(config);
 }
 
-std::optional<ChosenGrasp> RandomGrasp::Choose(const SceneSnapshot& snapshot) {
-  const LabelledCloud visible = look_(snapshot);
+std::optional<GraspAction> RandomGraspPolicy::Choose(const GraspObservation& observation) {
+  const LabelledCloud& visible = observation.visible;
   const Candidates candidates = CandidatesIn(visible, config_.beside_m);
   if (candidates.handle.empty()) return std::nullopt;
-  const bool beside = rng_.Uniform() < config_.beside_share && !candidates.beside.empty();
+  Rng rng(observation.seed, "grasp/" + observation.episode);
+  const bool beside = rng.Uniform() < config_.beside_share && !candidates.beside.empty();
   const std::vector<std::size_t>& from = beside ? candidates.beside : candidates.handle;
-  const std::size_t contact = from[rng_.Index(static_cast<std::uint32_t>(from.size()))];
-  ChosenGrasp chosen;
-  chosen.contact_m = PointOf(visible, contact).cast<double>();
-  chosen.world_from_hand_rotation = Orientation(snapshot.door[kHandleLink]);
-  chosen.cloud = SampleCloud(visible, chosen.contact_m, extent_).cloud;
-  return chosen;
-}
-
-Eigen::Matrix3d RandomGrasp::Orientation(const RigidTransform& world_from_handle) {
-  const double half_turn = std::numbers::pi / 2;
-  const bool near = rng_.Uniform() < config_.near_share;
-  const double turn =
-      near ? config_.near_turn_rad * rng_.Normal() : rng_.Uniform(-half_turn, half_turn);
-  const double about_x = config_.tilt_rad * rng_.Normal();
-  const double about_y = config_.tilt_rad * rng_.Normal();
-  return world_from_handle.linear() * handle_from_grasp_ *
-         RotationAbout(Eigen::Vector3d::UnitX(), about_x).linear() *
-         RotationAbout(Eigen::Vector3d::UnitY(), about_y).linear() *
-         RotationAbout(Eigen::Vector3d::UnitZ(), turn).linear() * tcp_from_hand_;
+  const std::size_t contact = from[rng.Index(static_cast<std::uint32_t>(from.size()))];
+  GraspAction action;
+  action.contact_m = PointOf(visible, contact).cast<double>();
+  action.world_from_hand_rotation = Orientation(config_, observation, rng);
+  return action;
 }
 
 }  // namespace doorforge

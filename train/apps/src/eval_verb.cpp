@@ -13,13 +13,14 @@
 
 #include <CLI/CLI.hpp>
 
-#include "doorforge/core/command_line.h"
+#include "doorforge/cli/command_line.h"
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/evaluate/evaluate_opener.h"
+#include "doorforge/registry/policy_options.h"
 #include "doorforge/report/report_folder.h"
 #include "doorforge/report/report_table.h"
 
@@ -30,6 +31,9 @@ namespace fs = std::filesystem;
 
 struct Options {
   EvaluationRequest request;
+  std::vector<std::string> doors;
+  std::string split;
+  int per_category = 0;
   std::string out;
   std::string config;
   std::vector<std::string> settings;
@@ -42,36 +46,28 @@ struct Options {
 };
 
 void AddOptions(CLI::App& app, Options& options) {
-  if (!options.request.own.make_open)
-    app.add_option("--policy", options.request.policy,
-                   "folder of a trained policy, or `expert` for the rule-based one")
-        ->required();
-  app.add_option("--doors", options.request.doors.folders,
-                 "folders of composed doors, searched in depth")
+  EvaluationRequest& request = options.request;
+  AddPolicyOptions(app, request.registry, request.policies);
+  AddEarlierName(app, "--policy", "--opener", request.policies.opener);
+  app.add_option(
+         "--doors", options.doors,
+         "folders of composed doors, searched in depth; with a split such as full:test only "
+         "its doors")
       ->required();
-  app.add_option("--split", options.request.doors.split,
-                 "only doors of these parts: a split and its side, such as full:test");
-  app.add_option("-n,--per-category", options.request.doors.per_category,
+  app.add_option("--split", options.split, "the same: a split and its side, such as full:test");
+  app.add_option("-n,--per-category", options.per_category,
                  "at most so many doors of each category, all handles and bodies as evenly as "
                  "the number allows; 0: all")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--out", options.out,
                  "folder for report.json and report.html; without it only the table is printed");
   app.add_option("--data", options.request.data,
-                 "data sets that the policy was trained from: the report lists and shows their "
+                 "data sets that the opener was trained from: the report lists and shows their "
                  "doors");
-  if (!options.request.own.make_handle)
-    app.add_option("--handler", options.request.handler,
-                   "folder of a policy of `doorforge train handle`; without it the rule turns the "
-                   "handle")
-        ->check(CLI::ExistingDirectory);
   app.add_option("--switch", options.unlock_switch,
-                 "who says that the handle is turned: with --handler that policy itself "
+                 "who says that the handle is turned: a trained handler itself "
                  "(predicted), or the simulator (privileged); (config: switch, predicted)")
       ->check(CLI::IsMember({"privileged", "predicted"}));
-  app.add_option("--grasper", options.request.grasper,
-                 "folder of a policy of `doorforge train grasp`, or `random` for sampled grasps; "
-                 "without it the expert takes hold");
   app.add_option("--seeds", options.seeds, "repetitions with other scenes (config: seeds, 3)");
   app.add_option("--seed", options.first_seed, "the first of them (config: first_seed, 1)");
   app.add_option("--episodes-per-door", options.episodes_per_door,
@@ -87,35 +83,33 @@ void AddOptions(CLI::App& app, Options& options) {
   app.add_flag("--overwrite", options.overwrite, "replace the report in --out");
 }
 
-Options Parse(int argc, char** argv, const OwnPolicies& own) {
+Options Parse(int argc, char** argv, const EvalVerbSetup& setup) {
   Options options;
-  options.request.own = own;
+  options.request.registry = setup.registry;
+  options.request.policies.opener = setup.opener;
   CLI::App app(
-      "Success of a policy in closed loop: the expert or a trained grasper takes hold, the rule "
-      "or\n"
-      "a trained policy turns the handle, then the policy opens.\n"
+      "Success of policies in closed loop: one takes hold, one turns the handle, one opens; the\n"
+      "expert stands in wherever nobody else is named.\n"
       "Prints success with 95 % intervals per category and the causes of failure, and writes\n"
       "report.json and report.html.",
-      own.make_open ? own.name : "doorforge eval");
+      setup.program);
   AddOptions(app, options);
-  if (!own.make_open)
-    app.footer(
-        "examples:\n"
-        "  doorforge eval --policy run/opener --handler run/handler --grasper run/grasper --doors "
-        "run/doors/test\n    --out run/report\n"
-        "  doorforge eval --policy run/policy --data run/data --doors run/doors/test --out "
-        "run/report\n"
-        "  doorforge eval --policy expert --doors run/doors --split full:test -n 50 --seeds 3 "
-        "--out "
-        "run/expert");
+  const std::string line = "\n  " + setup.program + " --doors run/doors/test --opener ";
+  app.footer("examples:" + line +
+             "run/opener --handler run/handler --grasper run/grasper --out run/report" + line +
+             "run/opener --data run/data --out run/report" + line +
+             "expert --split full:test -n 50");
   ParseVerb(app, argc, argv);
+  Require(!options.request.policies.opener.empty(), ErrorCode::kInvalidArgument,
+          "--opener is required: " + setup.registry.Choices(Stage::kOpen) + "; see `" +
+              setup.program + " --help`");
   return options;
 }
 
 EvaluationConfig ConfigOf(const Options& options) {
   auto config = LoadConfig<EvaluationConfig>(options.config, options.settings);
   if (options.unlock_switch) config.unlock_switch = *options.unlock_switch;
-  Require(options.unlock_switch != "predicted" || !options.request.handler.empty(),
+  Require(options.unlock_switch != "predicted" || options.request.policies.handler != kExpertPolicy,
           ErrorCode::kInvalidArgument,
           "--switch predicted: a policy that turns the handle says when it is turned; give one "
           "with --handler");
@@ -123,18 +117,6 @@ EvaluationConfig ConfigOf(const Options& options) {
   if (options.first_seed) config.first_seed = *options.first_seed;
   if (options.episodes_per_door) config.episodes_per_door = *options.episodes_per_door;
   return config;
-}
-
-// the command as a user would type it, with quotes where a shell needs them
-std::string CommandLine(int argc, char** argv, const OwnPolicies& own) {
-  std::string line = own.make_open ? own.name : "doorforge eval";
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    const bool plain =
-        !argument.empty() && argument.find_first_of(" \t\"'$&|;<>()*?\\") == std::string::npos;
-    line += plain ? " " + argument : " '" + argument + "'";
-  }
-  return line;
 }
 
 int Evaluate(Options& options) {
@@ -165,11 +147,13 @@ int Evaluate(Options& options) {
 
 }  // namespace
 
-int RunEvalVerb(int argc, char** argv, const OwnPolicies& own) {
+int RunEvalVerb(int argc, char** argv, const EvalVerbSetup& setup) {
   return RunProgram([&] {
-    Options options = Parse(argc, argv, own);
+    Options options = Parse(argc, argv, setup);
     options.request.config = ConfigOf(options);
-    options.request.command = CommandLine(argc, argv, own);
+    options.request.doors = DoorSelectionOf(options.doors, "test", options.split);
+    options.request.doors.per_category = options.per_category;
+    options.request.command = CommandLineText(setup.program, argc, argv);
     return NamingConfig(options.config, [&] { return Evaluate(options); });
   });
 }

@@ -9,7 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "doorforge/core/command_line.h"
+#include "doorforge/cli/command_line.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/report/over_trainings.h"

@@ -113,6 +113,7 @@ ActAnswer OnlineController::DecideGrasp(DepthImage depth, PixelMask handle,
   });
   before_ = sight.view.visible;
   const GripperClearance clearance(robot_);
+  sight.view.hand_from_tcp = robot_.hand_from_tcp();
   sight.view.fits = [&](const Eigen::Vector3d& contact_m, const Eigen::Matrix3d& rotation) {
     return clearance.Fits(sight.view.visible, contact_m, rotation);
   };
@@ -153,7 +154,7 @@ std::optional<Foreignness> OnlineController::ForeignnessOf(
                      familiarity->DistanceAt(setup_.config.hold.foreign_percentile)};
 }
 
-ActAnswer OnlineController::Answer(const GraspChoice& choice, const HandleSight& sight) const {
+ActAnswer OnlineController::Answer(const GraspAction& choice, const HandleSight& sight) const {
   RigidTransform world_from_tcp = RigidTransform::Identity();
   world_from_tcp.linear() = choice.world_from_hand_rotation * robot_.hand_from_tcp().linear();
   world_from_tcp.translation() =
@@ -162,7 +163,7 @@ ActAnswer OnlineController::Answer(const GraspChoice& choice, const HandleSight&
   answer.stage = Stage::kGrasp;
   answer.world_from_hand = world_from_tcp * robot_.hand_from_tcp().inverse();
   answer.contact_m = choice.contact_m;
-  answer.expected_gain_rad = choice.score_rad;
+  answer.expected_gain_rad = choice.explanation->expected_opening_rad;
   answer.foreign = ForeignnessOf(
       grasper_->familiarity,
       SightNumbersOf({choice.cloud.xyz, choice.cloud.label}, {}, NetworkFamily::kGrasp));
@@ -196,7 +197,7 @@ OnlineController::Actor& OnlineController::ActorOf(Stage stage) {
   if (!actor)
     throw Error(ErrorCode::kInvalidArgument,
                 stage == Stage::kOpen
-                    ? "the door is to be opened, and --policy, which opens, was not given"
+                    ? "the door is to be opened, and --opener, which opens, was not given"
                     : "the handle is to be turned (unlocked: false), and --handler, which turns "
                       "it, was not given; pass it, or --stage open");
   return *actor;

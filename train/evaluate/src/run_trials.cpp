@@ -2,44 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/evaluate/run_trials.h"
 
-#include <mutex>
 #include <string>
 #include <utility>
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/object_pool.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
 #include "doorforge/physics/load_robot.h"
 #include "doorforge/physics/scene_sampling.h"
-#include "doorforge/rollout/run_episode.h"
+#include "doorforge/registry/run_policy_set.h"
 #include "doorforge/rollout/standing_place.h"
 
 namespace doorforge {
 namespace {
-
-// Lends sets of policies: as many as are ever in use at once, each to one episode at a time.
-class PlayerPool {
- public:
-  explicit PlayerPool(const Contender& contender) : contender_(contender) {}
-
-  Players Take() {
-    const std::scoped_lock lock(mutex_);
-    if (idle_.empty()) return contender_.make_players();
-    Players players = std::move(idle_.back());
-    idle_.pop_back();
-    return players;
-  }
-
-  void Return(Players players) {
-    const std::scoped_lock lock(mutex_);
-    idle_.push_back(std::move(players));
-  }
-
- private:
-  const Contender& contender_;
-  std::mutex mutex_;
-  std::vector<Players> idle_;
-};
 
 constexpr int kMostRepetitions = 100000;       // of a door
 constexpr std::size_t kMostTrials = 10000000;  // a row of some hundred bytes each
@@ -60,6 +36,7 @@ TrialPlan::TrialPlan(DoorGiver give_door, std::size_t door_count, const Evaluati
       episodes_per_door_(Repetitions(config.episodes_per_door, "episodes_per_door")),
       first_seed_(config.first_seed),
       scene_(config.scene),
+      cloud_(config.cloud),
       robot_(LoadRobot({}, RobotBaseNamed(config.scene.physics.base))) {
   Require(config.scene.robot.empty(), ErrorCode::kInvalidConfig,
           "config.scene.robot: eval knows the built-in robot, on any base; let the expert try \"" +
@@ -84,31 +61,19 @@ TrialPlan::Staged TrialPlan::At(std::size_t trial) const {
   return {std::move(door), std::move(scene)};
 }
 
-Episode PlayTrial(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
-                  const Players& players, Observer* observer) {
-  std::unique_ptr<GraspChooser> grasp;
-  if (players.make_grasp) grasp = players.make_grasp(scene, door, robot);
-  return RunStages(scene, door, robot,
-                   {.grasp = grasp.get(),
-                    .handle = players.handle.get(),
-                    .predicted_turned = players.predicted_turned,
-                    .open = players.open.get()},
-                   observer);
-}
-
-std::vector<EvaluatedEpisode> RunTrials(const TrialPlan& trials, const Contender& contender,
+std::vector<EvaluatedEpisode> RunTrials(const TrialPlan& trials, const TrialPolicies& policies,
                                         const RunHooks& hooks) {
-  PlayerPool pool(contender);
+  ObjectPool<PolicySet> pool(policies.make);
   std::vector<EvaluatedEpisode> rows(trials.size());
   ParallelFor(trials.size(), hooks.threads, [&](std::size_t i) {
     Require(StopRequested() == 0, ErrorCode::kIncomplete, "evaluation interrupted");
     const auto [held, scene] = trials.At(i);
     const DoorAsset& door = *held;
     std::unique_ptr<Observer> observer;
-    if (contender.make_observer) observer = contender.make_observer(scene, door);
-    Players players = pool.Take();
-    rows[i] = RowOf(PlayTrial(scene, door, trials.robot(), players, observer.get()), door);
-    pool.Return(std::move(players));
+    if (policies.make_observer) observer = policies.make_observer(scene, door);
+    const auto set = pool.Take();
+    rows[i] = RowOf(
+        RunPolicySet({scene, door, trials.robot(), trials.cloud()}, *set, observer.get()), door);
     if (hooks.done) hooks.done(rows[i]);
   });
   return rows;

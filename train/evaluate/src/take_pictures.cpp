@@ -9,6 +9,7 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/physics/load_robot.h"
+#include "doorforge/registry/run_policy_set.h"
 #include "doorforge/report/html_numbers.h"
 #include "doorforge/report/outcome_text.h"
 #include "doorforge/report/success_statistics.h"
@@ -66,14 +67,14 @@ struct FilmedTrial {
   std::optional<SceneSnapshot> first_decision;
 };
 
-FilmedTrial FilmTrial(const FinishedTrials& finished, std::size_t index, const Players& players,
-                      const Contender& contender) {
+FilmedTrial FilmTrial(const FinishedTrials& finished, std::size_t index, const PolicySet& set,
+                      const TrialPolicies& policies) {
   const auto [held, scene] = finished.trials.At(index);
   const DoorAsset& door = *held;
   const RobotModel robot = LoadRobot({}, RobotBaseNamed(scene.physics.base));
-  internal::EpisodeFilm film(contender.make_observer ? contender.make_observer(scene, door)
-                                                     : nullptr);
-  const Episode episode = PlayTrial(scene, door, robot, players, &film);
+  internal::EpisodeFilm film(policies.make_observer ? policies.make_observer(scene, door)
+                                                    : nullptr);
+  const Episode episode = RunPolicySet({scene, door, robot, finished.trials.cloud()}, set, &film);
   Require(episode.state_sha256 == finished.rows[index].state_sha256, ErrorCode::kInvalidArgument,
           door.id + ": the episode for the film strip ended in another state than the first run");
   FilmedTrial filmed;
@@ -112,15 +113,22 @@ void AddSight(const FinishedTrials& finished, std::size_t index, const SceneSnap
                         "policy is not given: leaf blue, handle orange, frame grey, robot green."};
 }
 
-// Remembers the beginning of an episode, which ends for want of a grasp.
+// Remembers the beginning of an episode and the grasp that was chosen then; there the episode ends.
 class Onlooker : public GraspChooser {
  public:
+  explicit Onlooker(GraspFromPolicy& grasp) : grasp_(grasp) {}
+
   std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override {
     start = snapshot;
+    action = grasp_.ActionAt(snapshot);
     return std::nullopt;
   }
 
   SceneSnapshot start;
+  std::optional<GraspAction> action;
+
+ private:
+  GraspFromPolicy& grasp_;
 };
 
 // For each category the first trial that opened and those that did not, until one is pictured.
@@ -144,7 +152,7 @@ std::vector<GraspToShow> GraspsToShow(std::span<const EvaluatedEpisode> rows) {
   return shown;
 }
 
-std::string GraspCaption(const EvaluatedEpisode& row, const GraspChoice& choice) {
+std::string GraspCaption(const EvaluatedEpisode& row, const GraspExplanation& choice) {
   const auto [low, high] =
       std::minmax_element(choice.affordance_rad.begin(), choice.affordance_rad.end());
   return row.door_id + ", seed " + std::to_string(row.seed) + ": affordance " +
@@ -152,32 +160,34 @@ std::string GraspCaption(const EvaluatedEpisode& row, const GraspChoice& choice)
          internal::Degrees(static_cast<double>(*high)) + " over " +
          std::to_string(choice.affordance_rad.size()) +
          " points of the handle; the chosen grasp is expected to open the door by " +
-         internal::Degrees(choice.score_rad) + ", it reached " +
+         internal::Degrees(choice.expected_opening_rad) + ", it reached " +
          internal::Degrees(row.peak_hinge_rad) + ". " + internal::TextOf(CauseOf(row)).title +
          ": " + row.detail;
 }
 
 // The heat map of a trial's grasp; nothing where none was in view.
 std::optional<ReportPicture> GraspPicture(const FinishedTrials& finished, std::size_t index,
-                                          const Players& players) {
+                                          const PolicySet& set) {
   const auto [held, scene] = finished.trials.At(index);
   const DoorAsset& door = *held;
   const RobotModel robot = LoadRobot({}, RobotBaseNamed(scene.physics.base));
-  Onlooker onlooker;
-  RunStages(scene, door, robot, {.grasp = &onlooker, .open = players.open.get()}, nullptr);
-  const auto choice = players.explain_grasp(scene, door, robot, onlooker.start);
-  if (!choice) return std::nullopt;
-  AffordanceMap map{choice->point_xyz, choice->affordance_rad, choice->contact_m};
-  map.world_from_tcp.linear() = choice->world_from_hand_rotation * robot.hand_from_tcp().linear();
+  const auto grasp = GraspOf(set, {scene, door, robot, finished.trials.cloud()});
+  Onlooker onlooker(*grasp);
+  RunStages(scene, door, robot, {.grasp = &onlooker, .open = set.open.get()}, nullptr);
+  if (!onlooker.action) return std::nullopt;
+  const GraspAction& action = *onlooker.action;
+  const GraspExplanation& explanation = *action.explanation;
+  AffordanceMap map{explanation.point_xyz, explanation.affordance_rad, action.contact_m};
+  map.world_from_tcp.linear() = action.world_from_hand_rotation * robot.hand_from_tcp().linear();
   map.world_from_tcp.translation() =
-      choice->contact_m + kGraspInsertion * choice->world_from_hand_rotation.col(2);
+      action.contact_m + kGraspInsertion * action.world_from_hand_rotation.col(2);
   CameraModel view = scene.camera;
   view.width = 480;
   view.height = 400;
   view = CameraOn(map, view);
   DepthCamera camera(MeshesOf(door));
   return ReportPicture{EncodePng(AffordancePicture(camera, onlooker.start.door, view, map)),
-                       GraspCaption(finished.rows[index], *choice)};
+                       GraspCaption(finished.rows[index], explanation)};
 }
 
 void TakeDoorPictures(const FinishedTrials& finished, int threads, ReportPictures& pictures) {
@@ -194,17 +204,17 @@ void TakeDoorPictures(const FinishedTrials& finished, int threads, ReportPicture
 }  // namespace
 
 std::vector<ReportGrasp> TakeGraspPictures(const FinishedTrials& finished,
-                                           const Contender& contender, int threads) {
+                                           const TrialPolicies& policies, int threads) {
   const std::vector<GraspToShow> shown = GraspsToShow(finished.rows);
-  std::vector<Players> players;
+  std::vector<PolicySet> sets;
   for (std::size_t i = 0; i < shown.size(); ++i) {
-    players.push_back(contender.make_players());
-    if (!players.back().explain_grasp) return {};
+    sets.push_back(policies.make());
+    if (!sets.back().grasp || !sets.back().grasp->Explains()) return {};
   }
   std::vector<std::optional<ReportPicture>> pictures(shown.size());
   ParallelFor(shown.size(), threads, [&](std::size_t i) {
     for (const std::size_t trial : shown[i].trials) {
-      pictures[i] = GraspPicture(finished, trial, players[i]);
+      pictures[i] = GraspPicture(finished, trial, sets[i]);
       if (pictures[i]) break;
     }
   });
@@ -216,23 +226,22 @@ std::vector<ReportGrasp> TakeGraspPictures(const FinishedTrials& finished,
   return grasps;
 }
 
-ReportPictures TakePictures(const FinishedTrials& finished, const Contender& contender,
+ReportPictures TakePictures(const FinishedTrials& finished, const TrialPolicies& policies,
                             int threads) {
   ReportPictures pictures;
   TakeDoorPictures(finished, threads, pictures);
   const std::vector<std::size_t> trials = TrialsToFilm(finished.rows);
-  std::vector<Players> players;
-  for (std::size_t i = 0; i < trials.size(); ++i) players.push_back(contender.make_players());
+  std::vector<PolicySet> sets;
+  for (std::size_t i = 0; i < trials.size(); ++i) sets.push_back(policies.make());
   std::vector<FilmedTrial> films(trials.size());
-  ParallelFor(trials.size(), threads, [&](std::size_t i) {
-    films[i] = FilmTrial(finished, trials[i], players[i], contender);
-  });
+  ParallelFor(trials.size(), threads,
+              [&](std::size_t i) { films[i] = FilmTrial(finished, trials[i], sets[i], policies); });
   for (std::size_t i = 0; i < trials.size(); ++i) {
     pictures.episodes[finished.rows[trials[i]].outcome] = std::move(films[i].film);
     if (films[i].first_decision && pictures.cloud.png.empty())
       AddSight(finished, trials[i], *films[i].first_decision, pictures);
   }
-  pictures.grasps = TakeGraspPictures(finished, contender, threads);
+  pictures.grasps = TakeGraspPictures(finished, policies, threads);
   return pictures;
 }
 

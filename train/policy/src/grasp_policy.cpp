@@ -25,9 +25,9 @@ Eigen::Vector3d PointOf(const std::vector<float>& xyz, std::size_t i) {
   return Eigen::Vector3f(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]).cast<double>();
 }
 
-class TrainedGraspPolicy : public GraspPolicy {
+class NetworkGraspPolicy : public GraspPolicy {
  public:
-  TrainedGraspPolicy(StageNetworks networks, const GraspOptions& options)
+  NetworkGraspPolicy(StageNetworks networks, const GraspOptions& options)
       : networks_(std::move(networks)),
         options_(options),
         affordance_(ActorLayout(NetworkFamily::kGrasp), "encoder.", networks_.actor,
@@ -35,34 +35,37 @@ class TrainedGraspPolicy : public GraspPolicy {
         head_(networks_),
         rater_(networks_) {}
 
-  std::optional<GraspChoice> Choose(const GraspView& view) override {
-    const LabelledCloud& visible = view.visible;
+  bool Explains() const override { return true; }
+
+  std::optional<GraspAction> Choose(const GraspObservation& seen) override {
+    const LabelledCloud& visible = seen.visible;
     Require(visible.xyz.size() == 3 * visible.label.size(), ErrorCode::kInvalidArgument,
             "grasp: the cloud has " + std::to_string(visible.xyz.size() / 3) + " points and " +
                 std::to_string(visible.label.size()) + " labels");
     const std::vector<std::size_t> handle = internal::HandlePointsOf(visible.label);
     if (handle.empty()) return std::nullopt;
     const std::size_t middle = internal::MiddlePoint(visible.xyz, handle);
-    GraspChoice choice = ScoredPoints(Sample(view, PointOf(visible.xyz, middle)));
-    TakeBest(view, choice);
-    return choice;
+    GraspExplanation explanation = ScoredPoints(Sample(seen, PointOf(visible.xyz, middle)));
+    GraspAction action = BestOf(seen, explanation);
+    action.explanation = std::move(explanation);
+    return action;
   }
 
  private:
   // As the clouds were sampled that the networks learned from.
-  LabelledCloud Sample(const GraspView& view, const Eigen::Vector3d& start) const {
-    return view.sample(start, static_cast<double>(networks_.normalisation.view.cloud_within_m));
+  LabelledCloud Sample(const GraspObservation& seen, const Eigen::Vector3d& start) const {
+    return seen.sample(start, static_cast<double>(networks_.normalisation.view.cloud_within_m));
   }
 
   // The affordance of the cloud's handle points.
-  GraspChoice ScoredPoints(const LabelledCloud& cloud) const {
+  GraspExplanation ScoredPoints(const LabelledCloud& cloud) const {
     const StageNormalisation& normalisation = networks_.normalisation;
     const CloudWindow window = internal::GraspWindow(normalisation, cloud.xyz);
     const std::array<float, 3> origin = internal::GraspOrigin(normalisation, cloud.xyz);
     const std::vector<std::size_t> handle =
         internal::PointsInWindow(cloud.xyz, window, internal::HandlePointsOf(cloud.label));
     const std::vector<std::uint16_t> outputs(handle.begin(), handle.end());
-    GraspChoice choice;
+    GraspExplanation explanation;
     internal::HeadInputs batch;
     batch.size = static_cast<int>(outputs.size());
     batch.features =
@@ -71,13 +74,13 @@ class TrainedGraspPolicy : public GraspPolicy {
     for (const std::size_t point : handle) {
       for (std::size_t k = 0; k < 3; ++k) {
         const float coordinate = cloud.xyz[3 * point + k];
-        choice.point_xyz.push_back(coordinate);
+        explanation.point_xyz.push_back(coordinate);
         batch.points.push_back((coordinate - origin.at(k) - normalisation.action.mean.at(k)) /
                                normalisation.action.deviation.at(k));
       }
     }
-    choice.affordance_rad = head_.Score(batch);
-    return choice;
+    explanation.affordance_rad = head_.Score(batch);
+    return explanation;
   }
 
   // Points by falling affordance, the first of equals first.
@@ -97,14 +100,15 @@ class TrainedGraspPolicy : public GraspPolicy {
   };
 
   // Of every orientation at every tried point, `clouds[i]` beginning with the i-th; best first.
-  std::vector<Candidate> Candidates(const GraspView& view, const std::vector<LabelledCloud>& clouds,
+  std::vector<Candidate> Candidates(const GraspObservation& seen,
+                                    const std::vector<LabelledCloud>& clouds,
                                     const std::vector<double>& affordance_rad) const {
     std::vector<internal::RatedHand> hands;
     std::vector<std::size_t> points;
     for (std::size_t i = 0; i < clouds.size(); ++i) {
       Rng rng(options_.seed, "grasp/orientations/" + std::to_string(i));
       const std::vector<Eigen::Matrix3d> orientations =
-          SampleOrientations(view.approach, {options_.orientations, options_.tilt_rad}, rng);
+          SampleOrientations(seen.approach, {options_.orientations, options_.tilt_rad}, rng);
       const std::vector<float> ratings = rater_.Rate(clouds[i].xyz, orientations);
       for (std::size_t k = 0; k < orientations.size(); ++k) {
         hands.push_back(
@@ -122,37 +126,40 @@ class TrainedGraspPolicy : public GraspPolicy {
     return candidates;
   }
 
-  void TakeBest(const GraspView& view, GraspChoice& choice) const {
-    const std::vector<std::size_t> order = Ranked(choice.affordance_rad);
+  // Fills in what the explanation has to say of the best.
+  GraspAction BestOf(const GraspObservation& seen, GraspExplanation& explanation) const {
+    const std::vector<std::size_t> order = Ranked(explanation.affordance_rad);
     const std::size_t tried = std::min(order.size(), static_cast<std::size_t>(options_.points));
     std::vector<LabelledCloud> clouds;
     std::vector<double> affordance_rad;
     for (std::size_t i = 0; i < tried; ++i) {
-      clouds.push_back(Sample(view, PointOf(choice.point_xyz, order[i])));
-      affordance_rad.push_back(static_cast<double>(choice.affordance_rad[order[i]]));
+      clouds.push_back(Sample(seen, PointOf(explanation.point_xyz, order[i])));
+      affordance_rad.push_back(static_cast<double>(explanation.affordance_rad[order[i]]));
     }
-    const std::vector<Candidate> candidates = Candidates(view, clouds, affordance_rad);
+    const std::vector<Candidate> candidates = Candidates(seen, clouds, affordance_rad);
     const auto fitting = std::ranges::find_if(candidates, [&](const Candidate& candidate) {
-      return Fits(view, ContactOf(view, clouds[candidate.point], candidate), candidate);
+      return Fits(seen, ContactOf(seen, clouds[candidate.point], candidate), candidate);
     });
     const Candidate& best = fitting == candidates.end() ? candidates.front() : *fitting;
-    choice.score_rad = best.rating_rad;
-    choice.contact_m = ContactOf(view, clouds[best.point], best);
-    choice.world_from_hand_rotation = best.world_from_hand_rotation;
-    choice.cloud = std::move(clouds[best.point]);
+    explanation.expected_opening_rad = best.rating_rad;
+    GraspAction action;
+    action.contact_m = ContactOf(seen, clouds[best.point], best);
+    action.world_from_hand_rotation = best.world_from_hand_rotation;
+    action.cloud = std::move(clouds[best.point]);
+    return action;
   }
 
-  bool Fits(const GraspView& view, const Eigen::Vector3d& contact_m,
+  bool Fits(const GraspObservation& seen, const Eigen::Vector3d& contact_m,
             const Candidate& candidate) const {
-    return !options_.clear || !view.fits ||
-           view.fits(contact_m, candidate.world_from_hand_rotation);
+    return !options_.clear || !seen.fits ||
+           seen.fits(contact_m, candidate.world_from_hand_rotation);
   }
 
-  Eigen::Vector3d ContactOf(const GraspView& view, const LabelledCloud& cloud,
+  Eigen::Vector3d ContactOf(const GraspObservation& seen, const LabelledCloud& cloud,
                             const Candidate& candidate) const {
     const Eigen::Vector3d rated = PointOf(cloud.xyz, 0);
     if (!options_.centred) return rated;
-    return internal::CentredContact(view.visible, rated, candidate.world_from_hand_rotation);
+    return internal::CentredContact(seen.visible, rated, candidate.world_from_hand_rotation);
   }
 
   StageNetworks networks_;
@@ -179,7 +186,7 @@ std::unique_ptr<GraspPolicy> MakeGraspPolicy(StageNetworks networks, const Grasp
           "affordance_weight: must be in [0, 1000)");
   Require(networks.family == NetworkFamily::kGrasp, ErrorCode::kInvalidArgument,
           "grasp: the networks are those of another stage");
-  return std::make_unique<TrainedGraspPolicy>(std::move(networks), options);
+  return std::make_unique<NetworkGraspPolicy>(std::move(networks), options);
 }
 
 std::unique_ptr<GraspPolicy> LoadGraspPolicy(const std::filesystem::path& folder,

@@ -253,7 +253,11 @@ std::string SeedList(Episodes episodes) {
 
 }  // namespace
 
-bool IsExpert(const EvaluationReport& report) { return report.provenance.policy == "expert"; }
+bool IsExpert(const EvaluationReport& report) {
+  const ReportProvenance& provenance = report.provenance;
+  return provenance.policy == "expert" &&
+         provenance.policy_sha256.empty();  // no folder of that name
+}
 
 namespace {
 
@@ -286,6 +290,8 @@ std::string Lead(const EvaluationReport& report, bool held_out) {
                                   "Franka grasps the handle"
                             : provenance.grasper_sha256 == "random"
                                 ? "A mobile Franka tries a sampled grasp"
+                            : provenance.grasper_sha256 == kOwnPolicy
+                                ? "A policy of one's own chooses the grasp"
                                 : "A trained policy chooses the grasp from a point cloud";
   const std::string handle =
       provenance.handler_sha256.empty()         ? "; a rule turns it"

@@ -1,21 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doctor_verb.h"
-
 #include <cstdio>
-#include <iostream>
 #include <string>
-#include <thread>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "doorforge/core/command_line.h"
-#include "doorforge/core/json_file.h"
-#include "doorforge/core/program.h"
-#include "doorforge/networks/instruction_set.h"
+#include "doorforge/cli/answer.h"
+#include "doorforge/cli/command_line.h"
+#include "doorforge/training/examine_installation.h"
 #include "doorforge/training/linear_algebra.h"
+
+#include "verbs.h"
 
 namespace doorforge {
 namespace {
@@ -26,36 +22,9 @@ bool ParseJsonFlag(int argc, char** argv) {
   bool json = false;
   CLI::App app("What is installed, and what to do about it. Exit code 1 if something is amiss.",
                "doorforge doctor");
-  app.add_flag("--json", json, "print one JSON document");
+  AddJson(app, json);
   app.footer("example:\n  doorforge doctor");
   ParseVerb(app, argc, argv);
-  return json;
-}
-
-std::vector<std::string> SupportedSets() {
-  std::vector<std::string> names;
-  for (const InstructionSet set :
-       {InstructionSet::kBaseline, InstructionSet::kAvx2, InstructionSet::kAvx512}) {
-    if (IsSupported(set)) names.emplace_back(NameOf(set));
-  }
-  return names;
-}
-
-Json Examine() {
-  const LinearAlgebra algebra = MeasureLinearAlgebra();
-  const bool fast = algebra.gflops >= kLeastGflops;
-  Json json = {{"schema", "doorforge.doctor"},
-               {"schema_version", 1},
-               {"code_version", CodeVersion()},
-               {"processors", std::thread::hardware_concurrency()},
-               {"instruction_sets", SupportedSets()},
-               {"instruction_set", NameOf(BestInstructionSet())},
-               {"torch_version", algebra.torch_version},
-               {"blas_library", algebra.blas_library},
-               {"gflops", algebra.gflops},
-               {"least_gflops", kLeastGflops},
-               {"healthy", fast},
-               {"remedy", fast ? "" : LinearAlgebraRemedy()}};
   return json;
 }
 
@@ -82,9 +51,9 @@ void Print(const Json& json) {
 
 int RunDoctorVerb(int argc, char** argv) {
   const bool as_json = ParseJsonFlag(argc, argv);
-  const Json json = Examine();
+  const Json json = ExamineInstallation();
   if (as_json)
-    std::cout << JsonText(json, 2) << "\n";
+    PrintJson(json);
   else
     Print(json);
   return json["healthy"].get<bool>() ? 0 : 1;

@@ -25,14 +25,20 @@ struct DoorSelection {
   /// "full:validation", "full:unseen_categories". Doors are meant whose body and handle are both on
   /// that side. Empty: all.
   std::string split = {};
-  std::string default_side = "train";  ///< Of a split that is named without one.
+  /// Of a split that is named without one: "train" where data are collected, "test" where policies
+  /// are judged. Empty: a split must be named with its side.
+  std::string default_side = {};
   /// At most so many of each category, as DrawDoors() draws them; 0: all.
   int per_category = 0;
 };
 
-/// The selection that the words of a verb's --doors mean: folders, and at most one split. Throws
-/// Error(kInvalidArgument) if there are two splits or no folder.
-DoorSelection DoorSelectionOf(const std::vector<std::string>& words);
+/// The selection that the words of a verb's --doors mean: folders, and at most one split.
+///
+/// @param default_side As DoorSelection::default_side; each verb's own.
+/// @param split One that was given apart from the words; empty: none was.
+/// @throws Error(kInvalidArgument) if there are two splits or no folder.
+DoorSelection DoorSelectionOf(const std::vector<std::string>& words,
+                              const std::string& default_side, const std::string& split = {});
 
 /// A door that was found, without its meshes.
 struct FoundDoor {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "doorforge/collect/trained_policy.h"
+#include "doorforge/collect/stage_policies.h"
 #include "doorforge/dataset/regenerate.h"
 #include "doorforge/physics/load_robot.h"
 
@@ -19,7 +19,7 @@ struct RegenerateDatasetRequest {
   std::vector<std::string> doors;  ///< Folders with the doors of the dataset.
   std::string robot;               ///< URDF of the robot, where config.yaml names one that is not
                                    ///< in the dataset's folder; empty: none is given.
-  PolicyFolders policies;          ///< That acted.
+  CollectionWords policies;        ///< That acted.
   int threads = 0;                 ///< 0: all processors.
   RobotMeshReader robot_meshes;    ///< Reads the meshes of that robot; see LoadRobot().
 };

@@ -18,9 +18,10 @@ namespace doorforge {
 struct StageRequest {
   StageConfig config;
   std::vector<std::string> doors;  ///< As DoorSelectionOf().
-  PolicyFolders policies;
+  CollectionWords policies;
   int threads = 0;
   RobotMeshReader robot_meshes;  ///< Reads the meshes of config.scene.robot; see LoadRobot().
+  PolicyRegistry registry = BuiltInPolicies();
 };
 
 /// A collection of one stage, ready to run: everything that can be refused has been. Not copied,
@@ -45,15 +46,10 @@ class StageRun {
 
  private:
   std::string ConfigText() const;
-  /// Those that act.
-  std::vector<TrainedPolicy> Trained() const;
 
   StageConfig config_;
   RobotModel robot_;
-  std::unique_ptr<PolicyPool> handler_;
-  std::unique_ptr<PolicyPool> opener_;
-  std::unique_ptr<PolicyPool> learner_;
-  std::unique_ptr<GraspPool> grasp_learner_;
+  std::unique_ptr<StagePolicies> policies_;
   std::vector<FoundDoor> doors_;
   DoorShelf shelf_;
   CollectionPlan plan_;

@@ -21,7 +21,7 @@ class GripperClearance {
   /// The hand comes straight in, from kPregraspDistance before the grasp, see GraspChooser.
   ///
   /// @param visible World [m].
-  /// @param contact_m, world_from_hand_rotation As in ChosenGrasp.
+  /// @param contact_m, world_from_hand_rotation As in GraspAction.
   /// @returns False where at least kBlockingPoints of the points are deeper than kGraze in a hull
   ///     somewhere on the way: fewer may be noise, and what the surface grazes gives way.
   bool Fits(const LabelledCloud& visible, const Eigen::Vector3d& contact_m,

@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <optional>
 
-#include "doorforge/core/rng.h"
-#include "doorforge/rollout/run_episode.h"
-#include "doorforge/sensor/point_cloud.h"
+#include "doorforge/schemas/grasp_policy.h"
 
 namespace doorforge {
 
@@ -36,27 +33,16 @@ struct RandomGraspConfig {
 /// of the handle, each as likely as any other, and a hand turned about its approach, which on all
 /// handles but flaps is the handle's axis, so that the fingers close in the plane normal to it. The
 /// random stream is "grasp/<door id>/<episode>" of the scene's seed.
-class RandomGrasp : public GraspChooser {
+class RandomGraspPolicy : public GraspPolicy {
  public:
-  /// All points that the camera sees at an instant; called once an episode.
-  using Look = std::function<LabelledCloud(const SceneSnapshot&)>;
-
-  /// @param extent Of the recorded cloud, farthest points from the contact on.
   /// @throws Error(kInvalidConfig) on a share out of [0, 1] or a spread below 0.
-  RandomGrasp(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
-              const RandomGraspConfig& config, const CloudExtent& extent, Look look);
+  explicit RandomGraspPolicy(const RandomGraspConfig& config = {});
 
-  std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override;
+  /// The action has no cloud.
+  std::optional<GraspAction> Choose(const GraspObservation& observation) override;
 
  private:
-  Eigen::Matrix3d Orientation(const RigidTransform& world_from_handle);
-
   RandomGraspConfig config_;
-  CloudExtent extent_;
-  Look look_;
-  Rng rng_;
-  Eigen::Matrix3d handle_from_grasp_;
-  Eigen::Matrix3d tcp_from_hand_;
 };
 
 /// Throws Error(kInvalidConfig) as the constructor.

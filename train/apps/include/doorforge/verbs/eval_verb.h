@@ -2,16 +2,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "doorforge/evaluate/evaluate_opener.h"
+#include <string>
+
+#include "doorforge/registry/policy_registry.h"
 
 namespace doorforge {
 
-/// The verb `doorforge eval`, for the main function of a program: reads the command line
-/// (docs/evaluate.md), evaluates, prints the table and writes the report. With policies of one's
-/// own the options --policy (or --handler) in their place are gone, and all others are the same.
+/// The verb `doorforge eval` of a program, which may know policies of its own.
+struct EvalVerbSetup {
+  std::string program = "doorforge eval";       ///< What its help and its report call it.
+  PolicyRegistry registry = BuiltInPolicies();  ///< With a row for each policy of its own.
+  std::string opener = {};  ///< --opener where it is left out; empty: it must be given.
+};
+
+/// For the main function of a program: reads the command line (docs/evaluate.md), evaluates, prints
+/// the table and writes the report.
 ///
 /// @param argv argv[0] is not read.
 /// @returns The exit code; what goes wrong is told on standard error.
-int RunEvalVerb(int argc, char** argv, const OwnPolicies& own = {});
+int RunEvalVerb(int argc, char** argv, const EvalVerbSetup& setup = {});
 
 }  // namespace doorforge

@@ -137,7 +137,7 @@ class OnlineController {
   Actor& ActorOf(Stage stage);
   RobotSight SightOf(const Actor& actor, const RobotState& state) const;
   ActAnswer Answer(Stage stage, Actor& actor, const RobotState& state, const RobotSight& sight);
-  ActAnswer Answer(const GraspChoice& choice, const HandleSight& sight) const;
+  ActAnswer Answer(const GraspAction& choice, const HandleSight& sight) const;
   std::optional<Foreignness> ForeignnessOf(const std::optional<Familiarity>& familiarity,
                                            const SightNumbers& numbers) const;
 

@@ -77,7 +77,7 @@ RobotSight ObserveDepth(const DepthImage& depth, const CalibratedCamera& camera,
 
 /// What a grasper is given of a picture of the closed door, and how much of it there is.
 struct HandleSight {
-  GraspView view;
+  GraspObservation view;
   int visible_count = 0;  ///< Points inside the crop.
   int handle_count = 0;   ///< Of these, on the handle.
 };

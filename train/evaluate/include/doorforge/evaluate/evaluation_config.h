@@ -6,10 +6,7 @@
 #include <string>
 
 #include "doorforge/physics/scene_sampling.h"
-#include "doorforge/policy/grasp_policy.h"
-#include "doorforge/policy/stage_policy.h"
-#include "doorforge/rollout/grasp_look.h"
-#include "doorforge/rollout/random_grasp.h"
+#include "doorforge/registry/policy_registry.h"
 #include "doorforge/sensor/point_cloud.h"
 
 namespace doorforge {
@@ -30,6 +27,14 @@ struct EvaluationConfig {
   int grasp_look_finer = GraspLook{}.finer;  ///< GraspLook::finer of a trained grasper.
   SceneConfig scene;
   CloudConfig cloud;  ///< As in the data set that the policy was trained from.
+
+  /// What its policies are made with.
+  PolicySettings Policies() const {
+    return {.network = policy,
+            .network_grasp = grasp,
+            .network_grasp_resolution = grasp_look_finer,
+            .random_grasp = random_grasp};
+  }
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {

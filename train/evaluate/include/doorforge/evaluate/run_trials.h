@@ -5,20 +5,17 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "doorforge/evaluate/evaluation_config.h"
 #include "doorforge/physics/robot_model.h"
-#include "doorforge/policy/grasp_policy.h"
 #include "doorforge/report/evaluated_episode.h"
 #include "doorforge/rollout/observer.h"
-#include "doorforge/rollout/run_episode.h"
 #include "doorforge/schemas/door_asset.h"
 #include "doorforge/schemas/door_set.h"
-#include "doorforge/schemas/episode.h"
-#include "doorforge/schemas/policy.h"
+#include "doorforge/schemas/policy_set.h"
 #include "doorforge/schemas/scene.h"
+#include "doorforge/sensor/point_cloud.h"
 
 namespace doorforge {
 
@@ -43,6 +40,7 @@ class TrialPlan {
 
   std::shared_ptr<const DoorAsset> Door(std::size_t door) const { return give_door_(door); }
   const RobotModel& robot() const { return robot_; }
+  const CloudConfig& cloud() const { return cloud_; }
 
  private:
   DoorGiver give_door_;
@@ -51,31 +49,17 @@ class TrialPlan {
   std::size_t episodes_per_door_;
   std::uint64_t first_seed_;
   SceneConfig scene_;
+  CloudConfig cloud_;
   RobotModel robot_;
 };
 
-/// Who acts in an episode. One set serves one episode at a time.
-struct Players {
-  std::unique_ptr<Policy> open;
-  std::unique_ptr<Policy> handle = nullptr;  ///< Null: the rule turns the handle.
-  /// As EpisodeRoles::predicted_turned, of `handle`; null: the simulator's flag.
-  std::function<bool()> predicted_turned = nullptr;
-  /// Makes an episode's chooser of the grasp; null: PlanGrasp()'s grasp.
-  std::function<std::unique_ptr<GraspChooser>(const Scene&, const DoorAsset&, const RobotModel&)>
-      make_grasp = nullptr;
-  /// What a trained grasper makes of an instant, for pictures; null: nobody trained takes hold.
-  std::function<std::optional<GraspChoice>(const Scene&, const DoorAsset&, const RobotModel&,
-                                           const SceneSnapshot&)>
-      explain_grasp = nullptr;
-};
-
-/// Who opens the doors after the expert's grasp.
-struct Contender {
+/// Who is tried: makes sets of policies, and the cameras that they look through.
+struct TrialPolicies {
   /// A new set, equal to all others; called from one thread at a time.
-  std::function<Players()> make_players;
-  /// The camera of an episode; nothing for a policy that does not look. May be called from several
+  std::function<PolicySet()> make;
+  /// The camera of an episode; nothing for policies that need no cloud. May be called from several
   /// threads at once.
-  std::function<std::unique_ptr<Observer>(const Scene&, const DoorAsset&)> make_observer;
+  std::function<std::unique_ptr<Observer>(const Scene&, const DoorAsset&)> make_observer = nullptr;
 };
 
 /// How episodes are carried out; none of it changes the rows.
@@ -84,16 +68,12 @@ struct RunHooks {
   std::function<void(const EvaluatedEpisode&)> done;  ///< After each; called from any thread.
 };
 
-/// One trial, as RunTrials() runs it.
-Episode PlayTrial(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
-                  const Players& players, Observer* observer);
-
 /// Runs the trials and gives their rows in their order.
 ///
-/// Each policy instance serves one episode at a time (RunEpisode resets it) and may serve several
+/// Each set serves one episode at a time (RunStages() resets its policies) and may serve several
 /// one after the other. The rows do not depend on the number of threads if a policy forgets
 /// everything at Reset(). Throws Error(kIncomplete) if the program was asked to stop.
-std::vector<EvaluatedEpisode> RunTrials(const TrialPlan& trials, const Contender& contender,
+std::vector<EvaluatedEpisode> RunTrials(const TrialPlan& trials, const TrialPolicies& policies,
                                         const RunHooks& hooks = {});
 
 }  // namespace doorforge

@@ -24,14 +24,14 @@ inline constexpr std::size_t kMostDoorPictures = 30;
 /// door (else in the first that came so far); and TakeGraspPictures().
 ///
 /// The episodes for film strips are run again with an observer; being deterministic they end in the
-/// same state, and one that does not throws Error(kInvalidArgument), because then `contender` is
+/// same state, and one that does not throws Error(kInvalidArgument), because then `policies` is
 /// not the one that made the rows. Same arguments, same pictures, for any number of threads.
-ReportPictures TakePictures(const FinishedTrials& finished, const Contender& contender,
+ReportPictures TakePictures(const FinishedTrials& finished, const TrialPolicies& policies,
                             int threads = 0);
 
-/// Heat maps of a trained grasper (Players::explain_grasp; none without), by category: on the first
+/// Heat maps of a grasp policy that Explains() (none of others), by category: on the first
 /// door that was opened, then on the first that was not, of those with a handle in view.
 std::vector<ReportGrasp> TakeGraspPictures(const FinishedTrials& finished,
-                                           const Contender& contender, int threads = 0);
+                                           const TrialPolicies& policies, int threads = 0);
 
 }  // namespace doorforge

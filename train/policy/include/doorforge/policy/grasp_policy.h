@@ -4,15 +4,10 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
-#include <optional>
-#include <vector>
-
-#include <Eigen/Core>
 
 #include "doorforge/networks/stage_networks.h"
-#include "doorforge/schemas/cloud.h"
+#include "doorforge/schemas/grasp_policy.h"
 
 namespace doorforge {
 
@@ -37,7 +32,8 @@ struct GraspOptions {
   /// The hand is moved across the way in, to the middle of what is seen of the handle between its
   /// fingers. False: it closes about the contact (UniDoorManip).
   bool centred = true;
-  /// Hands that do not fit, as GraspView::fits says, are left out, as long as there are others.
+  /// Hands that do not fit, as GraspObservation::fits says, are left out, as long as there are
+  /// others.
   bool clear = true;
   std::uint64_t seed = 1;  ///< Of the sampled orientations.
 
@@ -55,44 +51,9 @@ struct GraspOptions {
   }
 };
 
-/// What is known when a grasp is chosen: one look at the closed door, of which the handle's mask
-/// and the direction into the leaf are privileged, as the handle's mask and axis are in
-/// UniDoorManip.
-struct GraspView {
-  LabelledCloud visible;  ///< Every point in view; those labelled kHandle may be taken hold of.
-  /// World: straight into the leaf, which for all handles but flaps is the handle's axis.
-  Eigen::Vector3d approach = -Eigen::Vector3d::UnitX();
-  /// The policy's cloud of 4096 points, beginning with the visible point nearest to a place in the
-  /// world, of points within a distance of that one [m] (0: of all; farthest point sampling).
-  std::function<LabelledCloud(const Eigen::Vector3d&, double)> sample;
-  /// Whether the open gripper gets to a contact [m] with that rotation (world from hand) without
-  /// passing through what is seen. Empty: it always does.
-  std::function<bool(const Eigen::Vector3d&, const Eigen::Matrix3d&)> fits = nullptr;
-};
-
-struct GraspChoice {
-  LabelledCloud cloud;  ///< 4096 points, point 0 is the one that was rated.
-  /// World: that point, moved as GraspOptions::centred says.
-  Eigen::Vector3d contact_m = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d world_from_hand_rotation = Eigen::Matrix3d::Identity();
-  double score_rad = 0;  ///< Final door angle that the discriminator expects.
-  /// The affordance of every handle point of the cloud that was looked at: a heat map.
-  std::vector<float> point_xyz;       ///< [m], world, n x 3.
-  std::vector<float> affordance_rad;  ///< n.
-};
-
-/// Chooses where and how to take hold, by a trained affordance and discriminator. Keeps nothing
-/// between calls: equal views give equal choices. One instance serves one thread at a time.
-class GraspPolicy {
- public:
-  virtual ~GraspPolicy() = default;
-  /// Nothing where no point of the handle is in view.
-  /// @throws Error(kInvalidArgument) if the cloud's labels are missing or its numbers not finite,
-  /// or
-  ///     as SampleOrientations().
-  virtual std::optional<GraspChoice> Choose(const GraspView& view) = 0;
-};
-
+/// A trained affordance and discriminator choose where and how to take hold; they look at clouds of
+/// the extent that they were trained on and explain their actions.
+///
 /// Of the folder that `doorforge train grasp` wrote.
 /// @throws Error(kMissing or kFormat) as ReadPolicy(), Error(kInvalidConfig) on bad options.
 std::unique_ptr<GraspPolicy> LoadGraspPolicy(const std::filesystem::path& folder,

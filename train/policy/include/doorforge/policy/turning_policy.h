@@ -8,11 +8,12 @@
 #include "doorforge/policy/stage_policy.h"
 #include "doorforge/policy/turned_classifier.h"
 #include "doorforge/schemas/policy.h"
+#include "doorforge/schemas/stage_switch.h"
 
 namespace doorforge {
 
 /// A policy that turns the handle and says when that is done, from what a robot knows of itself.
-class TurningPolicy : public Policy {
+class TurningPolicy : public Policy, public StageSwitch {
  public:
   /// @param policy Turns the handle; not null.
   TurningPolicy(std::unique_ptr<Policy> policy, const TurnedClassifier& classifier);
@@ -26,7 +27,7 @@ class TurningPolicy : public Policy {
 
   /// Whether the handle is turned once the actions so far have been carried out: false after
   /// Reset(), and true from the first action on that the classifier gives one half or more.
-  bool Turned() const { return turned_; }
+  bool Turned() const override { return turned_; }
 
  private:
   std::unique_ptr<Policy> policy_;

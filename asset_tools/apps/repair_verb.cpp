@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "doorforge/cli/answer.h"
+#include "doorforge/cli/command_line.h"
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/config_file.h"
+#include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
+#include "doorforge/mesh/mesh_writer.h"
+#include "doorforge/mesh/repair_file.h"
+
+#include "verbs.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string input;
+  std::string output;
+  std::string report;
+  std::string config;
+  std::vector<std::string> settings;
+  std::string wrap;
+  double max_seconds = kObjectSeconds;
+  bool json = false;
+  bool overwrite = false;
+};
+
+Options OptionsOf(int argc, char** argv) {
+  Options options;
+  CLI::App app("Turns any mesh into a closed, oriented one and measures what that changed.",
+               "doorforge repair");
+  app.add_option("IN", options.input, "mesh: .obj .stl .ply .dae .gltf .glb .fbx .3ds .off")
+      ->required();
+  app.add_option("OUT", options.output, "closed mesh: .obj .stl .ply")->required();
+  AddJson(app, options.json, "print the report as one JSON document");
+  app.add_option("--report", options.report, "where to write the report (OUT.report.json)");
+  AddOverwrite(app, options.overwrite, "replace OUT and its report");
+  AddConfig(app, options.config, "YAML file with settings of the repair");
+  AddSettings(app, options.settings, "one setting, such as max_triangles=2000");
+  app.add_option("--wrap", options.wrap,
+                 "alpha wrap: never, auto (where exact repair fails) or always")
+      ->check(CLI::IsMember({"never", "auto", "always"}));
+  AddMaxSeconds(app, options.max_seconds,
+                "processor time that it may take before it is given up (300)");
+  app.footer(
+      "settings and defaults: alpha_fraction 0.01, offset_fraction 0.000833, max_hole_fraction\n"
+      "0.05, max_flat_hole_share 0.15, max_cap_fraction 0.01, max_triangles 6000 (0: any number)\n"
+      "exit code: 0 closed, 1 the mesh cannot be closed, 2 wrong use, 3 IN cannot be read\n"
+      "example:\n"
+      "  doorforge repair handle.stl handle.obj --set max_triangles=2000");
+  ParseVerb(app, argc, argv);
+  if (options.report.empty()) options.report = options.output + ".report.json";
+  return options;
+}
+
+RepairConfig ConfigOf(const Options& options) {
+  std::vector<std::string> settings = options.settings;
+  if (!options.wrap.empty()) settings.push_back("wrap=" + options.wrap);
+  return LoadConfig<RepairConfig>(options.config, settings);
+}
+
+// Refuses before the work starts what would be refused after it.
+void CheckOutputs(const Options& options) {
+  WriterFor(options.output);
+  for (const std::string& path : {options.output, options.report}) {
+    if (!options.overwrite && fs::exists(fs::symlink_status(path)))
+      throw Error(ErrorCode::kInvalidArgument,
+                  path + ": already exists; pass --overwrite to replace it");
+    RequireWritable(fs::absolute(path).parent_path());
+  }
+}
+
+void Print(const Options& options, const RepairReport& report) {
+  const auto millimetres = [](double metres) { return 1000 * metres; };
+  std::printf("%s: %s", options.input.c_str(), std::string(NameOf(report.outcome)).c_str());
+  std::printf(report.reason.empty() ? "\n" : " (%s)\n", report.reason.c_str());
+  for (const std::string& step : report.steps) std::printf("  %s\n", step.c_str());
+  if (report.outcome == RepairOutcome::kFailed) return;
+  std::printf("  volume %.6g m3, area %.6g m2, %d pieces%s\n", report.after.volume_m3,
+              report.after.area_m2, report.after.components,
+              report.self_intersects ? ", which cross each other or themselves" : "");
+  std::printf("  output to input: mean %.3f mm, largest %.3f mm\n",
+              millimetres(report.output_to_input.mean_m),
+              millimetres(report.output_to_input.max_m));
+  std::printf("  visible input to output: mean %.3f mm, largest %.3f mm\n",
+              millimetres(report.visible_input_to_output.mean_m),
+              millimetres(report.visible_input_to_output.max_m));
+}
+
+}  // namespace
+
+int RunRepairVerb(int argc, char** argv) {
+  const Options options = OptionsOf(argc, argv);
+  const RepairConfig config = ConfigOf(options);
+  CheckOutputs(options);
+  const auto [result, record] = NamingConfig(
+      options.config, [&] { return RepairMeshFile(options.input, config, options.max_seconds); });
+  if (result.mesh) {
+    const Existing existing = options.overwrite ? Existing::kReplace : Existing::kRefuse;
+    CommitFile(options.output, WriterFor(options.output)(result.mesh->mesh()), existing);
+    CommitFile(options.report, JsonText(record, 2) + "\n", existing);
+  }
+  if (options.json)
+    PrintJson(record);
+  else
+    Print(options, result.report);
+  return result.mesh ? 0 : 1;
+}
+
+}  // namespace doorforge

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "doorforge/core/committed_file.h"
+#include "doorforge/exporters/export_door.h"
+
+namespace doorforge {
+
+/// How doors are exported.
+struct ExportRun {
+  std::filesystem::path out;  ///< Each door goes to OUT/<id>.
+  std::vector<DoorFormat> formats;
+  Existing existing = Existing::kRefuse;
+  int threads = 0;  ///< 0: all processors; no byte depends on it.
+};
+
+/// What came of a door.
+struct ExportedDoor {
+  std::string folder;
+  std::string id;       ///< Empty if its record could not be read.
+  std::string problem;  ///< Why it could not be exported; empty if it could.
+};
+
+/// Exports the door in each folder, in the order given, with progress. Whatever is wrong with one,
+/// the others go on.
+///
+/// @throws Error(kIo) if `out` cannot be written.
+std::vector<ExportedDoor> ExportDoors(std::span<const std::filesystem::path> folders,
+                                      const ExportRun& run);
+
+/// {"schema": "doorforge.export", "doors": [{"folder", "id", "exported", "message"}]}.
+nlohmann::ordered_json ExportedToJson(std::span<const ExportedDoor> doors);
+
+}  // namespace doorforge

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "doorforge/sensor/picture.h"
+
+namespace doorforge {
+
+/// How doors and parts are drawn.
+struct PreviewConfig {
+  double hinge_deg = 0;      ///< Doors are open by this angle, within their limits.
+  double handle_deg = 0;     ///< Handles are turned by this angle, within their limits.
+  double azimuth_deg = -34;  ///< Where to stand: 0 in front, positive towards the free edge.
+  int columns = 6;           ///< Of a contact sheet.
+  int width = 0;             ///< Of each picture in pixels; 0: by what is drawn.
+  int threads = 0;           ///< 0: all processors.
+  /// "all": the whole, and the handle large from three sides with a bar of 50 mm and the axes;
+  /// "whole"; "handle"; empty: "all" of one record, "whole" of several.
+  std::string focus = {};
+  bool collision = false;  ///< The collision shapes are drawn instead of the surfaces.
+};
+
+/// Draws the doors and parts in the folders, of which there is at least one: a picture, or one with
+/// captions side by side where there are several. Throws as ReadDoor() and ReadPart(), and
+/// Error(kFormat) for a door with a joint whose limits are the wrong way round.
+Picture DrawRecords(std::span<const std::filesystem::path> folders, const PreviewConfig& config);
+
+}  // namespace doorforge

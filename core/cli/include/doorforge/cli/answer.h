@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace doorforge {
+
+/// "1 door", "2 doors".
+std::string Counted(std::size_t count, const std::string& thing);
+
+/// "1 error, 0 warnings".
+std::string CountedFindings(int errors, int warnings);
+
+/// Prints one document to standard output, indented by two blanks, with a line end. This is what
+/// `--json` asks for.
+void PrintJson(const nlohmann::ordered_json& json);
+
+/// The exit code of a verb that works on many objects: 128 + the signal that stopped it, else 1 if
+/// any object failed, else 0.
+int ExitCodeOfBatch(std::size_t failed);
+
+}  // namespace doorforge

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/cli/answer.h"
+
+#include <iostream>
+
+#include "doorforge/core/json_file.h"
+#include "doorforge/core/program.h"
+
+namespace doorforge {
+
+std::string Counted(std::size_t count, const std::string& thing) {
+  return std::to_string(count) + ' ' + thing + (count == 1 ? "" : "s");
+}
+
+std::string CountedFindings(int errors, int warnings) {
+  return Counted(static_cast<std::size_t>(errors), "error") + ", " +
+         Counted(static_cast<std::size_t>(warnings), "warning");
+}
+
+void PrintJson(const nlohmann::ordered_json& json) { std::cout << JsonText(json, 2) << '\n'; }
+
+int ExitCodeOfBatch(std::size_t failed) {
+  if (const int signal = StopRequested()) return 128 + signal;
+  return failed == 0 ? 0 : 1;
+}
+
+}  // namespace doorforge

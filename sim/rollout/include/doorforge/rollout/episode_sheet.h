@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "doorforge/schemas/episode.h"
+#include "doorforge/sensor/picture.h"
+
+namespace doorforge {
+
+struct EpisodeSheetConfig {
+  std::uint64_t seed = 1;  ///< Of the scenes.
+  int frames = 7;          ///< Of each strip.
+  int width = 0;           ///< Of each picture in pixels; 0: 320, or 200 for several doors.
+  int threads = 0;         ///< 0: all processors.
+};
+
+/// Film strips of the expert, and how each episode ended.
+struct EpisodeSheet {
+  Picture picture;
+  std::vector<EpisodeOutcome> outcomes;  ///< One a door, in their order.
+};
+
+/// Lets the expert open the door in each folder and draws film strips: one door from three views,
+/// several a row each. Throws Error(kInvalidArgument) for the folder of a part, else as ReadDoor().
+EpisodeSheet DrawEpisodeSheet(std::span<const std::filesystem::path> doors,
+                              const EpisodeSheetConfig& config);
+
+}  // namespace doorforge

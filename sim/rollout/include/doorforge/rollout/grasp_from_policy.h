@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "doorforge/physics/robot_model.h"
+#include "doorforge/rollout/gripper_clearance.h"
+#include "doorforge/rollout/run_episode.h"
+#include "doorforge/schemas/grasp_policy.h"
+#include "doorforge/sensor/point_cloud.h"
+
+namespace doorforge {
+
+/// A grasp policy in an episode: makes its observation of the instant before the robot moves.
+/// Privileged are the handle's labels and the direction into the leaf (the x of the handle's
+/// frame).
+class GraspFromPolicy : public GraspChooser {
+ public:
+  /// Every point that the camera sees at an instant, without the robot; called once an episode.
+  using VisibleCloud = std::function<LabelledCloud(const SceneSnapshot&)>;
+
+  /// @param policy Kept by reference.
+  GraspFromPolicy(GraspPolicy& policy, const Scene& scene, const DoorAsset& door,
+                  const RobotModel& robot, VisibleCloud visible);
+
+  /// The chosen grasp's cloud is to be of this extent about the contact, for a record; without, it
+  /// is the policy's own.
+  void RecordWith(const CloudExtent& extent) { recorded_ = extent; }
+
+  /// Throws as the policy.
+  std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override;
+  /// The same choice as the policy made it, with what it says of it.
+  std::optional<GraspAction> ActionAt(const SceneSnapshot& snapshot);
+
+ private:
+  GraspPolicy& policy_;
+  std::uint64_t seed_;
+  std::string episode_;
+  RigidTransform handle_from_grasp_;
+  RigidTransform hand_from_tcp_;
+  GripperClearance clearance_;
+  VisibleCloud visible_;
+  std::optional<CloudExtent> recorded_;
+};
+
+}  // namespace doorforge

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/rollout/simulate_doors.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace doorforge {
+namespace {
+
+// Eight of ten doors of two categories open.
+std::vector<SimulatedEpisode> EightOfTen() {
+  std::vector<SimulatedEpisode> episodes(10);
+  for (int i = 0; i < 10; ++i) {
+    SimulatedEpisode& simulated = episodes[static_cast<std::size_t>(i)];
+    simulated.door.id = "door";
+    simulated.door.category = i < 4 ? Category::kCar : Category::kSafe;
+    simulated.seed = 7;
+    simulated.index = i;
+    simulated.episode.outcome = i < 2 ? EpisodeOutcome::kNotReached : EpisodeOutcome::kOpened;
+  }
+  return episodes;
+}
+
+// The interval is that of 8 of 10 in tables: 49.02 % to 94.33 %.
+TEST(SimulateDoors, TalliesAllEpisodesAndEachCategory) {
+  const auto tallies = TallyOutcomes(EightOfTen());
+  ASSERT_EQ(tallies.size(), 3U);
+  EXPECT_EQ(tallies.at("overall").opened, 8);
+  EXPECT_NEAR(tallies.at("overall").low, 0.4902, 5e-5);
+  EXPECT_NEAR(tallies.at("overall").high, 0.9433, 5e-5);
+  EXPECT_EQ(tallies.at("car").episodes, 4);
+  EXPECT_EQ(tallies.at("car").outcomes.at("not_reached"), 2);
+  EXPECT_EQ(tallies.at("safe").opened, 6);
+  EXPECT_EQ(tallies.at("safe").high, 1);
+}
+
+TEST(SimulateDoors, TheDocumentHasTheTalliesAndEveryEpisode) {
+  const nlohmann::ordered_json json = SimulatedToJson(EightOfTen());
+  EXPECT_EQ(json["schema"], "doorforge.simulate");
+  EXPECT_EQ(json["success"]["overall"]["rate"], 0.8);
+  ASSERT_EQ(json["episodes"].size(), 10U);
+  EXPECT_EQ(json["episodes"][9]["outcome"], "opened");
+  EXPECT_EQ(NameOf(EightOfTen()[9]), "door_seed7_9");
+}
+
+TEST(SimulateDoors, NoEpisodesMakeNoTally) { EXPECT_TRUE(TallyOutcomes({}).empty()); }
+
+}  // namespace
+}  // namespace doorforge

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "doorforge/registry/policy_registry.h"
+#include "doorforge/rollout/remembered_view.h"
+#include "doorforge/schemas/policy_set.h"
+
+namespace doorforge {
+
+/// Who acts at each stage, in the words of the options --opener, --handler and --grasper: the name
+/// of a policy, or the folder of a trained one.
+struct PolicyWords {
+  std::string opener = std::string(kExpertPolicy);
+  std::string handler = std::string(kExpertPolicy);
+  std::string grasper = std::string(kExpertPolicy);
+};
+
+/// Who says that the handle is turned and opening may begin.
+enum class SwitchSource {
+  kSimulator,
+  /// The policy that turns the handle, where it is a trained one; else the simulator.
+  kPolicy,
+};
+
+/// Makes sets of policies, all equal.
+class PolicySetFactory {
+ public:
+  /// @throws Error as PolicyRegistry::Find(). What lies in folders is read by Make().
+  PolicySetFactory(const PolicyRegistry& registry, const PolicyWords& words,
+                   PolicySettings settings = {},
+                   SwitchSource switch_source = SwitchSource::kPolicy);
+
+  /// A new set. Not to be called by several threads at once.
+  ///
+  /// @throws Error(kMissing or kFormat) as the readers of trained policies; Error(kInvalidConfig)
+  ///     on settings out of range; Error(kInvalidArgument) if a handle policy is to say when the
+  ///     handle is turned and cannot, with the way out.
+  PolicySet Make() const;
+
+  const PolicyChoice& opener() const { return opener_; }
+  const PolicyChoice& handler() const { return handler_; }
+  const PolicyChoice& grasper() const { return grasper_; }
+
+  /// What the policy that turns the handle remembers of the door, by its record; nothing for
+  /// policies that have none. Throws as ReadPolicy().
+  RememberedViewConfig Remembered() const;
+
+  /// Whether nothing but the rules of the expert acts.
+  bool IsExpertAlone() const;
+  /// Whether the policy that turns the handle says when it is turned.
+  bool PredictsSwitch() const;
+
+ private:
+  void AddOpener(PolicySet& set) const;
+  void AddHandler(PolicySet& set) const;
+  void AddGrasper(PolicySet& set) const;
+
+  PolicySettings settings_;
+  SwitchSource switch_source_;
+  PolicyChoice opener_;
+  PolicyChoice handler_;
+  PolicyChoice grasper_;
+};
+
+}  // namespace doorforge

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The policies of this toolkit, a row each. Who adds one adds its file to the room that it belongs
+// to and its row here.
+
+#include "doorforge/registry/policy_registry.h"
+
+namespace doorforge {
+namespace {
+
+std::unique_ptr<Policy> MakeOpeningExpert(const PolicySettings& settings) {
+  return std::make_unique<OpeningExpert>(settings.opening_expert);
+}
+
+std::unique_ptr<Policy> MakeHandleExpert(const PolicySettings& settings) {
+  if (!settings.handle_expert) return nullptr;
+  return std::make_unique<HandleExpert>(*settings.handle_expert);
+}
+
+// An episode that nobody chooses a grasp for has the expert's, which is planned for its robot.
+std::unique_ptr<GraspPolicy> MakeExpertGrasp(const PolicySettings&) { return nullptr; }
+
+std::unique_ptr<GraspPolicy> MakeRandomGrasp(const PolicySettings& settings) {
+  return std::make_unique<RandomGraspPolicy>(settings.random_grasp);
+}
+
+}  // namespace
+
+PolicyRegistry BuiltInPolicies() {
+  const std::string expert(kExpertPolicy);
+  PolicyRegistry registry;
+  registry.Add(MotionPolicyRow{Stage::kOpen, expert, MakeOpeningExpert, /*is_own=*/false});
+  registry.Add(MotionPolicyRow{Stage::kHandle, expert, MakeHandleExpert, /*is_own=*/false});
+  registry.Add(GraspPolicyRow{expert, MakeExpertGrasp, 1, /*is_own=*/false});
+  registry.Add(GraspPolicyRow{"random", MakeRandomGrasp, 1, /*is_own=*/false});
+  return registry;
+}
+
+}  // namespace doorforge

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/registry/policy_set_factory.h"
+
+#include <utility>
+
+#include "doorforge/core/error.h"
+#include "doorforge/policy/policy_file.h"
+#include "doorforge/policy/turning_policy.h"
+
+namespace doorforge {
+
+PolicySetFactory::PolicySetFactory(const PolicyRegistry& registry, const PolicyWords& words,
+                                   PolicySettings settings, SwitchSource switch_source)
+    : settings_(std::move(settings)),
+      switch_source_(switch_source),
+      opener_(registry.Find(Stage::kOpen, words.opener, "--opener")),
+      handler_(registry.Find(Stage::kHandle, words.handler, "--handler")),
+      grasper_(registry.Find(Stage::kGrasp, words.grasper, "--grasper")) {}
+
+PolicySet PolicySetFactory::Make() const {
+  PolicySet set;
+  AddOpener(set);
+  AddHandler(set);
+  AddGrasper(set);
+  return set;
+}
+
+bool PolicySetFactory::IsExpertAlone() const {
+  return opener_.IsExpert() && handler_.IsExpert() && grasper_.IsExpert();
+}
+
+bool PolicySetFactory::PredictsSwitch() const {
+  return handler_.IsFolder() && switch_source_ == SwitchSource::kPolicy;
+}
+
+RememberedViewConfig PolicySetFactory::Remembered() const {
+  if (!handler_.IsFolder()) return {.finer = 0};
+  const NetworkView view =
+      ReadPolicy(handler_.folder, NameOf(Stage::kHandle)).networks.normalisation.view;
+  return {view.remembered_finer, static_cast<double>(view.cloud_within_m)};
+}
+
+void PolicySetFactory::AddOpener(PolicySet& set) const {
+  set.open = opener_.IsFolder() ? LoadPolicy(opener_.folder, settings_.network)
+                                : opener_.motion->make(settings_);
+  Require(set.open != nullptr, ErrorCode::kInvalidArgument,
+          "the policy \"" + opener_.word + "\" is to open doors, and its row makes none");
+}
+
+void PolicySetFactory::AddHandler(PolicySet& set) const {
+  if (!handler_.IsFolder()) {
+    set.handle = handler_.motion->make(settings_);
+  } else if (PredictsSwitch()) {
+    auto handler = LoadTurningPolicy(handler_.folder, settings_.network);
+    set.handle_turned = handler.get();
+    set.handle = std::move(handler);
+  } else {
+    set.handle = LoadPolicy(handler_.folder, settings_.network, NameOf(Stage::kHandle));
+  }
+}
+
+void PolicySetFactory::AddGrasper(PolicySet& set) const {
+  if (grasper_.IsFolder()) {
+    set.grasp = LoadGraspPolicy(grasper_.folder, settings_.network_grasp);
+    set.grasp_resolution_scale = settings_.network_grasp_resolution;
+  } else {
+    set.grasp = grasper_.grasp->make(settings_);
+    set.grasp_resolution_scale = grasper_.grasp->resolution_scale;
+  }
+}
+
+}  // namespace doorforge

@@ -154,14 +154,13 @@ int Finish(const CollectSummary& summary, const CollectionTask& task, const Opti
   return 1;
 }
 
-void Warn(const std::string& text) {
-  std::fprintf(stderr, "doorforge: warning: %s\n", text.c_str());
-}
-
 int CollectOrGoOn(const Options& options) {
   const CollectionTask task = TaskOf(options);
+  const auto warn = [](const std::string& text) {
+    std::fprintf(stderr, "doorforge: warning: %s\n", text.c_str());
+  };
   const CollectSummary summary =
-      CollectStage({RequestOf(options), options.out, task, options.overwrite, Warn});
+      CollectStage({RequestOf(options), options.out, task, options.overwrite, warn});
   return Finish(summary, task, options);
 }
 

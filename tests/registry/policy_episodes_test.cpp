@@ -27,7 +27,10 @@ class PolicyEpisodesTest : public testing::Test {
       : folder_(fs::temp_directory_path() /
                 ("policy_episodes_test_" + std::to_string(::getpid()))) {
     fs::create_directories(folder_ / "door");
-    WriteDoor(MakePrimitiveDoor({}), folder_ / "door");
+    DoorAsset door = MakePrimitiveDoor({});
+    door.body = {.id = "body", .sha256 = "body"};
+    door.handle = {.id = "handle", .sha256 = "handle"};
+    WriteDoor(door, folder_ / "door");
   }
   ~PolicyEpisodesTest() override { fs::remove_all(folder_); }
 

@@ -3,7 +3,8 @@
 
 // Steps per second of CPU time with the gripper on a lever, for several solver iterations, against
 // the same scene with the arm idle and, where it was found, against MuJoCo on the same scene; and
-// whole episodes of each mechanism, without and with a camera. One thread; medians of five.
+// decisions a second of a stepper on the state; and whole episodes of each mechanism, without and
+// with a camera. One thread; medians of five.
 
 #include <algorithm>
 #include <array>
@@ -26,6 +27,7 @@
 #include "doorforge/physics/hand_controller.h"
 #include "doorforge/physics/scene_sampling.h"
 #include "doorforge/rollout/camera_observer.h"
+#include "doorforge/rollout/episode_stepper.h"
 #include "doorforge/rollout/grasp_plan.h"
 #include "doorforge/rollout/opening_expert.h"
 #include "doorforge/rollout/run_episode.h"
@@ -183,12 +185,45 @@ void PrintEpisodes(const RobotModel& robot) {
   }
 }
 
+// Decisions of the opening without a camera, as a learner on the state makes them: each episode
+// begins behind the same grasp, by Restore(). A lever with both pads on it, 80 ms and 1/6 s long.
+void PrintStateDecisions(const RobotModel& robot) {
+  const DoorAsset door = MakePrimitiveDoor({});
+  for (const int steps : {20, 40}) {
+    SceneConfig config;
+    config.physics.steps_per_action = steps;
+    config.physics.max_opening_actions = 1000;
+    EpisodeStepper stepper(door, robot);
+    stepper.Reset(SampleScene(door, 1, 0, config));
+    const EpisodeImage held = stepper.Save();
+    constexpr int kRestores = 200;
+    const double restoring = CpuSeconds();
+    for (int i = 0; i < kRestores; ++i) stepper.Restore(held);
+    const double restore_s = (CpuSeconds() - restoring) / kRestores;
+    std::vector<double> rates;
+    for (int round = 0; round < kRounds; ++round) {
+      int decisions = 0;
+      const double start = CpuSeconds();
+      for (int episode = 0; episode < 10; ++episode) {
+        stepper.Restore(held);
+        OpeningExpert expert;
+        for (; !stepper.now().over(); ++decisions)
+          stepper.Step(expert.Act(stepper.now().observation));
+      }
+      rates.push_back(decisions / (CpuSeconds() - start));
+    }
+    std::printf("state decisions of %2d steps (%.0f ms): %5.0f a core second, restore %.2f ms\n",
+                steps, 1000 * steps * config.physics.time_step_s, Median(rates), 1000 * restore_s);
+  }
+}
+
 }  // namespace
 }  // namespace doorforge
 
 int main() {
   const doorforge::RobotModel robot = doorforge::LoadMobileFranka();
   doorforge::PrintSteps(robot);
+  doorforge::PrintStateDecisions(robot);
   doorforge::PrintSeenEpisodes(robot);
   doorforge::PrintEpisodes(robot);
 }

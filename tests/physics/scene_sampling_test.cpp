@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "doorforge/core/config_io.h"
 #include "doorforge/core/error.h"
 
 #include "primitive_door.h"
@@ -73,6 +74,27 @@ TEST(SceneSampling, TheHeightVariesAsFarAsAskedAndNothingElseDoes) {
   EXPECT_NEAR(highest, 0.25, 0.02);
   config.height_jitter_m = 0.6;
   EXPECT_THROW(SampleScene(door, 1, 0, config), Error);
+}
+
+TEST(SceneSampling, TheLimitsOfAnEpisodeAreSettingsThatAreWrittenWhereTheyWereSet) {
+  const DoorAsset door = MakePrimitiveDoor({});
+  SceneConfig config;
+  EXPECT_FALSE(ToJson(config).contains("episode"));
+  Assign(nlohmann::ordered_json::parse(R"({"episode": {"open_angle_rad": 0.5}})"), config,
+         "config.scene");
+  EXPECT_EQ(SampleScene(door, 1, 0, config).limits.open_angle_rad, 0.5);
+  EXPECT_EQ(ToJson(config).at("episode").at("open_angle_rad"), 0.5);
+  SceneConfig again;
+  Assign(ToJson(config), again, "config.scene");
+  EXPECT_EQ(again.episode, config.episode);
+  config.episode.slip_m = -1;
+  try {
+    SampleScene(door, 1, 0, config);
+    FAIL() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()).find("config.scene.episode.slip_m: found -1"), 0U)
+        << error.what();
+  }
 }
 
 SceneConfig WithRandomisation(const std::string& name) {

@@ -101,5 +101,45 @@ TEST(Episode, MetaReadsBackToTheSameText) {
   EXPECT_THROW(EpisodeFromMeta(bad, "meta"), Error);
 }
 
+// Records from before there was a choice keep their bytes.
+TEST(Scene, TheRecordHasTheLimitsWhereTheyAreNotTheDefaults) {
+  Scene scene;
+  EXPECT_FALSE(SceneToJson(scene).contains("episode_limits"));
+  EXPECT_EQ(SceneFromJson(SceneToJson(scene), "scene").limits, EpisodeLimits{});
+  scene.limits.open_angle_rad = 0.5;
+  scene.limits.off_door_actions = 9;
+  const auto json = SceneToJson(scene);
+  EXPECT_EQ(json.at("episode_limits").at("open_angle_rad"), 0.5);
+  EXPECT_EQ(SceneFromJson(json, "scene").limits, scene.limits);
+  auto bad = json;
+  bad["episode_limits"]["open_angle"] = 0.5;
+  EXPECT_THROW(SceneFromJson(bad, "scene"), Error);
+}
+
+TEST(EpisodeLimits, EveryFieldIsCheckedAndTheFirstWrongOneNamed) {
+  EXPECT_NO_THROW(CheckEpisodeLimits({}, "config.scene.episode"));
+  std::size_t fields = 0;
+  const EpisodeLimits standard;
+  EpisodeLimits::VisitFields(standard, [&](const char*, auto) { ++fields; });
+  for (std::size_t wrong = 0; wrong < fields; ++wrong) {
+    EpisodeLimits limits;
+    std::size_t at = 0;
+    std::string name;
+    EpisodeLimits::VisitFields(limits, [&](const char* field, auto& value) {
+      if (at++ != wrong) return;
+      value = -1;
+      name = field;
+    });
+    try {
+      CheckEpisodeLimits(limits, "config.scene.episode");
+      FAIL() << name << " is not checked";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kInvalidConfig);
+      EXPECT_EQ(std::string(error.what()).find("config.scene.episode." + name + ": found -1"), 0U)
+          << error.what();
+    }
+  }
+}
+
 }  // namespace
 }  // namespace doorforge

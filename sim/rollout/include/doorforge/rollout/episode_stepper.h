@@ -106,7 +106,7 @@ class EpisodeStepper {
   /// As the last Step() or Reset() left it.
   const StepResult& now() const;
   const WorldState& state() const;
-  SceneSnapshot Snapshot() const;
+  SceneSnapshot Snapshot() const;  ///< For a GraspChooser.
   /// The record so far, without decisions; its outcome is `cause`, and kOpened where there is none.
   Episode Summary() const;
 

@@ -306,6 +306,31 @@ TEST_F(StagesTest, AnotherCameraIsInTheRecord) {
   EXPECT_NE(TarHash(request.out, Stage::kOpen), TarHash(data, Stage::kOpen));
 }
 
+// Who opens after the recorded stage may be a class of somebody's program.
+TEST_F(StagesTest, APolicyOfOnesOwnActsAndIsInTheRecord) {
+  class Standing : public Policy {
+   public:
+    Action Act(const Observation& seen) override {
+      return {Eigen::Vector3d::Zero(), seen.privileged.world_from_hand.linear()};
+    }
+    bool Looks() const override { return false; }
+  };
+  StageRequest request = RequestFor(Stage::kGrasp, 1);
+  const std::string by_expert = StageRun(request).Request().config_text;
+  request.registry.Add(MotionPolicyRow{Stage::kOpen, "standing",
+                                       [](const auto&) { return std::make_unique<Standing>(); }});
+  request.policies.opener = "standing";
+  StageRun run(request);
+  const CollectedEpisode collected = run.Run({.number = 0, .door = 0});
+  EXPECT_NE(collected.episode.outcome, EpisodeOutcome::kOpened) << "it stands still";
+  EXPECT_EQ(collected.meta.at("policies").at("open"), "standing");
+  EXPECT_EQ(collected.meta.at("policies").at("unlock"), "expert");
+  EXPECT_NE(run.Request().config_text, by_expert) << "a run by another is not gone on with";
+  request.policies.opener = "standign";
+  EXPECT_NE(Refusal(request).find("did you mean \"standing\""), std::string::npos)
+      << Refusal(request);
+}
+
 TEST_F(StagesTest, RefusesAPolicyBeforeAnyWork) {
   StageRequest request = RequestFor(Stage::kGrasp, 2);
   request.policies.opener = (folder_ / "policy").string();

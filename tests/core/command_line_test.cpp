@@ -111,5 +111,32 @@ TEST(CommandLine, WhatIsMissingIsStillTold) {
   EXPECT_NE(refusal.find("--body"), std::string::npos) << refusal;
 }
 
+TEST(CommandLine, AnOptionsEarlierNameIsUnderstoodToldAndNotGivenBesideTheNewOne) {
+  const auto parsed = [](const std::vector<std::string>& words) {
+    CLI::App app("", "doorforge try");
+    std::string value = "default";
+    AddWord(app, "--opener", value, "who opens");
+    AddEarlierName(app, "--policy", "--opener", value);
+    EXPECT_EQ(app.help().find("--policy"), std::string::npos);
+    EXPECT_NE(app.help().find("default"), std::string::npos);
+    Parse(app, words);
+    return value;
+  };
+  EXPECT_EQ(parsed({}), "default");
+  EXPECT_EQ(parsed({"--opener", "a"}), "a");
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(parsed({"--policy", "b"}), "b");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "note: --policy is called --opener now\n");
+  EXPECT_THROW(parsed({"--policy", "b", "--opener", "a"}), Error);
+}
+
+TEST(CommandLine, ARecordHasTheCommandAsAShellTakesIt) {
+  std::vector<std::string> words = {"eval", "--doors", "held out", "-n", "3", "", "a$b"};
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  EXPECT_EQ(CommandLineText("doorforge eval", static_cast<int>(pointers.size()), pointers.data()),
+            "doorforge eval --doors 'held out' -n 3 '' 'a$b'");
+}
+
 }  // namespace
 }  // namespace doorforge

@@ -156,9 +156,9 @@ void PrintGrasps(int repetitions) {
   const auto policy = MakeGraspPolicy(
       InitialNetworks(MeasureNormalisation(made.samples, frame), false, 4, NetworkFamily::kGrasp));
   const LabelledCloud cloud = ClosedDoor();
-  const GraspObservation view{.visible = cloud, .sample = [&](const Eigen::Vector3d& start, double) {
-                         return From(cloud, start);
-                       }};
+  const GraspObservation view{
+      .visible = cloud,
+      .sample = [&](const Eigen::Vector3d& start, double) { return From(cloud, start); }};
   const auto seconds = SecondsOf(repetitions, [&] { policy->Choose(view); });
   std::printf("choice of grasp: median %.1f ms, 95 %% under %.1f ms\n",
               1e3 * seconds[seconds.size() / 2], 1e3 * seconds[seconds.size() * 95 / 100]);

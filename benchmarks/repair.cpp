@@ -52,7 +52,6 @@
 #include "doorforge/mesh/repair_mesh.h"
 #include "doorforge/mesh/surface_deviation.h"
 
-
 namespace doorforge {
 namespace {
 

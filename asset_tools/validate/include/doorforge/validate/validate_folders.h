@@ -55,6 +55,6 @@ nlohmann::ordered_json RulesToJson();
 /// As ToJson() of the reports, with "complete": none was stopped, "missing": [{"folder", "record",
 /// "told_by"}] and, if `fixed`, "fixes": [{"folder", "code", "where", "done", "written"}].
 nlohmann::ordered_json CheckedToJson(std::span<const CheckedFolder> checked,
-                              std::span<const MissingRecord> missing, bool fixed);
+                                     std::span<const MissingRecord> missing, bool fixed);
 
 }  // namespace doorforge

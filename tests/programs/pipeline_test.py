@@ -78,6 +78,7 @@ class PipelineTest(ProgramTest):
         self.bin = self.folder / "bin"
         self.bin.mkdir()
         shutil.copy(BINARY_DIR / "bin/doorforge", self.bin)
+        (self.folder / "share").symlink_to(BINARY_DIR / "share")  # where programs find their data
         self.log = self.folder / "log"
         tool = self.bin / "doorforge-datagen"
         tool.write_text(TOOL.format(python=sys.executable, log=str(self.log)))
@@ -290,8 +291,9 @@ class Interruption(PipelineTest):
         self.declare(0.05)
         with subprocess.Popen(self.command("diamond.yaml", "--out", "out"), cwd=self.folder,
                               stderr=subprocess.DEVNULL) as first:
-            while not self.log.exists():
+            while not self.log.exists() and first.poll() is None:
                 time.sleep(0.01)
+            self.assertIsNone(first.returncode, "the first ended at once")
             self.assertIn("another process", self.pipeline("diamond.yaml", "--out", "out", code=2).stderr)
             self.assertEqual(first.wait(timeout=60), 0)
 

@@ -43,7 +43,7 @@ struct Draw {
   PartShape shape;
 };
 
-/// Of one category and role: recipe id -> its draws.
+/// A map holds the draws of each recipe, by its id, of one category and role.
 using Recipes = std::map<std::string, std::vector<Draw>>;
 using Choice = std::map<std::string, const Draw*>;
 

@@ -273,7 +273,7 @@ void WritePlot(const std::string& path, const std::vector<Run>& runs) {
   if (!path.empty()) std::ofstream(path) << PlotOf(runs);
 }
 
-// Of each category in turn, of these as DrawDoors() draws them.
+// The categories take turns; within each, doors come as DrawDoors() draws them.
 std::vector<fs::path> DrawnFolders(const fs::path& doors, std::size_t count) {
   std::map<Category, std::vector<fs::path>> categories;
   const DoorSelection selection{.folders = {doors}, .per_category = static_cast<int>(count)};

@@ -190,7 +190,7 @@ class Shown : public Policy {
   GainCritic critic_;
 };
 
-/// The same where the grasp is chosen.
+/// ShownGrasp shows the judge foreign pictures where the grasp is chosen.
 class ShownGrasp : public GraspChooser {
  public:
   ShownGrasp(Judge& judge, CameraObserver& camera, const PinholeView& view, Rng rng)

@@ -75,7 +75,7 @@ Rate HoldRate(const Scene& scene, const DoorAsset& door, const RobotModel& robot
 }
 
 #ifdef DOORFORGE_WITH_MUJOCO
-// The same hold: position drives at the plan's joints, 80 N on each finger.
+// MuJoCo holds as Bullet does: position drives at the plan's joints, 80 N on each finger.
 Rate MujocoRate(const Scene& scene, const DoorAsset& door, const RobotModel& robot, int solver) {
   const std::string file = "/tmp/physics_throughput_" + std::to_string(::getpid()) + ".xml";
   std::ofstream(file) << MujocoScene(scene, door, robot);

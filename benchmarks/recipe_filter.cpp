@@ -20,7 +20,7 @@ constexpr double kMostOffCenterM = 0.0018;
 constexpr double kMostWidthM = 0.0755;  // an 80 mm gripper needs some room
 constexpr double kGapMarginM = 0.0045;
 
-/// Of the bounding box (x, y, z), of the way from hinge to mount, and of the leaf's mass.
+/// The limits bound the bounding box (x, y, z), the way from hinge to mount, and the leaf's mass.
 struct Limits {
   Eigen::Vector3d least_m = {0, 0, 0};
   Eigen::Vector3d most_m = {kAny, kAny, kAny};

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 const fs::path kData = fs::path(DOORFORGE_SOURCE_DIR) / "data";
 
-// Of the test that runs, and empty.
+// Each test has a folder of its own, which is empty when it begins.
 fs::path Scratch() {
   fs::path folder =
       ScratchFolder("authoring") / testing::UnitTest::GetInstance()->current_test_info()->name();

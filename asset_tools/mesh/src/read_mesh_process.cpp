@@ -26,7 +26,7 @@ constexpr rlim_t kOpenFiles = 64;  // a mesh, its materials and buffers, one aft
 
 bool memory_lacked = false;
 
-// Also where a library takes the exception for a fault of the file and goes on.
+// The lack is noted, since a library may take the exception for a fault of the file and go on.
 void NoteLackOfMemory() {
   memory_lacked = true;
   throw std::bad_alloc();

@@ -57,7 +57,7 @@ Polygon InFrontOf(const Polygon& polygon, double x) {
   return front;
 }
 
-// Of the direction that what lies at x and beyond is longest in.
+// This tilt is that of the direction in which what lies at x and beyond is longest.
 double TiltBeyond(const TriangleMesh& mesh, double x) {
   SurfaceMoments moments;
   for (const Eigen::Vector3i& t : mesh.triangles) {
@@ -69,7 +69,7 @@ double TiltBeyond(const TriangleMesh& mesh, double x) {
   return std::asin(std::min(1.0, std::abs(axes.eigenvectors().col(2).x())));
 }
 
-// Of what is nearest on a line through the leaf and the handle.
+// The gap is measured where leaf and handle come nearest on a line through both.
 double NearestLine(const LeafLines& leaf, const TriangleMesh& handle) {
   const Eigen::AlignedBox3d bounds = BoundsOf(handle);
   const LinesAlongX lines(handle);

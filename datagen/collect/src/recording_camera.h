@@ -22,7 +22,7 @@ class RecordingCamera : public Observer {
   RecordingCamera(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
                   const CloudConfig& config, bool sees_robot = true);
 
-  /// As CameraObserver's.
+  /// Does what CameraObserver::Remember() does.
   void Remember(RememberedView before) { camera_.Remember(std::move(before)); }
 
   LabelledCloud Observe(const SceneSnapshot& snapshot) override;

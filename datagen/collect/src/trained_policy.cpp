@@ -20,7 +20,7 @@ int CloudPointsOf(const nlohmann::ordered_json& json, const std::string& path) {
   return ValueOf<int>(json["sizes"], "cloud_points", path + ".sizes");
 }
 
-// Of policies of the stage "handle" that remember.
+// Policies of the stage "handle" may remember; their record says what.
 RememberedViewConfig RememberedOf(const nlohmann::ordered_json& json, const std::string& path) {
   RememberedViewConfig remembered{.finer = 0};
   if (!json.contains("normalisation") || !json["normalisation"].contains("remembered_finer"))

@@ -9,7 +9,7 @@ namespace doorforge::internal {
 
 inline constexpr double kDegree = std::numbers::pi / 180;
 
-/// As printf, at most 399 characters.
+/// Formats as printf does, at most 399 characters.
 #if defined(__GNUC__)
 __attribute__((format(printf, 1, 2)))
 #endif

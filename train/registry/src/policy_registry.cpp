@@ -32,7 +32,7 @@ std::string FolderText(Stage stage) {
   return "a folder that `doorforge train " + std::string(NameOf(stage)) + "` wrote";
 }
 
-// Of words that somebody meant as a path, the rest is a name.
+// A word that could be no name was meant as a path.
 bool LooksLikeAPath(const std::string& word) { return !IsWord(word); }
 
 }  // namespace

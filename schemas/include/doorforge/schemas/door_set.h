@@ -25,8 +25,8 @@ struct DoorSelection {
   /// "full:validation", "full:unseen_categories". Doors are meant whose body and handle are both on
   /// that side. Empty: all.
   std::string split = {};
-  /// Of a split that is named without one: "train" where data are collected, "test" where policies
-  /// are judged. Empty: a split must be named with its side.
+  /// The side of a split that is named without one: "train" where data are collected, "test" where
+  /// policies are judged. Empty: a split must be named with its side.
   std::string default_side = {};
   /// At most so many of each category, as DrawDoors() draws them; 0: all.
   int per_category = 0;

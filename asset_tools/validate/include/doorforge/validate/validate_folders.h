@@ -52,8 +52,9 @@ std::vector<CheckedFolder> ValidateFolders(const DoorValidator& validator,
 /// "allowed", "fix", "fixable"}]}, where "limit" is null for rules without one.
 nlohmann::ordered_json RulesToJson();
 
-/// As ToJson() of the reports, with "complete": none was stopped, "missing": [{"folder", "record",
-/// "told_by"}] and, if `fixed`, "fixes": [{"folder", "code", "where", "done", "written"}].
+/// The document is that of ToJson() for the reports, with "complete" (none was stopped), "missing":
+/// [{"folder", "record", "told_by"}] and, if `fixed`, "fixes": [{"folder", "code", "where", "done",
+/// "written"}].
 nlohmann::ordered_json CheckedToJson(std::span<const CheckedFolder> checked,
                                      std::span<const MissingRecord> missing, bool fixed);
 

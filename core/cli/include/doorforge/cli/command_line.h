@@ -19,9 +19,9 @@ enum class EmptyValues {
   kRefuse,  ///< `--task "$UNSET"` must not pass for no `--task`.
 };
 
-/// As the only argument it makes a verb print its name, options and subcommands as a JSON document,
-/// and the front program those of all verbs. The build makes man pages and completion of it; it is
-/// no part of the help.
+/// Given alone, this argument makes a verb print its name, options and subcommands as a JSON
+/// document, and the front program those of all verbs. The build makes man pages and completion of
+/// it; it is no part of the help.
 inline constexpr const char* kDescribeCommand = "--describe-command";
 
 /// Parses the arguments of a verb (argv[0] is its name). Prints the help, or the description that

@@ -22,7 +22,7 @@ namespace doorforge {
 
 /// Who acts in the episodes of a collection, in the words of its options.
 struct CollectionWords {
-  /// As of PolicyWords; who opens after the stage "handle" or "grasp" was recorded.
+  /// Who opens, by a word as in PolicyWords, after the stage "handle" or "grasp" was recorded.
   std::string opener = std::string(kExpertPolicy);
   std::string handler = std::string(kExpertPolicy);  ///< Turns the handle after "grasp".
   /// Folder of a trained policy of the stage that is recorded: it drives and is corrected by the

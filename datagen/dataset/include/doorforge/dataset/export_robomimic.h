@@ -60,7 +60,7 @@ RobomimicSummary ExportRobomimic(const RobomimicRequest& request);
 nlohmann::ordered_json ExportToJson(const RobomimicRequest& request,
                                     const RobomimicSummary& summary);
 
-/// The same as a line for people.
+/// Says what ExportToJson() says, in a line for people.
 std::string ExportText(const RobomimicRequest& request, const RobomimicSummary& summary);
 
 }  // namespace doorforge

@@ -14,7 +14,7 @@ namespace doorforge {
 /// What a task of several has done: {"schema": "doorforge.collection_task", "schema_version", ...}
 nlohmann::ordered_json TaskSummaryToJson(const CollectSummary& summary, const CollectionTask& task);
 
-/// The same as a line for people.
+/// Says what TaskSummaryToJson() says, in a line for people.
 ///
 /// @param folder The dataset's, as the user named it.
 std::string TaskSummaryText(const CollectSummary& summary, const CollectionTask& task,

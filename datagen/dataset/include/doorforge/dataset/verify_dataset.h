@@ -57,7 +57,7 @@ bool AnyFault(const std::vector<DatasetFinding>& findings);
 /// {"schema", "schema_version", "findings": [...], "counts": {code: number}}
 nlohmann::ordered_json FindingsToJson(const std::vector<DatasetFinding>& findings);
 
-/// The same for people; the last line says how many faults there are.
+/// Says what FindingsToJson() says, for people; the last line says how many faults there are.
 ///
 /// @param folder The dataset's, as the user named it.
 std::string FindingsText(const std::vector<DatasetFinding>& findings,

@@ -37,7 +37,8 @@ struct StepperOptions {
   HandleRule* turn = nullptr;
   Policy* handle = nullptr;  ///< The same, action by action, where there is no such rule.
   Policy* open = nullptr;    ///< Runs the opening within Step(); null: it is the caller's.
-  /// As EpisodeRoles::predicted_turned, asked after each action at the stage "handle".
+  /// Means what EpisodeRoles::predicted_turned does, and is asked after each action at the stage
+  /// "handle".
   std::function<bool()> predicted_turned = nullptr;
   /// Stages whose observations have a cloud; at all others no picture is made.
   std::vector<Stage> clouds = {};
@@ -103,7 +104,7 @@ class EpisodeStepper {
   /// The stage "grasp" with all that a GraspChooser says; nothing: there is none to take hold of.
   const StepResult& Step(const std::optional<ChosenGrasp>& grasp);
 
-  /// As the last Step() or Reset() left it.
+  /// Gives the episode as the last Step() or Reset() left it.
   const StepResult& now() const;
   const WorldState& state() const;
   SceneSnapshot Snapshot() const;  ///< For a GraspChooser.

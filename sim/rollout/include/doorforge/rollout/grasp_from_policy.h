@@ -33,7 +33,7 @@ class GraspFromPolicy : public GraspChooser {
 
   /// Throws as the policy.
   std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override;
-  /// The same choice as the policy made it, with what it says of it.
+  /// Gives Choose()'s choice as the policy made it, with what it says of it.
   std::optional<GraspAction> ActionAt(const SceneSnapshot& snapshot);
 
  private:

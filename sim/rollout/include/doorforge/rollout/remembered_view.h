@@ -54,7 +54,7 @@ class RememberedView {
   RememberedView(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
                  const CloudConfig& cloud, const RememberedViewConfig& config);
 
-  /// Of the points that are visible now, JoinedCloud() with those from before.
+  /// Joins the points that are visible now with those from before, as JoinedCloud() does.
   LabelledCloud With(LabelledCloud visible, const Eigen::Vector3d& start_m);
 
  private:

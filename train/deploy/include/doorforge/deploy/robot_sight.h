@@ -70,7 +70,7 @@ struct RememberedPoints {
 LabelledCloud ObserveBefore(const DepthImage& depth, CalibratedCamera camera,
                             const CloudConfig& config = {});
 
-/// As ObserveDepth(), joined with what is remembered, as JoinedCloud() does.
+/// Does what ObserveDepth() does, and joins it with what is remembered, as JoinedCloud() does.
 RobotSight ObserveDepth(const DepthImage& depth, const CalibratedCamera& camera,
                         const RobotState& state, const RememberedPoints& before,
                         const CloudConfig& config = {});

@@ -50,7 +50,7 @@ struct MotionPolicyRow {
 /// A policy that chooses grasps, by name.
 struct GraspPolicyRow {
   std::string name;
-  /// As MotionPolicyRow::make; null from it: the expert's grasp.
+  /// Makes a policy as MotionPolicyRow::make does; null from it means the expert's grasp.
   std::function<std::unique_ptr<GraspPolicy>(const PolicySettings&)> make;
   int resolution_scale = 1;  ///< PolicySet::grasp_resolution_scale.
   bool is_own = true;

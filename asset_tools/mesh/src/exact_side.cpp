@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 namespace doorforge {
 namespace {
 
@@ -65,8 +67,7 @@ int SignOf(const Expansion& a) { return a.empty() ? 0 : (a.back() > 0 ? 1 : -1);
 using ExactVector = std::array<Expansion, 3>;
 
 ExactVector Between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  return {Difference(to.x(), from.x()), Difference(to.y(), from.y()),
-          Difference(to.z(), from.z())};
+  return {Difference(to.x(), from.x()), Difference(to.y(), from.y()), Difference(to.z(), from.z())};
 }
 
 ExactVector Cross(const ExactVector& a, const ExactVector& b) {

@@ -37,7 +37,28 @@ def _export(self: Any, folder: Path, *formats: str, overwrite: bool = False) -> 
     self._export(os.fspath(folder), list(formats), overwrite)
 
 
+def _files_of(door: Any) -> tuple[Any, tuple[dict[str, bytes]]]:
+    """For pickle: a door is the files of its folder."""
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = pathlib.Path(scratch) / "door"
+        door.save(folder)
+        return _door_of_files, ({str(path.relative_to(folder)): path.read_bytes()
+                                 for path in folder.rglob("*") if path.is_file()},)
+
+
+def _door_of_files(files: dict[str, bytes]) -> Any:
+    with tempfile.TemporaryDirectory() as scratch:
+        for name, content in files.items():
+            path = pathlib.Path(scratch) / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(content)
+        return _core.read_door(scratch)
+
+
 Door.export = _export
+Door.__reduce__ = _files_of
+Door.__copy__ = lambda self: self  # nothing changes a door
+Door.__deepcopy__ = lambda self, memo: self
 
 
 def _is_to_import(name: str) -> bool:

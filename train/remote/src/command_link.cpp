@@ -69,10 +69,11 @@ class CommandLink : public Link {
   }
 
  private:
-  Error Failed(const std::string& problem) {
+  Error Failed(const std::string& problem, ErrorCode code = ErrorCode::kIo) {
     Close();
-    return {ErrorCode::kIo, "`" + command_ + "`: " + problem};
+    return {code, "`" + command_ + "`: " + problem};
   }
+  Error Ended() { return Failed("it has ended; what it said is above", ErrorCode::kMissing); }
 
   bool Gone() {
     if (!gone_) gone_ = ::waitpid(child_, nullptr, WNOHANG) == child_;
@@ -125,7 +126,7 @@ class CommandLink : public Link {
       const ssize_t count =
           ::send(socket_, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL | MSG_DONTWAIT);
       if (count < 0 && (errno == EAGAIN || errno == EINTR)) continue;
-      if (count < 0) throw Failed("it has ended; what it said is above");
+      if (count < 0) throw Ended();
       sent += static_cast<std::size_t>(count);
     }
   }
@@ -138,7 +139,7 @@ class CommandLink : public Link {
       const ssize_t count =
           ::recv(socket_, part.data(), std::min(part.size(), size - bytes.size()), MSG_DONTWAIT);
       if (count < 0 && (errno == EAGAIN || errno == EINTR)) continue;
-      if (count <= 0) throw Failed("it has ended; what it said is above");
+      if (count <= 0) throw Ended();
       bytes.append(part.data(), static_cast<std::size_t>(count));
     }
     return bytes;

@@ -7,8 +7,8 @@
 
 namespace doorforge::internal {
 
-/// A way to somebody who answers messages. Every call throws Error(kIo) that says what went wrong;
-/// the next call then begins anew.
+/// A way to somebody who answers messages. Every call throws Error(kMissing) if the other side is
+/// not there or has gone, and Error(kIo) on all else that goes wrong; the next call begins anew.
 class Link {
  public:
   virtual ~Link() = default;

@@ -106,9 +106,9 @@ class RemotePolicy : public Policy, public Fallible {
     std::string answer;
     try {
       answer = link_->Exchange(message);
-    } catch (const Error&) {
+    } catch (const Error& error) {
       // whoever went away between two episodes may be there again; within one it has forgotten
-      const bool may_be_back = begins_ && has_answered_;
+      const bool may_be_back = begins_ && has_answered_ && error.code() == ErrorCode::kMissing;
       has_answered_ = false;
       if (!may_be_back) throw;
       answer = link_->Exchange(message);
@@ -157,7 +157,7 @@ void RequireServer(const std::string& address, const RemotePolicySettings& setti
   try {
     internal::MakeWebSocketLink(address, settings.timeout_s)->Open();
   } catch (const Error& error) {
-    if (error.code() != ErrorCode::kIo) throw;
+    if (error.code() != ErrorCode::kMissing && error.code() != ErrorCode::kIo) throw;
     throw Error(ErrorCode::kMissing,
                 std::string(error.what()) + "; start the policy's server first");
   }

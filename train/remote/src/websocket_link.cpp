@@ -35,7 +35,7 @@ class WebSocketLink : public Link {
     asio::ip::tcp::resolver resolver(context_);
     beast::error_code unknown;
     const auto places = resolver.resolve(address_.host, address_.port, unknown);
-    if (unknown) throw Failed("the host is not known");
+    if (unknown) throw Failed("the host is not known", ErrorCode::kMissing);
     socket_.emplace(context_);
     Wait("no server answers", [&](auto done) {
       beast::get_lowest_layer(*socket_).async_connect(
@@ -62,9 +62,9 @@ class WebSocketLink : public Link {
   void Close() override { socket_.reset(); }
 
  private:
-  Error Failed(const std::string& problem) {
+  Error Failed(const std::string& problem, ErrorCode code = ErrorCode::kIo) {
     Close();
-    return {ErrorCode::kIo, address_.text + ": " + problem};
+    return {code, address_.text + ": " + problem};
   }
 
   std::string Read() {
@@ -99,7 +99,7 @@ class WebSocketLink : public Link {
                              std::to_string(timeout_.count() / 1000.0).substr(0, 5) +
                              " s (--policy-timeout)");
     }
-    if (*result) throw Failed(problem + " (" + result->message() + ")");
+    if (*result) throw Failed(problem + " (" + result->message() + ")", ErrorCode::kMissing);
   }
 
   ServerAddress address_;

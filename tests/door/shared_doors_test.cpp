@@ -125,8 +125,9 @@ TEST_F(SharedDoors, MuJoCoAndTheValidatorFollowTheUrdfIntoThePool) {
 }
 
 TEST_F(SharedDoors, TheirIndexHoldsTheHashesOfTheDoorsThemselves) {
-  for (const ComposeConfig& config : {ComposeConfig{}, ComposeConfig{.hinge_side = "right"},
-                                      ComposeConfig{.opening = "push", .handle_turn_deg = 90}}) {
+  for (const ComposeConfig& config :
+       {ComposeConfig{}, ComposeConfig{.hinge_side = HingeSide::kRight},
+        ComposeConfig{.opening = Opening::kPush, .handle_turn_deg = 90}}) {
     const fs::path out = folder_ / (config.hinge_side + config.opening);
     Write(out, 1, Existing::kRefuse, config);
     WriteDoorIndex(out, 2);
@@ -143,7 +144,7 @@ TEST_F(SharedDoors, AChangedPoolFileIsNoticedBesideAnIndexToo) {
   Write(folder_, 1, Existing::kRefuse);
   WriteDoorIndex(folder_, 1);
   const std::vector<FoundDoor> doors = FindDoorSet({.folders = {folder_}}, 1).doors;
-  DoorShelf shelf(doors);
+  DoorCache shelf(doors);
   const fs::path mesh = doors.at(0).folder / ReadDoorFiles(doors[0].folder)[kLeafLink][0].mesh;
   CommitFile(mesh, ReadFile(mesh) + "v 9 9 9\n");
   EXPECT_THROW(shelf.Take(0), Error);

@@ -211,21 +211,22 @@ TEST(ComposeVariants, ThePageListsEveryRuleAndPreset) {
 }
 
 TEST(ComposeVariants, MuJoCoOpensEveryVariantTheWayWeSay) {
-  for (const char* side : {"left", "right"}) {
-    for (const char* opening : {"pull", "push"}) {
+  for (const HingeSide side : {HingeSide::kLeft, HingeSide::kRight}) {
+    for (const Opening opening : {Opening::kPull, Opening::kPush}) {
       const DoorAsset door =
           ComposeDoor(SmallBody(), SmallLever(), {.hinge_side = side, .opening = opening});
-      const fs::path folder = ScratchFolder(std::string("variant_") + side + opening);
+      const fs::path folder =
+          ScratchFolder("variant_" + std::string(NameOf(side)) + std::string(NameOf(opening)));
       WriteDoorFolder(door, folder, Existing::kReplace);
       const MuJoCoDoor simulated(folder / "model.urdf");
       ASSERT_TRUE(simulated.ok()) << simulated.error();
       const Eigen::Vector3d com = door.links[kLeafLink].mass.center_of_mass_m;
       const double moved =
           (simulated.LinkPoses(0.6, 0)[0] * com).x() - (simulated.LinkPoses(0, 0)[0] * com).x();
-      EXPECT_GT(std::string(opening) == "pull" ? moved : -moved, 0.1);
+      EXPECT_GT(opening == Opening::kPull ? moved : -moved, 0.1);
       // the grasp lies on the far side of the hinge
       const double along_y = DoorFromLinks(door, 0, 0)[2].translation().y();
-      EXPECT_GT(std::string(side) == "left" ? along_y : -along_y, 0.2);
+      EXPECT_GT(side == HingeSide::kLeft ? along_y : -along_y, 0.2);
       for (const Finding& finding : ValidateDoor(folder).findings)
         EXPECT_NE(finding.code, "MEC004") << finding.where;
       fs::remove_all(folder);

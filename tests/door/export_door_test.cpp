@@ -262,8 +262,8 @@ TEST(ExportDoor, SdfIsReadBySdformat) {
 }
 
 TEST(ExportDoor, MuJoCosLatchHoldsAndLetsGoOnBothSidesAndBothWays) {
-  for (const char* side : {"left", "right"}) {
-    for (const char* opening : {"pull", "push"}) {
+  for (const HingeSide side : {HingeSide::kLeft, HingeSide::kRight}) {
+    for (const Opening opening : {Opening::kPull, Opening::kPush}) {
       const DoorAsset door = SmallDoor({.hinge_side = side, .opening = opening});
       SCOPED_TRACE(door.id);
       const Bolt bolt = BoltOf(door);

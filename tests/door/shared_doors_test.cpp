@@ -69,13 +69,21 @@ class SharedDoors : public testing::Test {
   std::vector<Part> handles_;
 };
 
+TEST_F(SharedDoors, APairThatIsNoDoorIsNamedAsTheDoorWouldBe) {
+  const ComposeConfig config{.handle_height_m = 3, .hinge_side = HingeSide::kRight};
+  for (const SharedDoorOutcome& outcome : Write(folder_, 1, Existing::kRefuse, config)) {
+    EXPECT_NE(outcome.problem.find("CMP008"), std::string::npos) << outcome.problem;
+    EXPECT_TRUE(outcome.id.ends_with("__right")) << outcome.id;
+  }
+}
+
 TEST_F(SharedDoors, ADoorThatSharesMeshesIsTheDoorComposedAlone) {
-  for (const char* side : {"left", "right"}) {
+  for (const HingeSide side : {HingeSide::kLeft, HingeSide::kRight}) {
     const ComposeConfig config{.hinge_side = side};
-    const fs::path out = folder_ / side;
+    const fs::path out = folder_ / NameOf(side);
     for (const SharedDoorOutcome& outcome : Write(out, 1, Existing::kRefuse, config))
       EXPECT_EQ(outcome.problem, "");
-    const std::string suffix = std::string(side) == "right" ? "__right" : "";
+    const std::string suffix = side == HingeSide::kRight ? "__right" : "";
     const DoorAsset shared = ReadDoor(out / ("second_body__small_lever" + suffix));
     const DoorAsset alone = ComposeDoor(bodies_[1], handles_[0], config);
     EXPECT_EQ(ContentHash(shared), ContentHash(alone));

@@ -239,4 +239,13 @@ double DrawnFactor(const ComposeConfig& config, const std::string& stream) {
 }
 
 }  // namespace internal
+
+std::string NameOfPair(const std::string& body, const std::string& handle,
+                       const ComposeConfig& config) {
+  try {
+    return internal::DoorIdOf(body, handle, config);
+  } catch (const Error&) {
+    return body + "__" + handle;
+  }
+}
 }  // namespace doorforge

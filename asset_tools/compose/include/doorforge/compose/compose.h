@@ -166,6 +166,11 @@ class PreparedPart {
 DoorAsset ComposeDoor(const Part& body, const Part& handle, const ComposeConfig& config,
                       const std::optional<RigidTransform>& body_from_handle = std::nullopt);
 
+/// What messages call the door of a pair that is not composed: the id that it would have, or the
+/// names of its parts where those make no id.
+std::string NameOfPair(const std::string& body, const std::string& handle,
+                       const ComposeConfig& config);
+
 /// A door whose meshes lie in the pool that WriteMeshPool() writes: the texts of its two files.
 struct SharedDoor {
   std::string id;

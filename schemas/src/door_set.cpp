@@ -323,7 +323,7 @@ std::vector<FoundDoor> FindRecordedDoors(const DoorSelection& selection,
   return doors;
 }
 
-std::shared_ptr<const DoorAsset> DoorShelf::Kept(std::size_t door) {
+std::shared_ptr<const DoorAsset> DoorCache::Kept(std::size_t door) {
   const std::scoped_lock lock(mutex_);
   const auto found = places_.find(door);
   if (found == places_.end()) return nullptr;
@@ -331,7 +331,7 @@ std::shared_ptr<const DoorAsset> DoorShelf::Kept(std::size_t door) {
   return found->second.door;
 }
 
-std::shared_ptr<const DoorAsset> DoorShelf::Take(std::size_t door) {
+std::shared_ptr<const DoorAsset> DoorCache::Take(std::size_t door) {
   if (auto kept = Kept(door)) return kept;
   const FoundDoor& found = doors_.at(door);
   if (found.folder.empty())

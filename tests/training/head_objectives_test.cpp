@@ -115,8 +115,9 @@ struct GraspFixture : Fixture {
 };
 
 TEST(HeadNetworks, TheDiscriminatorsGradientIsThatOfFiniteDifferencesForBothLosses) {
-  for (const auto& [loss, by_near_points] :
-       {std::pair{"squared", true}, {"squared", false}, {"absolute", false}}) {
+  for (const auto& [loss, by_near_points] : {std::pair{ScoreLoss::kSquared, true},
+                                             {ScoreLoss::kSquared, false},
+                                             {ScoreLoss::kAbsolute, false}}) {
     GraspFixture f;
     f.config.score_loss = loss;
     if (!by_near_points) f.batch.near.clear();

@@ -120,11 +120,11 @@ PipelineStep StepOf(const Json& json, const Json& settings, const std::string& w
   if (json.contains("resume")) step.resume = TextOf(json["resume"]);
   if (json.contains("given_with")) step.given_with = Text(json, "given_with", where);
   if (json.contains("fine_codes")) {
-    step.fine_codes.clear();
+    step.ok_exit_codes.clear();
     for (const Json& code : json["fine_codes"]) {
       if (!code.is_number_integer() || code < 0 || code > 255)
         Fail(where, "fine_codes: expected exit codes, 0 to 255");
-      step.fine_codes.push_back(code.get<int>());
+      step.ok_exit_codes.push_back(code.get<int>());
     }
   }
   step.core_seconds = Cost(json, "core_seconds", settings, where);

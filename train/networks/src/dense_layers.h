@@ -45,7 +45,7 @@ class DenseLayers {
   /// The layers "<name>.0", "<name>.1", "<name>.2" with the activation between them.
   Table Branch(const std::string& name, Activation between, const Rows& x) const;
 
-  /// Of each group of `group` rows the maximum, column by column.
+  /// Returns the maximum of each group of `group` rows, column by column.
   Table MaximumOfGroups(const Rows& x, int group) const;
 
  private:

@@ -29,7 +29,7 @@ class MotionTask : public StageTask {
         train_(CacheOf(SampleSet::kTrain, input.cache_bytes)),
         validation_(CacheOf(SampleSet::kValidation, input.cache_bytes / 4)) {}
 
-  std::vector<NetworkRole> Taught(int /*lesson*/) const override {
+  std::vector<NetworkRole> NetworksOf(int /*phase*/) const override {
     return {NetworkRole::kActor, NetworkRole::kCritic};
   }
 
@@ -37,11 +37,11 @@ class MotionTask : public StageTask {
     return role == NetworkRole::kCritic ? input_.config->critic_interval : 1;
   }
 
-  void Begin(int /*lesson*/, const StageNetworks& /*networks*/) override {}
+  void Begin(int /*phase*/, const StageNetworks& /*networks*/) override {}
 
-  bool ReadsClouds(int /*lesson*/) const override { return true; }
+  bool ReadsClouds(int /*phase*/) const override { return true; }
 
-  Geometries GeometriesOf(int /*lesson*/, const Minibatch& batch) override {
+  Geometries GeometriesOf(int /*phase*/, const Minibatch& batch) override {
     GeometryCache& cache = batch.set == SampleSet::kTrain ? train_ : validation_;
     Geometries found = cache.Get(batch.indices, input_.threads);
     ParallelFor(found.size(), input_.threads, [&](std::size_t i) {

@@ -281,9 +281,9 @@ std::string LossText(const StageLosses& losses, NetworkFamily family) {
 }
 
 TrainingOutcome TrainIntoFolder(const TrainingRequest& request) {
-  if (request.config.device == "libtorch" || NormOf(request.config) == EncoderNorm::kBatch)
+  if (request.config.device == "libtorch" || request.config.encoder_norm == EncoderNorm::kBatch)
     KeepFreedMemory();
-  const auto group = request.nodes ? ProcessGroupFromEnvironment() : SoleProcess();
+  const auto group = request.nodes ? ProcessGroupFromEnvironment() : SingleProcessGroup();
   std::optional<FolderLock> lock;
   if (group->rank() == 0) {
     // who writes there now is told first: what there is would be half of the answer

@@ -27,7 +27,7 @@ struct PipelineStep {
   /// What is added to the command to go on after an interruption, maybe nothing; without it a
   /// step that was interrupted starts again.
   std::optional<std::string> resume;
-  std::vector<int> fine_codes = {0};  ///< Exit codes after which the step is done.
+  std::vector<int> ok_exit_codes = {0};  ///< Exit codes after which the step is done.
   CostTerms core_seconds;
   CostTerms mebibytes;
   /// A step whose output stands for this one's as well where it is given: doors of another size are

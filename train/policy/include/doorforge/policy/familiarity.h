@@ -27,8 +27,8 @@ struct SightCloud {
   std::span<const std::uint8_t> label;  ///< PointLabel, n; read where a grasp is chosen.
 };
 
-/// As seen from the hand, or where a grasp is chosen from the middle of the handle's points, which
-/// are then counted apart from the others as well.
+/// It is seen from the hand, or where a grasp is chosen from the middle of the handle's points,
+/// which are then counted apart from the others as well.
 ///
 /// @throws Error(kInvalidArgument) without a point, or a grasp's labels.
 SightNumbers SightNumbersOf(const SightCloud& cloud, const Proprioception& proprioception,
@@ -48,9 +48,9 @@ class Familiarity {
   /// The distance that so many of a hundred validation samples stay below.
   double DistanceAt(double percentile) const;
 
-  std::vector<float> mean;       ///< As many as the numbers, n.
+  std::vector<float> mean;       ///< It has as many numbers as an input, n.
   std::vector<float> whitening;  ///< n x n, lower triangle, row by row.
-  std::vector<float> distances;  ///< Of validation samples, ascending, at least 2.
+  std::vector<float> distances;  ///< They are those of validation samples, ascending, at least 2.
 };
 
 /// Whether a policy was also shown the mirror images of its samples, see mirror.h.

@@ -57,11 +57,12 @@ void RequireNoPictures(const SimulationRun& run, const std::vector<Row>& rows) {
   for (const Row& row : rows) RequireNoFile(PictureOf(run, row.simulated), run.overwrite);
 }
 
-void RunRow(const SimulationRun& run, const DoorAsset& door, const RobotModel& robot,
+void RunRow(const SimulationRun& run, const IdentifiedDoor& identified, const RobotModel& robot,
             SimulatedEpisode& simulated) {
+  const DoorAsset& door = *identified;
   const Scene scene =
       SceneFor(robot,
-               SampleScene(door, simulated.seed, static_cast<std::uint64_t>(simulated.index),
+               SampleScene(identified, simulated.seed, static_cast<std::uint64_t>(simulated.index),
                            run.config.scene),
                door);
   std::unique_ptr<Film> film;
@@ -129,7 +130,7 @@ std::vector<SimulatedEpisode> SimulateDoors(const SimulationRun& run) {
   Progress progress("simulating", rows.size());
   ParallelFor(rows.size(), run.threads, [&](std::size_t i) {
     if (StopRequested() != 0) return;
-    RunRow(run, *shelf.Take(rows[i].door), robot, rows[i].simulated);
+    RunRow(run, shelf.Take(rows[i].door), robot, rows[i].simulated);
     rows[i].done = true;
     progress.Advance();
   });

@@ -19,14 +19,13 @@
 #include "doorforge/rollout/standing_place.h"
 
 #include "film.h"
+#include "text_format.h"
 
 namespace doorforge {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-constexpr double kDegree = 3.141592653589793 / 180;
 
 /// An episode to come: its door's place in the set, and what it gave once it has run.
 struct Row {
@@ -86,8 +85,8 @@ Json EpisodeToJson(const SimulatedEpisode& simulated) {
           {"episode", simulated.index},
           {"outcome", NameOf(episode.outcome)},
           {"detail", episode.detail},
-          {"peak_hinge_deg", episode.peak_hinge_rad / kDegree},
-          {"peak_handle_deg", episode.peak_handle_rad / kDegree},
+          {"peak_hinge_deg", episode.peak_hinge_rad / internal::kDegree},
+          {"peak_handle_deg", episode.peak_handle_rad / internal::kDegree},
           {"actions", episode.decisions.size()},
           {"simulated_s", episode.simulated_s},
           {"state_sha256", episode.state_sha256}};

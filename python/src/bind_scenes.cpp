@@ -99,7 +99,7 @@ void BindScenes(py::module_& module) {
                                 const py::object& settings, const Robot& robot) {
     const auto config = ConfigFrom<SceneConfig>(settings, "scene");
     return Long([&] {
-      return SceneFor(*robot.model, SampleScene(*door.asset, seed, episode, config), *door.asset);
+      return PlaceRobotBase(*robot.model, SampleScene(*door.asset, seed, episode, config), *door.asset);
     });
   });
 }

@@ -29,6 +29,14 @@ TEST(SceneSampling, EqualArgumentsGiveEqualScenesAndOthersDiffer) {
   EXPECT_NE(SceneToJson(SampleScene(door, 7, 4)).dump(), scene);
 }
 
+TEST(SceneSampling, TheHashThatCameWithTheDoorIsBelieved) {
+  const auto door = std::make_shared<const DoorAsset>(MakePrimitiveDoor({}));
+  Scene scene = SampleScene(IdentifiedDoor{door, "as it was read"}, 7, 3);
+  EXPECT_EQ(scene.door_sha256, "as it was read");
+  scene.door_sha256 = ContentHash(*door);
+  EXPECT_EQ(SceneToJson(scene).dump(), SceneToJson(SampleScene(*door, 7, 3)).dump());
+}
+
 TEST(SceneSampling, TheGraspPointLiesWhereUniDoorManipHasIt) {
   for (const Category category : {Category::kInterior, Category::kStorageFurniture}) {
     for (std::uint64_t i = 0; i < 20; ++i) {
@@ -145,7 +153,7 @@ TEST(SceneSampling, StrongRandomisationVariesTheDoorWithinItsRangesAndKeepsThePa
 
 TEST(SceneSampling, AVariedDoorHasItsFactors) {
   const DoorAsset door = MakePrimitiveDoor({});
-  const DoorAsset varied = Varied(door, {.leaf_mass = 2, .handle_damping = 0.5});
+  const DoorAsset varied = ApplyVariation(door, {.leaf_mass = 2, .handle_damping = 0.5});
   EXPECT_EQ(varied.links[kLeafLink].mass.mass_kg, 2 * door.links[kLeafLink].mass.mass_kg);
   EXPECT_TRUE(varied.links[kLeafLink].mass.inertia_kg_m2.isApprox(
       2 * door.links[kLeafLink].mass.inertia_kg_m2));

@@ -206,9 +206,14 @@ TEST_F(DoorSetTest, WithAnIndexTheSameDoorsAreFoundAndNoMeshIsRead) {
     EXPECT_FALSE(read[i].is_indexed);
   }
   for (const char* id : {"a", "b", "c"}) fs::rename(folder_ / id / "away", folder_ / id / "meshes");
-  DoorShelf shelf(indexed);
-  for (std::size_t i = 0; i < indexed.size(); ++i)
-    EXPECT_EQ(ContentHash(*shelf.Take(i)), read[i].identity.sha256);
+  DoorCache shelf(indexed);
+  for (std::size_t i = 0; i < indexed.size(); ++i) {
+    for (int time = 0; time < 2; ++time) {
+      const IdentifiedDoor taken = shelf.Take(i);
+      EXPECT_EQ(taken.sha256, read[i].identity.sha256);
+      EXPECT_EQ(ContentHash(*taken), taken.sha256);
+    }
+  }
 }
 
 TEST_F(DoorSetTest, DoorsChangedAddedRenamedAndTakenAwaySinceTheIndexAreNoticed) {
@@ -252,7 +257,7 @@ TEST_F(DoorSetTest, AMeshChangedSinceTheIndexIsRefusedWhenTheDoorIsTaken) {
   const fs::path mesh = folder_ / "a/meshes/visual/leaf.obj";
   ASSERT_TRUE(fs::exists(mesh));
   CommitFile(mesh, ReadFile(mesh) + "v 1 2 3\n");
-  DoorShelf shelf(doors);
+  DoorCache shelf(doors);
   RefusalOf(ErrorCode::kFormat, [&] { shelf.Take(0); });
 }
 
@@ -264,7 +269,7 @@ TEST_F(DoorSetTest, AForgedEntryNeverLeadsToADoor) {
     Forge(change);
     const auto doors = Find();
     ASSERT_TRUE(doors.at(0).is_indexed);
-    DoorShelf shelf(doors);
+    DoorCache shelf(doors);
     const std::string refusal = RefusalOf(ErrorCode::kFormat, [&] { shelf.Take(0); });
     EXPECT_NE(refusal.find((folder_ / "a").string()), std::string::npos) << refusal;
     CommitFile(IndexFile(), sound);
@@ -278,7 +283,7 @@ TEST_F(DoorSetTest, AForgedEntryNeverLeadsToADoor) {
   refused([](auto& json) { json["parts"][0]["id"] = "unseen"; });
   refused([](auto& json) { json["parts"][1]["shape"][0] = 0.5; });
   const auto doors = Find();
-  DoorShelf shelf(doors);
+  DoorCache shelf(doors);
   EXPECT_EQ(shelf.Take(0)->id, "a");
 }
 
@@ -347,13 +352,13 @@ TEST_F(DoorSetTest, AShelfKeepsAFewDoorsHoweverManyAreTaken) {
     std::ofstream(folder_ / id / "door.json") << other;
   }
   const auto doors = Find();
-  DoorShelf shelf(doors);
+  DoorCache shelf(doors);
   std::vector<std::weak_ptr<const DoorAsset>> taken;
-  for (std::size_t i = 0; i < doors.size(); ++i) taken.push_back(shelf.Take(i));
+  for (std::size_t i = 0; i < doors.size(); ++i) taken.push_back(shelf.Take(i).door);
   std::size_t kept = 0;
   for (const auto& door : taken) kept += door.expired() ? 0 : 1;
   EXPECT_EQ(kept, 32U);
-  EXPECT_EQ(shelf.Take(39), taken[39].lock()) << "what was taken last is there still";
+  EXPECT_EQ(shelf.Take(39).door, taken[39].lock()) << "what was taken last is there still";
   EXPECT_EQ(shelf.Take(0)->id, doors[0].identity.id);
 }
 
@@ -366,7 +371,7 @@ TEST_F(DoorSetTest, DoorsOfARecordAreFoundById) {
   recorded[0].id = "gone";
   const auto doors = FindRecordedDoors({.folders = {folder_}}, recorded, 1);
   ASSERT_EQ(doors.size(), 3U);
-  DoorShelf shelf(doors);
+  DoorCache shelf(doors);
   RefusalOf(ErrorCode::kMissing, [&] { shelf.Take(0); });
   EXPECT_EQ(shelf.Take(1)->id, "a");
   Write("b", "x/b", 0.7);

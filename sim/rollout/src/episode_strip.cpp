@@ -13,10 +13,10 @@
 #include "doorforge/rollout/opening_expert.h"
 #include "doorforge/sensor/scene_picture.h"
 
+#include "text_format.h"
+
 namespace doorforge {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 struct Moment {
   SceneSnapshot snapshot;
@@ -38,7 +38,7 @@ class Recorder final : public Observer {
   void Watch(const SceneSnapshot& snapshot) override {
     const auto& links = snapshot.door;
     moments.push_back({snapshot,
-                       {std::string(snapshot.stage), snapshot.time_s,
+                       {std::string(NameOf(snapshot.phase)), snapshot.time_s,
                         TurnOf(door_.hinge, links[kBaseLink], links[kLeafLink]),
                         TurnOf(door_.handle_joint, links[kLeafLink], links[kHandleLink])}});
   }
@@ -54,7 +54,8 @@ std::vector<Moment> ChooseFrames(const std::vector<Moment>& moments, int frames)
   std::vector<Moment> chosen;
   std::vector<Moment> opening;
   for (const Moment& moment : moments) {
-    const bool opens = moment.frame.stage == "open" || moment.frame.stage == "end";
+    const EpisodePhase phase = moment.snapshot.phase;
+    const bool opens = phase == EpisodePhase::kOpen || phase == EpisodePhase::kEnd;
     (opens ? opening : chosen).push_back(moment);
   }
   if (!chosen.empty()) chosen.erase(chosen.begin());  // the start says little
@@ -72,7 +73,7 @@ std::vector<Moment> ChooseFrames(const std::vector<Moment>& moments, int frames)
   return chosen;
 }
 
-int Degrees(double radians) { return static_cast<int>(std::lround(radians / kDegree)); }
+int Degrees(double radians) { return static_cast<int>(std::lround(radians / internal::kDegree)); }
 
 std::string CaptionOf(const StripFrame& frame) {
   char text[96];

@@ -15,18 +15,18 @@
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
 #include "doorforge/core/record_id.h"
+#include "doorforge/core/wilson_interval.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/rollout/standing_place.h"
 
 #include "film.h"
+#include "text_format.h"
 
 namespace doorforge {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-constexpr double kDegree = 3.141592653589793 / 180;
 
 /// An episode to come: its door's place in the set, and what it gave once it has run.
 struct Row {
@@ -57,13 +57,14 @@ void RequireNoPictures(const SimulationRun& run, const std::vector<Row>& rows) {
   for (const Row& row : rows) RequireNoFile(PictureOf(run, row.simulated), run.overwrite);
 }
 
-void RunRow(const SimulationRun& run, const DoorAsset& door, const RobotModel& robot,
+void RunRow(const SimulationRun& run, const IdentifiedDoor& identified, const RobotModel& robot,
             SimulatedEpisode& simulated) {
+  const DoorAsset& door = *identified;
   const Scene scene =
-      SceneFor(robot,
-               SampleScene(door, simulated.seed, static_cast<std::uint64_t>(simulated.index),
-                           run.config.scene),
-               door);
+      PlaceRobotBase(robot,
+                     SampleScene(identified, simulated.seed,
+                                 static_cast<std::uint64_t>(simulated.index), run.config.scene),
+                     door);
   std::unique_ptr<Film> film;
   if (!run.film.empty()) film = std::make_unique<Film>(scene, door, robot);
   if (run.run_episode) {
@@ -85,23 +86,17 @@ Json EpisodeToJson(const SimulatedEpisode& simulated) {
           {"episode", simulated.index},
           {"outcome", NameOf(episode.outcome)},
           {"detail", episode.detail},
-          {"peak_hinge_deg", episode.peak_hinge_rad / kDegree},
-          {"peak_handle_deg", episode.peak_handle_rad / kDegree},
+          {"peak_hinge_deg", episode.peak_hinge_rad / internal::kDegree},
+          {"peak_handle_deg", episode.peak_handle_rad / internal::kDegree},
           {"actions", episode.decisions.size()},
           {"simulated_s", episode.simulated_s},
           {"state_sha256", episode.state_sha256}};
 }
 
-// Wilson's score interval at 95 %.
 void SetInterval(OutcomeTally& tally) {
-  constexpr double kZ = 1.959963984540054;
-  if (tally.episodes == 0) return;
-  const double n = tally.episodes;
-  const double p = tally.opened / n;
-  const double middle = (p + kZ * kZ / (2 * n)) / (1 + kZ * kZ / n);
-  const double half = kZ / (1 + kZ * kZ / n) * std::sqrt(p * (1 - p) / n + kZ * kZ / (4 * n * n));
-  tally.low = std::max(0.0, middle - half);
-  tally.high = std::min(1.0, middle + half);
+  const Interval interval = WilsonInterval(tally.opened, tally.episodes);
+  tally.low = interval.low;
+  tally.high = interval.high;
 }
 
 Json TallyToJson(const OutcomeTally& tally) {
@@ -121,15 +116,15 @@ std::string NameOf(const SimulatedEpisode& episode) {
 
 std::vector<SimulatedEpisode> SimulateDoors(const SimulationRun& run) {
   const std::vector<FoundDoor> doors = FindDoorSet({.folders = run.doors}, run.threads).doors;
-  DoorShelf shelf(doors);
-  const RobotModel robot = LoadRobot(
-      run.config.scene.robot, RobotBaseNamed(run.config.scene.physics.base), run.read_meshes);
+  DoorCache shelf(doors);
+  const RobotModel robot =
+      LoadRobot(run.config.scene.robot, run.config.scene.physics.base, run.read_meshes);
   std::vector<Row> rows = PlanRows(run, doors);
   RequireNoPictures(run, rows);
   Progress progress("simulating", rows.size());
   ParallelFor(rows.size(), run.threads, [&](std::size_t i) {
     if (StopRequested() != 0) return;
-    RunRow(run, *shelf.Take(rows[i].door), robot, rows[i].simulated);
+    RunRow(run, shelf.Take(rows[i].door), robot, rows[i].simulated);
     rows[i].done = true;
     progress.Advance();
   });

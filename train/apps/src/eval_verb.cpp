@@ -68,7 +68,7 @@ void AddOptions(CLI::App& app, Options& options) {
   app.add_option("--switch", options.unlock_switch,
                  "who says that the handle is turned: a trained handler itself "
                  "(predicted), or the simulator (privileged); (config: switch, predicted)")
-      ->check(CLI::IsMember({"privileged", "predicted"}));
+      ->check(CLI::IsMember(NamesOf<SwitchSource>()));
   app.add_option("--seeds", options.seeds, "repetitions with other scenes (config: seeds, 3)");
   app.add_option("--seed", options.first_seed, "the first of them (config: first_seed, 1)");
   app.add_option("--episodes-per-door", options.episodes_per_door,
@@ -111,7 +111,8 @@ Options Parse(int argc, char** argv, const EvalVerbSetup& setup) {
 
 EvaluationConfig ConfigOf(const Options& options) {
   auto config = LoadConfig<EvaluationConfig>(options.config, options.settings);
-  if (options.unlock_switch) config.unlock_switch = *options.unlock_switch;
+  if (options.unlock_switch)
+    config.unlock_switch = *ValueNamed<SwitchSource>(*options.unlock_switch);
   Require(options.unlock_switch != "predicted" || options.request.policies.handler != kExpertPolicy,
           ErrorCode::kInvalidArgument,
           "--switch predicted: a policy that turns the handle says when it is turned; give one "

@@ -73,7 +73,7 @@ FilmedTrial FilmTrial(const FinishedTrials& finished, std::size_t index, const P
                       const TrialPolicies& policies) {
   const auto [held, scene] = finished.trials.At(index);
   const DoorAsset& door = *held;
-  const RobotModel robot = LoadRobot({}, RobotBaseNamed(scene.physics.base));
+  const RobotModel robot = LoadRobot({}, scene.physics.base);
   internal::EpisodeFilm film(policies.make_observer ? policies.make_observer(scene, door)
                                                     : nullptr);
   const Episode episode = RunPolicySet({scene, door, robot, finished.trials.cloud()}, set, &film);
@@ -93,7 +93,7 @@ void AddSight(const FinishedTrials& finished, std::size_t index, const SceneSnap
               ReportPictures& pictures) {
   const auto [held, scene] = finished.trials.At(index);
   const DoorAsset& door = *held;
-  const RobotModel robot = LoadRobot({}, RobotBaseNamed(scene.physics.base));
+  const RobotModel robot = LoadRobot({}, scene.physics.base);
   DepthCamera camera(VisibleMeshesOf(door, robot));
   const DepthImage depth = camera.Render(scene.camera, LinkPosesOf(snapshot));
   CameraModel large = scene.camera;  // the same view with pixels enough for people
@@ -174,7 +174,7 @@ std::optional<ReportPicture> GraspPicture(const FinishedTrials& finished, std::s
                                           const PolicySet& set) {
   const auto [held, scene] = finished.trials.At(index);
   const DoorAsset& door = *held;
-  const RobotModel robot = LoadRobot({}, RobotBaseNamed(scene.physics.base));
+  const RobotModel robot = LoadRobot({}, scene.physics.base);
   const auto grasp = GraspOf(set, {scene, door, robot, finished.trials.cloud()});
   Onlooker onlooker(*grasp);
   RunStages(scene, door, robot, {.grasp = &onlooker, .open = set.open.get()}, nullptr);

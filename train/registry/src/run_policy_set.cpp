@@ -34,7 +34,7 @@ std::unique_ptr<GraspFromPolicy> GraspOf(const PolicySet& set, const EpisodePlac
   if (!set.grasp) return nullptr;
   Scene scene = place.scene;
   if (set.grasp_resolution_scale != 1)
-    scene = SceneOf({.finer = set.grasp_resolution_scale}, scene);
+    scene = SceneOf({.resolution_scale = set.grasp_resolution_scale}, scene);
   const auto camera = std::make_shared<CameraObserver>(scene, place.door, place.robot, place.cloud,
                                                        /*sees_robot=*/false);
   return std::make_unique<GraspFromPolicy>(
@@ -66,7 +66,7 @@ Episode RunPolicySet(const EpisodePlace& place, const PolicySet& set, Observer* 
 bool IsFallible(const PolicySet& set) { return !FallibleOf(set).empty(); }
 
 bool UsesPointCloud(const PolicySet& set) {
-  return (set.open && set.open->Looks()) || (set.handle && set.handle->Looks());
+  return (set.open && set.open->UsesPointCloud()) || (set.handle && set.handle->UsesPointCloud());
 }
 
 }  // namespace doorforge

@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "doorforge/core/error.h"
+#include "doorforge/networks/hand_frame.h"
 
 #include "best_networks.h"
 #include "sampler.h"
@@ -65,6 +66,48 @@ TEST(TrainStage, GivesTheSameBitsForAnyNumberOfThreadsAndAnyInterruption) {
   resumed.resume = TrainStage(train.samples, validation.samples, config, stopped);
   EXPECT_EQ(resumed.resume->step, 3U);
   ExpectEqual(TrainStage(train.samples, validation.samples, config, resumed), whole);
+}
+
+testing::SyntheticSamples MirrorImagesOf(testing::SyntheticSamples made) {
+  for (std::size_t i = 0; i < made.samples.size(); ++i) {
+    std::vector<float>& cloud = made.clouds[i];
+    for (std::size_t y = 1; y < cloud.size(); y += 3) cloud[y] = -cloud[y];
+    made.samples[i] = internal::WithoutCloudMirrored(made.samples[i]);
+    made.samples[i].cloud = cloud;
+  }
+  return made;
+}
+
+// The action's sideways part has one sign on all samples, and the other on their mirror images.
+TEST(TrainStage, LearnsTheMirrorImagesOfWhatItIsShown) {
+  const auto train = testing::MakeSyntheticSamples(1, 8);
+  const auto images = MirrorImagesOf(testing::MakeSyntheticSamples(1, 8));
+  TrainConfig config = SmallConfig();
+  config.epochs = 40;
+  config.learning_rate = 2e-3;
+  const double without =
+      TrainStage(train.samples, images.samples, config, {}).epochs.back().validation.position_m;
+  config.augment_mirror = true;
+  const TrainerState state = TrainStage(train.samples, images.samples, config, {});
+  EXPECT_LT(state.epochs.back().validation.position_m, 0.5 * without);
+  EXPECT_EQ(state.networks.normalisation.action.mean[1], 0) << "as often to one side as the other";
+  EXPECT_EQ(state.networks.normalisation.hand_m.mean[1], 0);
+  EXPECT_NE(state.networks.normalisation.action.mean[0], 0);
+}
+
+TEST(TrainStage, GivesTheSameBitsOfMirrorImagesForAnyInterruption) {
+  const auto train = testing::MakeSyntheticSamples(1, 20);
+  const auto validation = testing::MakeSyntheticSamples(2, 2);
+  TrainConfig config = SmallConfig();
+  config.augment_mirror = true;
+  const TrainerState whole = TrainStage(train.samples, validation.samples, config, {});
+  TrainHooks hooks;
+  hooks.threads = 3;
+  hooks.geometry_cache_bytes = 0;
+  hooks.stop = [count = 0]() mutable { return ++count == 3; };
+  hooks.resume = TrainStage(train.samples, validation.samples, config, hooks);
+  hooks.stop = nullptr;
+  ExpectEqual(TrainStage(train.samples, validation.samples, config, hooks), whole);
 }
 
 // Threads in place of processes.

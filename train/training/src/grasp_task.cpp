@@ -114,7 +114,9 @@ class GraspTask : public StageTask {
   // The grasps of the record. On every step each is held one way round or the other, by chance.
   HeadBatch TriedGrasps(const Minibatch& batch) const {
     const StageNormalisation& normalisation = input_.networks->normalisation;
-    HeadBatch head = MakeHeadBatch(SamplesOf(batch.set), batch.indices, normalisation);
+    std::vector<TrainingSample> tried;
+    for (const std::size_t index : batch.indices) tried.push_back(SamplesOf(batch.set)[index]);
+    HeadBatch head = MakeHeadBatch(tried, normalisation);
     const bool training = batch.set == SampleSet::kTrain;
     Rng rng(input_.config->seed, "train/half_turns/" + std::to_string(batch.step));
     for (std::size_t i = 0; i < batch.indices.size(); ++i) {

@@ -1,7 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
+#include <string>
 #include <utility>
 
+#include "doorforge/core/parallel_for.h"
+#include "doorforge/core/rng.h"
+#include "doorforge/networks/hand_frame.h"
+
+#include "grasp_augmentation.h"
 #include "sampler.h"
 #include "stage_task.h"
 
@@ -12,6 +18,9 @@ std::array<float, 3> HandOf(const Proprioception& proprioception) {
   const Eigen::Vector3f hand_m = HandPositionOf(proprioception);
   return {hand_m.x(), hand_m.y(), hand_m.z()};
 }
+
+// The mirror image in the world's plane y = 0, see MirroredSideways().
+const Eigen::Matrix3d kSideways = Eigen::Vector3d(1, -1, 1).asDiagonal();
 
 class MotionTask : public StageTask {
  public:
@@ -34,18 +43,22 @@ class MotionTask : public StageTask {
 
   Geometries GeometriesOf(int /*phase*/, const Minibatch& batch) override {
     GeometryCache& cache = batch.set == SampleSet::kTrain ? train_ : validation_;
-    return cache.Get(batch.indices, input_.threads);
+    Geometries found = cache.Get(batch.indices, input_.threads);
+    ParallelFor(found.size(), input_.threads, [&](std::size_t i) {
+      if (IsMirrored(batch, batch.indices[i])) found[i] = Augmented(found[i], kSideways);
+    });
+    return found;
   }
 
   HeadResult Objective(NetworkRole role, const Minibatch& batch, std::vector<float> features,
                        std::span<float> gradient) override {
     const StageNetworks& networks = *input_.networks;
     const bool trains = batch.set == SampleSet::kTrain;
-    HeadBatch head = MakeHeadBatch(trains ? input_.train : input_.validation, batch.indices,
-                                   networks.normalisation);
+    const std::vector<TrainingSample> shown = Shown(batch);
+    HeadBatch head = MakeHeadBatch(shown, networks.normalisation);
     head.features = std::move(features);
     if (role == NetworkRole::kCritic) {
-      head.actions = Executed(batch);
+      head.actions = Executed(shown);
       return CriticObjective(networks, head, gradient);
     }
     const std::size_t draws = batch.indices.size() * kLatentSize;
@@ -55,12 +68,29 @@ class MotionTask : public StageTask {
   }
 
  private:
-  // What the critic rates is what was done.
-  std::vector<float> Executed(const Minibatch& batch) const {
+  // By a coin of the sample's own on each step, whichever part of the batch a process has.
+  bool IsMirrored(const Minibatch& batch, std::size_t index) const {
+    if (batch.set != SampleSet::kTrain || !input_.config->augment_mirror) return false;
+    Rng rng(input_.config->seed,
+            "train/mirror/" + std::to_string(batch.step) + "/" + std::to_string(index));
+    return rng.Uniform() < 0.5;
+  }
+
+  std::vector<TrainingSample> Shown(const Minibatch& batch) const {
     const auto samples = batch.set == SampleSet::kTrain ? input_.train : input_.validation;
+    std::vector<TrainingSample> shown;
+    shown.reserve(batch.indices.size());
+    for (const std::size_t index : batch.indices)
+      shown.push_back(IsMirrored(batch, index) ? WithoutCloudMirrored(samples[index])
+                                               : samples[index]);
+    return shown;
+  }
+
+  // What the critic rates is what was done.
+  std::vector<float> Executed(const std::vector<TrainingSample>& samples) const {
     std::vector<float> actions;
-    for (const std::size_t index : batch.indices) {
-      const auto numbers = input_.networks->normalisation.action.Apply(samples[index].executed);
+    for (const TrainingSample& sample : samples) {
+      const auto numbers = input_.networks->normalisation.action.Apply(sample.executed);
       actions.insert(actions.end(), numbers.begin(), numbers.end());
     }
     return actions;

@@ -41,7 +41,6 @@ class GeometryCache {
 
 /// The normalised numbers of these samples; features and noise are left empty.
 HeadBatch MakeHeadBatch(std::span<const TrainingSample> samples,
-                        std::span<const std::size_t> indices,
                         const StageNormalisation& normalisation);
 
 /// A batch on its way through one network's encoder. Memory is reused from batch to batch.

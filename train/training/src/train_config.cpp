@@ -50,6 +50,10 @@ void CheckTrainConfig(const TrainConfig& config) {
   RequireConfig(
       config.frame == ViewFrame::kHand || (config.augment_roll_rad == 0 && !config.augment_mirror),
       "augment_roll_rad and augment_mirror", "0 and false in the frame \"world\"");
+  RequireConfig(config.family == NetworkFamily::kGrasp || config.state != StateKind::kJoints ||
+                    !config.augment_mirror,
+                "augment_mirror",
+                "false with the state \"joints\": the mirror image of an arm is another arm");
   RequireConfig(config.zoom > 0 && config.zoom <= 100, "zoom", "in (0, 100]");
   RequireConfig(config.context_m >= 0 && config.context_m < 100, "context_m", "in [0, 100)");
   internal::RequireDevice(config.device);

@@ -217,11 +217,21 @@ class Trainer {
 
   StageNormalisation MeasuredNormalisation() const {
     const NetworkView view = ViewOf(config_, train_);
-    StageNormalisation normalisation = MeasureNormalisation(train_, view);
+    StageNormalisation normalisation = MeasureNormalisation(AllShown(), view);
     // about the contact its own place is 0 always: the scale is that of the handle's other points
     if (config_.family == NetworkFamily::kGrasp && view.frame == ViewFrame::kHand)
       std::fill_n(normalisation.action.deviation.begin(), 3, kHandleScale);
     return normalisation;
+  }
+
+  // Motion samples with their mirror images, where these are learned from as well: the mirror image
+  // of a normalised number is normalised then.
+  std::vector<TrainingSample> AllShown() const {
+    std::vector<TrainingSample> all(train_.begin(), train_.end());
+    if (config_.family == NetworkFamily::kGrasp || !config_.augment_mirror) return all;
+    for (const TrainingSample& sample : train_)
+      all.push_back(internal::WithoutCloudMirrored(sample));
+    return all;
   }
 
   std::unique_ptr<StageTask> MakeTask() const {

@@ -53,14 +53,18 @@ class Familiarity {
   std::vector<float> distances;  ///< They are those of validation samples, ascending, at least 2.
 };
 
+/// Whether a policy was also shown the mirror images of its samples, see mirror.h.
+enum class SampleSides { kAsSeen, kMirroredToo };
+
 /// From at most 4096 training and 2048 validation samples, evenly taken; without validation samples
 /// every tenth of the others stands for them and is left out of the rest. Equal samples give equal
-/// numbers.
+/// numbers. With mirror images, every second sample that is taken is taken as its own.
 ///
 /// @returns Nothing with fewer than 20 training samples.
 std::optional<Familiarity> FitFamiliarity(std::span<const TrainingSample> train,
                                           std::span<const TrainingSample> validation,
-                                          NetworkFamily family);
+                                          NetworkFamily family,
+                                          SampleSides sides = SampleSides::kAsSeen);
 
 /// Writes `familiar.safetensors` into a policy's folder; without one removes what an earlier
 /// training may have left there.

@@ -79,8 +79,10 @@ struct TrainConfig {
   /// hand's own frame; 0: the cloud in the frame above and the grasp's numbers (UniDoorManip).
   int near_points = 256;
   /// On every step door and hand are turned together about the way into the leaf, by up to this
-  /// either way [rad], and mirrored sideways by a fair coin; in the frame "hand" only.
+  /// either way [rad]; where a grasp is chosen, and in the frame "hand" only.
   double augment_roll_rad = 0;
+  /// On every step each scene is shown as it is or as its mirror image, by a fair coin: a door
+  /// hinged left is one hinged right then. In the frame "hand" only, and not with joints as state.
   bool augment_mirror = false;
   /// With kBatch (UniDoorManip) the encoder learns in libtorch's operators also on the device
   /// "cpu", from all points of every cloud, in one process.
@@ -117,8 +119,8 @@ struct TrainConfig {
       visit("tilt_rad", self.tilt_rad);
       visit("near_points", self.near_points);
       visit("augment_roll_rad", self.augment_roll_rad);
-      visit("augment_mirror", self.augment_mirror);
     }
+    visit("augment_mirror", self.augment_mirror);
     visit("frame", self.frame);
     visit("context_m", self.context_m);
     visit("zoom", self.zoom);

@@ -115,7 +115,7 @@ Split MeasureSplit(const std::string& doors, const fs::path& scratch, std::uint6
       const double whole = SecondsOf([&] { collected = run.Run(planned); });
       const auto door = shelf.Take(planned.door);
       const Scene scene = PlaceRobotBase(
-          robot, SampleScene(*door, request.config.seed, planned.number, request.config.scene),
+          robot, SampleScene(door, request.config.seed, planned.number, request.config.scene),
           *door);
       OpeningExpert expert(request.config.expert);
       TimedCamera camera(scene, *door, robot, request.config.cloud);

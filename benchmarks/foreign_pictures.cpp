@@ -270,7 +270,7 @@ int Run(const Options& options) {
   const RobotModel robot = LoadRobot({}, RobotBase::kSliders);
   for (std::size_t d = 0; d < doors.size() && StopRequested() == 0; ++d) {
     const auto door = shelf.Take(d);
-    const Scene scene = PlaceRobotBase(robot, SampleScene(*door, options.seed, 0), *door);
+    const Scene scene = PlaceRobotBase(robot, SampleScene(door, options.seed, 0), *door);
     const Scene close_up = SceneOf(GraspCameraConfig{}, scene);
     CameraObserver look(close_up, *door, robot, {}, /*sees_robot=*/false);
     Photographer photographer(scene, *door, robot);

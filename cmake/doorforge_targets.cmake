@@ -28,7 +28,8 @@ set(DOORFORGE_ALLOWED_training core schemas networks policy)
 set(DOORFORGE_ALLOWED_report core schemas)
 set(DOORFORGE_ALLOWED_evaluate core schemas physics sensor rollout networks policy registry report)
 set(DOORFORGE_ALLOWED_deploy core schemas physics sensor rollout networks policy)
-set(DOORFORGE_ALLOWED_verbs core cli schemas registry report evaluate)
+set(DOORFORGE_ALLOWED_remote core cli schemas registry)
+set(DOORFORGE_ALLOWED_verbs core cli schemas registry report evaluate remote)
 
 # Contraction off: an asset, an episode and a cloud must not depend on whether the compiler fused
 # a multiply with an add.
@@ -42,23 +43,28 @@ if(DOORFORGE_HARDENED AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
        "$<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=3>")
 endif()
 
-# For a build from nothing, as ./test.sh does: what nearly every source includes is parsed once, and
-# the sources of a test program are compiled together. Off by default: after an edit more is compiled
-# again, ccache keeps nothing that was made with precompiled headers, and a source is no longer seen
-# to include what it uses.
+# For a build from nothing, as ./quickstart.sh and ./test.sh do: what nearly every source includes is
+# parsed once, and the sources of a room are compiled together, a few at a time. Not done where a
+# launcher such as ccache is set: it keeps nothing that was made with precompiled headers, and after
+# an edit more is compiled again. A source is then no longer seen to include what it uses, so clang-tidy
+# and builds with ccache look at each by itself.
 option(DOORFORGE_BUILD_FROM_NOTHING "arrange the build for speed from nothing" OFF)
+set(DOORFORGE_SOURCES_TOGETHER 12)
 set(DOORFORGE_PRECOMPILED_HEADERS
     <algorithm> <array> <cmath> <filesystem> <fstream> <functional> <map> <memory> <numbers>
     <optional> <set> <span> <sstream> <string> <string_view> <utility> <vector>
     <Eigen/Geometry> <nlohmann/json.hpp>)
 
-# doorforge_precompile(<target> <owner> [<further headers>])
+# doorforge_build_from_nothing(<target> <owner> [<further headers>])
 # The target takes the headers that the owner precompiles, which needs the same options of the
-# compiler; a target that owns them precompiles them for itself.
-function(doorforge_precompile target owner)
+# compiler; a target that owns them precompiles them for itself. Its sources are compiled together, so
+# names in their unnamed namespaces must differ.
+function(doorforge_build_from_nothing target owner)
   if(NOT DOORFORGE_BUILD_FROM_NOTHING OR CMAKE_CXX_COMPILER_LAUNCHER)
     return()
   endif()
+  set_target_properties(${target} PROPERTIES
+    UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${DOORFORGE_SOURCES_TOGETHER})
   if(target STREQUAL owner)
     target_precompile_headers(${target} PRIVATE ${DOORFORGE_PRECOMPILED_HEADERS} ${ARGN})
   else()
@@ -95,9 +101,9 @@ function(doorforge_add_library room)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${room} CXX_EXTENSIONS OFF)
   # CGAL and libtorch come with options of their own
   if(room STREQUAL mesh OR room STREQUAL training)
-    doorforge_precompile(${target} ${target})
+    doorforge_build_from_nothing(${target} ${target})
   else()
-    doorforge_precompile(${target} doorforge_core)
+    doorforge_build_from_nothing(${target} doorforge_core)
   endif()
   install(TARGETS ${target} EXPORT doorforgeTargets ARCHIVE COMPONENT development
           FILE_SET HEADERS COMPONENT development)
@@ -112,7 +118,7 @@ function(doorforge_add_program name)
   target_link_libraries(${name} PRIVATE ${arg_ROOMS} ${arg_PRIVATE})
   target_compile_options(${name} PRIVATE ${DOORFORGE_COMPILE_OPTIONS})
   set_target_properties(${name} PROPERTIES CXX_EXTENSIONS OFF)
-  doorforge_precompile(${name} doorforge)
+  doorforge_build_from_nothing(${name} doorforge <CLI/CLI.hpp>)
   install(TARGETS ${name} COMPONENT programs)
   set_property(GLOBAL APPEND PROPERTY DOORFORGE_PROGRAMS ${name})
 endfunction()

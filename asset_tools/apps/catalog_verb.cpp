@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct CatalogOptions {
   std::string category;
   std::string split;
   std::string id;
@@ -30,11 +30,11 @@ struct Options {
   bool overwrite = false;
 };
 
-std::vector<CatalogueEntry> Chosen(const Options& options) {
+std::vector<CatalogueEntry> Chosen(const CatalogOptions& options) {
   return SelectParts(DataFolder(), {.category = options.category, .split = options.split});
 }
 
-int List(const Options& options) {
+int List(const CatalogOptions& options) {
   const std::vector<CatalogueEntry> entries = Chosen(options);
   if (options.json) {
     Json parts = Json::array();
@@ -49,7 +49,7 @@ int List(const Options& options) {
   return 0;
 }
 
-int Show(const Options& options) {
+int Show(const CatalogOptions& options) {
   const CatalogueEntry entry = FindCatalogueEntry(ListCatalogue(DataFolder()), options.id);
   const Part part = BuildCataloguePart(entry);
   if (options.json) {
@@ -65,7 +65,7 @@ int Show(const Options& options) {
   return 0;
 }
 
-int Build(const Options& options) {
+int Build(const CatalogOptions& options) {
   const std::vector<CatalogueEntry> entries = Chosen(options);
   const std::vector<std::string> problems =
       BuildParts(entries, options.out, options.overwrite ? Existing::kReplace : Existing::kRefuse,
@@ -91,7 +91,7 @@ int Build(const Options& options) {
 }  // namespace
 
 int RunCatalogVerb(int argc, char** argv) {
-  Options options;
+  CatalogOptions options;
   CLI::App app("Lists, shows and builds the parts of the embedded catalogue.", "doorforge catalog");
   app.require_subcommand(1);
   CLI::App* list = app.add_subcommand("list", "one line a part");

@@ -31,7 +31,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ComposeOptions {
   std::string body;
   std::string handle;
   std::string out;
@@ -55,7 +55,7 @@ struct Options {
   bool rules = false;
 };
 
-void AddOptions(CLI::App& app, Options& options) {
+void AddOptions(CLI::App& app, ComposeOptions& options) {
   app.add_option("--body", options.body,
                  "id in the catalogue or in --parts, a part's folder, a glob of either, or what "
                  "`doorforge import` reads, such as a mesh file");
@@ -108,7 +108,7 @@ void AddOptions(CLI::App& app, Options& options) {
       "  doorforge compose --all --category interior --out doors");
 }
 
-void CheckOptions(const Options& options) {
+void CheckOptions(const ComposeOptions& options) {
   const auto fail = [](const std::string& why) {
     throw Error(ErrorCode::kInvalidArgument, why + "; see `doorforge compose --help`");
   };
@@ -122,8 +122,8 @@ void CheckOptions(const Options& options) {
          "\"; allowed are interior, window, car, safe, storagefurniture, refrigerator");
 }
 
-Options Parse(int argc, char** argv) {
-  Options options;
+ComposeOptions ParseCompose(int argc, char** argv) {
+  ComposeOptions options;
   CLI::App app("Composes doors: a body and a handle of one category.", "doorforge compose");
   AddOptions(app, options);
   ParseVerb(app, argc, argv);
@@ -131,7 +131,7 @@ Options Parse(int argc, char** argv) {
   return options;
 }
 
-ComposeRequest RequestOf(const Options& options) {
+ComposeRequest RequestOf(const ComposeOptions& options) {
   auto request = LoadConfig<ComposeRequest>(options.config, options.settings);
   if (!options.body.empty()) request.body = options.body;
   if (!options.handle.empty()) request.handle = options.handle;
@@ -149,7 +149,7 @@ ComposeRequest RequestOf(const Options& options) {
   return request;
 }
 
-ComposeRun RunOf(const Options& options) {
+ComposeRun RunOf(const ComposeOptions& options) {
   ComposeRun run{.out = options.out, .parts = options.parts};
   if (options.all) run.pairs = PairChoice::kAll;
   if (options.as_imported) run.pairs = PairChoice::kAsImported;
@@ -167,7 +167,7 @@ ComposeRun RunOf(const Options& options) {
   return run;
 }
 
-int Finish(const std::vector<ComposedDoor>& doors, const Options& options) {
+int Finish(const std::vector<ComposedDoor>& doors, const ComposeOptions& options) {
   std::size_t failed = 0;
   std::size_t kept = 0;
   for (const ComposedDoor& door : doors) {
@@ -187,7 +187,7 @@ int Finish(const std::vector<ComposedDoor>& doors, const Options& options) {
 }
 
 // The door as it was written: what was imported is always looked at.
-int Check(const Options& options, bool imported) {
+int Check(const ComposeOptions& options, bool imported) {
   int errors = 0;
   if (options.validate || imported) {
     const std::unique_ptr<DoorValidator> openable = OpenableValidator();
@@ -214,7 +214,7 @@ int Check(const Options& options, bool imported) {
   return errors == 0 ? 0 : 1;
 }
 
-int Compose(const Options& options, const ComposeRequest& request) {
+int Compose(const ComposeOptions& options, const ComposeRequest& request) {
   const ComposeRun run = RunOf(options);
   if (MeansManyDoors(run, request)) {
     const ComposedDoors composed = ComposeManyDoors(run, request);
@@ -242,7 +242,7 @@ int ListRules() {
 }  // namespace
 
 int RunComposeVerb(int argc, char** argv) {
-  const Options options = Parse(argc, argv);
+  const ComposeOptions options = ParseCompose(argc, argv);
   if (options.rules) return ListRules();
   const ComposeRequest request = RequestOf(options);
   return NamingConfig(options.config, [&] { return Compose(options, request); });

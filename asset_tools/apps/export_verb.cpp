@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ExportOptions {
   std::vector<std::string> paths;
   std::vector<std::string> formats;
   std::string out;
@@ -30,8 +30,8 @@ struct Options {
   bool json = false;
 };
 
-Options Parse(int argc, char** argv) {
-  Options options;
+ExportOptions ParseExport(int argc, char** argv) {
+  ExportOptions options;
   CLI::App app("Writes doors for other simulators and viewers.", "doorforge export");
   app.add_option("DOOR", options.paths, "folders of doors, or folders that hold some")->required();
   app.add_option("--format,--to", options.formats, "several with commas")
@@ -50,7 +50,7 @@ Options Parse(int argc, char** argv) {
   return options;
 }
 
-std::vector<fs::path> DoorsOf(const Options& options) {
+std::vector<fs::path> DoorsOf(const ExportOptions& options) {
   std::vector<fs::path> doors;
   for (const std::string& path : options.paths) {
     for (const fs::path& folder : FindRecords(path)) {
@@ -63,7 +63,7 @@ std::vector<fs::path> DoorsOf(const Options& options) {
   return doors;
 }
 
-int Finish(const std::vector<ExportedDoor>& doors, const Options& options) {
+int Finish(const std::vector<ExportedDoor>& doors, const ExportOptions& options) {
   std::size_t failed = 0;
   for (const ExportedDoor& door : doors) {
     if (door.problem.empty()) continue;
@@ -80,7 +80,7 @@ int Finish(const std::vector<ExportedDoor>& doors, const Options& options) {
 }  // namespace
 
 int RunExportVerb(int argc, char** argv) {
-  const Options options = Parse(argc, argv);
+  const ExportOptions options = ParseExport(argc, argv);
   ExportRun run{.out = options.out,
                 .formats = {},
                 .existing = options.overwrite ? Existing::kReplace : Existing::kRefuse,

@@ -24,7 +24,7 @@
 namespace doorforge {
 namespace {
 
-struct Options {
+struct ImportOptions {
   std::vector<std::filesystem::path> sources;
   std::string out;
   std::string format = "auto";
@@ -53,8 +53,8 @@ void AddReadOptions(CLI::App& app, ReadConfig& read) {
   AddBodyMeshOptions(app, "", read.mesh);
 }
 
-Options Parse(int argc, char** argv) {
-  Options options;
+ImportOptions ParseImport(int argc, char** argv) {
+  ImportOptions options;
   CLI::App app("Imports foreign door objects: each gives a body part and a handle part.",
                "doorforge import");
   app.add_option("SRC", options.sources, "objects, or folders of them up to three levels deep")
@@ -87,14 +87,14 @@ Options Parse(int argc, char** argv) {
 }
 
 template <class T>
-void Override(T& value, const T& flag) {
+void OverrideBy(T& value, const T& flag) {
   if (flag != T()) value = flag;
 }
 
 void OverrideRead(ReadConfig& config, const ReadConfig& flags) {
-  Override(config.category, flags.category);
-  Override(config.allow_missing, flags.allow_missing);
-  Override(config.height_m, flags.height_m);
+  OverrideBy(config.category, flags.category);
+  OverrideBy(config.allow_missing, flags.allow_missing);
+  OverrideBy(config.height_m, flags.height_m);
   OverrideMesh(config.mesh, flags.mesh);
 }
 
@@ -148,7 +148,7 @@ int ExitCodeFor(const ImportReport& report) {
 }  // namespace
 
 int RunImportVerb(int argc, char** argv) {
-  const Options options = Parse(argc, argv);
+  const ImportOptions options = ParseImport(argc, argv);
   auto config = LoadConfig<ImportConfig>(options.config, options.settings);
   OverrideRead(config.read, options.read);
   if (options.threads != 0) config.threads = options.threads;

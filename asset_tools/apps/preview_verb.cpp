@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct PreviewOptions {
   std::vector<std::string> paths;
   std::string out;
   PreviewConfig preview;
@@ -32,8 +32,8 @@ struct Options {
   int frames = 7;          // the same
 };
 
-Options Parse(int argc, char** argv) {
-  Options options;
+PreviewOptions ParsePreview(int argc, char** argv) {
+  PreviewOptions options;
   CLI::App app("Pictures of doors and parts; a contact sheet where there are several.",
                "doorforge preview");
   app.add_option("PATH,--door", options.paths,
@@ -81,7 +81,7 @@ Options Parse(int argc, char** argv) {
 }
 
 #ifdef DOORFORGE_WITH_OPENABLE
-void DrawEpisodes(const std::vector<fs::path>& folders, const Options& options) {
+void DrawEpisodes(const std::vector<fs::path>& folders, const PreviewOptions& options) {
   const EpisodeSheet sheet = DrawEpisodeSheet(folders, {.seed = options.seed,
                                                         .frames = options.frames,
                                                         .width = options.preview.width,
@@ -96,7 +96,7 @@ void DrawEpisodes(const std::vector<fs::path>& folders, const Options& options) 
 }  // namespace
 
 int RunPreviewVerb(int argc, char** argv) {
-  const Options options = Parse(argc, argv);
+  const PreviewOptions options = ParsePreview(argc, argv);
   RequireNoFile(options.out, options.overwrite);
   std::vector<fs::path> folders;
   for (const std::string& path : options.paths) {

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct RepairOptions {
   std::string input;
   std::string output;
   std::string report;
@@ -36,8 +36,8 @@ struct Options {
   bool overwrite = false;
 };
 
-Options OptionsOf(int argc, char** argv) {
-  Options options;
+RepairOptions OptionsOf(int argc, char** argv) {
+  RepairOptions options;
   CLI::App app("Turns any mesh into a closed, oriented one and measures what that changed.",
                "doorforge repair");
   app.add_option("IN", options.input, "mesh: .obj .stl .ply .dae .gltf .glb .fbx .3ds .off")
@@ -64,14 +64,14 @@ Options OptionsOf(int argc, char** argv) {
   return options;
 }
 
-RepairConfig ConfigOf(const Options& options) {
+RepairConfig ConfigOf(const RepairOptions& options) {
   std::vector<std::string> settings = options.settings;
   if (!options.wrap.empty()) settings.push_back("wrap=" + options.wrap);
   return LoadConfig<RepairConfig>(options.config, settings);
 }
 
 // Refuses before the work starts what would be refused after it.
-void CheckOutputs(const Options& options) {
+void CheckOutputs(const RepairOptions& options) {
   WriterFor(options.output);
   for (const std::string& path : {options.output, options.report}) {
     if (!options.overwrite && fs::exists(fs::symlink_status(path)))
@@ -81,7 +81,7 @@ void CheckOutputs(const Options& options) {
   }
 }
 
-void Print(const Options& options, const RepairReport& report) {
+void Print(const RepairOptions& options, const RepairReport& report) {
   const auto millimetres = [](double metres) { return 1000 * metres; };
   std::printf("%s: %s", options.input.c_str(), std::string(NameOf(report.outcome)).c_str());
   std::printf(report.reason.empty() ? "\n" : " (%s)\n", report.reason.c_str());
@@ -101,7 +101,7 @@ void Print(const Options& options, const RepairReport& report) {
 }  // namespace
 
 int RunRepairVerb(int argc, char** argv) {
-  const Options options = OptionsOf(argc, argv);
+  const RepairOptions options = OptionsOf(argc, argv);
   const RepairConfig config = ConfigOf(options);
   CheckOutputs(options);
   const auto [result, record] = NamingConfig(

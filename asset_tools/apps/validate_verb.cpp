@@ -27,7 +27,7 @@
 namespace doorforge {
 namespace {
 
-struct Options {
+struct ValidateOptions {
   std::vector<std::string> paths;
   std::string profile = "physics";
   int threads = 0;
@@ -39,8 +39,8 @@ struct Options {
   bool dry_run = false;
 };
 
-Options Parse(int argc, char** argv) {
-  Options options;
+ValidateOptions ParseValidate(int argc, char** argv) {
+  ValidateOptions options;
   CLI::App app("Checks doors and parts and reports every fault at once.", "doorforge validate");
   app.add_option("PATH", options.paths, "folders of doors or parts, or folders that hold some");
   app.add_option("--profile", options.profile,
@@ -115,7 +115,7 @@ std::string Summary(std::size_t checked, std::size_t missing, const std::string&
          (missing == 0 ? "" : ", " + std::to_string(missing) + " missing") + ": " + counts;
 }
 
-void PrintReports(const Options& options, const RecordsFound& found,
+void PrintReports(const ValidateOptions& options, const RecordsFound& found,
                   std::span<const CheckedFolder> checked) {
   if (options.json) return PrintJson(CheckedToJson(checked, found.missing, options.fix));
   int errors = 0;
@@ -145,7 +145,7 @@ void SayMissing(const RecordsFound& found) {
                  "some, as `doorforge compose` and `doorforge import` write them\n");
 }
 
-int Finish(const Options& options, const RecordsFound& found,
+int Finish(const ValidateOptions& options, const RecordsFound& found,
            std::span<const CheckedFolder> checked) {
   std::size_t reports = 0;
   bool errors = false;
@@ -182,7 +182,7 @@ std::unique_ptr<DoorValidator> OpenableValidator() {
 }
 
 int RunValidateVerb(int argc, char** argv) {
-  const Options options = Parse(argc, argv);
+  const ValidateOptions options = ParseValidate(argc, argv);
   if (options.rules) return ListRules(options.json);
   const RecordsFound found = FindAllRecords(options.paths);
   for (const std::string& problem : found.problems)

@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void ThrowIo(const fs::path& path, const std::string& what) {
+[[noreturn]] void ThrowOfCommit(const fs::path& path, const std::string& what) {
   throw Error(ErrorCode::kIo, path.string() + ": " + what + ": " + std::strerror(errno));
 }
 
@@ -38,7 +38,7 @@ fs::path FolderOf(const fs::path& path) {
 
 void SyncFolder(const fs::path& folder) {
   const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY);
-  if (fd < 0) ThrowIo(folder, "cannot be opened");
+  if (fd < 0) ThrowOfCommit(folder, "cannot be opened");
   ::fsync(fd);
   ::close(fd);
 }
@@ -177,10 +177,10 @@ OwnedTemporary CreateOwnedFolder(const fs::path& beside) {
   CreateFolder(FolderOf(beside));
   while (true) {
     const fs::path path = TemporaryBeside(beside);
-    if (::mkdir(path.c_str(), 0777) != 0) ThrowIo(beside, "cannot be staged");
+    if (::mkdir(path.c_str(), 0777) != 0) ThrowOfCommit(beside, "cannot be staged");
     const int file = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (file < 0 && errno == ENOENT) continue;
-    if (file < 0) ThrowIo(path, "cannot be opened");
+    if (file < 0) ThrowOfCommit(path, "cannot be opened");
     if (BecomeOwner(file, path)) return {path, file};
     ::close(file);
   }
@@ -216,12 +216,12 @@ void RemoveQuietly(FileSystem& files, const fs::path& path) {
 void RenameToNew(const fs::path& from, const fs::path& to) {
   if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return;
   if (errno == EEXIST) RefuseExisting(to);
-  ThrowIo(to, "cannot be put in place");
+  ThrowOfCommit(to, "cannot be put in place");
 }
 
 void Swap(const fs::path& one, const fs::path& other) {
   if (::renameat2(AT_FDCWD, one.c_str(), AT_FDCWD, other.c_str(), RENAME_EXCHANGE) != 0)
-    ThrowIo(other, "cannot be put in place");
+    ThrowOfCommit(other, "cannot be put in place");
 }
 
 bool IsRecordOf(const fs::path& record, const FolderKind& kind) {
@@ -310,7 +310,7 @@ void RequireWritable(const fs::path& folder) {
   }
   for (const fs::path& empty : made) ::rmdir(empty.c_str());
   errno = reason;
-  if (file < 0) ThrowIo(folder, "nothing can be written there");
+  if (file < 0) ThrowOfCommit(folder, "nothing can be written there");
 }
 
 void RequireKind(const fs::path& folder, const FolderKind& kind) {
@@ -384,7 +384,7 @@ StagedBatch::~StagedBatch() {
 }
 
 void StagedBatch::Commit() {
-  if (::syncfs(lock_) != 0) ThrowIo(staging_, "cannot be flushed");
+  if (::syncfs(lock_) != 0) ThrowOfCommit(staging_, "cannot be flushed");
   std::vector<fs::path> names;
   for (const auto& entry : fs::directory_iterator(staging_)) {
     names.push_back(entry.path().filename());
@@ -401,7 +401,7 @@ void StagedBatch::Commit() {
 void WriteStaged(const fs::path& path, std::string_view content) {
   CreateFolder(FolderOf(path));
   const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (fd < 0) ThrowIo(path, "cannot be created");
+  if (fd < 0) ThrowOfCommit(path, "cannot be created");
   try {
     WriteAll(SystemFiles(), fd, content, path);
   } catch (...) {

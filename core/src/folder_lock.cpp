@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostHolderBytes = 200;
 
-[[noreturn]] void ThrowIo(const fs::path& path, const std::string& what) {
+[[noreturn]] void ThrowOfLock(const fs::path& path, const std::string& what) {
   throw Error(ErrorCode::kIo, path.string() + ": " + what + ": " + std::strerror(errno));
 }
 
@@ -45,7 +45,7 @@ std::string HolderIn(int file) {
   return holder.empty() ? "another process" : holder;
 }
 
-bool IsSameFile(int file, const fs::path& path) {
+bool IsThatLock(int file, const fs::path& path) {
   struct stat opened {};
   struct stat named {};
   return ::fstat(file, &opened) == 0 && ::stat(path.c_str(), &named) == 0 &&
@@ -54,7 +54,7 @@ bool IsSameFile(int file, const fs::path& path) {
 
 int Open(const fs::path& path) {
   const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0644);
-  if (file < 0) ThrowIo(path, "cannot be opened for writing");
+  if (file < 0) ThrowOfLock(path, "cannot be opened for writing");
   return file;
 }
 
@@ -68,7 +68,7 @@ FolderLock::FolderLock(fs::path folder, const std::string& work, Writers writers
     const int wanted = writers == Writers::kOne ? LOCK_EX : LOCK_SH;
     if (::flock(file, wanted | LOCK_NB) == 0) {
       // who held it before may have removed the file: then this lock is worth nothing
-      if (IsSameFile(file, path_))
+      if (IsThatLock(file, path_))
         file_ = file;
       else
         ::close(file);
@@ -80,7 +80,7 @@ FolderLock::FolderLock(fs::path folder, const std::string& work, Writers writers
     errno = error;
     if (error == EINTR) continue;
     if (error != EWOULDBLOCK)
-      ThrowIo(path_, "the file system cannot lock it (Lustre: mount with -o flock)");
+      ThrowOfLock(path_, "the file system cannot lock it (Lustre: mount with -o flock)");
     throw Error(ErrorCode::kInvalidArgument,
                 folder.string() + ": " + holder +
                     " writes there at this moment; wait until it has ended, or use another folder");
@@ -95,7 +95,7 @@ FolderLock::FolderLock(fs::path folder, const std::string& work, Writers writers
 
 FolderLock::~FolderLock() {
   // the last one of several takes the file away
-  if (::flock(file_, LOCK_EX | LOCK_NB) == 0 && IsSameFile(file_, path_)) ::unlink(path_.c_str());
+  if (::flock(file_, LOCK_EX | LOCK_NB) == 0 && IsThatLock(file_, path_)) ::unlink(path_.c_str());
   ::close(file_);
   // refused work leaves no empty folder; one with something in it stays
   if (made_folder_) ::rmdir(path_.parent_path().c_str());

@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct DatagenOptions {
   Stage stage = Stage::kOpen;
   std::vector<std::string> doors;
   CollectionWords policies;
@@ -52,7 +52,7 @@ struct Options {
   bool json = false;
 };
 
-void AddOptions(CLI::App& app, Options& options) {
+void AddOptions(CLI::App& app, DatagenOptions& options) {
   app.add_option("--doors", options.doors,
                  "folders of composed doors; with a split such as full:train only its doors")
       ->required();
@@ -76,7 +76,7 @@ void AddOptions(CLI::App& app, Options& options) {
 }
 
 // What gives a collection to Slurm instead of running it here.
-void AddSlurmOptions(CLI::App& app, Options& options) {
+void AddSlurmOptions(CLI::App& app, DatagenOptions& options) {
   SlurmScript& script = options.script;
   auto* file = app.add_option("--slurm", options.script_file,
                               "write a script that runs this collection as Slurm arrays of --tasks "
@@ -97,7 +97,7 @@ void AddSlurmOptions(CLI::App& app, Options& options) {
 }
 
 // What belongs to a run that writes.
-void AddOutput(CLI::App& app, Options& options) {
+void AddOutput(CLI::App& app, DatagenOptions& options) {
   app.add_option("--out", options.out, "folder of the dataset")->required();
   app.add_option("--task", options.task,
                  "i/N: only task i, from 0, of N; `doorforge dataset merge` joins them");
@@ -113,7 +113,7 @@ void AddOutput(CLI::App& app, Options& options) {
   AddSlurmOptions(app, options);
 }
 
-StageRequest RequestOf(const Options& options) {
+StageRequest RequestOf(const DatagenOptions& options) {
   StageConfig config =
       LoadConfig<StageConfig>(options.config, options.settings, DefaultsOf(options.stage));
   if (options.episodes) config.episodes = *options.episodes;
@@ -122,7 +122,7 @@ StageRequest RequestOf(const Options& options) {
   return {config, options.doors, options.policies, options.threads, RobotMeshes()};
 }
 
-CollectionTask TaskOf(const Options& options) {
+CollectionTask TaskOf(const DatagenOptions& options) {
   Require(options.task.empty() || options.tasks == 0, ErrorCode::kInvalidArgument,
           "--task and --tasks: give one of them");
   Require(options.task_offset == 0 || options.tasks > 0, ErrorCode::kInvalidArgument,
@@ -134,7 +134,8 @@ CollectionTask TaskOf(const Options& options) {
   return task;
 }
 
-int Finish(const CollectSummary& summary, const CollectionTask& task, const Options& options) {
+int Finish(const CollectSummary& summary, const CollectionTask& task,
+           const DatagenOptions& options) {
   if (summary.stopped_by_signal != 0) {
     std::fprintf(stderr,
                  "doorforge: stopped; what is done is kept in %s, the same command goes on\n",
@@ -154,7 +155,7 @@ int Finish(const CollectSummary& summary, const CollectionTask& task, const Opti
   return 1;
 }
 
-int CollectOrGoOn(const Options& options) {
+int CollectOrGoOn(const DatagenOptions& options) {
   const CollectionTask task = TaskOf(options);
   const auto warn = [](const std::string& text) {
     std::fprintf(stderr, "doorforge: warning: %s\n", text.c_str());
@@ -164,7 +165,7 @@ int CollectOrGoOn(const Options& options) {
   return Finish(summary, task, options);
 }
 
-int GiveToSlurm(const Options& options, const std::vector<std::string>& arguments) {
+int GiveToSlurm(const DatagenOptions& options, const std::vector<std::string>& arguments) {
   Require(options.task.empty() && options.task_offset == 0, ErrorCode::kInvalidArgument,
           "--task and --task-offset: --slurm numbers the tasks itself; give --tasks N");
   SlurmScript script = options.script;
@@ -184,7 +185,7 @@ int GiveToSlurm(const Options& options, const std::vector<std::string>& argument
   return 0;
 }
 
-int PrintPlan(const Options& options) {
+int PrintPlan(const DatagenOptions& options) {
   StageRun run(RequestOf(options));
   const CollectionForecast forecast = Forecast(run, options.probe, options.threads);
   std::cout << (options.json ? JsonText(ForecastToJson(forecast), 2) + "\n"
@@ -192,7 +193,7 @@ int PrintPlan(const Options& options) {
   return 0;
 }
 
-void AddStage(CLI::App& app, Options& options, Stage stage, const std::string& description) {
+void AddStage(CLI::App& app, DatagenOptions& options, Stage stage, const std::string& description) {
   const std::string name(NameOf(stage));
   auto* verb = app.add_subcommand(name, description);
   AddOptions(*verb, options);
@@ -206,7 +207,7 @@ void AddStage(CLI::App& app, Options& options, Stage stage, const std::string& d
   verb->callback([&options, stage] { options.stage = stage; });
 }
 
-CLI::App* AddPlan(CLI::App& app, Options& options) {
+CLI::App* AddPlan(CLI::App& app, DatagenOptions& options) {
   auto* plan = app.add_subcommand(
       "plan",
       "what a collection would be: doors, episodes, decisions, bytes and time; writes nothing");
@@ -227,7 +228,7 @@ CLI::App* AddPlan(CLI::App& app, Options& options) {
 }  // namespace
 
 int RunDatagenVerb(int argc, char** argv) {
-  Options options;
+  DatagenOptions options;
   CLI::App app("Collects a stage's dataset.", "doorforge datagen");
   app.require_subcommand(1);
   AddStage(app, options, Stage::kOpen,

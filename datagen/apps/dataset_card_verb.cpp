@@ -12,18 +12,18 @@ namespace doorforge {
 
 namespace {
 
-struct Options {
+struct DatasetCardOptions {
   std::string folder;
   bool overwrite = false;
   bool keep_readme = false;
 };
 
-OldReadme ReadmeOf(const Options& options) {
+OldReadme ReadmeOf(const DatasetCardOptions& options) {
   if (options.overwrite) return OldReadme::kReplace;
   return options.keep_readme ? OldReadme::kKeep : OldReadme::kRefuseOthers;
 }
 
-int WriteCard(const Options& options) {
+int WriteCard(const DatasetCardOptions& options) {
   WriteDatasetCard(options.folder, ReadmeOf(options));
   std::printf("%s/README.md\n%s/croissant.json\n", options.folder.c_str(), options.folder.c_str());
   return 0;
@@ -32,7 +32,7 @@ int WriteCard(const Options& options) {
 }  // namespace
 
 Subcommand AddCard(CLI::App& dataset) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DatasetCardOptions>();
   CLI::App* app = dataset.add_subcommand(
       "card", "writes README.md (YAML front matter) and croissant.json into the dataset");
   app->add_option("folder", options->folder, "the dataset's folder")->required();

@@ -14,14 +14,14 @@
 namespace doorforge {
 namespace {
 
-struct Options {
+struct DatasetExportOptions {
   RobomimicRequest request;
   std::string to;
   bool overwrite = false;
   bool json = false;
 };
 
-int Export(const Options& options) {
+int Export(const DatasetExportOptions& options) {
   RobomimicRequest request = options.request;
   Progress progress("export", CountEpisodes(request.folder, request.stage));
   request.existing = options.overwrite ? Existing::kReplace : Existing::kRefuse;
@@ -39,7 +39,7 @@ int Export(const Options& options) {
 }  // namespace
 
 Subcommand AddExport(CLI::App& dataset) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DatasetExportOptions>();
   CLI::App* app = dataset.add_subcommand("export", "writes the episodes as other tools want them");
   app->add_option("folder", options->request.folder, "the dataset's folder")->required();
   app->add_option("--to", options->to, "robomimic: one HDF5 file with data/demo_N and mask/<split>")

@@ -17,7 +17,7 @@
 namespace doorforge {
 namespace {
 
-struct Options {
+struct DatasetInfoOptions {
   std::string folder;
   std::string png;
   std::string html;
@@ -27,7 +27,7 @@ struct Options {
   bool json = false;
 };
 
-int Info(const Options& options) {
+int Info(const DatasetInfoOptions& options) {
   RequireNoFile(options.png, options.overwrite);
   RequireNoFile(options.html, options.overwrite);
   nlohmann::ordered_json dataset = DescribeDataset(options.folder);
@@ -47,7 +47,7 @@ int Info(const Options& options) {
 }  // namespace
 
 Subcommand AddInfo(CLI::App& dataset) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DatasetInfoOptions>();
   CLI::App* app = dataset.add_subcommand(
       "info", "counts, success by category and mechanism, angles, causes of failure");
   app->add_option("folder", options->folder, "the dataset's folder")->required();

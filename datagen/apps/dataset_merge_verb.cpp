@@ -14,12 +14,12 @@
 namespace doorforge {
 namespace {
 
-struct Options {
+struct DatasetMergeOptions {
   MergeRequest request;
   bool json = false;
 };
 
-int Merge(const Options& options) {
+int Merge(const DatasetMergeOptions& options) {
   const auto& folder = options.request.folder;
   const FolderLock lock(folder, "doorforge dataset merge", Writers::kOne);
   const MergeSummary summary = MergeDataset(options.request);
@@ -35,7 +35,7 @@ int Merge(const Options& options) {
 }  // namespace
 
 Subcommand AddMerge(CLI::App& dataset) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DatasetMergeOptions>();
   CLI::App* app = dataset.add_subcommand(
       "merge", "joins the tasks of a collection and checks that all of them are there");
   app->add_option("folder", options->request.folder, "the dataset's folder")->required();

@@ -22,7 +22,7 @@ namespace {
 constexpr int kComplete = 0;
 constexpr int kIncomplete = 4;
 
-struct Options {
+struct DatasetStatusOptions {
   std::vector<std::string> folders;
   int tasks = 0;
   double every_s = 5;
@@ -35,7 +35,7 @@ double Now() {
   return Seconds(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
-CollectionStatus LookAndPrint(const Options& options) {
+CollectionStatus LookAndPrint(const DatasetStatusOptions& options) {
   const double now_s = Now();
   const CollectionStatus status =
       StatusOfCollection({{options.folders.begin(), options.folders.end()}, options.tasks, now_s});
@@ -60,7 +60,7 @@ bool Wait(double seconds) {
   return StopRequested() == 0;
 }
 
-int Status(const Options& options) {
+int Status(const DatasetStatusOptions& options) {
   CollectionStatus status = LookAndPrint(options);
   // what is left to do when all shards are there is no matter of waiting
   while (options.watch && status.Count(ShardState::kDone) < status.shards.size()) {
@@ -73,7 +73,7 @@ int Status(const Options& options) {
 }  // namespace
 
 Subcommand AddStatus(CLI::App& dataset) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DatasetStatusOptions>();
   CLI::App* app = dataset.add_subcommand(
       "status", "how far a collection is, while its tasks run or after: shards, rate, time left");
   app->add_option("folder", options->folders,

@@ -18,7 +18,7 @@
 namespace doorforge {
 namespace {
 
-struct Options {
+struct DatasetVerifyOptions {
   std::string folder;
   int threads = 0;
   std::string share;  // to be made again, "1%"; empty: none
@@ -26,19 +26,19 @@ struct Options {
   bool json = false;
 };
 
-void CheckRegenerate(Options& options) {
+void CheckRegenerate(DatasetVerifyOptions& options) {
   if (options.share.empty()) return;
   options.regenerate.fraction = ParseFraction(options.share);
   Require(!options.regenerate.doors.empty(), ErrorCode::kInvalidArgument,
           "--regenerate: needs --doors, with what the dataset was made with");
 }
 
-std::vector<DatasetFinding> VerifyWithProgress(const Options& options) {
+std::vector<DatasetFinding> VerifyWithProgress(const DatasetVerifyOptions& options) {
   Progress progress("verify", CountShards(options.folder));
   return VerifyDataset({options.folder, options.threads, [&] { progress.Advance(); }});
 }
 
-void Regenerate(const Options& options, std::vector<DatasetFinding>& findings) {
+void Regenerate(const DatasetVerifyOptions& options, std::vector<DatasetFinding>& findings) {
   RegenerateDatasetRequest request = options.regenerate;
   request.folder = options.folder;
   request.threads = options.threads;
@@ -49,7 +49,7 @@ void Regenerate(const Options& options, std::vector<DatasetFinding>& findings) {
   findings.insert(findings.end(), result.findings.begin(), result.findings.end());
 }
 
-int Verify(Options& options) {
+int Verify(DatasetVerifyOptions& options) {
   CheckRegenerate(options);
   std::vector<DatasetFinding> findings = VerifyWithProgress(options);
   if (!AnyFault(findings) && !options.share.empty()) Regenerate(options, findings);
@@ -58,7 +58,7 @@ int Verify(Options& options) {
   return AnyFault(findings) ? 1 : 0;
 }
 
-void AddRegenerateOptions(CLI::App& app, Options& options) {
+void AddRegenerateOptions(CLI::App& app, DatasetVerifyOptions& options) {
   RegenerateDatasetRequest& given = options.regenerate;
   auto* share = app.add_option("--regenerate", options.share,
                                "make a share of the episodes again from their seeds, such as 1%, "
@@ -77,7 +77,7 @@ void AddRegenerateOptions(CLI::App& app, Options& options) {
 }  // namespace
 
 Subcommand AddVerify(CLI::App& dataset) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DatasetVerifyOptions>();
   CLI::App* app = dataset.add_subcommand(
       "verify",
       "every byte of every file against its checksum or what it is made from, every value against "

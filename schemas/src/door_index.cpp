@@ -22,9 +22,9 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kSchema = "doorforge.door_index";
-constexpr std::uint64_t kMaxFileBytes = 256ULL << 20;
-constexpr std::uint64_t kMaxRecordBytes = 64ULL << 20;
+constexpr const char* kIndexSchema = "doorforge.door_index";
+constexpr std::uint64_t kMaxIndexBytes = 256ULL << 20;
+constexpr std::uint64_t kMaxIndexedRecordBytes = 64ULL << 20;
 
 std::string HashIn(const Json& json, const char* key, const std::string& path) {
   auto hash = ValueOf<std::string>(json, key, path);
@@ -109,16 +109,17 @@ std::vector<fs::path> DoorFoldersIn(const fs::path& folder) {
   return folders;
 }
 
-struct Entry {
+struct IndexEntry {
   std::string record_sha256;
   DoorIdentity identity;
 };
 
-std::optional<Entry> EntryOf(const fs::path& folder, DoorIdentifier& identifier) {
+std::optional<IndexEntry> EntryOf(const fs::path& folder, DoorIdentifier& identifier) {
   try {
     const fs::path file = folder / "door.json";
-    const std::string record = ReadFile(file, kMaxRecordBytes);
-    return Entry{Sha256Hex(record), identifier.Identify(ParseJson(record, file.string()), folder)};
+    const std::string record = ReadFile(file, kMaxIndexedRecordBytes);
+    return IndexEntry{Sha256Hex(record),
+                      identifier.Identify(ParseJson(record, file.string()), folder)};
   } catch (const Error&) {
     return std::nullopt;
   }
@@ -127,7 +128,7 @@ std::optional<Entry> EntryOf(const fs::path& folder, DoorIdentifier& identifier)
 }  // namespace
 
 DoorIndex DoorIndex::FromJson(const Json& json, const std::string& path) {
-  RequireSchema(json, kSchema, kDoorIndexSchemaVersion, path);
+  RequireSchema(json, kIndexSchema, kDoorIndexSchemaVersion, path);
   const std::vector<PartIdentity> parts = PartsIn(json, path);
   const Json& doors = MemberOf(json, "doors", path);
   Require(doors.is_array(), ErrorCode::kFormat, path + ".doors: expected a list");
@@ -169,7 +170,7 @@ std::string DoorIndex::ToText() const {
                              {"handle", parts.PlaceOf(door.handle)}}));
   }
   std::sort(rows.begin(), rows.end());  // by id
-  return "{\n  \"schema\": \"" + std::string(kSchema) +
+  return "{\n  \"schema\": \"" + std::string(kIndexSchema) +
          "\",\n  \"schema_version\": " + std::to_string(kDoorIndexSchemaVersion) +
          ",\n  \"parts\": [\n" + Lines(parts.Texts()) + "  ],\n  \"doors\": [\n" + Lines(rows) +
          "  ]\n}\n";
@@ -179,7 +180,7 @@ DoorIndex ReadDoorIndex(const fs::path& folder) {
   const fs::path file = folder / kDoorIndexFile;
   if (!fs::exists(fs::symlink_status(file))) return {};
   try {
-    return DoorIndex::FromJson(ParseJson(ReadFile(file, kMaxFileBytes), file.string()),
+    return DoorIndex::FromJson(ParseJson(ReadFile(file, kMaxIndexBytes), file.string()),
                                file.string());
   } catch (const Error& error) {
     throw Error(error.code(), std::string(error.what()) +
@@ -190,7 +191,7 @@ DoorIndex ReadDoorIndex(const fs::path& folder) {
 
 void WriteDoorIndex(const fs::path& folder, int threads) {
   const std::vector<fs::path> folders = DoorFoldersIn(folder);
-  std::vector<std::optional<Entry>> entries(folders.size());
+  std::vector<std::optional<IndexEntry>> entries(folders.size());
   DoorIdentifier identifier;
   Progress progress("indexing", folders.size());
   ParallelFor(folders.size(), threads, [&](std::size_t i) {
@@ -198,7 +199,7 @@ void WriteDoorIndex(const fs::path& folder, int threads) {
     progress.Advance();
   });
   DoorIndex index;
-  for (std::optional<Entry>& entry : entries) {
+  for (std::optional<IndexEntry>& entry : entries) {
     if (entry) index.Add(entry->record_sha256, std::move(entry->identity));
   }
   CommitFile(folder / kDoorIndexFile, index.ToText());

@@ -331,14 +331,11 @@ std::shared_ptr<const DoorAsset> DoorCache::Kept(std::size_t door) {
   return found->second.door;
 }
 
-std::shared_ptr<const DoorAsset> DoorCache::Take(std::size_t door) {
-  if (auto kept = Kept(door)) return kept;
-  const FoundDoor& found = doors_.at(door);
+std::shared_ptr<const DoorAsset> DoorCache::Read(const FoundDoor& found) {
   if (found.folder.empty())
     throw Error(ErrorCode::kMissing,
                 "door \"" + found.identity.id + "\": not in the folders of --doors");
-  auto read = std::make_shared<const DoorAsset>(ReadDoor(found.folder));
-  const DoorIdentity identity = IdentityOf(*read);
+  auto [door, identity] = identifier_.Read(found.folder);
   if (identity.sha256 != found.identity.sha256)
     throw Error(ErrorCode::kFormat,
                 found.folder.string() +
@@ -349,13 +346,20 @@ std::shared_ptr<const DoorAsset> DoorCache::Take(std::size_t door) {
                 found.folder.string() + ": the " + kDoorIndexFile +
                     " beside this door says what its door.json does not; remove that file, or "
                     "give the command of `doorforge compose` that made the doors again");
+  return std::make_shared<const DoorAsset>(std::move(door));
+}
+
+IdentifiedDoor DoorCache::Take(std::size_t door) {
+  const FoundDoor& found = doors_.at(door);
+  if (auto kept = Kept(door)) return {std::move(kept), found.identity.sha256};
+  auto read = Read(found);
   const std::scoped_lock lock(mutex_);
   if (places_.size() >= kMostKept)
     places_.erase(std::min_element(
         places_.begin(), places_.end(),
         [](const auto& a, const auto& b) { return a.second.taken_at < b.second.taken_at; }));
   places_[door] = {read, ++clock_};
-  return read;
+  return {std::move(read), found.identity.sha256};
 }
 
 }  // namespace doorforge

@@ -58,7 +58,7 @@ Json JointToJson(const PartJoint& joint) {
           {"upper_rad", joint.upper_rad}};
 }
 
-PartJoint JointFromJson(const Json& json, const std::string& path) {
+PartJoint PartJointFromJson(const Json& json, const std::string& path) {
   PartJoint joint;
   joint.origin_m = Vector3FromJson(MemberOf(json, "origin_m", path), path + ".origin_m");
   joint.axis = Vector3FromJson(MemberOf(json, "axis", path), path + ".axis");
@@ -142,7 +142,7 @@ Part ReadPart(const std::filesystem::path& folder, const MeshReader& read_mesh,
   part.license = ValueOf<std::string>(json, "license", path);
   part.source = ValueOf<std::string>(json, "source", path);
   part.source_sha256 = ValueOf<std::string>(json, "source_sha256", path);
-  part.joint = JointFromJson(MemberOf(json, "joint", path), path + ".joint");
+  part.joint = PartJointFromJson(MemberOf(json, "joint", path), path + ".joint");
   if (part.role == PartRole::kBody) {
     part.part_from_mount =
         TransformFromJson(MemberOf(json, "part_from_mount", path), path + ".part_from_mount");

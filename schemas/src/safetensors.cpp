@@ -21,11 +21,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array kTypes = {TensorType::kF64, TensorType::kF32, TensorType::kF16,
-                               TensorType::kI64, TensorType::kU8};
+constexpr std::array kTensorTypes = {TensorType::kF64, TensorType::kF32, TensorType::kF16,
+                                     TensorType::kI64, TensorType::kU8};
 constexpr std::uint64_t kLengthBytes = 8;
 constexpr std::uint64_t kMostHeaderBytes = 100'000'000;  // the format's own limit
-constexpr std::size_t kAlignment = 64;
+constexpr std::size_t kTensorAlignment = 64;
 constexpr const char* kMetadata = "__metadata__";
 
 [[noreturn]] void Refuse(const std::string& path, const std::string& problem) {
@@ -89,30 +89,30 @@ std::vector<std::uint64_t> Unsigned(const Json& json, const std::string& what,
 }
 
 TensorType TypeNamed(const Json& json, const std::string& what, const std::string& path) {
-  for (const TensorType type : kTypes) {
+  for (const TensorType type : kTensorTypes) {
     if (json == NameOf(type)) return type;
   }
   Refuse(path, what + " has an element type other than F64, F32, F16, I64 and U8");
 }
 
-struct Range {
+struct ByteRange {
   std::uint64_t begin;
   std::uint64_t end;
 };
 
-struct Entry {
+struct TensorEntry {
   std::string name;
   Tensor tensor;
-  Range range;
+  ByteRange range;
 };
 
-Entry ParseEntry(const std::string& name, const Json& json, std::uint64_t data_size,
-                 const std::string& path) {
+TensorEntry ParseEntry(const std::string& name, const Json& json, std::uint64_t data_size,
+                       const std::string& path) {
   const std::string what = "tensor \"" + name + "\"";
   if (!json.is_object() || json.size() != 3 || !json.contains("dtype") || !json.contains("shape") ||
       !json.contains("data_offsets"))
     Refuse(path, what + " does not have exactly dtype, shape and data_offsets");
-  Entry entry{name, {}, {}};
+  TensorEntry entry{name, {}, {}};
   entry.tensor.type = TypeNamed(json["dtype"], what, path);
   entry.tensor.shape = Unsigned(json["shape"], what + ".shape", path);
   const auto offsets = Unsigned(json["data_offsets"], what + ".data_offsets", path);
@@ -170,7 +170,9 @@ std::string EncodeTensors(const TensorFile& file) {
   }
   std::string text = JsonText(header);
   text.resize(
-      (kLengthBytes + text.size() + kAlignment - 1) / kAlignment * kAlignment - kLengthBytes, ' ');
+      (kLengthBytes + text.size() + kTensorAlignment - 1) / kTensorAlignment * kTensorAlignment -
+          kLengthBytes,
+      ' ');
 
   std::string bytes;
   bytes.reserve(kLengthBytes + text.size() + offset);
@@ -186,18 +188,18 @@ TensorFile DecodeTensors(std::string_view bytes, const std::string& path) {
   const Json header = ParseHeader(bytes.substr(kLengthBytes, header_size), path);
   const std::string_view data = bytes.substr(kLengthBytes + header_size);
   TensorFile file;
-  std::vector<Entry> entries;
+  std::vector<TensorEntry> entries;
   for (const auto& [name, json] : header.items()) {
     if (name == kMetadata)
       file.metadata = ParseMetadata(json, path);
     else
       entries.push_back(ParseEntry(name, json, data.size(), path));
   }
-  std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+  std::stable_sort(entries.begin(), entries.end(), [](const TensorEntry& a, const TensorEntry& b) {
     return std::pair(a.range.begin, a.range.end) < std::pair(b.range.begin, b.range.end);
   });
   std::uint64_t covered = 0;
-  for (Entry& entry : entries) {
+  for (TensorEntry& entry : entries) {
     if (entry.range.begin != covered)
       Refuse(path, "the data have a gap or an overlap before tensor \"" + entry.name + "\"");
     covered = entry.range.end;

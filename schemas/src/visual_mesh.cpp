@@ -151,7 +151,7 @@ Eigen::Matrix<double, kSize, 1> NumbersOf(std::string_view words, const Recorded
   return numbers;
 }
 
-using Materials = std::map<std::string, VisualMaterial, std::less<>>;
+using MaterialsByName = std::map<std::string, VisualMaterial, std::less<>>;
 using Textures = std::map<std::string, std::shared_ptr<const VisualTexture>, std::less<>>;
 
 std::string BaseName(const std::string& path) { return path.substr(path.rfind('/') + 1); }
@@ -175,9 +175,9 @@ Eigen::Vector4d Shares(const Eigen::Vector4d& rgba, const RecordedLines& lines) 
   return rgba;
 }
 
-Materials ReadMaterials(const VisualFiles& files, const Textures& textures,
-                        const FileReader& read) {
-  Materials materials;
+MaterialsByName ReadMaterials(const VisualFiles& files, const Textures& textures,
+                              const FileReader& read) {
+  MaterialsByName materials;
   RecordedLines lines(files.materials.path, read(files.materials));
   VisualMaterial* material = nullptr;
   while (lines.Next()) {
@@ -208,7 +208,7 @@ Materials ReadMaterials(const VisualFiles& files, const Textures& textures,
 
 class MeshLines {
  public:
-  MeshLines(const VisualFiles& files, const Materials& materials, const FileReader& read)
+  MeshLines(const VisualFiles& files, const MaterialsByName& materials, const FileReader& read)
       : files_(files), materials_(materials), lines_(files.mesh.path, read(files.mesh)) {}
 
   VisualMesh Read() {
@@ -275,7 +275,7 @@ class MeshLines {
   }
 
   const VisualFiles& files_;
-  const Materials& materials_;
+  const MaterialsByName& materials_;
   RecordedLines lines_;
   VisualMesh mesh_;
   std::set<std::string> used_;
@@ -352,7 +352,7 @@ VisualFiles VisualFilesIn(const std::string& folder, const std::string& name,
 
 VisualMesh ReadVisualMesh(const VisualFiles& files, const FileReader& read) {
   const Textures textures = ReadTextures(files, read);
-  const Materials materials = ReadMaterials(files, textures, read);
+  const MaterialsByName materials = ReadMaterials(files, textures, read);
   return MeshLines(files, materials, read).Read();
 }
 

@@ -736,7 +736,8 @@ TEST_F(RobotSightTest, ThePictureShowsWhereTheHandIsToGo) {
 
 // What is recorded for a user is what the policies are given in the simulator.
 TEST_F(RobotSightTest, ARecordedEpisodeIsReadByTheProgram) {
-  const DoorAsset door = MakePrimitiveDoor({});
+  const auto made = std::make_shared<const DoorAsset>(MakePrimitiveDoor({}));
+  const IdentifiedDoor door{made, ContentHash(*made)};
   SightRequest request;
   request.seed = 7;
   request.all_decisions = true;

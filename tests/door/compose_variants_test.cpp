@@ -108,6 +108,28 @@ TEST(ComposeVariants, AMirroredLeverPointsTheOtherWayAndStillGoesDown) {
             std::string::npos);
 }
 
+TEST(ComposeVariants, AReversedLeverLooksTheSameAndGoesUp) {
+  const DoorAsset made = ComposeDoor(SmallBody(), SmallLever(), {});
+  const DoorAsset door =
+      ComposeDoor(SmallBody(), SmallLever(), {.handle_sense = HandleSense::kReversed});
+  EXPECT_EQ(door.id, "small_body__small_lever__reversed");
+  const Eigen::Vector3d grasp = door.handle_from_grasp.translation();
+  const auto shut = DoorFromLinks(door, 0, 0);
+  const auto lifted = DoorFromLinks(door, 0, 0.5);
+  EXPECT_GT((lifted[2] * grasp).z(), (shut[2] * grasp).z() + 0.03);
+  // the handle's frame and shape are those of the other door: it is the axis alone that is reversed
+  for (std::size_t link = 0; link < 3; ++link) {
+    EXPECT_TRUE(shut[link].isApprox(DoorFromLinks(made, 0, 0)[link], 0));
+    EXPECT_EQ(door.links[link].geometry[0].mesh.vertices,
+              made.links[link].geometry[0].mesh.vertices);
+  }
+  EXPECT_TRUE(DoorFromLinks(door, 0, 0.5)[2].isApprox(DoorFromLinks(made, 0, -0.5)[2], 1e-12));
+  Part pull = SmallLever();
+  pull.mechanism = Mechanism::kNone;
+  EXPECT_NE(Refusal(SmallBody(), pull, {.handle_sense = HandleSense::kReversed}).find("CMP012"),
+            std::string::npos);
+}
+
 TEST(ComposeVariants, AQuarterTurnMakesAnUprightBarOfALyingOne) {
   const DoorAsset door = ComposeDoor(SmallBody(), SmallLever(), {.handle_turn_deg = 90});
   const Eigen::Vector3d size = BoxOfLink(door, kHandleLink, 0).sizes();

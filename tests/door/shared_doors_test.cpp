@@ -149,6 +149,29 @@ TEST_F(SharedDoors, TheirIndexHoldsTheHashesOfTheDoorsThemselves) {
   }
 }
 
+// Meshes that were hashed for a door before are not hashed again, roses at other places are.
+TEST_F(SharedDoors, DoorsReadOneAfterTheOtherHaveTheirOwnMeshesAndIdentities) {
+  Write(folder_, 1, Existing::kRefuse);
+  DoorIdentifier identifier;
+  for (int time = 0; time < 2; ++time) {
+    for (const FoundDoor& found : FindDoorSet({.folders = {folder_}}, 1).doors) {
+      const auto [door, identity] = identifier.Read(found.folder);
+      EXPECT_EQ(identity, IdentityOf(ReadDoor(found.folder)));
+      EXPECT_EQ(IdentityOf(door), identity);
+    }
+  }
+}
+
+TEST_F(SharedDoors, AChangedPoolFileIsNoticedThoughItWasReadBefore) {
+  Write(folder_, 1, Existing::kRefuse);
+  const fs::path door = FindDoorSet({.folders = {folder_}}, 1).doors.at(0).folder;
+  DoorIdentifier identifier;
+  identifier.Read(door);
+  const fs::path mesh = door / ReadDoorFiles(door)[kLeafLink][0].mesh;
+  CommitFile(mesh, ReadFile(mesh) + "v 9 9 9\n");
+  EXPECT_THROW(identifier.Read(door), Error);
+}
+
 TEST_F(SharedDoors, AChangedPoolFileIsNoticedBesideAnIndexToo) {
   Write(folder_, 1, Existing::kRefuse);
   WriteDoorIndex(folder_, 1);

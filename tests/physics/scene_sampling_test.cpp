@@ -29,6 +29,14 @@ TEST(SceneSampling, EqualArgumentsGiveEqualScenesAndOthersDiffer) {
   EXPECT_NE(SceneToJson(SampleScene(door, 7, 4)).dump(), scene);
 }
 
+TEST(SceneSampling, TheHashThatCameWithTheDoorIsBelieved) {
+  const auto door = std::make_shared<const DoorAsset>(MakePrimitiveDoor({}));
+  Scene scene = SampleScene(IdentifiedDoor{door, "as it was read"}, 7, 3);
+  EXPECT_EQ(scene.door_sha256, "as it was read");
+  scene.door_sha256 = ContentHash(*door);
+  EXPECT_EQ(SceneToJson(scene).dump(), SceneToJson(SampleScene(*door, 7, 3)).dump());
+}
+
 TEST(SceneSampling, TheGraspPointLiesWhereUniDoorManipHasIt) {
   for (const Category category : {Category::kInterior, Category::kStorageFurniture}) {
     for (std::uint64_t i = 0; i < 20; ++i) {

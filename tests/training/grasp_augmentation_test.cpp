@@ -2,13 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "grasp_augmentation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "doorforge/core/rigid_transform.h"
+#include "doorforge/core/rng.h"
 #include "doorforge/policy/grasp_rating.h"
 #include "doorforge/policy/orientation_sampling.h"
 
@@ -110,6 +114,44 @@ TEST(SmoothedRatings, AreMeansOfWhatTouchesNearby) {
   EXPECT_NEAR(smoothed[0], (4 + near * 1) / (1 + near), 1e-6);
   EXPECT_NEAR(smoothed[1], (1 + near * 4) / (1 + near), 1e-6);
   EXPECT_NEAR(smoothed[2], 7, 1e-6);
+}
+
+// As the header says it, over all pairs.
+double PlainlySmoothed(const std::vector<RatedHand>& hands, std::size_t i, double width_rad,
+                       double width_m) {
+  const auto angle = [](const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
+    return Eigen::AngleAxisd(a.transpose() * b).angle();
+  };
+  const Eigen::Matrix3d other_finger =
+      RotationAbout(Eigen::Vector3d::UnitZ(), std::numbers::pi).linear();
+  double sum = 0;
+  double weights = 0;
+  for (const RatedHand& hand : hands) {
+    const double turn = std::min(
+        angle(hands[i].world_from_hand_rotation, hand.world_from_hand_rotation),
+        angle(hands[i].world_from_hand_rotation, hand.world_from_hand_rotation * other_finger));
+    const double away = (hands[i].contact_m - hand.contact_m).norm();
+    const double weight = std::exp(-std::pow(turn / width_rad, 2) - std::pow(away / width_m, 2));
+    sum += weight * hand.rating_rad;
+    weights += weight;
+  }
+  return sum / weights;
+}
+
+TEST(SmoothedRatings, AreThePlainMeansOfManyHands) {
+  Rng rng(5, "hands");
+  std::vector<RatedHand> hands;
+  for (int i = 0; i < 120; ++i) {
+    const Eigen::Vector3d axis(rng.Normal(), rng.Normal(), rng.Normal());
+    hands.push_back({Eigen::Vector3d(rng.Normal(), rng.Normal(), rng.Normal()) * 0.01,
+                     RotationAbout(axis.normalized(), rng.Uniform(0, 3)).linear(),
+                     rng.Uniform(0, 1)});
+  }
+  for (const auto& [width_rad, width_m] : {std::pair{0.25, 0.01}, {0.6, 0.03}, {2.0, 1.0}}) {
+    const std::vector<double> smoothed = Smoothed(hands, width_rad, width_m);
+    for (std::size_t i = 0; i < hands.size(); ++i)
+      EXPECT_NEAR(smoothed[i], PlainlySmoothed(hands, i, width_rad, width_m), 1e-7);
+  }
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ int Record(Options options) {
   const fs::path out = options.out;
   RequireNoFile(out / "grasp" / "depth.png", options.overwrite);
   DoorCache shelf(doors);
-  const RecordedSight recorded = RecordSight(*shelf.Take(0), options.request, out);
+  const RecordedSight recorded = RecordSight(shelf.Take(0), options.request, out);
   std::printf("%s: a look at the closed door, %d of turning the handle, %d of opening\n",
               out.c_str(), recorded.handle_decisions, recorded.open_decisions);
   return 0;

@@ -11,9 +11,8 @@
 namespace doorforge::internal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kHullToleranceM = 0.006;
-constexpr double kJointM = 0.0001;  // between solids that touch
+constexpr double kLeafStyleHullToleranceM = 0.006;
+constexpr double kLeafStyleJointM = 0.0001;  // between solids that touch
 
 Rectangle InnerOf(const LeafShape& leaf, double by) {
   return {leaf.outline.min_m.array() + by, leaf.outline.max_m.array() - by};
@@ -35,7 +34,8 @@ Solid CutBar(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double widt
   const Eigen::Vector2d more = along * width_m;
   Polygon bar = {from - more - side, to + more - side, to + more + side, from - more + side};
   for (const int axis : {0, 1})
-    bar = ClippedToBand(bar, axis, window.min_m[axis] + kJointM, window.max_m[axis] - kJointM);
+    bar = ClippedToBand(bar, axis, window.min_m[axis] + kLeafStyleJointM,
+                        window.max_m[axis] - kLeafStyleJointM);
   if (bar.size() < 3) return {};
   return ConvexPrism(bar, PrismAxis::kX, depth, 0);
 }
@@ -46,9 +46,9 @@ Solid LouvredLeaf(const LeafShape& leaf, int slats) {
   ReliefSlab frame = SlabOf(leaf);
   const Rectangle window = InnerOf(leaf, leaf.border_m);
   frame.openings = {window};
-  std::vector<Solid> solids = {ReliefSolid(frame, kHullToleranceM)};
+  std::vector<Solid> solids = {ReliefSolid(frame, kLeafStyleHullToleranceM)};
   const double pitch = (window.max_m.y() - window.min_m.y()) / slats;
-  const double tilt = 35 * kPi / 180;
+  const double tilt = 35 * std::numbers::pi / 180;
   const double half_thickness = 0.004;
   // as wide as frame and neighbours leave room for
   const double half_width = std::min(0.45 * leaf.thickness_m / std::cos(tilt) - half_thickness,
@@ -69,10 +69,11 @@ Solid BracedLeaf(const LeafShape& leaf, int panels, bool crossed) {
   constexpr double kBoardM = 0.009;
   ReliefSlab back = SlabOf(leaf);
   back.thickness_m = leaf.thickness_m - kBoardM;
-  std::vector<Solid> solids = {Moved(ReliefSolid(back, kHullToleranceM), {-kBoardM, 0, 0})};
+  std::vector<Solid> solids = {
+      Moved(ReliefSolid(back, kLeafStyleHullToleranceM), {-kBoardM, 0, 0})};
   // the boards in front, as a frame with windows
   ReliefSlab frame = SlabOf(leaf);
-  frame.thickness_m = kBoardM - kJointM;
+  frame.thickness_m = kBoardM - kLeafStyleJointM;
   const Rectangle inner = InnerOf(leaf, leaf.border_m);
   const double rail = 0.7 * leaf.border_m;
   const double height = (inner.max_m.y() - inner.min_m.y() - rail * (panels - 1)) / panels;
@@ -80,8 +81,8 @@ Solid BracedLeaf(const LeafShape& leaf, int panels, bool crossed) {
     const double z = inner.min_m.y() + i * (height + rail);
     frame.openings.push_back({{inner.min_m.x(), z}, {inner.max_m.x(), z + height}});
   }
-  solids.push_back(ReliefSolid(frame, kHullToleranceM));
-  const PrismSpan depth{kJointM - kBoardM, -0.001};
+  solids.push_back(ReliefSolid(frame, kLeafStyleHullToleranceM));
+  const PrismSpan depth{kLeafStyleJointM - kBoardM, -0.001};
   for (const Rectangle& window : frame.openings) {
     const Eigen::Vector2d a = window.min_m;
     const Eigen::Vector2d b = window.max_m;
@@ -95,7 +96,7 @@ Solid BracedLeaf(const LeafShape& leaf, int panels, bool crossed) {
     const Eigen::Vector2d u = (b - a).normalized();
     const Eigen::Vector2d v = (d - c).normalized();
     const double sine = std::abs(u.x() * v.y() - u.y() * v.x());
-    const double stop = width / 2 * (1 + std::abs(u.dot(v))) / sine + width + kJointM;
+    const double stop = width / 2 * (1 + std::abs(u.dot(v))) / sine + width + kLeafStyleJointM;
     solids.push_back(CutBar(c, middle - v * stop, width, window, depth));
     solids.push_back(CutBar(middle + v * stop, d, width, window, depth));
   }
@@ -106,7 +107,7 @@ Solid LatticedLeaf(const LeafShape& leaf, int bars, double bar_width_m) {
   ReliefSlab frame = SlabOf(leaf);
   const Rectangle window = InnerOf(leaf, leaf.border_m);
   frame.openings = {window};
-  std::vector<Solid> solids = {ReliefSolid(frame, kHullToleranceM)};
+  std::vector<Solid> solids = {ReliefSolid(frame, kLeafStyleHullToleranceM)};
   const Eigen::Vector2d size = window.max_m - window.min_m;
   const Eigen::Vector2d middle = (window.max_m + window.min_m) / 2;
   const double reach = size.x() + size.y();
@@ -115,8 +116,8 @@ Solid LatticedLeaf(const LeafShape& leaf, int bars, double bar_width_m) {
     const Eigen::Vector2d along = Eigen::Vector2d(1, way).normalized();
     const Eigen::Vector2d across(-along.y(), along.x());
     const double pitch = reach / std::numbers::sqrt2 / bars;
-    const PrismSpan depth = way > 0 ? PrismSpan{bar_x + kJointM, bar_x + 0.006}
-                                    : PrismSpan{bar_x - 0.006, bar_x - kJointM};
+    const PrismSpan depth = way > 0 ? PrismSpan{bar_x + kLeafStyleJointM, bar_x + 0.006}
+                                    : PrismSpan{bar_x - 0.006, bar_x - kLeafStyleJointM};
     for (int i = 0; i < bars; ++i) {
       const Eigen::Vector2d on = middle + across * pitch * (i - (bars - 1) / 2.0);
       solids.push_back(CutBar(on - along * reach, on + along * reach, bar_width_m, window, depth));
@@ -133,8 +134,9 @@ Solid ArchedLeaf(const LeafShape& leaf, double rise_m, bool open) {
   const double edge = leaf.edge_radius_m;
   std::vector<Solid> solids;
   const auto board = [&](const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
-    solids.push_back(ConvexPrism(BoxPolygon(low.array() + kJointM, high.array() - kJointM),
-                                 PrismAxis::kX, depth, edge));
+    solids.push_back(
+        ConvexPrism(BoxPolygon(low.array() + kLeafStyleJointM, high.array() - kLeafStyleJointM),
+                    PrismAxis::kX, depth, edge));
   };
   board(out.min_m, {in.min_m.x(), out.max_m.y()});
   board({in.max_m.x(), out.min_m.y()}, out.max_m);
@@ -142,22 +144,22 @@ Solid ArchedLeaf(const LeafShape& leaf, double rise_m, bool open) {
   const auto arch = [&](int i) {
     const double t = static_cast<double>(i) / kSteps;
     return Eigen::Vector2d(in.min_m.x() + t * (in.max_m.x() - in.min_m.x()),
-                           in.max_m.y() - rise_m + rise_m * std::sin(kPi * t));
+                           in.max_m.y() - rise_m + rise_m * std::sin(std::numbers::pi * t));
   };
   // the upper rail in strips, one hull each; one mesh
-  Polygon rail = {{in.min_m.x() + kJointM, out.max_m.y() - kJointM}};
+  Polygon rail = {{in.min_m.x() + kLeafStyleJointM, out.max_m.y() - kLeafStyleJointM}};
   std::vector<TriangleMesh> strips;
   for (int i = 0; i <= kSteps; ++i) {
     Eigen::Vector2d p = arch(i);
-    if (i == 0) p.x() += kJointM;
-    if (i == kSteps) p.x() -= kJointM;
+    if (i == 0) p.x() += kLeafStyleJointM;
+    if (i == kSteps) p.x() -= kLeafStyleJointM;
     rail.push_back(p);
   }
-  rail.emplace_back(in.max_m.x() - kJointM, out.max_m.y() - kJointM);
+  rail.emplace_back(in.max_m.x() - kLeafStyleJointM, out.max_m.y() - kLeafStyleJointM);
   for (int i = 0; i < kSteps; ++i) {
     const Eigen::Vector2d a = rail[static_cast<std::size_t>(i) + 1];
     const Eigen::Vector2d b = rail[static_cast<std::size_t>(i) + 2];
-    const double top = out.max_m.y() - kJointM;
+    const double top = out.max_m.y() - kLeafStyleJointM;
     const Solid strip = ConvexPrism({a, b, {b.x(), top}, {a.x(), top}}, PrismAxis::kX, depth, 0);
     strips.push_back(strip.hulls.front());
   }
@@ -171,7 +173,7 @@ Solid ArchedLeaf(const LeafShape& leaf, double rise_m, bool open) {
     Polygon panel = {in.max_m - Eigen::Vector2d(0, rise_m), in.min_m};
     panel = {in.min_m, {in.max_m.x(), in.min_m.y()}};
     for (int i = kSteps; i >= 0; --i) panel.push_back(arch(i));
-    solids.push_back(ConvexPrism(Inset(panel, kJointM), PrismAxis::kX,
+    solids.push_back(ConvexPrism(Inset(panel, kLeafStyleJointM), PrismAxis::kX,
                                  {-0.75 * leaf.thickness_m, -0.3 * leaf.thickness_m}, 0));
   }
   return Joined(solids);
@@ -183,7 +185,7 @@ Solid BowedLeaf(const LeafShape& leaf, double bow_m) {
   std::vector<Eigen::Vector2d> middle = {{0, leaf.outline.min_m.x()}};  // (x, y)
   for (int i = 0; i <= kSteps; ++i) {
     const double t = static_cast<double>(i) / kSteps;
-    middle.emplace_back(bow_m * (0.5 - 0.5 * std::cos(2 * kPi * t)),
+    middle.emplace_back(bow_m * (0.5 - 0.5 * std::cos(2 * std::numbers::pi * t)),
                         in.min_m.x() + t * (in.max_m.x() - in.min_m.x()));
   }
   middle.emplace_back(0, leaf.outline.max_m.x());
@@ -224,7 +226,7 @@ Solid ReededLeaf(const LeafShape& leaf, int reeds) {
          {{0, 0}, {0.25 * half, -0.66 * depth}, {0.6 * half, -0.94 * depth}, {half, -depth}},
          ReliefSide::kFront});
   }
-  return ReliefSolid(slab, kHullToleranceM);
+  return ReliefSolid(slab, kLeafStyleHullToleranceM);
 }
 
 }  // namespace doorforge::internal

@@ -63,6 +63,14 @@ void CheckPair(const Part& body, const Part& handle) {
                                        handle.id + "\" of " + std::string(NameOf(handle.category)));
 }
 
+void CheckSense(const Part& handle, HandleSense sense) {
+  if (sense == HandleSense::kAsMade) return;
+  if (handle.mechanism == Mechanism::kNone || handle.mechanism == Mechanism::kFlap)
+    internal::RefusePair("CMP012", "handle \"" + handle.id + "\" is of mechanism " +
+                                       std::string(NameOf(handle.mechanism)) +
+                                       "; use handle_sense: as_made");
+}
+
 Eigen::Vector3d WantedMount(const Pair& pair) {
   const ComposeConfig& config = pair.config;
   const Eigen::AlignedBox3d& leaf = pair.body.leaf->bounds;
@@ -222,6 +230,7 @@ void AddJoints(const Pair& pair, const RigidTransform& body_from_handle, DoorAss
   door.handle_joint =
       MakeJoint("handle_joint", handle, body_from_handle * handle.origin_m - hinge.origin_m);
   door.handle_joint.axis = body_from_handle.linear() * door.handle_joint.axis;
+  if (pair.config.handle_sense == HandleSense::kReversed) door.handle_joint.axis *= -1;
   door.handle_joint.effort_limit_nm = internal::kHandleLimits.effort_nm;
   door.handle_joint.velocity_limit_rad_s = internal::kHandleLimits.velocity_rad_s;
   door.handle_joint.damping_nm_s = numbers.handle_damping_nm_s;
@@ -302,6 +311,7 @@ Composed Compose(const Pair& pair) {
   const Part& body = pair.body.part;
   const Part& handle = pair.handle.part;
   CheckPair(body, handle);
+  CheckSense(handle, pair.config.handle_sense);
   Composed composed;
   DoorAsset& door = composed.door;
   door.id = internal::DoorIdOf(body.id, handle.id, pair.config);

@@ -30,6 +30,7 @@ constexpr std::array kRules = {
     ComposeRule{"CMP009", "the licence of each part is one of license_allow"},
     ComposeRule{"CMP010", "a mirrored or turned handle reaches at most 10 mm beyond the leaf"},
     ComposeRule{"CMP011", "the author's place is that of one imported object"},
+    ComposeRule{"CMP012", "what turns the other way is a lever, a knob, a key or a wheel"},
 };
 
 constexpr std::array kJointPresets = {
@@ -226,6 +227,7 @@ std::string DoorIdOf(const std::string& body, const std::string& handle,
   if (config.hinge_side == HingeSide::kRight) id += "__right";
   if (config.opening == Opening::kPush) id += "__push";
   if (config.handle_mirrored) id += "__mirrored";
+  if (config.handle_sense == HandleSense::kReversed) id += "__reversed";
   if (config.handle_turn_deg != 0) id += "__turned" + std::to_string(config.handle_turn_deg);
   if (config.seed != 0) id += "__s" + std::to_string(config.seed);
   const std::string problem = IdProblem(id);

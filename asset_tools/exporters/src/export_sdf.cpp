@@ -33,7 +33,7 @@ void AddMesh(const char* kind, const std::string& name, const std::string& file,
   AddText(material, "diffuse", Decimals(*color));
 }
 
-void AddInertial(const MassProperties& mass, XmlElement& link) {
+void AddSdfInertial(const MassProperties& mass, XmlElement& link) {
   const Eigen::Matrix3d& i = mass.inertia_kg_m2;
   XmlElement& inertial = AddElement(link, "inertial");
   AddText(inertial, "pose", Pose(Translation(mass.center_of_mass_m)));
@@ -53,7 +53,7 @@ void AddLink(const DoorLink& link, const DoorJoint* placed_by, XmlElement& model
   SetAttribute(element, "name", link.name);
   if (placed_by != nullptr)
     SetAttribute(AddText(element, "pose", "0 0 0 0 0 0"), "relative_to", placed_by->name);
-  AddInertial(link.mass, element);
+  AddSdfInertial(link.mass, element);
   for (const DoorGeometry& geometry : link.geometry) {
     // the mesh of an author brings its own materials
     if (geometry.visual.empty())
@@ -67,14 +67,14 @@ void AddLink(const DoorLink& link, const DoorJoint* placed_by, XmlElement& model
 }
 
 /// A joint with what stands around it.
-struct Connection {
+struct SdfConnection {
   const DoorJoint& joint;
   const std::string& parent;
   const std::string& child;
   double spring_nm_per_rad;
 };
 
-void AddJoint(const Connection& connection, XmlElement& model) {
+void AddJoint(const SdfConnection& connection, XmlElement& model) {
   const DoorJoint& joint = connection.joint;
   XmlElement& element = AddElement(model, "joint");
   SetAttribute(element, "name", joint.name);

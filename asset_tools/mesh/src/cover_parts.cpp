@@ -20,7 +20,7 @@ namespace {
 using Points = std::vector<Eigen::Vector3d>;
 
 constexpr double kThinnest = 2e-4;  // [m]
-constexpr int kSamples = 8000;
+constexpr int kCoverSamples = 8000;
 
 // Direction in which the points spread least.
 Eigen::Vector3d FlatDirection(const Points& points) {
@@ -134,7 +134,7 @@ std::pair<Points, Points> Halves(const Points& points) {
 // Samples by area pass over strips, whose corners may be covered while their middle is not: so the
 // edges and the centres of all triangles are looked at as well.
 Points ProbesOf(const TriangleMesh& mesh, double spacing_m) {
-  Points probes = SurfaceSamples(mesh, kSamples);
+  Points probes = SurfaceSamples(mesh, kCoverSamples);
   probes.insert(probes.end(), mesh.vertices.begin(), mesh.vertices.end());
   for (const Eigen::Vector3i& t : mesh.triangles) {
     Eigen::Vector3d center = Eigen::Vector3d::Zero();
@@ -162,7 +162,7 @@ class Cover {
   }
 
   std::vector<TriangleMesh> Over(const ClosedMesh& mesh) {
-    const double spacing_m = std::sqrt(MeasureTopology(mesh.mesh()).area_m2 / kSamples);
+    const double spacing_m = std::sqrt(MeasureTopology(mesh.mesh()).area_m2 / kCoverSamples);
     const Points probes = ProbesOf(mesh.mesh(), spacing_m);
     constexpr int kRounds = 3;  // reduced to few vertices, a part may not cover all that it was for
     for (int round = 0; round < kRounds; ++round) {

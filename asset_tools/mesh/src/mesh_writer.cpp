@@ -18,12 +18,12 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "STL and PLY are written as they lie");
 
 template <class Value>
-void Put(std::string& content, const Value& value) {
+void PutRaw(std::string& content, const Value& value) {
   content.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
 void PutPoint(std::string& content, const Eigen::Vector3d& point) {
-  for (const double coordinate : point) Put(content, static_cast<float>(coordinate));
+  for (const double coordinate : point) PutRaw(content, static_cast<float>(coordinate));
 }
 
 std::string Obj(const TriangleMesh& mesh) {
@@ -51,14 +51,14 @@ std::string Obj(const TriangleMesh& mesh) {
 
 std::string Stl(const TriangleMesh& mesh) {
   std::string content(80, ' ');  // must not begin with "solid"
-  Put(content, static_cast<std::uint32_t>(mesh.triangles.size()));
+  PutRaw(content, static_cast<std::uint32_t>(mesh.triangles.size()));
   for (const Eigen::Vector3i& t : mesh.triangles) {
     const Eigen::Vector3d& a = mesh.vertices[static_cast<std::size_t>(t[0])];
     const Eigen::Vector3d& b = mesh.vertices[static_cast<std::size_t>(t[1])];
     const Eigen::Vector3d& c = mesh.vertices[static_cast<std::size_t>(t[2])];
     PutPoint(content, (b - a).cross(c - a).normalized());
     for (const Eigen::Vector3d& corner : {a, b, c}) PutPoint(content, corner);
-    Put(content, std::uint16_t{0});
+    PutRaw(content, std::uint16_t{0});
   }
   return content;
 }
@@ -71,8 +71,8 @@ std::string Ply(const TriangleMesh& mesh) {
                         "\nproperty list uchar int vertex_indices\nend_header\n";
   for (const Eigen::Vector3d& vertex : mesh.vertices) PutPoint(content, vertex);
   for (const Eigen::Vector3i& t : mesh.triangles) {
-    Put(content, std::uint8_t{3});
-    for (const int index : t) Put(content, index);
+    PutRaw(content, std::uint8_t{3});
+    for (const int index : t) PutRaw(content, index);
   }
   return content;
 }

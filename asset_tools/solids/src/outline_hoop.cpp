@@ -13,7 +13,6 @@
 namespace doorforge::internal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kJointM = 0.0002;  // between solids that touch
 constexpr int kHalfArcSteps = 5;
 
@@ -24,7 +23,7 @@ Polygon UnitHead(const std::string& shape, double rise_in_halves) {
   for (int i = -kHalfArcSteps; i <= kHalfArcSteps; ++i) {
     const double t = -static_cast<double>(i) / kHalfArcSteps;
     if (shape == "round") {
-      head.emplace_back(std::sin(kPi / 2 * t), std::cos(kPi / 2 * t));
+      head.emplace_back(std::sin(std::numbers::pi / 2 * t), std::cos(std::numbers::pi / 2 * t));
     } else if (shape == "segment") {
       // on the circle through both springings and the crown
       const double r = (1 + rise_in_halves * rise_in_halves) / (2 * rise_in_halves);
@@ -156,15 +155,15 @@ Solid RaysInside(const Polygon& outline, int rays, double hub_m, const BarGrid& 
   std::vector<Solid> solids;
   const auto way = [&](double angle) { return Eigen::Vector2d(std::cos(angle), std::sin(angle)); };
   for (int i = 0; i < rays; ++i) {
-    const double angle = kPi * (i + 1) / (rays + 1);
+    const double angle = std::numbers::pi * (i + 1) / (rays + 1);
     const Eigen::Vector2d from = center + way(angle) * (hub_m + grid.width_m / 2 + 0.003);
     AppendBar(CutBar(inside, from, center + way(angle) * reach, grid.width_m), depth, solids);
   }
   // the hub: pieces of a ring
   const int pieces = rays + 1;
   for (int i = 0; i < pieces; ++i) {
-    const double a = kPi * i / pieces;
-    const double b = kPi * (i + 1) / pieces;
+    const double a = std::numbers::pi * i / pieces;
+    const double b = std::numbers::pi * (i + 1) / pieces;
     const double inner = hub_m - grid.width_m / 2;
     const double outer = hub_m + grid.width_m / 2;
     Polygon piece = {center + inner * way(a), center + outer * way(a), center + outer * way(b),

@@ -15,7 +15,7 @@
 namespace doorforge::internal {
 namespace {
 
-constexpr std::size_t kMaxHullVertices = 64;
+constexpr std::size_t kMaxPanelHullVertices = 64;
 constexpr double kOnLineM = 1e-7;
 
 // Shares of the radius at which a quarter circle has lines, and how far it lies back there.
@@ -244,7 +244,7 @@ bool Panel::AllFilled(const Block& block, const std::vector<char>& taken) const 
 
 bool Panel::MayJoin(const Block& block, double tolerance_m) const {
   const TriangleMesh hull = HullOf(block);
-  if (hull.vertices.size() > kMaxHullVertices) return false;
+  if (hull.vertices.size() > kMaxPanelHullVertices) return false;
   // a thin bent strip lies near its hull's surface everywhere; what the hull adds tells
   const auto [volume, area] = Extent(hull);
   const double added = (volume - VolumeOf(block)) / area;

@@ -15,8 +15,6 @@
 namespace doorforge::internal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 Eigen::Vector2d Direction(const Polygon& polygon, std::size_t i) {
   return (polygon[(i + 1) % polygon.size()] - polygon[i]).normalized();
 }
@@ -101,7 +99,7 @@ std::vector<TriangleMesh> CupHulls(const CupShape& cup) {
 Polygon CirclePolygon(const Eigen::Vector2d& center_m, double radius_m, int points) {
   Polygon polygon;
   for (int i = 0; i < points; ++i) {
-    const double angle = 2 * kPi * (i + 0.5) / points;
+    const double angle = 2 * std::numbers::pi * (i + 0.5) / points;
     polygon.emplace_back(center_m + radius_m * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
   }
   return polygon;
@@ -188,7 +186,7 @@ Solid CupSolid(const CupShape& cup) {
   std::vector<Ring> rings = {ring(Inset(cup.outer, r), cup.back_x_m),
                              ring(cup.outer, cup.back_x_m + r)};
   for (const double degrees : {0.0, 30.0, 60.0, 90.0}) {
-    const double angle = degrees * kPi / 180;
+    const double angle = degrees * std::numbers::pi / 180;
     rings.push_back(ring(Inset(cup.outer, r * (1 - std::cos(angle))),
                          cup.front_x_m - r * (1 - std::sin(angle))));
   }
@@ -202,7 +200,7 @@ Solid CupSolid(const CupShape& cup) {
 Solid HoopSolid(const HoopShape& hoop, const Eigen::Vector3d& center_m) {
   std::vector<PathPoint> path;
   for (int i = 0; i < hoop.sides; ++i) {
-    const double angle = 2 * kPi * i / hoop.sides;
+    const double angle = 2 * std::numbers::pi * i / hoop.sides;
     const Eigen::Vector3d out(0, std::cos(angle), std::sin(angle));
     const Eigen::Vector3d tangent(0, -std::sin(angle), std::cos(angle));
     path.push_back({center_m + hoop.radius_m * out, tangent, static_cast<double>(i)});

@@ -14,7 +14,6 @@
 namespace doorforge::internal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kSectionPoints = 20;
 
 void SetLengths(std::vector<PathPoint>& path) {
@@ -29,7 +28,7 @@ std::vector<PathPoint> Arc(const Eigen::Vector3d& corner, const Eigen::Vector3d&
   const Eigen::Vector3d axis = in.cross(out).normalized();
   const Eigen::Vector3d start = corner - in * radius_m * std::tan(turn / 2);
   const Eigen::Vector3d center = start + axis.cross(in) * radius_m;
-  const int steps = std::max(1, static_cast<int>(std::ceil(turn / (kPi / 12) - 1e-9)));
+  const int steps = std::max(1, static_cast<int>(std::ceil(turn / (std::numbers::pi / 12) - 1e-9)));
   std::vector<PathPoint> points;
   for (int i = 0; i <= steps; ++i) {
     const Eigen::AngleAxisd rotation(turn * i / steps, axis);
@@ -44,7 +43,7 @@ Ring SectionRing(const PathPoint& at, const Eigen::Vector3d& up, const Section& 
   const double power = 2 / section.exponent;
   Ring ring;
   for (int k = 0; k < kSectionPoints; ++k) {
-    const double angle = 2 * kPi * (k + 0.5) / kSectionPoints;
+    const double angle = 2 * std::numbers::pi * (k + 0.5) / kSectionPoints;
     const double c = std::cos(angle);
     const double s = std::sin(angle);
     ring.push_back(at.position_m +
@@ -59,7 +58,7 @@ void AddDome(const PathPoint& last, const Eigen::Vector3d& up, const Section& en
              std::vector<Ring>& rings) {
   if (dome_m <= 0) return;
   for (const double degrees : {25.0, 50.0, 72.0}) {
-    const double angle = degrees * kPi / 180;
+    const double angle = degrees * std::numbers::pi / 180;
     PathPoint beyond = last;
     beyond.position_m += beyond.tangent * (dome_m * std::sin(angle));
     rings.push_back(SectionRing(
@@ -71,7 +70,7 @@ void AddDome(const PathPoint& last, const Eigen::Vector3d& up, const Section& en
 Ring LatheRing(const LathePoint& at, const LatheShape& shape, double largest_radius_m) {
   Ring ring;
   for (int k = 0; k < shape.sides; ++k) {
-    const double angle = 2 * kPi * (k + 0.5) / shape.sides;
+    const double angle = 2 * std::numbers::pi * (k + 0.5) / shape.sides;
     const double depth = shape.flute_depth_m * at.radius_m / largest_radius_m;
     const double radius = at.radius_m - depth * (0.5 - 0.5 * std::cos(shape.flutes * angle));
     const double power = 2 / shape.squareness;
@@ -110,7 +109,7 @@ std::vector<TriangleMesh> LatheHulls(const std::vector<LathePoint>& profile,
   std::vector<bool> keep(profile.size(), false);
   keep.front() = keep.back() = true;
   Thin(profile, 0, profile.size() - 1, keep);
-  const double outside = 1 / std::cos(kPi / sides);
+  const double outside = 1 / std::cos(std::numbers::pi / sides);
   std::vector<Ring> rings;
   for (std::size_t i = 0; i < profile.size(); ++i) {
     if (!keep[i]) continue;

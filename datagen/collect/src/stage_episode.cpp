@@ -32,11 +32,12 @@ int LearnerDecisions(const StageConfig& config, const PlannedEpisode& planned) {
 
 }  // namespace
 
-CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const DoorAsset& door,
+CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const IdentifiedDoor& identified,
                                  const RobotModel& robot, const StageConfig& config,
                                  StagePolicies& policies) {
-  const Scene scene =
-      PlaceRobotBase(robot, SampleScene(door, config.seed, planned.number, config.scene), door);
+  const DoorAsset& door = *identified;
+  const Scene scene = PlaceRobotBase(
+      robot, SampleScene(identified, config.seed, planned.number, config.scene), door);
   const auto set = policies.Take();
   const bool at_grasp = config.stage == Stage::kGrasp;
   const bool samples_grasp = SamplesGrasp(config, planned);

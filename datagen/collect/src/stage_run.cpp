@@ -118,7 +118,7 @@ CollectRequest StageRun::Request() const {
 }
 
 CollectedEpisode StageRun::Run(const PlannedEpisode& planned) {
-  return RunStageEpisode(planned, *shelf_.Take(planned.door), robot_, config_, *policies_);
+  return RunStageEpisode(planned, shelf_.Take(planned.door), robot_, config_, *policies_);
 }
 
 }  // namespace doorforge

@@ -22,7 +22,7 @@ std::string Duration(double seconds) {
   return text;
 }
 
-std::string Fixed(double value, int digits) {
+std::string WithDigits(double value, int digits) {
   char text[48];
   std::snprintf(text, sizeof text, "%.*f", digits, value);
   return text;
@@ -74,16 +74,16 @@ std::string EpisodesLine(const CollectionStatus& status) {
                                                   static_cast<double>(status.Planned())
                                             : 0;
   return std::to_string(run) + " of " + std::to_string(status.Planned()) + " run (" +
-         Fixed(share, 1) + " %), " + std::to_string(status.Kept()) + " kept, " +
-         Fixed(static_cast<double>(Bytes(status)) / (1 << 20), 1) + " MiB";
+         WithDigits(share, 1) + " %), " + std::to_string(status.Kept()) + " kept, " +
+         WithDigits(static_cast<double>(Bytes(status)) / (1 << 20), 1) + " MiB";
 }
 
 std::string RateLine(const CollectionStatus& status) {
   if (!status.episodes_per_s) return "";
   // slow ones are told an hour, since 0.00 tells nothing
   const double rate = *status.episodes_per_s;
-  std::string line = rate >= 0.1 ? Fixed(rate, 2) + " episodes a second"
-                                 : Fixed(3600 * rate, 1) + " episodes an hour";
+  std::string line = rate >= 0.1 ? WithDigits(rate, 2) + " episodes a second"
+                                 : WithDigits(3600 * rate, 1) + " episodes an hour";
   if (status.SecondsLeft()) line += ", " + Duration(*status.SecondsLeft()) + " left";
   return line;
 }
@@ -189,7 +189,7 @@ std::string StatusText(const CollectionStatus& status, double now_s) {
   const std::optional<double> success = status.SuccessRate();
   return status.folder + ": stage " + status.stage + "\n" + Row("shards", ShardsLine(status)) +
          Row("episodes", EpisodesLine(status)) +
-         Row("success", success ? Fixed(100 * *success, 1) + " %" : "") +
+         Row("success", success ? WithDigits(100 * *success, 1) + " %" : "") +
          Row("failures", FailuresLine(status)) + Row("rate", RateLine(status)) +
          Row("slowest", SlowestLine(status, now_s)) + Row("next", NextStep(status));
 }

@@ -208,25 +208,33 @@ CameraModel CameraOf(const CameraConfig& config) {
   return camera;
 }
 
-Scene SampleScene(const DoorAsset& door, std::uint64_t seed, std::uint64_t episode,
-                  const SceneConfig& config) {
+namespace {
+
+/// Which scene of a door.
+struct SceneDraw {
+  std::uint64_t seed;
+  std::uint64_t episode;
+};
+
+Scene Sample(const DoorAsset& door, const std::string& door_sha256, const SceneDraw& draw,
+             const SceneConfig& config) {
   RequireSimulatable(door, "scene");
   if (door.opening == Opening::kPush) RequireFreeWay(door);
-  const std::string stream = "scene/" + door.id + "/" + std::to_string(episode) + "/";
+  const std::string stream = "scene/" + door.id + "/" + std::to_string(draw.episode) + "/";
   const Placement placement = PlacementOf(door);
   const double share = PaperShare(config);
   Scene scene;
   scene.door_id = door.id;
-  scene.door_sha256 = ContentHash(door);
-  scene.seed = seed;
-  scene.episode = episode;
+  scene.door_sha256 = door_sha256;
+  scene.seed = draw.seed;
+  scene.episode = draw.episode;
   scene.world_from_door = PlaceDoor(door, placement);
-  scene.world_from_door.translation().z() += HeightShift(config, Rng(seed, stream + "height"));
+  scene.world_from_door.translation().z() += HeightShift(config, Rng(draw.seed, stream + "height"));
   scene.world_from_robot_base =
-      PlaceRobot(placement, share * config.base_jitter, Rng(seed, stream + "base"));
+      PlaceRobot(placement, share * config.base_jitter, Rng(draw.seed, stream + "base"));
   scene.latch = door.latch;
   scene.grasp_from_noisy_grasp =
-      GraspNoise(door, share * config.grasp_noise, Rng(seed, stream + "grasp"));
+      GraspNoise(door, share * config.grasp_noise, Rng(draw.seed, stream + "grasp"));
   if (door.opening == Opening::kPush)
     scene.grasp_from_noisy_grasp = scene.grasp_from_noisy_grasp * ClearOfTheJamb(door);
   scene.physics = config.physics;
@@ -234,12 +242,24 @@ Scene SampleScene(const DoorAsset& door, std::uint64_t seed, std::uint64_t episo
   scene.limits = config.episode;
   scene.camera = CameraOf(config.camera);
   if (config.randomisation != "strong") return scene;
-  VaryLatch(scene.latch, Rng(seed, stream + "latch"));
-  VaryDoor(scene, Rng(seed, stream + "door"));
-  VaryView(scene, Rng(seed, stream + "camera"));
-  Rng start(seed, stream + "start");
+  VaryLatch(scene.latch, Rng(draw.seed, stream + "latch"));
+  VaryDoor(scene, Rng(draw.seed, stream + "door"));
+  VaryView(scene, Rng(draw.seed, stream + "camera"));
+  Rng start(draw.seed, stream + "start");
   for (double& offset : scene.arm_start_offset_rad) offset = start.Uniform(-kArmShift, kArmShift);
   return scene;
+}
+
+}  // namespace
+
+Scene SampleScene(const DoorAsset& door, std::uint64_t seed, std::uint64_t episode,
+                  const SceneConfig& config) {
+  return Sample(door, ContentHash(door), {seed, episode}, config);
+}
+
+Scene SampleScene(const IdentifiedDoor& door, std::uint64_t seed, std::uint64_t episode,
+                  const SceneConfig& config) {
+  return Sample(*door, door.sha256, {seed, episode}, config);
 }
 
 }  // namespace doorforge

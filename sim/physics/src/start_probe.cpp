@@ -12,19 +12,19 @@
 namespace doorforge {
 namespace {
 
-constexpr double kMargin = 0.001;
+constexpr double kStartMargin = 0.001;
 
-struct Piece {
+struct ProbedPiece {
   internal::ProbeHull hull;
   int body;  // the robot's joint, or the door's link
   std::string name;
 };
 
-Piece MakePiece(const TriangleMesh& mesh, int body, const std::string& name) {
-  return {internal::MakeProbeHull(mesh, RigidTransform::Identity(), kMargin), body, name};
+ProbedPiece MakePiece(const TriangleMesh& mesh, int body, const std::string& name) {
+  return {internal::MakeProbeHull(mesh, RigidTransform::Identity(), kStartMargin), body, name};
 }
 
-bool Overlap(const Piece& a, const RigidTransform& b_from_a, const Piece& b) {
+bool Overlap(const ProbedPiece& a, const RigidTransform& b_from_a, const ProbedPiece& b) {
   if (!a.hull.box.transformed(b_from_a).intersects(b.hull.box)) return false;
   const double distance = internal::Separate(a.hull, b_from_a, b.hull).distance;
   // no distance is found only for pieces that share so much that no way out is
@@ -35,8 +35,8 @@ bool Overlap(const Piece& a, const RigidTransform& b_from_a, const Piece& b) {
 
 class SpawnCollisionChecker::Runtime {
  public:
-  std::vector<Piece> robot;
-  std::vector<Piece> door;
+  std::vector<ProbedPiece> robot;
+  std::vector<ProbedPiece> door;
   std::array<RigidTransform, 3> door_from_link;
 };
 
@@ -59,10 +59,10 @@ SpawnCollisionChecker& SpawnCollisionChecker::operator=(SpawnCollisionChecker&&)
 
 std::optional<StartOverlap> SpawnCollisionChecker::Find(
     const RobotPose& pose, const RigidTransform& world_from_door) const {
-  for (const Piece& part : runtime_->door) {
+  for (const ProbedPiece& part : runtime_->door) {
     const RigidTransform part_from_world =
         (world_from_door * runtime_->door_from_link[static_cast<std::size_t>(part.body)]).inverse();
-    for (const Piece& piece : runtime_->robot) {
+    for (const ProbedPiece& piece : runtime_->robot) {
       const RigidTransform& world_from_piece =
           piece.body < 0 ? pose.world_from_base
                          : pose.world_from_body[static_cast<std::size_t>(piece.body)];

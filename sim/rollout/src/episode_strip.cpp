@@ -13,10 +13,10 @@
 #include "doorforge/rollout/opening_expert.h"
 #include "doorforge/sensor/scene_picture.h"
 
+#include "text_format.h"
+
 namespace doorforge {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 struct Moment {
   SceneSnapshot snapshot;
@@ -73,7 +73,7 @@ std::vector<Moment> ChooseFrames(const std::vector<Moment>& moments, int frames)
   return chosen;
 }
 
-int Degrees(double radians) { return static_cast<int>(std::lround(radians / kDegree)); }
+int Degrees(double radians) { return static_cast<int>(std::lround(radians / internal::kDegree)); }
 
 std::string CaptionOf(const StripFrame& frame) {
   char text[96];

@@ -20,14 +20,13 @@
 #include "doorforge/rollout/standing_place.h"
 
 #include "film.h"
+#include "text_format.h"
 
 namespace doorforge {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-constexpr double kDegree = 3.141592653589793 / 180;
 
 /// An episode to come: its door's place in the set, and what it gave once it has run.
 struct Row {
@@ -58,12 +57,13 @@ void RequireNoPictures(const SimulationRun& run, const std::vector<Row>& rows) {
   for (const Row& row : rows) RequireNoFile(PictureOf(run, row.simulated), run.overwrite);
 }
 
-void RunRow(const SimulationRun& run, const DoorAsset& door, const RobotModel& robot,
+void RunRow(const SimulationRun& run, const IdentifiedDoor& identified, const RobotModel& robot,
             SimulatedEpisode& simulated) {
+  const DoorAsset& door = *identified;
   const Scene scene =
       PlaceRobotBase(robot,
-                     SampleScene(door, simulated.seed, static_cast<std::uint64_t>(simulated.index),
-                                 run.config.scene),
+                     SampleScene(identified, simulated.seed,
+                                 static_cast<std::uint64_t>(simulated.index), run.config.scene),
                      door);
   std::unique_ptr<Film> film;
   if (!run.film.empty()) film = std::make_unique<Film>(scene, door, robot);
@@ -86,8 +86,8 @@ Json EpisodeToJson(const SimulatedEpisode& simulated) {
           {"episode", simulated.index},
           {"outcome", NameOf(episode.outcome)},
           {"detail", episode.detail},
-          {"peak_hinge_deg", episode.peak_hinge_rad / kDegree},
-          {"peak_handle_deg", episode.peak_handle_rad / kDegree},
+          {"peak_hinge_deg", episode.peak_hinge_rad / internal::kDegree},
+          {"peak_handle_deg", episode.peak_handle_rad / internal::kDegree},
           {"actions", episode.decisions.size()},
           {"simulated_s", episode.simulated_s},
           {"state_sha256", episode.state_sha256}};
@@ -124,7 +124,7 @@ std::vector<SimulatedEpisode> SimulateDoors(const SimulationRun& run) {
   Progress progress("simulating", rows.size());
   ParallelFor(rows.size(), run.threads, [&](std::size_t i) {
     if (StopRequested() != 0) return;
-    RunRow(run, *shelf.Take(rows[i].door), robot, rows[i].simulated);
+    RunRow(run, shelf.Take(rows[i].door), robot, rows[i].simulated);
     rows[i].done = true;
     progress.Advance();
   });

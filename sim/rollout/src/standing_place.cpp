@@ -14,10 +14,11 @@
 #include "doorforge/physics/start_probe.h"
 #include "doorforge/rollout/grasp_plan.h"
 
+#include "text_format.h"
+
 namespace doorforge {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kClearOfLeaf = 0.25;  // [m] from the base's axis
 constexpr double kFree = 0.1;          // [rad] to every limit: good enough to stop the search
 constexpr double kStepBack = 0.02;     // [m]
@@ -29,17 +30,18 @@ std::vector<RigidTransform> WayOf(const Scene& scene, const DoorAsset& door) {
     return RigidTransform(scene.world_from_door * DoorFromLinks(door, hinge, handle)[kHandleLink] *
                           door.handle_from_grasp);
   };
-  const double turned = std::min(40 * kDegree, door.handle_joint.upper_rad);
+  const double turned = std::min(40 * internal::kDegree, door.handle_joint.upper_rad);
   std::vector<RigidTransform> way{tool(0, 0) * Translation({0, 0, -kPregraspDistance}), tool(0, 0),
                                   tool(0, turned)};
-  for (const double degrees : {15.0, 30.0, 47.0}) way.push_back(tool(degrees * kDegree, turned));
+  for (const double degrees : {15.0, 30.0, 47.0})
+    way.push_back(tool(degrees * internal::kDegree, turned));
   return way;
 }
 
 // From the hinge's axis to the grasp, seen from above, in steps of the opening.
 bool StandsInTheWay(const Eigen::Vector2d& place, const Scene& scene, const DoorAsset& door) {
   for (const double degrees : {0.0, 25.0, 50.0}) {
-    const auto links = DoorFromLinks(door, degrees * kDegree, 0);
+    const auto links = DoorFromLinks(door, degrees * internal::kDegree, 0);
     const Eigen::Vector2d hinge =
         (scene.world_from_door * links[kLeafLink].translation()).head<2>();
     const Eigen::Vector2d grasp =

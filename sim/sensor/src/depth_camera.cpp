@@ -76,7 +76,7 @@ struct SeenPlane {
   double height;  // of the plane over the camera, along the normal
 };
 
-SeenPlane Look(const TrianglePlane& plane, const MeshView& view) {
+SeenPlane Look(const internal::TrianglePlane& plane, const MeshView& view) {
   SeenPlane seen;
   seen.normal_in_world = view.world_from_mesh * plane.normal;
   seen.height = plane.offset - plane.normal.dot(view.origin_in_mesh);

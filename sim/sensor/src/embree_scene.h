@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -9,14 +10,9 @@
 
 #include "doorforge/sensor/scene_geometry.h"
 
-namespace doorforge {
+#include "mesh_tree.h"
 
-/// Plane of a triangle in its mesh's frame: normal * p = offset. The normal has unit length; it is
-/// zero for a triangle without area.
-struct alignas(32) TrianglePlane {  // never across two cache lines
-  Eigen::Vector3d normal;
-  double offset;
-};
+namespace doorforge {
 
 /// Owner of the Embree objects. Instance id = index of the mesh.
 class SceneGeometry::Runtime {
@@ -33,21 +29,20 @@ class SceneGeometry::Runtime {
   int link_count() const { return link_count_; }
   const std::vector<VisibleMesh>& meshes() const { return meshes_; }
   const std::vector<RigidTransform>& world_from_mesh() const { return world_from_mesh_; }
-  const TrianglePlane& PlaneOf(std::size_t mesh, std::size_t triangle) const {
-    return planes_[mesh][triangle];
+  const internal::TrianglePlane& PlaneOf(std::size_t mesh, std::size_t triangle) const {
+    return trees_[mesh]->planes()[triangle];
   }
 
  private:
   void AddMesh(unsigned index);
-  void ThrowOnDeviceError() const;
 
   std::vector<VisibleMesh> meshes_;
-  std::vector<std::vector<TrianglePlane>> planes_;
   std::vector<RigidTransform> world_from_mesh_;
   std::vector<RTCGeometry> instances_;  // null for a mesh without triangles
   RayIsa isa_;
   int link_count_ = 0;
-  RTCDevice device_ = nullptr;
+  std::shared_ptr<const internal::EmbreeDevice> device_;
+  std::vector<std::shared_ptr<const internal::MeshTree>> trees_;  // by mesh
   RTCScene top_ = nullptr;
 };
 

@@ -30,43 +30,6 @@ void CheckMesh(const VisibleMesh& visible, std::size_t index) {
   }
 }
 
-std::vector<TrianglePlane> PlanesOf(const TriangleMesh& mesh) {
-  std::vector<TrianglePlane> planes;
-  planes.reserve(mesh.triangles.size());
-  for (const Eigen::Vector3i& triangle : mesh.triangles) {
-    const Eigen::Vector3d& a = mesh.vertices[static_cast<std::size_t>(triangle[0])];
-    const Eigen::Vector3d& b = mesh.vertices[static_cast<std::size_t>(triangle[1])];
-    const Eigen::Vector3d& c = mesh.vertices[static_cast<std::size_t>(triangle[2])];
-    const Eigen::Vector3d normal = (b - a).cross(c - a).normalized();
-    planes.push_back({normal, normal.dot(a)});
-  }
-  return planes;
-}
-
-// One mesh as an Embree scene of its own, to be instanced.
-RTCScene BuildTree(RTCDevice device, const TriangleMesh& mesh) {
-  RTCScene scene = rtcNewScene(device);
-  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);  // no rays slip through between triangles
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                               RTC_FORMAT_FLOAT3, 3 * sizeof(float),
-                                                               mesh.vertices.size()));
-  for (const Eigen::Vector3d& vertex : mesh.vertices) {
-    for (const double coordinate : vertex) *vertices++ = static_cast<float>(coordinate);
-  }
-  auto* indices = static_cast<unsigned*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                              3 * sizeof(unsigned), mesh.triangles.size()));
-  for (const Eigen::Vector3i& triangle : mesh.triangles) {
-    for (const int index : triangle) *indices++ = static_cast<unsigned>(index);
-  }
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene, geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(scene);
-  return scene;
-}
-
 void SetPose(RTCGeometry instance, const RigidTransform& pose) {
   std::array<float, 12> columns{};
   for (int column = 0; column < 4; ++column) {
@@ -124,36 +87,29 @@ SceneGeometry::Runtime::Runtime(std::vector<VisibleMesh> meshes, RayIsa isa)
           "scene geometry: this processor does not have " + std::string(NameOf(isa)));
   for (std::size_t i = 0; i < meshes_.size(); ++i) CheckMesh(meshes_[i], i);
 
-  const std::string settings = "threads=1,set_affinity=0,isa=" + std::string(NameOf(isa));
-  device_ = rtcNewDevice(settings.c_str());
-  if (device_ == nullptr) throw Error(ErrorCode::kIo, "scene geometry: Embree does not start");
-  top_ = rtcNewScene(device_);
+  internal::MeshTrees& trees = internal::MeshTrees::OfThisThread(isa);
+  device_ = trees.device();
+  for (const VisibleMesh& visible : meshes_) trees_.push_back(trees.TreeOf(visible.mesh));
+  top_ = rtcNewScene(device_->handle());
   rtcSetSceneFlags(top_, RTC_SCENE_FLAG_DYNAMIC);
   for (unsigned i = 0; i < meshes_.size(); ++i) AddMesh(i);
   rtcCommitScene(top_);
-  ThrowOnDeviceError();
+  device_->ThrowOnError();
 }
 
-SceneGeometry::Runtime::~Runtime() {
-  rtcReleaseScene(top_);
-  rtcReleaseDevice(device_);
-}
+SceneGeometry::Runtime::~Runtime() { rtcReleaseScene(top_); }
 
 void SceneGeometry::Runtime::AddMesh(unsigned index) {
-  const VisibleMesh& visible = meshes_[index];
-  link_count_ = std::max(link_count_, visible.link + 1);
-  planes_.push_back(PlanesOf(visible.mesh));
-  if (visible.mesh.triangles.empty()) return;
-  RTCScene tree = BuildTree(device_, visible.mesh);
-  RTCGeometry instance = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+  link_count_ = std::max(link_count_, meshes_[index].link + 1);
+  const RTCScene tree = trees_[index]->tree();
+  if (tree == nullptr) return;
+  RTCGeometry instance = rtcNewGeometry(device_->handle(), RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(instance, tree);
   rtcSetGeometryTimeStepCount(instance, 1);
   SetPose(instance, world_from_mesh_[index]);
   rtcAttachGeometryByID(top_, instance, index);
   instances_[index] = instance;
-  // the top scene keeps both alive
-  rtcReleaseGeometry(instance);
-  rtcReleaseScene(tree);
+  rtcReleaseGeometry(instance);  // the top scene keeps it alive
 }
 
 void SceneGeometry::Runtime::MoveLinks(std::span<const RigidTransform> world_from_link) {
@@ -168,13 +124,7 @@ void SceneGeometry::Runtime::MoveLinks(std::span<const RigidTransform> world_fro
     if (instances_[i] != nullptr) SetPose(instances_[i], world_from_mesh_[i]);
   }
   rtcCommitScene(top_);
-  ThrowOnDeviceError();
-}
-
-void SceneGeometry::Runtime::ThrowOnDeviceError() const {
-  const RTCError error = rtcGetDeviceError(device_);
-  if (error != RTC_ERROR_NONE)
-    throw Error(ErrorCode::kIo, "scene geometry: Embree error " + std::to_string(error));
+  device_->ThrowOnError();
 }
 
 SceneGeometry::SceneGeometry(std::vector<VisibleMesh> meshes, RayIsa isa)

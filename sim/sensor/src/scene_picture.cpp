@@ -17,7 +17,7 @@
 namespace doorforge {
 namespace {
 
-constexpr int kRays = 16;  // 2 x 2 pixels of 2 x 2 samples
+constexpr int kRaysOfPacket = 16;  // 2 x 2 pixels of 2 x 2 samples
 constexpr float kPi = 3.14159265F;
 constexpr float kCrease = 0.7F;
 constexpr float kSkyReach = 3.0F;  // what is farther away does not darken [m]
@@ -96,13 +96,13 @@ struct Surface {
 
   bool IsLit() const { return kind != Kind::kBackdrop; }
 };
-using Surfaces = std::array<Surface, kRays>;
-using Directions = std::array<Eigen::Vector3f, kRays>;
+using Surfaces = std::array<Surface, kRaysOfPacket>;
+using Directions = std::array<Eigen::Vector3f, kRaysOfPacket>;
 
 // What arrives at each of the surfaces.
 struct Light {
-  std::array<Color, kRays> sky;
-  std::array<float, kRays> sun;  // part of the sun that is visible, in [0, 1]
+  std::array<Color, kRaysOfPacket> sky;
+  std::array<float, kRaysOfPacket> sun;  // part of the sun that is visible, in [0, 1]
 };
 
 // What shading needs of a mesh beyond its triangles.
@@ -140,7 +140,7 @@ class Painter {
     for (int k = 0; any_lit && k < kSunRays; ++k) AddSun(surfaces, k, light);
     std::array<Color, 4> pixels;
     pixels.fill(Color::Zero());
-    for (std::size_t lane = 0; lane < kRays; ++lane)
+    for (std::size_t lane = 0; lane < kRaysOfPacket; ++lane)
       pixels[PixelOf(lane)] += Shade(surfaces[lane], light.sky[lane], light.sun[lane]) / 4;
     for (std::size_t i = 0; i < 4; ++i) Store(i, pixels[i], picture);
   }
@@ -156,11 +156,11 @@ class Painter {
 
   Surfaces TraceBlock() {
     RTCRayHit16 packet{};
-    alignas(64) std::array<int, kRays> valid{};
+    alignas(64) std::array<int, kRaysOfPacket> valid{};
     valid.fill(-1);
     const Eigen::Vector3f origin = rays_.origin().cast<float>();
     Directions directions;
-    for (std::size_t lane = 0; lane < kRays; ++lane) {
+    for (std::size_t lane = 0; lane < kRaysOfPacket; ++lane) {
       const std::size_t column = lane % 4;  // of the samples, two to a pixel
       const std::size_t row = lane / 4;
       directions[lane] = rays_.Direction(left_ + (static_cast<double>(column) + 0.5) / 2,
@@ -171,7 +171,7 @@ class Painter {
     }
     rtcIntersect16(valid.data(), scene_.top(), &context_, &packet);
     Surfaces surfaces;
-    for (std::size_t lane = 0; lane < kRays; ++lane) {
+    for (std::size_t lane = 0; lane < kRaysOfPacket; ++lane) {
       surfaces[lane] = packet.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID
                            ? MeshSurface(packet, lane, directions[lane])
                            : FloorOrBackdrop(origin, directions[lane]);
@@ -225,11 +225,11 @@ class Painter {
 
   // Which of the rays from the lit surfaces reach `reach` without meeting a mesh; `directions` of
   // the others may be anything.
-  std::array<bool, kRays> Unobstructed(const Surfaces& surfaces, const Directions& directions,
-                                       float reach) {
+  std::array<bool, kRaysOfPacket> Unobstructed(const Surfaces& surfaces,
+                                               const Directions& directions, float reach) {
     RTCRay16 packet{};  // zeros where no ray is wanted: Embree checks those lanes, too
-    alignas(64) std::array<int, kRays> valid{};
-    for (std::size_t lane = 0; lane < kRays; ++lane) {
+    alignas(64) std::array<int, kRaysOfPacket> valid{};
+    for (std::size_t lane = 0; lane < kRaysOfPacket; ++lane) {
       const Surface& surface = surfaces[lane];
       if (!surface.IsLit()) continue;
       valid[lane] = -1;
@@ -237,8 +237,8 @@ class Painter {
       packet.tfar[lane] = reach;
     }
     rtcOccluded16(valid.data(), scene_.top(), &scattered_, &packet);
-    std::array<bool, kRays> free{};
-    for (std::size_t lane = 0; lane < kRays; ++lane) free[lane] = packet.tfar[lane] >= 0;
+    std::array<bool, kRaysOfPacket> free{};
+    for (std::size_t lane = 0; lane < kRaysOfPacket; ++lane) free[lane] = packet.tfar[lane] >= 0;
     return free;
   }
 
@@ -253,7 +253,7 @@ class Painter {
   // One cosine-distributed sky ray from each surface; `k` numbers the strata of the hemisphere.
   void AddSky(const Surfaces& surfaces, int k, Light& light) {
     Directions directions;
-    for (std::size_t lane = 0; lane < kRays; ++lane) {
+    for (std::size_t lane = 0; lane < kRaysOfPacket; ++lane) {
       if (!surfaces[lane].IsLit()) continue;
       const auto [a, b] = NumbersOf(lane, 7);
       const float step = (static_cast<float>(k) + a) / static_cast<float>(config_.sky_rays);
@@ -263,8 +263,8 @@ class Painter {
       directions[lane] = radius * std::cos(angle) * x + radius * std::sin(angle) * y +
                          std::sqrt(1 - step) * surfaces[lane].normal;
     }
-    const std::array<bool, kRays> free = Unobstructed(surfaces, directions, kSkyReach);
-    for (std::size_t lane = 0; lane < kRays; ++lane) {
+    const std::array<bool, kRaysOfPacket> free = Unobstructed(surfaces, directions, kSkyReach);
+    for (std::size_t lane = 0; lane < kRaysOfPacket; ++lane) {
       if (!surfaces[lane].IsLit()) continue;
       const Color sky = SkyLight(directions[lane]) / static_cast<float>(config_.sky_rays);
       // light that another surface took away comes back in part from that surface
@@ -275,7 +275,7 @@ class Painter {
   void AddSun(const Surfaces& surfaces, int k, Light& light) {
     const auto [x, y] = Across(kSunDirection);
     Directions directions;
-    for (std::size_t lane = 0; lane < kRays; ++lane) {
+    for (std::size_t lane = 0; lane < kRaysOfPacket; ++lane) {
       const auto [a, b] = NumbersOf(lane, 13);
       const float radius =
           kSunSoftness * std::sqrt((static_cast<float>(k) + a) / static_cast<float>(kSunRays));
@@ -283,9 +283,9 @@ class Painter {
       directions[lane] =
           kSunDirection + radius * std::cos(angle) * x + radius * std::sin(angle) * y;
     }
-    const std::array<bool, kRays> free =
+    const std::array<bool, kRaysOfPacket> free =
         Unobstructed(surfaces, directions, std::numeric_limits<float>::infinity());
-    for (std::size_t lane = 0; lane < kRays; ++lane)
+    for (std::size_t lane = 0; lane < kRaysOfPacket; ++lane)
       light.sun[lane] += free[lane] ? 1.0F / kSunRays : 0.0F;
   }
 

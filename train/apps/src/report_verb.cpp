@@ -19,13 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ReportOptions {
   std::vector<fs::path> reports;
   bool json = false;
 };
 
-Options Parse(int argc, char** argv) {
-  Options options;
+ReportOptions Parse(int argc, char** argv) {
+  ReportOptions options;
   CLI::App app(
       "One table of the reports of several trainings, judged on the same doors and seeds: mean "
       "and\n"
@@ -49,7 +49,7 @@ EvaluationReport ReadReport(const fs::path& place) {
 
 int RunReportVerb(int argc, char** argv) {
   return RunProgram([&] {
-    const Options options = Parse(argc, argv);
+    const ReportOptions options = Parse(argc, argv);
     std::vector<EvaluationReport> reports;
     for (const fs::path& place : options.reports) reports.push_back(ReadReport(place));
     const TrainingsSummary summary = SummariseTrainings(reports);

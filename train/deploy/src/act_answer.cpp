@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 constexpr double kDegree = std::numbers::pi / 180;
 
 template <class... Values>
-std::string Format(const char* pattern, Values... values) {
+std::string Formatted(const char* pattern, Values... values) {
   char text[240];
   std::snprintf(text, sizeof text, pattern, values...);
   return text;
@@ -28,9 +28,9 @@ void JudgeForeignness(const HoldConfig& config, ActAnswer& answer) {
   const Foreignness& foreign = *answer.foreign;
   if (foreign.distance <= foreign.limit) return;
   answer.hold_reasons.push_back(
-      Format("the picture is foreign to the policy: distance %.2f, and %g %% of the training's "
-             "validation samples are within %.2f",
-             foreign.distance, config.foreign_percentile, foreign.limit) +
+      Formatted("the picture is foreign to the policy: distance %.2f, and %g %% of the training's "
+                "validation samples are within %.2f",
+                foreign.distance, config.foreign_percentile, foreign.limit) +
       "; look at what the camera shows, at the camera file and " +
       (Grasps(answer) ? "the mask" : "the state") +
       " (--picture draws them), or pass --foreign-limit off");
@@ -40,8 +40,8 @@ void JudgeGain(const HoldConfig& config, ActAnswer& answer) {
   const double least = Grasps(answer) ? config.least_door_angle_rad : config.least_gain_rad;
   if (!config.gain || answer.expected_gain_rad >= least) return;
   answer.hold_reasons.push_back(
-      Format("the policy expects %.4f rad of %s, and the least is %g (--least-gain)",
-             answer.expected_gain_rad, Grasps(answer) ? "this grasp" : "this action", least));
+      Formatted("the policy expects %.4f rad of %s, and the least is %g (--least-gain)",
+                answer.expected_gain_rad, Grasps(answer) ? "this grasp" : "this action", least));
 }
 
 Json ForeignToJson(const std::optional<Foreignness>& foreign) {
@@ -55,13 +55,13 @@ std::string ExpectationText(const ActAnswer& answer) {
   const char* what = "the door turns";
   if (answer.stage == Stage::kHandle) what = "the handle turns";
   if (Grasps(answer)) what = "the door opens in the end";
-  return Format("expected: %s %.4f rad (%.1f degrees)\n", what, answer.expected_gain_rad,
-                answer.expected_gain_rad / kDegree);
+  return Formatted("expected: %s %.4f rad (%.1f degrees)\n", what, answer.expected_gain_rad,
+                   answer.expected_gain_rad / kDegree);
 }
 
 std::string ForeignText(const std::optional<Foreignness>& foreign) {
   if (!foreign) return "foreign:  cannot be told, the policy has no familiar.safetensors\n";
-  return Format(
+  return Formatted(
       "foreign:  distance %.2f, farther than %.1f %% of the validation samples; limit "
       "%.2f\n",
       foreign->distance, foreign->percentile, foreign->limit);
@@ -75,7 +75,7 @@ std::string HoldText(const std::vector<std::string>& reasons) {
 }
 
 std::string PositionText(const Eigen::Vector3d& position) {
-  return Format("(%.3f, %.3f, %.3f) m", position.x(), position.y(), position.z());
+  return Formatted("(%.3f, %.3f, %.3f) m", position.x(), position.y(), position.z());
 }
 
 }  // namespace
@@ -113,11 +113,12 @@ std::string AnswerText(const ActAnswer& answer) {
   std::string text = "stage:    " + std::string(NameOf(answer.stage)) + "\n";
   text += "hand:     " + PositionText(answer.world_from_hand.translation());
   if (answer.world_from_hand_now)
-    text += Format(", %.0f mm from where it is", 1000 * (answer.world_from_hand.translation() -
-                                                         answer.world_from_hand_now->translation())
-                                                            .norm());
-  text += Format("; quaternion xyzw (%.3f, %.3f, %.3f, %.3f)\n", turn.x(), turn.y(), turn.z(),
-                 turn.w());
+    text += Formatted(
+        ", %.0f mm from where it is",
+        1000 * (answer.world_from_hand.translation() - answer.world_from_hand_now->translation())
+                   .norm());
+  text += Formatted("; quaternion xyzw (%.3f, %.3f, %.3f, %.3f)\n", turn.x(), turn.y(), turn.z(),
+                    turn.w());
   if (answer.contact_m) text += "contact:  " + PositionText(*answer.contact_m) + "\n";
   return text + ExpectationText(answer) + ForeignText(answer.foreign) +
          HoldText(answer.hold_reasons);

@@ -118,13 +118,13 @@ std::string Numbered(const std::string& name, std::size_t i, const std::string& 
 /// One door, one episode, one folder.
 class Recorder {
  public:
-  Recorder(const DoorAsset& door, const SightRequest& request, fs::path folder)
-      : door_(door),
+  Recorder(const IdentifiedDoor& door, const SightRequest& request, fs::path folder)
+      : door_(*door),
         all_(request.all_decisions),
         folder_(std::move(folder)),
         robot_(LoadMobileFranka()),
         scene_(PlaceRobotBase(
-            robot_, SampleScene(door, request.seed, request.episode, request.scene), door)) {}
+            robot_, SampleScene(door, request.seed, request.episode, request.scene), *door)) {}
 
   void WriteGrasp() {
     const Scene close = SceneOf(GraspCameraConfig{}, scene_);
@@ -180,7 +180,7 @@ class Recorder {
 
 }  // namespace
 
-RecordedSight RecordSight(const DoorAsset& door, const SightRequest& request,
+RecordedSight RecordSight(const IdentifiedDoor& door, const SightRequest& request,
                           const fs::path& folder) {
   Recorder recorder(door, request, folder);
   RecordedSight recorded;

@@ -56,9 +56,9 @@ TrialPlan::Staged TrialPlan::At(std::size_t trial) const {
   const std::size_t seed = trial / episodes_per_door_ % seeds_;
   auto door = give_door_(DoorOf(trial));
   Scene scene =
-      SampleScene(*door, first_seed_ + seed, std::uint64_t{trial % episodes_per_door_}, scene_);
+      SampleScene(door, first_seed_ + seed, std::uint64_t{trial % episodes_per_door_}, scene_);
   scene = PlaceRobotBase(robot_, scene, *door);
-  return {std::move(door), std::move(scene)};
+  return {std::move(door.door), std::move(scene)};
 }
 
 std::vector<EvaluatedEpisode> RunTrials(const TrialPlan& trials, const TrialPolicies& policies,

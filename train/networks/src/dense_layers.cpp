@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
+#include <utility>
 
 #include "doorforge/core/error.h"
 
@@ -73,17 +73,49 @@ const DenseLayers::Layer& DenseLayers::Find(const std::string& name) const {
   return *found;
 }
 
-Table DenseLayers::Apply(const std::string& name, const Rows& x, Activation activation) const {
+// Reads the layer's last inputs, as many as `x` has columns.
+void DenseLayers::Apply(const Layer& layer, const Rows& x, Activation activation,
+                        Table& out) const {
+  out.rows = x.rows;
+  out.columns = layer.outputs;
+  out.stride = layer.weight.columns;
+  out.values.resize(static_cast<std::size_t>(out.rows) * static_cast<std::size_t>(out.stride));
+  const std::ptrdiff_t skipped = layer.weight.depth - x.columns;
+  kernels_->multiply(
+      x,
+      {layer.panels.data() + skipped * kernels_->panel, layer.weight.columns, layer.weight.depth},
+      layer.bias.data(), {out.values.data(), out.stride}, activation == Activation::kRectified);
+  if (activation == Activation::kLeaky)
+    for (float& value : out.values) value = value > 0 ? value : kLeakySlope * value;
+}
+
+const DenseLayers::Layer& DenseLayers::FindFor(const std::string& name, const Rows& x) const {
   const Layer& layer = Find(name);
   Require(x.columns == layer.weight.depth, ErrorCode::kInvalidArgument,
           "layer \"" + name + "\": reads " + std::to_string(layer.weight.depth) + " numbers, not " +
               std::to_string(x.columns));
-  Table out = MakeTable(x.rows, layer.outputs, layer.weight.columns);
-  kernels_->multiply(x, {layer.panels.data(), layer.weight.columns, layer.weight.depth},
-                     layer.bias.data(), {out.values.data(), out.stride},
-                     activation == Activation::kRectified);
-  if (activation == Activation::kLeaky)
-    for (float& value : out.values) value = value > 0 ? value : kLeakySlope * value;
+  return layer;
+}
+
+void DenseLayers::Apply(const std::string& name, const Rows& x, Activation activation,
+                        Table& out) const {
+  Apply(FindFor(name, x), x, activation, out);
+}
+
+Table DenseLayers::Apply(const std::string& name, const Rows& x, Activation activation) const {
+  Table out;
+  Apply(name, x, activation, out);
+  return out;
+}
+
+Table DenseLayers::ApplyToLast(const std::string& name, const Rows& x,
+                               Activation activation) const {
+  const Layer& layer = Find(name);
+  Require(x.columns <= layer.weight.depth, ErrorCode::kInvalidArgument,
+          "layer \"" + name + "\": reads " + std::to_string(layer.weight.depth) + " numbers, not " +
+              std::to_string(x.columns));
+  Table out;
+  Apply(layer, x, activation, out);
   return out;
 }
 
@@ -93,16 +125,14 @@ Table DenseLayers::Branch(const std::string& name, Activation between, const Row
   return Apply(name + ".2", second.View(), Activation::kNone);
 }
 
-Table DenseLayers::MaximumOfGroups(const Rows& x, int group) const {
-  Table best = MakeTable(x.rows / group, x.columns, x.columns);
-  std::vector<std::uint8_t> where(static_cast<std::size_t>(x.columns));
-  for (int i = 0; i < best.rows; ++i) {
-    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(i) * group;
-    kernels_->column_max({x.data + first * x.stride, x.stride, group, x.columns},
-                         best.values.data() + static_cast<std::ptrdiff_t>(i) * x.columns,
-                         where.data());
-  }
-  return best;
+void DenseLayers::MaximumOver(const std::string& name, const Rows& x, std::span<float> best) const {
+  const Layer& layer = FindFor(name, x);
+  Require(std::cmp_equal(best.size(), layer.outputs) && layer.outputs == layer.weight.columns,
+          ErrorCode::kInvalidArgument,
+          "layer \"" + name + "\": gives " + std::to_string(layer.outputs) +
+              " numbers in panels of " + std::to_string(kernels_->panel));
+  kernels_->multiply_max(x, {layer.panels.data(), layer.weight.columns, layer.weight.depth},
+                         layer.bias.data(), best.data());
 }
 
 }  // namespace doorforge::internal

@@ -41,12 +41,17 @@ class DenseLayers {
 
   /// One layer and what follows it. @throws Error(kInvalidArgument) if no layer has that name.
   Table Apply(const std::string& name, const Rows& x, Activation activation) const;
+  /// The same into `out`, whose memory is used again.
+  void Apply(const std::string& name, const Rows& x, Activation activation, Table& out) const;
+
+  /// Of a layer whose inputs before those of `x` are zero.
+  Table ApplyToLast(const std::string& name, const Rows& x, Activation activation) const;
 
   /// The layers "<name>.0", "<name>.1", "<name>.2" with the activation between them.
   Table Branch(const std::string& name, Activation between, const Rows& x) const;
 
-  /// Returns the maximum of each group of `group` rows, column by column.
-  Table MaximumOfGroups(const Rows& x, int group) const;
+  /// A rectified layer's maximum over the rows of `x`, one number an output, into `best`.
+  void MaximumOver(const std::string& name, const Rows& x, std::span<float> best) const;
 
  private:
   struct Layer {
@@ -59,6 +64,8 @@ class DenseLayers {
 
   Layer Pack(const DenseLayer& dense, const float* weight) const;
   const Layer& Find(const std::string& name) const;
+  const Layer& FindFor(const std::string& name, const Rows& x) const;
+  void Apply(const Layer& layer, const Rows& x, Activation activation, Table& out) const;
 
   const Kernels* kernels_;
   std::vector<Layer> layers_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 
 #include "doorforge/networks/point_encoder.h"
 
@@ -13,8 +14,6 @@ namespace doorforge::internal {
 namespace {
 
 constexpr int kBranchFeatures = 128;  // of the grasp's branches
-// Near points that go through their layers together: what they make stays in the second cache.
-constexpr int kRowsTogether = 512;
 
 std::shared_ptr<const DenseLayers> ActorLayers(const StageNetworks& networks, InstructionSet set) {
   return std::make_shared<DenseLayers>(ActorLayout(networks.family, networks.norm), networks.actor,
@@ -43,28 +42,22 @@ Table Zeros(int rows, int columns) {
   return {rows, columns, columns, std::vector<float>(static_cast<std::size_t>(rows) * columns)};
 }
 
-// Both heads of a grasp end in two layers.
-Table GraspScore(const DenseLayers& layers, const Table& joined) {
-  const Table hidden = layers.Apply("score.0", joined.View(), Activation::kLeaky);
-  return layers.Apply("score.1", hidden.View(), Activation::kNone);
-}
-
-// Of each hand the maximum over its near points, a few hands at a time.
+// Of each hand the maximum over its near points. One hand at a time, so that what its layers make
+// stays in the second cache.
 Table NearFeatures(const DenseLayers& layers, const HeadInputs& inputs) {
   const Rows near = ViewOf(inputs.near, 3);
   const int points = near.rows / inputs.size;
-  const int together = std::max(1, kRowsTogether / points);
   Table features = Zeros(inputs.size, kBranchFeatures);
-  for (int first = 0; first < inputs.size; first += together) {
-    const int hands = std::min(together, inputs.size - first);
-    const Rows some{near.data + static_cast<std::ptrdiff_t>(first) * points * near.stride,
-                    near.stride, hands * points, near.columns};
-    const Table one = layers.Apply("near.0", some, Activation::kRectified);
-    const Table two = layers.Apply("near.1", one.View(), Activation::kRectified);
-    const Table three = layers.Apply("near.2", two.View(), Activation::kRectified);
-    const Table best = layers.MaximumOfGroups(three.View(), points);
-    std::ranges::copy(best.values, features.values.begin() +
-                                       static_cast<std::ptrdiff_t>(first) * kBranchFeatures);
+  std::span<float> left(features.values);
+  Table one;
+  Table two;
+  for (int hand = 0; hand < inputs.size; ++hand) {
+    const Rows own{near.data + static_cast<std::ptrdiff_t>(hand) * points * near.stride,
+                   near.stride, points, near.columns};
+    layers.Apply("near.0", own, Activation::kRectified, one);
+    layers.Apply("near.1", one.View(), Activation::kRectified, two);
+    layers.MaximumOver("near.2", two.View(), left.first<kBranchFeatures>());
+    left = left.subspan(kBranchFeatures);
   }
   return features;
 }
@@ -104,18 +97,22 @@ std::vector<float> CriticHead::Score(const HeadInputs& inputs) const {
 DiscriminatorHead::DiscriminatorHead(const StageNetworks& networks, InstructionSet set)
     : layers_(CriticLayers(networks, set)), score_rad_(networks.normalisation.score_rad) {}
 
+// The layer behind the branches reads three: features, actions and near points. What a network does
+// not look at is zero there, and the near points come last.
 std::vector<float> DiscriminatorHead::Score(const HeadInputs& inputs) const {
-  const Table nothing = Zeros(inputs.size, kBranchFeatures);
-  Table joined;
+  Table hidden;
   if (inputs.near.empty()) {
     const Table action =
         layers_->Branch("action", Activation::kRectified, ViewOf(inputs.actions, 9));
-    joined = SideBySide({ViewOf(inputs.features, kFeatureSize), action.View(), nothing.View()});
+    const Table nothing = Zeros(inputs.size, kBranchFeatures);
+    const Table joined =
+        SideBySide({ViewOf(inputs.features, kFeatureSize), action.View(), nothing.View()});
+    hidden = layers_->Apply("score.0", joined.View(), Activation::kLeaky);
   } else {
-    const Table near = NearFeatures(*layers_, inputs);
-    joined = SideBySide({Zeros(inputs.size, kFeatureSize).View(), nothing.View(), near.View()});
+    hidden =
+        layers_->ApplyToLast("score.0", NearFeatures(*layers_, inputs).View(), Activation::kLeaky);
   }
-  return Denormalised(score_rad_, GraspScore(*layers_, joined));
+  return Denormalised(score_rad_, layers_->Apply("score.1", hidden.View(), Activation::kNone));
 }
 
 AffordanceHead::AffordanceHead(const StageNetworks& networks, InstructionSet set)
@@ -123,9 +120,9 @@ AffordanceHead::AffordanceHead(const StageNetworks& networks, InstructionSet set
 
 std::vector<float> AffordanceHead::Score(const HeadInputs& inputs) const {
   const Table point = layers_->Branch("point", Activation::kRectified, ViewOf(inputs.points, 3));
-  return Denormalised(
-      score_rad_,
-      GraspScore(*layers_, SideBySide({ViewOf(inputs.features, kFeatureSize), point.View()})));
+  const Table joined = SideBySide({ViewOf(inputs.features, kFeatureSize), point.View()});
+  const Table hidden = layers_->Apply("score.0", joined.View(), Activation::kLeaky);
+  return Denormalised(score_rad_, layers_->Apply("score.1", hidden.View(), Activation::kNone));
 }
 
 }  // namespace doorforge::internal

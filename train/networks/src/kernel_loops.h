@@ -38,13 +38,17 @@ struct Loops {
   static void MultiplyRows(const Rows& a, const float* w, const float* bias, MutableRows out,
                            bool relu) {
     Vector sum[M][2];
+    // unrolled, all loops over the sums leave them in registers
+#pragma GCC unroll 16
     for (int i = 0; i < M; ++i) {
       sum[i][0] = bias != nullptr ? S::Load(bias) : Vector{};
       sum[i][1] = bias != nullptr ? S::Load(bias + kWidth) : Vector{};
     }
     MultiplyTile<M>(a.data, a.stride, a.columns, w, sum);
     const Vector zero{};
+#pragma GCC unroll 16
     for (int i = 0; i < M; ++i) {
+#pragma GCC unroll 2
       for (int v = 0; v < 2; ++v) {
         const Vector value = relu ? (sum[i][v] > zero ? sum[i][v] : zero) : sum[i][v];
         S::Store(out.data + i * out.stride + v * kWidth, value);
@@ -70,6 +74,41 @@ struct Loops {
       for (; row + 4 <= a.rows; row += 4)
         MultiplyRows<4>(Below(a, row), panel, panel_bias, at(row), relu);
       for (; row < a.rows; ++row) MultiplyRows<1>(Below(a, row), panel, panel_bias, at(row), relu);
+    }
+  }
+
+  // A function of its own, so that the sums get all registers.
+  template <int M>
+  [[gnu::noinline]] static void MaximumOfRows(const Rows& a, const float* w, const float* bias,
+                                              float* best) {
+    Vector sum[M][2];
+#pragma GCC unroll 16
+    for (int i = 0; i < M; ++i) {
+      sum[i][0] = S::Load(bias);
+      sum[i][1] = S::Load(bias + kWidth);
+    }
+    MultiplyTile<M>(a.data, a.stride, a.columns, w, sum);
+#pragma GCC unroll 2
+    for (int v = 0; v < 2; ++v) {
+      Vector most = S::Load(best + v * kWidth);
+#pragma GCC unroll 16
+      for (int i = 0; i < M; ++i) most = sum[i][v] > most ? sum[i][v] : most;
+      S::Store(best + v * kWidth, most);
+    }
+  }
+
+  static void MultiplyMax(const Rows& a, const Panels& w, const float* bias, float* best) {
+    for (int column = 0; column < w.columns; column += kPanel) {
+      const float* panel = w.data + static_cast<std::ptrdiff_t>(column) * w.depth;
+      float* most = best + column;
+      S::Store(most, Vector{});
+      S::Store(most + kWidth, Vector{});
+      int row = 0;
+      for (; row + S::kTileRows <= a.rows; row += S::kTileRows)
+        MaximumOfRows<S::kTileRows>(Below(a, row), panel, bias + column, most);
+      for (; row + 4 <= a.rows; row += 4)
+        MaximumOfRows<4>(Below(a, row), panel, bias + column, most);
+      for (; row < a.rows; ++row) MaximumOfRows<1>(Below(a, row), panel, bias + column, most);
     }
   }
 
@@ -219,6 +258,7 @@ struct Loops {
 template <class S>
 constexpr Kernels MakeKernels(const char* name) {
   using L = Loops<S>;
-  return {name,         L::kPanel, L::Multiply,      L::AddOuter,  L::ColumnMax, L::SubtractRelu,
-          L::AddScaled, L::Mask,   L::UpdateNearest, L::FindWithin};
+  return {name,        L::kPanel,        L::Multiply,     L::MultiplyMax,
+          L::AddOuter, L::ColumnMax,     L::SubtractRelu, L::AddScaled,
+          L::Mask,     L::UpdateNearest, L::FindWithin};
 }

@@ -47,6 +47,8 @@ struct Kernels {
   /// out = a * w + bias (bias may be null), with negative values set to 0 if `relu`.
   /// Every output is summed in the order of a's columns.
   void (*multiply)(const Rows& a, const Panels& w, const float* bias, MutableRows out, bool relu);
+  /// best[j] = max over rows of max((a * w + bias)[row][j], 0), each output summed as by multiply.
+  void (*multiply_max)(const Rows& a, const Panels& w, const float* bias, float* best);
   /// out[i][j] += sum over rows r of a[r][i] * b[r][j], in the order of rows. b's columns are a
   /// multiple of `panel`.
   void (*add_outer)(const Rows& a, const Rows& b, MutableRows out);

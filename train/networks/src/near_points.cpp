@@ -3,6 +3,7 @@
 #include "doorforge/networks/near_points.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 #include "doorforge/networks/stage_networks.h"
@@ -32,8 +33,10 @@ Eigen::Matrix3Xf NearestToFirst(std::span<const float> xyz, int count) {
 
 void AppendInHandFrame(const Eigen::Matrix3Xf& near, const Eigen::Matrix3d& world_from_hand,
                        std::vector<float>& out) {
-  const Eigen::Matrix3Xf seen = world_from_hand.cast<float>().transpose() * near / kUnit;
-  out.insert(out.end(), seen.data(), seen.data() + seen.size());
+  const std::size_t before = out.size();
+  out.resize(before + static_cast<std::size_t>(near.size()));
+  Eigen::Map<Eigen::Matrix3Xf>(out.data() + before, 3, near.cols()).noalias() =
+      world_from_hand.cast<float>().transpose().lazyProduct(near) / kUnit;
 }
 
 }  // namespace doorforge::internal

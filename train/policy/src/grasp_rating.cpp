@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <numeric>
 
 #include "doorforge/networks/cloud_geometry.h"
@@ -15,18 +16,46 @@
 namespace doorforge::internal {
 namespace {
 
-double Falloff(double difference, double width) {
-  if (width <= 0) return difference > 0 ? 0 : 1;
-  return std::exp(-(difference / width) * (difference / width));
+constexpr double kNegligible = 23;  // exp(-23) = 1e-10: eight hundred such hands count as nothing
+
+// exp(-Exponent()) is what a difference leaves of a weight.
+double Exponent(double difference, double width) {
+  if (width <= 0) return difference > 0 ? kNegligible : 0;
+  return (difference / width) * (difference / width);
 }
 
-// [rad], whichever finger comes first.
-double AngleBetween(const RatedHand& a, const RatedHand& b) {
-  const Eigen::Matrix3d turn = a.world_from_hand_rotation.transpose() * b.world_from_hand_rotation;
-  const Eigen::Matrix3d half_turn = Eigen::Vector3d(-1, -1, 1).asDiagonal();
-  const double cosine = (std::max(turn.trace(), (turn * half_turn).trace()) - 1) / 2;
-  return std::acos(std::clamp(cosine, -1.0, 1.0));
+// Of the angle, whichever finger comes first.
+double CosineBetween(const RatedHand& a, const RatedHand& b) {
+  const Eigen::Matrix3d& from = a.world_from_hand_rotation;
+  const Eigen::Matrix3d& to = b.world_from_hand_rotation;
+  const double approach = from.col(2).dot(to.col(2));
+  const double across = from.col(0).dot(to.col(0)) + from.col(1).dot(to.col(1));
+  return std::clamp((approach + std::abs(across) - 1) / 2, -1.0, 1.0);
 }
+
+/// How hands weigh in each other's means.
+class Neighbourhood {
+ public:
+  Neighbourhood(double width_rad, double width_m)
+      : width_rad_(width_rad),
+        width_m_(width_m),
+        least_cosine_(std::cos(std::min(std::sqrt(kNegligible) * width_rad, std::numbers::pi))) {}
+
+  /// 0 where it is negligible.
+  double Weight(const RatedHand& a, const RatedHand& b) const {
+    const double apart = Exponent((a.contact_m - b.contact_m).norm(), width_m_);
+    if (apart >= kNegligible) return 0;
+    const double cosine = CosineBetween(a, b);
+    if (cosine < least_cosine_) return 0;
+    const double exponent = apart + Exponent(std::acos(cosine), width_rad_);
+    return exponent >= kNegligible ? 0 : std::exp(-exponent);
+  }
+
+ private:
+  double width_rad_;
+  double width_m_;
+  double least_cosine_;
+};
 
 }  // namespace
 
@@ -48,6 +77,7 @@ std::vector<float> GraspRater::Rate(std::span<const float> xyz,
   const Eigen::Matrix3Xf near = NearestToFirst(xyz, normalisation.view.near_points);
   HeadInputs batch;
   batch.size = static_cast<int>(2 * orientations.size());
+  batch.near.reserve(2 * orientations.size() * static_cast<std::size_t>(near.size()));
   for (const Eigen::Matrix3d& orientation : orientations) {
     const ActionVector grasp = ToVector({contact, orientation});
     for (const ActionVector& way : {grasp, HalfTurned(grasp)}) {
@@ -65,20 +95,20 @@ std::vector<float> GraspRater::Rate(std::span<const float> xyz,
 }
 
 std::vector<double> Smoothed(std::span<const RatedHand> hands, double width_rad, double width_m) {
-  std::vector<double> smoothed;
-  for (const RatedHand& hand : hands) {
-    double sum = 0;
-    double weights = 0;
-    for (const RatedHand& other : hands) {
-      const double weight = &hand == &other
-                                ? 1
-                                : Falloff((hand.contact_m - other.contact_m).norm(), width_m) *
-                                      Falloff(AngleBetween(hand, other), width_rad);
-      sum += weight * other.rating_rad;
-      weights += weight;
+  const Neighbourhood neighbourhood(width_rad, width_m);
+  std::vector<double> smoothed;  // sums until the end
+  for (const RatedHand& hand : hands) smoothed.push_back(hand.rating_rad);
+  std::vector<double> weights(hands.size(), 1);
+  for (std::size_t i = 0; i < hands.size(); ++i) {
+    for (std::size_t k = i + 1; k < hands.size(); ++k) {
+      const double weight = neighbourhood.Weight(hands[i], hands[k]);
+      smoothed[i] += weight * hands[k].rating_rad;
+      smoothed[k] += weight * hands[i].rating_rad;
+      weights[i] += weight;
+      weights[k] += weight;
     }
-    smoothed.push_back(sum / weights);
   }
+  for (std::size_t i = 0; i < hands.size(); ++i) smoothed[i] /= weights[i];
   return smoothed;
 }
 

@@ -16,8 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kFile = "losses.json";
-constexpr const char* kSchema = "doorforge.losses";
+constexpr const char* kCurvesFile = "losses.json";
+constexpr const char* kCurvesSchema = "doorforge.losses";
 
 }  // namespace
 
@@ -28,14 +28,15 @@ void WriteTrainingCurves(const fs::path& folder, const std::vector<TrainingCurve
                      {"epoch", NumbersToJson(curve.epoch)},
                      {"train", NumbersToJson(curve.train)},
                      {"validation", NumbersToJson(curve.validation)}});
-  WriteJsonFile(folder / kFile,
-                {{"schema", kSchema}, {"schema_version", kLossesSchemaVersion}, {"curves", array}});
+  WriteJsonFile(
+      folder / kCurvesFile,
+      {{"schema", kCurvesSchema}, {"schema_version", kLossesSchemaVersion}, {"curves", array}});
 }
 
 std::vector<TrainingCurve> ReadTrainingCurves(const fs::path& folder) {
-  const std::string path = (folder / kFile).string();
+  const std::string path = (folder / kCurvesFile).string();
   const Json json = ReadJsonFile(path);
-  RequireSchema(json, kSchema, kLossesSchemaVersion, path);
+  RequireSchema(json, kCurvesSchema, kLossesSchemaVersion, path);
   const Json& array = MemberOf(json, "curves", path);
   if (!array.is_array()) throw Error(ErrorCode::kFormat, path + ".curves: expected an array");
   std::vector<TrainingCurve> curves;

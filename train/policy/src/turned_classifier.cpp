@@ -21,12 +21,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFile = "turned.safetensors";
-constexpr const char* kSchema = "doorforge.turned";
-constexpr internal::CompanionKind kKind{kSchema, kTurnedSchemaVersion,
-                                        "train the policy again with this build"};
+constexpr const char* kClassifierFile = "turned.safetensors";
+constexpr const char* kClassifierSchema = "doorforge.turned";
+constexpr internal::CompanionKind kClassifierKind{kClassifierSchema, kTurnedSchemaVersion,
+                                                  "train the policy again with this build"};
 constexpr double kRidge = 1;
-constexpr double kLeastDeviation = 1e-3;  // so that what hardly varied is not blown up
+constexpr double kLeastFeatureDeviation = 1e-3;  // so that what hardly varied is not blown up
 constexpr int kNewtonSteps = 50;
 constexpr int kUnknowns = static_cast<int>(kTurnedInputs) + 1;
 
@@ -66,7 +66,8 @@ void MeasureInputs(std::span<const TurnedExample> examples, TurnedClassifier& cl
     const double mean = sum[i] / count;
     const double variance = std::max(0.0, squares[i] / count - mean * mean);
     classifier.mean[i] = static_cast<float>(mean);
-    classifier.deviation[i] = static_cast<float>(std::max(kLeastDeviation, std::sqrt(variance)));
+    classifier.deviation[i] =
+        static_cast<float>(std::max(kLeastFeatureDeviation, std::sqrt(variance)));
   }
 }
 
@@ -211,7 +212,7 @@ void WriteTurnedClassifier(const fs::path& folder,
                            const std::optional<TurnedClassifier>& classifier,
                            const std::string& dataset_sha256) {
   if (!classifier) {
-    fs::remove(folder / kFile);
+    fs::remove(folder / kClassifierFile);
     return;
   }
   TensorFile file;
@@ -219,18 +220,18 @@ void WriteTurnedClassifier(const fs::path& folder,
   file.tensors["deviation"] = MakeTensor<float>(classifier->deviation, {kTurnedInputs});
   file.tensors["weight"] = MakeTensor<float>(classifier->weight, {kTurnedInputs});
   file.tensors["bias"] = MakeTensor<float>(std::span(&classifier->bias, 1), {1});
-  file.metadata = {{"schema", kSchema},
+  file.metadata = {{"schema", kClassifierSchema},
                    {"schema_version", std::to_string(kTurnedSchemaVersion)},
                    {"dataset_sha256", dataset_sha256}};
-  CommitFile(folder / kFile, EncodeTensors(file));
+  CommitFile(folder / kClassifierFile, EncodeTensors(file));
 }
 
 std::optional<TurnedClassifier> ReadTurnedClassifier(const fs::path& folder,
                                                      const std::string& dataset_sha256) {
-  const std::string path = (folder / kFile).string();
+  const std::string path = (folder / kClassifierFile).string();
   if (!fs::exists(path)) return std::nullopt;
   const TensorFile file = ReadTensors(path);
-  internal::RequireCompanion(file, kKind, dataset_sha256, path);
+  internal::RequireCompanion(file, kClassifierKind, dataset_sha256, path);
   TurnedClassifier classifier;
   classifier.mean = ArrayOf(file, "mean", path);
   classifier.deviation = ArrayOf(file, "deviation", path);

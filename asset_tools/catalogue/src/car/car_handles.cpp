@@ -14,11 +14,10 @@
 namespace doorforge::internal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kHullToleranceM = 0.0015;
-constexpr double kJointM = 0.0005;    // between grip and what is fixed
-constexpr double kGraspShare = 0.47;  // of the length, from the axis
-constexpr double kPivotM = 0.012;     // how far from its axis a grip is held
+constexpr double kCarHandleHullToleranceM = 0.0015;
+constexpr double kCarHandleJointM = 0.0005;  // between grip and what is fixed
+constexpr double kGraspShare = 0.47;         // of the length, from the axis
+constexpr double kPivotM = 0.012;            // how far from its axis a grip is held
 
 /// What all car handles share: a grip that reaches from an upright axis towards the free edge.
 struct CarHandle {
@@ -108,8 +107,8 @@ void AddGrip(const CarHandle& handle, const std::string& path, const std::vector
     return Section{handle.depth_m / 2, handle.height_m / 2 * scale, handle.squareness};
   };
   const auto rings = SweepRings(line, Eigen::Vector3d::UnitZ(), section, dome_m);
-  part.pieces.push_back(
-      MakePiece("grip", LoftSolid(rings, kHullToleranceM), handle.finish, path + ".finish"));
+  part.pieces.push_back(MakePiece("grip", LoftSolid(rings, kCarHandleHullToleranceM), handle.finish,
+                                  path + ".finish"));
   part.joint = FlapJoint();
   part.part_from_grasp = GraspAt(PointAtY(line, kGraspShare * handle.length_m), Closing::kVertical);
   part.grasp_half_extent_m = {0.12 * handle.length_m, 0.004, handle.depth_m / 2 + 0.002};
@@ -139,12 +138,12 @@ Part BuildStrap(const nlohmann::ordered_json& json, const std::string& path) {
   Check(handle, path);
   Part part;
   AddBase(handle, path, PadsAtEnds(handle), part);
-  const double start = handle.base_m + kJointM;
+  const double start = handle.base_m + kCarHandleJointM;
   const double end = handle.length_m - kPivotM;
   std::vector<Eigen::Vector3d> points;
   constexpr int kSteps = 24;
   for (int i = 0; i <= kSteps; ++i) {
-    const double angle = kPi * i / kSteps;
+    const double angle = std::numbers::pi * i / kSteps;
     points.emplace_back(start + (handle.projection_m - start) * std::pow(std::sin(angle), 0.6),
                         (kPivotM + end) / 2 - (end - kPivotM) / 2 * std::cos(angle), 0);
   }
@@ -160,7 +159,7 @@ Part BuildGrab(const nlohmann::ordered_json& json, const std::string& path) {
   RequireRange(path, "corner_radius_m", handle.corner_radius_m, handle.depth_m / 2 + 0.001, 0.026);
   Part part;
   AddBase(handle, path, PadsAtEnds(handle), part);
-  const double start = handle.base_m + kJointM;
+  const double start = handle.base_m + kCarHandleJointM;
   const double end = handle.length_m - kPivotM;
   const double x = handle.projection_m;
   AddGrip(handle, path,
@@ -181,7 +180,7 @@ Part BuildPull(const nlohmann::ordered_json& json, const std::string& path) {
   const double x = handle.projection_m;
   const double dome = 0.4 * std::min(handle.depth_m, handle.height_m);
   AddGrip(handle, path,
-          FilletedPath({{handle.base_m + kJointM, kPivotM, 0},
+          FilletedPath({{handle.base_m + kCarHandleJointM, kPivotM, 0},
                         {x, kPivotM, 0},
                         {0.92 * x, handle.length_m - dome, 0}},
                        handle.corner_radius_m),
@@ -203,12 +202,13 @@ Part BuildFlap(const nlohmann::ordered_json& json, const std::string& path) {
                       handle.base_m * 0.35},
                      {half_length - 0.006, 0}),
           part);
-  const double start = handle.base_m + kJointM + handle.depth_m / 2;
+  const double start = handle.base_m + kCarHandleJointM + handle.depth_m / 2;
   std::vector<Eigen::Vector3d> points;
   constexpr int kSteps = 10;
   for (int i = 0; i <= kSteps; ++i) {
     const double t = static_cast<double>(i) / kSteps;
-    const double rise = std::sin(kPi / 2 * std::min(1.0, 2.2 * t)) * (1 - 0.15 * t * t);
+    const double rise =
+        std::sin(std::numbers::pi / 2 * std::min(1.0, 2.2 * t)) * (1 - 0.15 * t * t);
     points.emplace_back(start + (handle.projection_m - start) * rise,
                         0.002 + t * (handle.length_m - 0.006), 0);
   }
@@ -243,7 +243,7 @@ Part BuildPocket(const nlohmann::ordered_json& json, const std::string& path) {
   cup.front_x_m = handle.base_m + 0.004;
   cup.edge_radius_m = 0.002;
   AddBase(handle, path, CupSolid(cup), part);
-  const double start = cup.floor_x_m + kJointM;
+  const double start = cup.floor_x_m + kCarHandleJointM;
   const double x = handle.projection_m;
   const double end = handle.length_m - 0.02;
   AddGrip(handle, path,

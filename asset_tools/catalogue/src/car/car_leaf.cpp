@@ -11,12 +11,12 @@ namespace doorforge::internal {
 namespace {
 
 constexpr double kEdgeRadiusM = 0.008;
-constexpr double kHullToleranceM = 0.006;
+constexpr double kCarLeafHullToleranceM = 0.006;
 constexpr double kFrameThicknessM = 0.034;  // of the window frame
 constexpr double kWidestBelowBeltM = 0.2;   // height of the widest line
 constexpr double kCreaseBelowBeltM = 0.27;  // below any handle
 constexpr double kCreaseHalfWidthM = 0.03;
-constexpr double kJointM = 0.0005;  // between solids that touch
+constexpr double kCarLeafJointM = 0.0005;  // between solids that touch
 
 double Share(double value, double low, double high) {
   return std::clamp((value - low) / (high - low), 0.0, 1.0);
@@ -95,12 +95,12 @@ Solid Pad(const CarLeafShape& leaf, const Rectangle& place, double depth_m) {
   grid.v_m = EdgeLines(EqualLines(place.min_m.y(), place.max_m.y(), 2),
                        {place.min_m.y(), place.max_m.y()}, kRadiusM);
   grid.edge_radius_m = kRadiusM;
-  const double inside = leaf.thickness_m + kJointM;
+  const double inside = leaf.thickness_m + kCarLeafJointM;
   grid.front = [leaf, inside](double u, double z) { return PointOf(leaf, u, z, inside); };
   grid.back = [leaf, inside, depth_m](double u, double z) {
     return PointOf(leaf, u, z, inside + depth_m);
   };
-  return PanelSolid(grid, kHullToleranceM);
+  return PanelSolid(grid, kCarLeafHullToleranceM);
 }
 
 // The housing narrows towards the car's front; an arm holds it beside the window's lower corner.
@@ -124,9 +124,10 @@ Solid Mirror(const CarLeafShape& leaf) {
     std::reverse(ring.begin(), ring.end());
     rings.push_back(std::move(ring));
   }
-  const Solid arm = ChamferedBox({skin + kJointM, kMiddleM - 0.03, z - 0.014},
-                                 {skin + kGapM - kJointM, kMiddleM + 0.02, z + 0.014}, 0.004);
-  return Joined({LoftSolid(rings, kHullToleranceM), arm});
+  const Solid arm =
+      ChamferedBox({skin + kCarLeafJointM, kMiddleM - 0.03, z - 0.014},
+                   {skin + kGapM - kCarLeafJointM, kMiddleM + 0.02, z + 0.014}, 0.004);
+  return Joined({LoftSolid(rings, kCarLeafHullToleranceM), arm});
 }
 
 }  // namespace
@@ -189,7 +190,7 @@ Solid CarLeafSolid(const CarLeafShape& leaf) {
   grid.edge_radius_m = kEdgeRadiusM;
   grid.front = [leaf](double u, double z) { return PointOf(leaf, u, z, -CreaseAt(leaf, z)); };
   grid.back = [leaf](double u, double z) { return PointOf(leaf, u, z, ThicknessAt(leaf, z)); };
-  std::vector<Solid> solids = {PanelSolid(grid, kHullToleranceM)};
+  std::vector<Solid> solids = {PanelSolid(grid, kCarLeafHullToleranceM)};
   const double length = leaf.length_m;
   const double belt = leaf.belt_m;
   if (leaf.armrest_m > 0)

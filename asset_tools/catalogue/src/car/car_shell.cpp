@@ -14,13 +14,12 @@
 namespace doorforge::internal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kGapM = 0.008;            // around the leaf
-constexpr double kRearGapM = 0.016;        // its inner corner swings beyond its length
-constexpr double kHullToleranceM = 0.014;  // in the arches of the wheels
-constexpr double kArchGapM = 0.05;         // between wheel and arch
-constexpr double kBesideArchM = 0.04;      // body between an arch and what ends there
-constexpr double kRoofM = 0.045;           // thickness of the roof
+constexpr double kCarShellGapM = 0.008;            // around the leaf
+constexpr double kRearGapM = 0.016;                // its inner corner swings beyond its length
+constexpr double kCarShellHullToleranceM = 0.014;  // in the arches of the wheels
+constexpr double kArchGapM = 0.05;                 // between wheel and arch
+constexpr double kBesideArchM = 0.04;              // body between an arch and what ends there
+constexpr double kRoofM = 0.045;                   // thickness of the roof
 constexpr double kPillarM = 0.06;
 
 using HeightAlong = std::function<double(double y)>;
@@ -39,10 +38,11 @@ class Shell {
     AddFront();
     AddRear();
     AddWheels();
-    const double floor = leaf_.sill_m - kGapM;
-    AddBox({FarX(0.03), -kGapM, shape_.clearance_m}, {-0.03, rear_, floor});
+    const double floor = leaf_.sill_m - kCarShellGapM;
+    AddBox({FarX(0.03), -kCarShellGapM, shape_.clearance_m}, {-0.03, rear_, floor});
     // the far side below its windows
-    AddBox({FarX(0.012), -kGapM, floor + 0.0005}, {FarX(0.012) + 0.06, rear_, leaf_.belt_m});
+    AddBox({FarX(0.012), -kCarShellGapM, floor + 0.0005},
+           {FarX(0.012) + 0.06, rear_, leaf_.belt_m});
     if (style_ == CarStyle::kRoadster)
       AddWindscreen();
     else
@@ -60,7 +60,7 @@ class Shell {
 
   double FrontAxle() const {
     const double arch = shape_.wheel_m + kArchGapM + kBesideArchM;
-    return std::clamp(front_ + 0.58 * shape_.nose_m, front_ + arch, -kGapM - arch);
+    return std::clamp(front_ + 0.58 * shape_.nose_m, front_ + arch, -kCarShellGapM - arch);
   }
   double RearAxle() const {
     return std::max(rear_ + shape_.wheel_m + kArchGapM + 0.05, tail_ - 0.72);
@@ -85,7 +85,8 @@ class Shell {
     const double radius = shape_.wheel_m + kArchGapM;
     std::vector<double> lines = EqualLines(low, high, 6);
     std::erase_if(lines, [&](double y) { return std::abs(y - axle) < radius + 0.02; });
-    for (int i = 0; i <= 6; ++i) lines.push_back(axle - radius * std::cos(kPi * i / 6));
+    for (int i = 0; i <= 6; ++i)
+      lines.push_back(axle - radius * std::cos(std::numbers::pi * i / 6));
     std::sort(lines.begin(), lines.end());
     return lines;
   }
@@ -104,14 +105,14 @@ class Shell {
     };
     grid.front = [at](double y, double v) { return Eigen::Vector3d(at(y, v, true)); };
     grid.back = [at](double y, double v) { return Eigen::Vector3d(at(y, v, false)); };
-    solids_.push_back(PanelSolid(grid, kHullToleranceM));
+    solids_.push_back(PanelSolid(grid, kCarShellHullToleranceM));
   }
 
   void AddFront() {
     const double axle = FrontAxle();
     const double cowl = leaf_.belt_m;
-    AddBlock(LinesWithArch(front_, -kGapM, axle), axle, [this, cowl](double y) {
-      const double t = std::clamp((y - front_) / (-kGapM - front_), 0.0, 1.0);
+    AddBlock(LinesWithArch(front_, -kCarShellGapM, axle), axle, [this, cowl](double y) {
+      const double t = std::clamp((y - front_) / (-kCarShellGapM - front_), 0.0, 1.0);
       return shape_.nose_top_m + (cowl - shape_.nose_top_m) * std::sqrt(t * (2 - t));
     });
   }
@@ -211,7 +212,7 @@ class Shell {
     }
   }
 
-  double RoofZ() const { return leaf_.roof_m + kGapM; }
+  double RoofZ() const { return leaf_.roof_m + kCarShellGapM; }
   double RoofBegin() const { return leaf_.front_slope_m - 0.02; }
 
   double RoofEnd() const {
@@ -253,7 +254,7 @@ class Shell {
       return Eigen::Vector3d(at(x, y, RoofZ() + kRoofM));
     };
     grid.back = [at, this](double x, double y) { return Eigen::Vector3d(at(x, y, RoofZ())); };
-    solids_.push_back(PanelSolid(grid, kHullToleranceM));
+    solids_.push_back(PanelSolid(grid, kCarShellHullToleranceM));
     AddPillars();
   }
 
@@ -286,8 +287,8 @@ class Shell {
     const double roof = RoofZ() - 0.0005;
     const double sunk = -SkinX(leaf_, leaf_.belt_m) + leaf_.bow_m;
     const double head = RoofDepth() + 0.012;
-    AddPillar({sunk, -kGapM - 0.075, belt}, {head, leaf_.front_slope_m - kGapM - 0.075, roof},
-              0.075);
+    AddPillar({sunk, -kCarShellGapM - 0.075, belt},
+              {head, leaf_.front_slope_m - kCarShellGapM - 0.075, roof}, 0.075);
     if (style_ == CarStyle::kVan) return;
     if (style_ == CarStyle::kPickup || style_ == CarStyle::kBox) return;
     // behind the leaf, so that it may swing
@@ -302,7 +303,7 @@ class Shell {
     const double belt = leaf_.belt_m + 0.0005;
     const double height = 0.3;
     const double sunk = -SkinX(leaf_, leaf_.belt_m) + leaf_.bow_m + 0.02;
-    AddPillar({sunk, -kGapM - 0.085, belt}, {sunk + 0.07, 0.2, belt + height}, 0.07);
+    AddPillar({sunk, -kCarShellGapM - 0.085, belt}, {sunk + 0.07, 0.2, belt + height}, 0.07);
     AddBox({FarX(sunk + 0.07), 0.2, belt + height + 0.0005},
            {-sunk - 0.07, 0.27, belt + height + 0.035});
     // two head fairings and seats' backs
@@ -325,7 +326,7 @@ class Shell {
 
 void CheckCarShell(const CarShellShape& shell, const CarLeafShape& leaf, const std::string& path) {
   RequireRange(path, "width_m", shell.width_m, 1.55, 1.98);
-  const double least_nose = 2 * (shell.wheel_m + kArchGapM + kBesideArchM) + kGapM;
+  const double least_nose = 2 * (shell.wheel_m + kArchGapM + kBesideArchM) + kCarShellGapM;
   RequireRange(path, "nose_m", shell.nose_m, least_nose, 1.5);
   RequireRange(path, "wheel_m", shell.wheel_m, 0.26, 0.37);
   RequireRange(path, "clearance_m", shell.clearance_m, 0.14, leaf.sill_m - 0.05);

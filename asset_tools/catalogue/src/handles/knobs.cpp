@@ -11,8 +11,6 @@
 namespace doorforge::internal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// A turned knob: neck and head, one solid of revolution about the handle's axis.
 struct Knob {
   double diameter_m = 0.06;     ///< Of the head.
@@ -135,7 +133,7 @@ void AddBall(const Knob& knob, Profile& profile) {
   const double first = std::asin(std::min(1.0, knob.neck_diameter_m / 2 / radius));
   constexpr int kSteps = 18;
   for (int i = 0; i <= kSteps; ++i) {
-    const double angle = first + (kPi * 0.975 - first) * i / kSteps;
+    const double angle = first + (std::numbers::pi * 0.975 - first) * i / kSteps;
     profile.push_back({center - half_depth * std::cos(angle), radius * std::sin(angle)});
   }
 }
@@ -149,12 +147,12 @@ void AddTulip(const Knob& knob, double rim, Profile& profile) {
   constexpr int kSteps = 12;
   for (int i = 0; i <= kSteps; ++i) {
     const double t = static_cast<double>(i) / kSteps;
-    const double flare = 0.5 - 0.5 * std::cos(kPi * t);
+    const double flare = 0.5 - 0.5 * std::cos(std::numbers::pi * t);
     profile.push_back({head_x + t * (rim_x - head_x), neck + (radius - neck) * flare});
   }
   const double dome = knob.projection_m - rim_x;
   for (const double degrees : {20.0, 40.0, 58.0, 72.0, 82.0, 88.0}) {
-    const double angle = degrees * kPi / 180;
+    const double angle = degrees * std::numbers::pi / 180;
     profile.push_back({rim_x + dome * std::sin(angle), radius * std::cos(angle)});
   }
 }
@@ -192,7 +190,7 @@ void AddDisc(const DiscKnob& knob, Profile& profile) {
   const double center = knob.projection_m - half;
   const double round = std::min(half, 0.3 * radius);
   for (int i = 0; i <= 8; ++i) {
-    const double angle = kPi * i / 8;
+    const double angle = std::numbers::pi * i / 8;
     profile.push_back({center - half * std::cos(angle), radius - round * (1 - std::sin(angle))});
   }
   const double rim = radius - round;
@@ -210,7 +208,8 @@ void AddBeads(const BeadedKnob& knob, Profile& profile) {
   for (int bead = 0; bead < knob.beads; ++bead) {
     const double top = neck + (radius - neck) * (0.3 + 0.2 * bead);
     for (int i = 0; i <= 4; ++i)
-      profile.push_back({x + bead_depth * i / 5.0, neck + (top - neck) * std::sin(kPi * i / 5.0)});
+      profile.push_back(
+          {x + bead_depth * i / 5.0, neck + (top - neck) * std::sin(std::numbers::pi * i / 5.0)});
     x += bead_depth;
   }
   Knob ball = knob;

@@ -10,7 +10,7 @@
 namespace doorforge::internal {
 namespace {
 
-constexpr double kHullToleranceM = 0.001;
+constexpr double kLatchLeverHullToleranceM = 0.001;
 
 /// The latch of an old refrigerator: a boss on an escutcheon and a blade that widens towards its
 /// tip and springs away from the leaf.
@@ -76,7 +76,8 @@ Part BuildLatchLever(const nlohmann::ordered_json& json, const std::string& path
                                  {end - 0.001, boss - 0.002},
                                  {end, boss - 0.005}},
                                 {28, 0, 0});
-  part.pieces.push_back(MakePiece("grip", Joined({LoftSolid(rings, kHullToleranceM), drum}),
+  part.pieces.push_back(MakePiece("grip",
+                                  Joined({LoftSolid(rings, kLatchLeverHullToleranceM), drum}),
                                   lever.finish, path + ".finish"));
   part.joint = HandleJoint(true);
   part.part_from_grasp = GraspAt(

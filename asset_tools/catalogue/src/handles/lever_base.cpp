@@ -7,11 +7,7 @@
 #include <numbers>
 
 namespace doorforge::internal {
-namespace {
-
-constexpr double kPi = std::numbers::pi;
-
-}  // namespace
+namespace {}  // namespace
 
 void CheckLever(const Lever& lever, const std::string& path) {
   RequireRange(path, "length_m", lever.length_m, 0.09, 0.15);
@@ -76,7 +72,7 @@ Part LeverPart(const Lever& lever, const std::string& path,
   const std::vector<PathPoint> line = centre_line(start_x);
   const double total = line.back().length_m;
   const double bend_begin = (lever.projection_m - start_x - lever.bend_radius_m) / total;
-  const double bend_end = bend_begin + lever.bend_radius_m * kPi / 2 / total;
+  const double bend_end = bend_begin + lever.bend_radius_m * std::numbers::pi / 2 / total;
   const auto section = [&](double fraction) {
     return LeverSection(lever, fraction, bend_begin, bend_end);
   };

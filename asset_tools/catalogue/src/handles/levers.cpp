@@ -10,8 +10,6 @@
 namespace doorforge::internal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 struct CurvedLever : Lever {
   double bow_m = 0.006;  ///< Outward bulge of the bar's middle; negative bends towards the leaf.
 
@@ -66,7 +64,8 @@ Part BuildCurved(const nlohmann::ordered_json& json, const std::string& path) {
   RequireRange(path, "bow_m", lever.bow_m, -0.012, 0.016);
   const BarShape bow = [&](double t) {
     return Eigen::Vector2d(
-        lever.bow_m * (0.5 - 0.5 * std::cos(2 * kPi * t)) - 0.25 * lever.bow_m * t * t, 0);
+        lever.bow_m * (0.5 - 0.5 * std::cos(2 * std::numbers::pi * t)) - 0.25 * lever.bow_m * t * t,
+        0);
   };
   return LeverPart(lever, path, [&](double start_x) { return LeverPath(lever, start_x, bow); });
 }
@@ -76,7 +75,7 @@ Part BuildWave(const nlohmann::ordered_json& json, const std::string& path) {
   CheckLever(lever, path);
   RequireRange(path, "wave_m", lever.wave_m, 0.002, 0.014);
   const BarShape wave = [&](double t) {
-    return Eigen::Vector2d(0, 1.3 * lever.wave_m * t * std::sin(2 * kPi * t));
+    return Eigen::Vector2d(0, 1.3 * lever.wave_m * t * std::sin(2 * std::numbers::pi * t));
   };
   return LeverPart(lever, path, [&](double start_x) { return LeverPath(lever, start_x, wave); });
 }
@@ -87,7 +86,7 @@ Part BuildDrooped(const nlohmann::ordered_json& json, const std::string& path) {
   RequireRange(path, "droop_m", lever.droop_m, -0.02, 0.03);
   RequireRange(path, "bow_m", lever.bow_m, -0.008, 0.012);
   const BarShape droop = [&](double t) {
-    return Eigen::Vector2d(lever.bow_m * (0.5 - 0.5 * std::cos(2 * kPi * t)),
+    return Eigen::Vector2d(lever.bow_m * (0.5 - 0.5 * std::cos(2 * std::numbers::pi * t)),
                            -lever.droop_m * t * t);
   };
   return LeverPart(lever, path, [&](double start_x) { return LeverPath(lever, start_x, droop); });

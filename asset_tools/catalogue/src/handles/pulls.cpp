@@ -12,8 +12,7 @@
 namespace doorforge::internal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kHullToleranceM = 0.001;
+constexpr double kPullHullToleranceM = 0.001;
 
 /// A vertical pull: one bar that leaves the leaf below and comes back to it above the mount.
 struct Pull {
@@ -72,14 +71,14 @@ void CheckCorner(const BarPull& pull, const std::string& path) {
 
 Part PullPart(const Pull& pull, const std::string& path, const std::vector<PathPoint>& line) {
   const auto section = [&](double fraction) {
-    const double middle = 0.5 - 0.5 * std::cos(2 * kPi * fraction);
+    const double middle = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * fraction);
     const double scale = 1 + (pull.middle_scale - 1) * middle;
     return Section{pull.depth_m / 2, pull.width_m / 2 * scale, pull.squareness};
   };
   const auto rings = SweepRings(line, Eigen::Vector3d::UnitY(), section, 0);
   Part part;
   part.pieces.push_back(
-      MakePiece("grip", LoftSolid(rings, kHullToleranceM), pull.finish, path + ".finish"));
+      MakePiece("grip", LoftSolid(rings, kPullHullToleranceM), pull.finish, path + ".finish"));
   part.joint = HandleJoint(false);
   part.part_from_grasp = GraspAt({pull.projection_m, 0, 0}, Closing::kHorizontal);
   part.grasp_half_extent_m = {0.2 * pull.span_m, 0.004, pull.depth_m / 2 + 0.002};
@@ -93,7 +92,7 @@ Part BuildBow(const nlohmann::ordered_json& json, const std::string& path) {
   std::vector<Eigen::Vector3d> points;
   constexpr int kSteps = 24;
   for (int i = 0; i <= kSteps; ++i) {
-    const double angle = kPi * i / kSteps;
+    const double angle = std::numbers::pi * i / kSteps;
     points.emplace_back(pull.projection_m * std::pow(std::sin(angle), 0.8), 0,
                         -pull.span_m / 2 * std::cos(angle));
   }

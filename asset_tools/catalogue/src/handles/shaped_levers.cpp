@@ -11,8 +11,6 @@
 namespace doorforge::internal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 struct ScrollLever : Lever {
   double curl_radius_m = 0.013;
   double curl_turn_rad = 4.0;
@@ -142,7 +140,8 @@ Part BuildSquare(const nlohmann::ordered_json& json, const std::string& path) {
 double BladeHalfHeight(const BladeLever& lever, double t) {
   const double root = lever.root_height_m / 2;
   const double tip = lever.tip_height_m / 2;
-  if (lever.outline == "leaf") return tip + (root - tip) * std::sin(kPi * (0.08 + 0.84 * t));
+  if (lever.outline == "leaf")
+    return tip + (root - tip) * std::sin(std::numbers::pi * (0.08 + 0.84 * t));
   return root + (tip - root) * t;
 }
 
@@ -158,7 +157,7 @@ std::vector<Eigen::Vector2d> BladeOutline(const BladeLever& lever, double inset_
   std::vector<Eigen::Vector2d> outline;
   const auto end = [&](double y, double radius, double first) {
     for (int i = 1; !square && i < 6; ++i) {
-      const double angle = first + kPi * i / 6;
+      const double angle = first + std::numbers::pi * i / 6;
       outline.emplace_back(y + radius * std::cos(angle), radius * std::sin(angle));
     }
   };
@@ -166,12 +165,12 @@ std::vector<Eigen::Vector2d> BladeOutline(const BladeLever& lever, double inset_
     const double t = static_cast<double>(i) / kSteps;
     outline.emplace_back(from + (to - from) * t, BladeHalfHeight(lever, t) - inset_m);
   }
-  end(to, tip, kPi / 2);
+  end(to, tip, std::numbers::pi / 2);
   for (int i = kSteps; i >= 0; --i) {
     const double t = static_cast<double>(i) / kSteps;
     outline.emplace_back(from + (to - from) * t, inset_m - BladeHalfHeight(lever, t));
   }
-  end(from, root, -kPi / 2);
+  end(from, root, -std::numbers::pi / 2);
   return outline;
 }
 

@@ -15,8 +15,8 @@
 namespace doorforge::internal {
 namespace {
 
-constexpr double kJointM = 0.0002;         // between solids that touch
-constexpr double kLeafToCabinetM = 0.004;  // the seal behind the leaf
+constexpr double kRefrigeratorJointM = 0.0002;  // between solids that touch
+constexpr double kLeafToCabinetM = 0.004;       // the seal behind the leaf
 constexpr double kBetweenLeavesM = 0.01;
 constexpr double kBinDepthM = 0.08;
 
@@ -202,8 +202,9 @@ void AddInside(const Refrigerator& body, const FrontLayout& front, const Polygon
   const double front_x = -body.thickness_m - kLeafToCabinetM;
   const double back = front_x - body.depth_m + body.wall_m;
   const auto level = [&](double z, double half, double to_x) {
-    solids.push_back(ChamferedBox({back + kJointM, cavity[0].x() + kJointM, z - half},
-                                  {to_x, cavity[2].x() - kJointM, z + half}, 0.001));
+    solids.push_back(
+        ChamferedBox({back + kRefrigeratorJointM, cavity[0].x() + kRefrigeratorJointM, z - half},
+                     {to_x, cavity[2].x() - kRefrigeratorJointM, z + half}, 0.001));
   };
   const double z0 = std::max(front.leaf.min_m.y(), cavity[0].y());
   const double z1 = std::min(front.leaf.max_m.y(), cavity[2].y());
@@ -215,21 +216,23 @@ void AddInside(const Refrigerator& body, const FrontLayout& front, const Polygon
   const double bottom = body.drawers > 0 ? front.leaf.min_m.y() + 0.015 : cavity[0].y();
   // the shelves reach across; the wall between the two rooms is a low one at the front
   for (const double y : front.uprights_m)
-    solids.push_back(ChamferedBox({front_x - 0.035, y - 0.015, bottom + kJointM},
-                                  {front_x, y + 0.015, cavity[2].y() - kJointM}, 0.001));
+    solids.push_back(ChamferedBox({front_x - 0.035, y - 0.015, bottom + kRefrigeratorJointM},
+                                  {front_x, y + 0.015, cavity[2].y() - kRefrigeratorJointM},
+                                  0.001));
 }
 
 // A tray is a floor with a lip before it; what stands in them belongs to the leaf's mass.
 std::vector<Solid> Bins(const Refrigerator& body, const FrontLayout& front, const Polygon& cavity) {
   std::vector<Solid> solids;
-  const double x1 = -body.thickness_m - kJointM;
+  const double x1 = -body.thickness_m - kRefrigeratorJointM;
   const double y0 = std::max(front.leaf.min_m.x(), cavity[0].x()) + 0.03;
   const double y1 = std::min(front.leaf.max_m.x(), cavity[2].x()) - 0.05;
   const double z0 = std::max(front.leaf.min_m.y(), cavity[0].y()) + 0.05;
   const double z1 = std::min(front.leaf.max_m.y(), cavity[2].y()) - 0.16;
   for (int i = 0; i < body.bins; ++i) {
     const double z = z0 + (z1 - z0) * i / std::max(1, body.bins - 1);
-    solids.push_back(ChamferedBox({x1 - kBinDepthM, y0, z}, {x1, y1, z + 0.006 - kJointM}, 0.001));
+    solids.push_back(
+        ChamferedBox({x1 - kBinDepthM, y0, z}, {x1, y1, z + 0.006 - kRefrigeratorJointM}, 0.001));
     solids.push_back(ChamferedBox({x1 - kBinDepthM, y0, z + 0.006},
                                   {x1 - kBinDepthM + 0.006, y1, z + 0.07}, 0.001));
   }
@@ -247,7 +250,7 @@ void AddDispenser(const Rectangle& front, std::vector<Solid>& solids) {
   bezel.fields = {{{bezel.outline.min_m.array() + 0.016, bezel.outline.max_m.array() - 0.016},
                    SunkPanel(0.012, 0.004),
                    ReliefSide::kFront}};
-  solids.push_back(Moved(ReliefSolid(bezel, 0.006), {0.016 + kJointM, 0, 0}));
+  solids.push_back(Moved(ReliefSolid(bezel, 0.006), {0.016 + kRefrigeratorJointM, 0, 0}));
   solids.push_back(ChamferedBox({0.0165, center.x() - 0.07, center.y() - 0.135},
                                 {0.045, center.x() + 0.07, center.y() - 0.122}, 0.003));
 }
@@ -256,7 +259,8 @@ void AddDispenser(const Rectangle& front, std::vector<Solid>& solids) {
 void AddCondenser(const Refrigerator& body, const FrontLayout& front, std::vector<Solid>& solids) {
   constexpr double kTubeM = 0.005;
   constexpr int kTubes = 8;
-  const double x = -body.thickness_m - kLeafToCabinetM - body.depth_m - kTubeM - kJointM;
+  const double x =
+      -body.thickness_m - kLeafToCabinetM - body.depth_m - kTubeM - kRefrigeratorJointM;
   const double y0 = front.whole.min_m.x() + 0.06;
   const double y1 = front.whole.max_m.x() - 0.06;
   const double z0 = front.whole.min_m.y() + 0.1;
@@ -265,8 +269,9 @@ void AddCondenser(const Refrigerator& body, const FrontLayout& front, std::vecto
     solids.push_back(ConvexPrism(CirclePolygon({x, y}, kTubeM, 10), PrismAxis::kZ, {z0, z1}, 0));
   for (int i = 0; i < kTubes; ++i) {
     const double z = z0 + (z1 - z0) * (i + 0.5) / kTubes;
-    solids.push_back(ConvexPrism(CirclePolygon({z, x - 2 * kTubeM - kJointM}, kTubeM, 10),
-                                 PrismAxis::kY, {y0 - 0.01, y1 + 0.01}, 0));
+    solids.push_back(
+        ConvexPrism(CirclePolygon({z, x - 2 * kTubeM - kRefrigeratorJointM}, kTubeM, 10),
+                    PrismAxis::kY, {y0 - 0.01, y1 + 0.01}, 0));
   }
 }
 
@@ -276,7 +281,7 @@ void AddDrawerPull(const Rectangle& front, std::vector<Solid>& solids) {
   const double half = 0.32 * (front.max_m.x() - front.min_m.x());
   const double z = front.max_m.y() - 0.035;
   for (const double side : {-0.85, 0.85})
-    solids.push_back(ChamferedBox({kJointM, y + side * half - 0.008, z - 0.006},
+    solids.push_back(ChamferedBox({kRefrigeratorJointM, y + side * half - 0.008, z - 0.006},
                                   {0.022, y + side * half + 0.008, z + 0.006}, 0.001));
   solids.push_back(ConvexPrism(RoundedBoxPolygon({z - 0.008, 0.0222}, {z + 0.008, 0.034}, 0.004),
                                PrismAxis::kY, {y - half, y + half}, 0.002));
@@ -288,7 +293,7 @@ void AddBase(const Refrigerator& body, const std::string& path, const FrontLayou
   const double x0 = x1 + 0.04 - body.depth_m + 0.02;
   const double y0 = front.whole.min_m.x() + 0.02 + 0.3 * body.corner_radius_m;
   const double y1 = front.whole.max_m.x() - 0.02 - 0.3 * body.corner_radius_m;
-  const double top = body.base_height_m - kJointM;
+  const double top = body.base_height_m - kRefrigeratorJointM;
   if (body.base == "plinth") {
     solids.push_back(ChamferedBox({x0, y0, 0}, {x1, y1, top}, 0.004));
     return;
@@ -366,7 +371,7 @@ BuiltShapes RoundedShapes(const Refrigerator& body, const FrontLayout& front) {
 }
 
 // The corners of the leaf follow those of the cabinet.
-Part BuildBox(const nlohmann::ordered_json& json, const std::string& path) {
+Part BuildRefrigeratorBox(const nlohmann::ordered_json& json, const std::string& path) {
   const auto body = ReadParameters<Refrigerator>(json, path);
   Check(body, path);
   const FrontLayout front = LayoutOf(body, path);
@@ -392,7 +397,7 @@ Polygon Arched(const Eigen::Vector2d& min, const Eigen::Vector2d& max, double ri
   return outline;
 }
 
-Part BuildArched(const nlohmann::ordered_json& json, const std::string& path) {
+Part BuildRefrigeratorArched(const nlohmann::ordered_json& json, const std::string& path) {
   const auto body = ReadParameters<ArchedRefrigerator>(json, path);
   Check(body, path);
   RequireRange(path, "rise_m", body.rise_m, 0.04, 0.25);
@@ -416,7 +421,7 @@ Part BuildIcebox(const nlohmann::ordered_json& json, const std::string& path) {
   const FrontLayout front = LayoutOf(body, path);
   const double x = -body.thickness_m - kLeafToCabinetM - body.depth_m / 2;
   const double y = (front.whole.min_m.x() + front.whole.max_m.x()) / 2;
-  const double z = front.whole.max_m.y() + kJointM;
+  const double z = front.whole.max_m.y() + kRefrigeratorJointM;
   const auto ring = [&](double radius, double up) {
     Ring points;
     for (const Eigen::Vector2d& p : CirclePolygon({x, y}, radius, 28))
@@ -432,7 +437,7 @@ Part BuildIcebox(const nlohmann::ordered_json& json, const std::string& path) {
 }
 
 // A leaf and a second front stand before a cabinet that is wider and higher than both.
-Part BuildFramed(const nlohmann::ordered_json& json, const std::string& path) {
+Part BuildRefrigeratorFramed(const nlohmann::ordered_json& json, const std::string& path) {
   const auto body = ReadParameters<Refrigerator>(json, path);
   Check(body, path);
   const FrontLayout front = LayoutOf(body, path);
@@ -447,7 +452,7 @@ Part BuildFramed(const nlohmann::ordered_json& json, const std::string& path) {
   const double back = -body.thickness_m - kLeafToCabinetM - body.depth_m;
   for (int i = 0; i < 5; ++i) {
     const double x = back + 0.03 + 0.022 * i;
-    ribs.push_back(ChamferedBox({x, low.x() + 0.06, high.y() + kJointM},
+    ribs.push_back(ChamferedBox({x, low.x() + 0.06, high.y() + kRefrigeratorJointM},
                                 {x + 0.01, high.x() - 0.06, high.y() + 0.02}, 0.002));
   }
   return RefrigeratorPart(body, path, front, shapes, ribs);
@@ -457,10 +462,10 @@ Part BuildFramed(const nlohmann::ordered_json& json, const std::string& path) {
 
 std::span<const Family> RefrigeratorBodyFamilies() {
   static const Family kFamilies[] = {
-      {"refrigerator_box", PartRole::kBody, Mechanism::kNone, BuildBox},
-      {"refrigerator_arched", PartRole::kBody, Mechanism::kNone, BuildArched},
+      {"refrigerator_box", PartRole::kBody, Mechanism::kNone, BuildRefrigeratorBox},
+      {"refrigerator_arched", PartRole::kBody, Mechanism::kNone, BuildRefrigeratorArched},
       {"refrigerator_icebox", PartRole::kBody, Mechanism::kNone, BuildIcebox},
-      {"refrigerator_framed", PartRole::kBody, Mechanism::kNone, BuildFramed},
+      {"refrigerator_framed", PartRole::kBody, Mechanism::kNone, BuildRefrigeratorFramed},
   };
   return kFamilies;
 }

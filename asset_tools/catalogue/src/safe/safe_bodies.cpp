@@ -15,8 +15,8 @@
 namespace doorforge::internal {
 namespace {
 
-constexpr double kHullToleranceM = 0.006;
-constexpr double kJointM = 0.0002;  // between solids that touch
+constexpr double kSafeHullToleranceM = 0.006;
+constexpr double kSafeJointM = 0.0002;  // between solids that touch
 constexpr double kHingeAxisM = 0.0075;
 constexpr double kHandleRoomM = 0.132;  // half the width of the largest handle
 
@@ -235,13 +235,13 @@ void AddShelves(const SafeBody& body, const Rectangle& room, double front_x_m,
   if (front - back < 0.06) return;
   for (int i = 1; i <= body.shelves; ++i) {
     const double z = room.min_m.y() + (room.max_m.y() - room.min_m.y()) * i / (body.shelves + 1.0);
-    solids.push_back(ChamferedBox({back + kJointM, room.min_m.x() + kJointM, z - 0.004},
-                                  {front, room.max_m.x() - kJointM, z + 0.004}, 0.001));
+    solids.push_back(ChamferedBox({back + kSafeJointM, room.min_m.x() + kSafeJointM, z - 0.004},
+                                  {front, room.max_m.x() - kSafeJointM, z + 0.004}, 0.001));
   }
   if (body.till)
-    solids.push_back(ChamferedBox({back + kJointM, room.min_m.x() + 0.03, room.max_m.y() - 0.08},
-                                  {front + 0.01, room.max_m.x() - 0.03, room.max_m.y() - kJointM},
-                                  0.003));
+    solids.push_back(
+        ChamferedBox({back + kSafeJointM, room.min_m.x() + 0.03, room.max_m.y() - 0.08},
+                     {front + 0.01, room.max_m.x() - 0.03, room.max_m.y() - kSafeJointM}, 0.003));
 }
 
 // What stands on a box with a flat top.
@@ -251,7 +251,7 @@ void AddTop(const SafeBody& body, const std::string& path, const Rectangle& box,
   if (body.outline == "arched")
     throw Error(ErrorCode::kInvalidConfig,
                 path + ".top: found \"" + body.top + "\", allowed none on an arch");
-  const double z = box.max_m.y() + kJointM;
+  const double z = box.max_m.y() + kSafeJointM;
   const double x0 = front_x_m - body.depth_m;
   const double y = (box.min_m.x() + box.max_m.x()) / 2;
   const double width = box.max_m.x() - box.min_m.x();
@@ -284,7 +284,7 @@ void AddTop(const SafeBody& body, const std::string& path, const Rectangle& box,
     for (const double side : {-1.0, 1.0})
       solids.push_back(ChamferedBox({x - 0.012, y + side * half - 0.009, z},
                                     {x + 0.012, y + side * half + 0.009, z + 0.05}, 0.002));
-    solids.push_back(ChamferedBox({x - 0.012, y - half - 0.009, z + 0.05 + kJointM},
+    solids.push_back(ChamferedBox({x - 0.012, y - half - 0.009, z + 0.05 + kSafeJointM},
                                   {x + 0.012, y + half + 0.009, z + 0.07}, 0.006));
   } else {
     throw Error(ErrorCode::kInvalidConfig,
@@ -306,7 +306,7 @@ void AddBase(const SafeBody& body, const std::string& path, const Rectangle& box
   const double y0 = box.min_m.x() + 0.012;
   const double y1 = box.max_m.x() - 0.012;
   if (body.base == "plinth") {
-    solids.push_back(ChamferedBox({x0, y0, 0}, {x1 - 0.02, y1, h - kJointM}, 0.003));
+    solids.push_back(ChamferedBox({x0, y0, 0}, {x1 - 0.02, y1, h - kSafeJointM}, 0.003));
     return;
   }
   const double size = std::min(0.045, 0.3 * (y1 - y0));
@@ -318,19 +318,20 @@ void AddBase(const SafeBody& body, const std::string& path, const Rectangle& box
       const Eigen::Vector3d middle(x + size / 2, y + size / 2, 0);
       if (body.base == "feet") {
         const Polygon circle = CirclePolygon({middle.x(), middle.y()}, size / 2, 20);
-        solids.push_back(ConvexPrism(circle, PrismAxis::kZ, {0, h - kJointM}, 0.004));
+        solids.push_back(ConvexPrism(circle, PrismAxis::kZ, {0, h - kSafeJointM}, 0.004));
       } else if (body.base == "legs") {
-        solids.push_back(ChamferedBox({x, y, 0}, {x + size, y + size, h - kJointM}, 0.006));
+        solids.push_back(ChamferedBox({x, y, 0}, {x + size, y + size, h - kSafeJointM}, 0.006));
       } else if (body.base == "stand") {
         // below and above the shelf
-        solids.push_back(ChamferedBox({x, y, 0}, {x + size, y + size, 0.3 * h - kJointM}, 0.003));
-        solids.push_back(ChamferedBox({x, y, 0.3 * h + 0.016 + kJointM},
-                                      {x + size, y + size, h - kJointM}, 0.003));
+        solids.push_back(
+            ChamferedBox({x, y, 0}, {x + size, y + size, 0.3 * h - kSafeJointM}, 0.003));
+        solids.push_back(ChamferedBox({x, y, 0.3 * h + 0.016 + kSafeJointM},
+                                      {x + size, y + size, h - kSafeJointM}, 0.003));
       } else if (body.base == "wheels") {
         const double r = std::max(0.012, 0.5 * h - 0.004);
         solids.push_back(Wheel({middle.x(), middle.y(), r}, r));
-        solids.push_back(
-            ChamferedBox({x, y, 2 * r + kJointM}, {x + size, y + size, h - kJointM}, 0.001));
+        solids.push_back(ChamferedBox({x, y, 2 * r + kSafeJointM},
+                                      {x + size, y + size, h - kSafeJointM}, 0.001));
       } else {
         throw Error(ErrorCode::kInvalidConfig,
                     path + ".base: found \"" + body.base +
@@ -376,7 +377,7 @@ Solid LeafSolid(const SafeBody& body, const std::string& path, const Rectangle& 
   slab.thickness_m = body.thickness_m;
   slab.edge_radius_m = 0.003;
   AddFace(body, path, slab);
-  return ReliefSolid(slab, kHullToleranceM);
+  return ReliefSolid(slab, kSafeHullToleranceM);
 }
 
 PartPiece WithMass(PartPiece piece, double mass_kg) {
@@ -402,7 +403,7 @@ Part SafePart(const SafeBody& body, const std::string& path, const Rectangle& le
   return part;
 }
 
-Part BuildBox(const nlohmann::ordered_json& json, const std::string& path) {
+Part BuildSafeBox(const nlohmann::ordered_json& json, const std::string& path) {
   const auto body = ReadParameters<SafeBody>(json, path);
   Check(body, path);
   const SafeLayout layout = LayoutOf(body, 0, 0, 0);
@@ -427,8 +428,8 @@ Part BuildWall(const nlohmann::ordered_json& json, const std::string& path) {
   flange.edge_radius_m = 0.4 * body.flange_thickness_m;
   layout.box = {layout.opening.min_m.array() - body.wall_m,
                 layout.opening.max_m.array() + body.wall_m};
-  const double front = -body.flange_thickness_m - kJointM;
-  std::vector<Solid> frame = {ReliefSolid(flange, kHullToleranceM),
+  const double front = -body.flange_thickness_m - kSafeJointM;
+  std::vector<Solid> frame = {ReliefSolid(flange, kSafeHullToleranceM),
                               Shell(body, layout, front, path)};
   AddShelves(body, layout.opening, front, frame);
   return SafePart(body, path, layout.leaf, frame, LeafSolid(body, path, layout.leaf));
@@ -461,7 +462,7 @@ Solid RoundLeaf(const VaultSafe& body, const Eigen::Vector2d& center) {
     const Eigen::Vector2d at =
         center + (r - 0.03) * Eigen::Vector2d(std::cos(angle), std::sin(angle));
     solids.push_back(
-        ConvexPrism(CirclePolygon(at, 0.011, 12), PrismAxis::kX, {kJointM, 0.007}, 0.002));
+        ConvexPrism(CirclePolygon(at, 0.011, 12), PrismAxis::kX, {kSafeJointM, 0.007}, 0.002));
   }
   return Joined(solids);
 }
@@ -537,7 +538,7 @@ void AddFixedFronts(const std::string& kind, const Rectangle& area, const std::s
       slab.fields = {{{(low.array() + border).matrix(), (low + cell).array() - border},
                       SunkPanel(0.003, 0.002),
                       ReliefSide::kFront}};
-      solids.push_back(Moved(ReliefSolid(slab, kHullToleranceM), {0.012 + kJointM, 0, 0}));
+      solids.push_back(Moved(ReliefSolid(slab, kSafeHullToleranceM), {0.012 + kSafeJointM, 0, 0}));
     }
   }
   if (kind == "door") solids.push_back(Dial(CenterOf(area), 0.032, 0.0095));
@@ -572,13 +573,13 @@ Part BuildHotel(const nlohmann::ordered_json& json, const std::string& path) {
   const double z = CenterOf(layout.leaf).y();
   // display above, three by four keys below
   frame.push_back(
-      ChamferedBox({kJointM, y - 0.036, z + 0.045}, {0.006, y + 0.036, z + 0.08}, 0.002));
+      ChamferedBox({kSafeJointM, y - 0.036, z + 0.045}, {0.006, y + 0.036, z + 0.08}, 0.002));
   for (int row = 0; row < 4; ++row) {
     for (int column = -1; column <= 1; ++column) {
       const double ky = y + 0.024 * column;
       const double kz = z + 0.022 - 0.024 * row;
-      frame.push_back(
-          ChamferedBox({kJointM, ky - 0.009, kz - 0.009}, {0.005, ky + 0.009, kz + 0.009}, 0.0015));
+      frame.push_back(ChamferedBox({kSafeJointM, ky - 0.009, kz - 0.009},
+                                   {0.005, ky + 0.009, kz + 0.009}, 0.0015));
     }
   }
   AddShelves(body, layout.opening, 0, frame);
@@ -606,8 +607,9 @@ Part BuildAntique(const nlohmann::ordered_json& json, const std::string& path) {
     const double y1 = outside.max_m.x() + out;
     // in front only as far as the leaf swings above and below nothing
     for (const double z : {up, down})
-      frame.push_back(ChamferedBox({-body.depth_m, y0, z + kJointM},
-                                   {std::min(out, 0.03), y1, z + body.step_m - kJointM}, 0.003));
+      frame.push_back(ChamferedBox({-body.depth_m, y0, z + kSafeJointM},
+                                   {std::min(out, 0.03), y1, z + body.step_m - kSafeJointM},
+                                   0.003));
   }
   AddShelves(body, layout.opening, 0, frame);
   AddBase(body, path, outside, 0, frame);
@@ -618,7 +620,7 @@ Part BuildAntique(const nlohmann::ordered_json& json, const std::string& path) {
 
 std::span<const Family> SafeBodyFamilies() {
   static const Family kFamilies[] = {
-      {"safe_box", PartRole::kBody, Mechanism::kNone, BuildBox},
+      {"safe_box", PartRole::kBody, Mechanism::kNone, BuildSafeBox},
       {"safe_wall", PartRole::kBody, Mechanism::kNone, BuildWall},
       {"safe_vault", PartRole::kBody, Mechanism::kNone, BuildVault},
       {"safe_tiered", PartRole::kBody, Mechanism::kNone, BuildTiered},

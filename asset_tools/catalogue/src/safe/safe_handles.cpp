@@ -16,9 +16,8 @@
 namespace doorforge::internal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kHullToleranceM = 0.001;
-constexpr double kJointM = 0.0002;  // between solids that touch
+constexpr double kSafeHandleHullToleranceM = 0.001;
+constexpr double kSafeHandleJointM = 0.0002;  // between solids that touch
 
 /// The plate on the leaf under every handle of a safe.
 struct SafePlate {
@@ -190,7 +189,7 @@ Solid PlateOf(const SafePlate& plate, const std::string& path, const Eigen::Vect
   if (plate.shape == "diamond") {
     outline = {{half.x(), 0}, {0, half.y()}, {-half.x(), 0}, {0, -half.y()}};
   } else if (plate.shape == "octagon") {
-    for (const Eigen::Vector2d& p : CirclePolygon({0, 0}, 1 / std::cos(kPi / 8), 8))
+    for (const Eigen::Vector2d& p : CirclePolygon({0, 0}, 1 / std::cos(std::numbers::pi / 8), 8))
       outline.emplace_back(p.cwiseProduct(half));
   } else {
     throw Error(ErrorCode::kInvalidConfig,
@@ -210,14 +209,14 @@ double AddPlate(const SafePlate& plate, const std::string& path, const std::vect
   Eigen::Vector2d half(plate.width_m / 2, plate.height_m / 2);
   if (plate.height_m == 0) half.y() = (plate.shape == "shield" ? 1.25 : 1) * half.x();
   std::vector<Solid> solids = {PlateOf(plate, path, half, plate.thickness_m)};
-  double top = plate.thickness_m + kJointM;
+  double top = plate.thickness_m + kSafeHandleJointM;
   if (plate.stepped) {
     solids.push_back(Moved(PlateOf(plate, path, 0.72 * half, plate.thickness_m / 2), {top, 0, 0}));
-    top += plate.thickness_m / 2 + kJointM;
+    top += plate.thickness_m / 2 + kSafeHandleJointM;
   }
   for (const Solid& solid : on_it) solids.push_back(Moved(solid, {top, 0, 0}));
   part.pieces.push_back(MakePiece("rose", Joined(solids), plate.finish, path));
-  return top + kJointM;
+  return top + kSafeHandleJointM;
 }
 
 Solid Lathed(const std::vector<LathePoint>& profile, int sides = 28) {
@@ -237,7 +236,7 @@ Solid Hub(double radius, double from_x, double to_x) {
 Solid Ball(const Eigen::Vector3d& center, double radius) {
   std::vector<LathePoint> profile;
   for (int i = 0; i <= 10; ++i) {
-    const double angle = kPi * (0.06 + 0.88 * i / 10);
+    const double angle = std::numbers::pi * (0.06 + 0.88 * i / 10);
     profile.push_back({-radius * std::cos(angle), radius * std::sin(angle)});
   }
   return Moved(Lathed(profile, 20), center);
@@ -252,7 +251,8 @@ Solid Bar(const SafeBars& bars, const Eigen::Vector3d& from, const Eigen::Vector
   };
   const double dome = domed ? 0.4 * std::min(bars.bar_width_m, bars.bar_depth_m) : 0;
   const std::vector<PathPoint> path = FilletedPath({from, (from + to) / 2, to}, 0.001);
-  return LoftSolid(SweepRings(path, Eigen::Vector3d::UnitX(), section, dome), kHullToleranceM);
+  return LoftSolid(SweepRings(path, Eigen::Vector3d::UnitX(), section, dome),
+                   kSafeHandleHullToleranceM);
 }
 
 // Direction in the leaf's plane; 0 is towards the hinge, positive as the handle turns.
@@ -261,14 +261,15 @@ Eigen::Vector3d DirectionAt(double angle) { return {0, -std::cos(angle), -std::s
 // A bar from the hub along `direction`, with its tip `dish_m` farther out and a ball there or not.
 std::vector<Solid> Arm(const SafeBars& bars, const Eigen::Vector3d& direction, double dish_m,
                        double ball_m) {
-  const Eigen::Vector3d root =
-      direction * (bars.hub_diameter_m / 2 + kJointM) + Eigen::Vector3d(bars.projection_m, 0, 0);
-  const double length = bars.length_m - (ball_m > 0 ? ball_m - kJointM : 0);
+  const Eigen::Vector3d root = direction * (bars.hub_diameter_m / 2 + kSafeHandleJointM) +
+                               Eigen::Vector3d(bars.projection_m, 0, 0);
+  const double length = bars.length_m - (ball_m > 0 ? ball_m - kSafeHandleJointM : 0);
   const Eigen::Vector3d tip =
       direction * length + Eigen::Vector3d(bars.projection_m + dish_m, 0, 0);
   std::vector<Solid> solids = {Bar(bars, root, tip, ball_m <= 0)};
   if (ball_m > 0)
-    solids.push_back(Ball(tip + (tip - root).normalized() * (ball_m / 2 + kJointM), ball_m / 2));
+    solids.push_back(
+        Ball(tip + (tip - root).normalized() * (ball_m / 2 + kSafeHandleJointM), ball_m / 2));
   return solids;
 }
 
@@ -288,7 +289,8 @@ RigidTransform GraspFrame(const Eigen::Vector3d& position, const Eigen::Vector3d
 }
 
 Part Finished(Part part, const GripParts& grip, const SafeBars& bars, const std::string& path) {
-  const RigidTransform turn = RotationAbout(Eigen::Vector3d::UnitX(), bars.angle_deg * kPi / 180);
+  const RigidTransform turn =
+      RotationAbout(Eigen::Vector3d::UnitX(), bars.angle_deg * std::numbers::pi / 180);
   part.pieces.push_back(
       MakePiece("grip", Transformed(Joined(grip.solids), turn), bars.finish, path + ".finish"));
   part.joint = HandleJoint(true);
@@ -334,7 +336,7 @@ std::vector<Polygon> BowPolygons(const SafeKey& key, const std::string& path) {
     for (const Eigen::Vector2d& p : CirclePolygon({0, 0}, 1, 20))
       wing.emplace_back(p.cwiseProduct(half) + Eigen::Vector2d(side * 0.29 * key.bow_height_m, 0));
     const Eigen::Vector2d inwards(-side, 0);
-    bow.push_back(Clipped(wing, {side * (waist + kJointM), 0}, inwards));
+    bow.push_back(Clipped(wing, {side * (waist + kSafeHandleJointM), 0}, inwards));
   }
   return bow;
 }
@@ -361,8 +363,9 @@ Part BuildKey(const nlohmann::ordered_json& json, const std::string& path) {
   const double half = key.bow_thickness_m / 2;
   const double bow_begin = key.reach_m - key.bow_depth_m * (key.bow == "butterfly" ? 0.3 : 0.5);
   const double shaft = 0.55 * half + 0.0015;
-  std::vector<Solid> solids = {
-      Lathed({{barrel_end + 4 * kJointM, shaft}, {bow_begin - 2 * kJointM, shaft}}, 16)};
+  std::vector<Solid> solids = {Lathed(
+      {{barrel_end + 4 * kSafeHandleJointM, shaft}, {bow_begin - 2 * kSafeHandleJointM, shaft}},
+      16)};
   for (Polygon bow : BowPolygons(key, path)) {
     for (Eigen::Vector2d& p : bow) p.y() += key.reach_m;
     solids.push_back(ConvexPrism(bow, PrismAxis::kY, {-half, half}, 0.3 * half));
@@ -374,7 +377,7 @@ Part BuildKey(const nlohmann::ordered_json& json, const std::string& path) {
   return part;
 }
 
-Part BuildTee(const nlohmann::ordered_json& json, const std::string& path) {
+Part BuildSafeHandleTee(const nlohmann::ordered_json& json, const std::string& path) {
   const auto tee = ReadParameters<SafeTee>(json, path);
   Check(tee, path);
   CheckBall(tee, tee.ball_m, path);
@@ -397,14 +400,14 @@ Part BuildTee(const nlohmann::ordered_json& json, const std::string& path) {
   const Eigen::Vector3d last = (points[12] - points[11]).normalized();
   const auto rings =
       SweepRings(SmoothPath(points, first, last), Eigen::Vector3d::UnitX(), section, 0.004);
-  std::vector<Solid> solids = {LoftSolid(rings, kHullToleranceM)};
+  std::vector<Solid> solids = {LoftSolid(rings, kSafeHandleHullToleranceM)};
   if (tee.ball_m > 0) {
-    const double away = 0.004 + kJointM + tee.ball_m / 2;
+    const double away = 0.004 + kSafeHandleJointM + tee.ball_m / 2;
     solids.push_back(Ball(points[0] - away * first, tee.ball_m / 2));
     solids.push_back(Ball(points[12] + away * last, tee.ball_m / 2));
   }
   const double neck = tee.hub_diameter_m / 2;
-  const double end = tee.projection_m - tee.bar_depth_m / 2 - kJointM;
+  const double end = tee.projection_m - tee.bar_depth_m / 2 - kSafeHandleJointM;
   solids.push_back(Lathed({{start, 1.3 * neck},
                            {start + 0.3 * (end - start), neck},
                            {end, std::min(neck, 0.8 * tee.bar_width_m)}}));
@@ -423,7 +426,7 @@ GripParts EllGrip(const SafeEll& ell, double start) {
     const double r = 0.42 * ell.bar_width_m * std::min(1.0, ell.tip_scale);
     const double x = ell.projection_m + ell.bar_depth_m / 2 * std::max(1.0, ell.tip_scale);
     const Eigen::Vector3d at = DirectionAt(0) * (ell.length_m - 1.6 * r);
-    solids.push_back(Moved(Lathed({{x + kJointM, 0.8 * r},
+    solids.push_back(Moved(Lathed({{x + kSafeHandleJointM, 0.8 * r},
                                    {x + 0.3 * ell.post_m, 0.7 * r},
                                    {x + 0.7 * ell.post_m, 1.25 * r},
                                    {x + ell.post_m, 0.8 * r}},
@@ -465,9 +468,9 @@ Part BuildDialLever(const nlohmann::ordered_json& json, const std::string& path)
   const Solid knob =
       Moved(LatheSolid({{0, 0.5 * r}, {0.004, 0.55 * r}, {0.018, 0.5 * r}, {0.02, 0.42 * r}},
                        {48, 0.0012, 12}),
-            {0.008 + kJointM, 0, 0});
+            {0.008 + kSafeHandleJointM, 0, 0});
   const double down = -lever.plate.thickness_m * (lever.plate.stepped ? 1.5 : 1) -
-                      (lever.plate.stepped ? 2 : 1) * kJointM;
+                      (lever.plate.stepped ? 2 : 1) * kSafeHandleJointM;
   const Solid dial =
       Moved(Joined({numbered, knob}), {down, lever.dial_shift_m, lever.dial_height_m});
   const double start = AddPlate(lever.plate, path + ".plate", {dial}, part);
@@ -485,8 +488,8 @@ Part BuildSpokes(const nlohmann::ordered_json& json, const std::string& path) {
   std::vector<Solid> solids = {
       Hub(valve.hub_diameter_m / 2, start, valve.projection_m + 0.8 * valve.bar_depth_m)};
   for (int i = 0; i < valve.spokes; ++i) {
-    const std::vector<Solid> arm =
-        Arm(valve, DirectionAt(2 * kPi * i / valve.spokes), valve.dish_m, valve.ball_m);
+    const std::vector<Solid> arm = Arm(valve, DirectionAt(2 * std::numbers::pi * i / valve.spokes),
+                                       valve.dish_m, valve.ball_m);
     solids.insert(solids.end(), arm.begin(), arm.end());
   }
   const GripParts grip{solids,
@@ -515,13 +518,14 @@ Part BuildWheel(const nlohmann::ordered_json& json, const std::string& path) {
       Hub(wheel.hub_diameter_m / 2, start, hub_x + 0.8 * wheel.bar_depth_m),
       HoopSolid(rim, {x, 0, 0})};
   for (int i = 0; i < wheel.spokes; ++i) {
-    const Eigen::Vector3d direction = DirectionAt(2 * kPi * (i + 0.5) / wheel.spokes);
+    const Eigen::Vector3d direction = DirectionAt(2 * std::numbers::pi * (i + 0.5) / wheel.spokes);
     const Eigen::Vector3d at(x, 0, 0);
     const auto along = [&](double from) { return at + direction * (wheel.length_m + from); };
-    const double border = wheel.rim_width_m / 2 + kJointM;
-    solids.push_back(
-        Bar(wheel, Eigen::Vector3d(hub_x, 0, 0) + direction * (wheel.hub_diameter_m / 2 + kJointM),
-            along(-border), false));
+    const double border = wheel.rim_width_m / 2 + kSafeHandleJointM;
+    solids.push_back(Bar(
+        wheel,
+        Eigen::Vector3d(hub_x, 0, 0) + direction * (wheel.hub_diameter_m / 2 + kSafeHandleJointM),
+        along(-border), false));
     if (wheel.over_m > 0)
       solids.push_back(Bar(wheel, along(border), along(border + wheel.over_m), true));
   }
@@ -537,7 +541,7 @@ Part BuildWheel(const nlohmann::ordered_json& json, const std::string& path) {
 std::span<const Family> SafeHandleFamilies() {
   static const Family kFamilies[] = {
       {"safe_key", PartRole::kHandle, Mechanism::kKey, BuildKey},
-      {"safe_tee", PartRole::kHandle, Mechanism::kKey, BuildTee},
+      {"safe_tee", PartRole::kHandle, Mechanism::kKey, BuildSafeHandleTee},
       {"safe_ell", PartRole::kHandle, Mechanism::kValve, BuildEll},
       {"safe_dial_lever", PartRole::kHandle, Mechanism::kValve, BuildDialLever},
       {"safe_spokes", PartRole::kHandle, Mechanism::kValve, BuildSpokes},

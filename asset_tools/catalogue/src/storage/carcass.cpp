@@ -21,8 +21,9 @@ constexpr double kMarginM = 0.003;         // the carcass reaches this far beyon
 constexpr double kLeafToCarcassM = 0.003;  // behind the leaf
 constexpr double kLeafToBayM = 0.006;      // between the leaf and what is beside it
 constexpr double kBetweenFrontsM = 0.004;
-constexpr double kHullToleranceM = 0.006;
-constexpr double kJointM = 0.0001;  // boards keep this far from a common face, so none is shared
+constexpr double kCarcassHullToleranceM = 0.006;
+constexpr double kCarcassJointM =
+    0.0001;  // boards keep this far from a common face, so none is shared
 constexpr double kBoardEdgeM = 0.001;
 constexpr double kBackM = 0.008;
 
@@ -160,51 +161,52 @@ Polygon Frame::Plan() const {
 
 // Posts at the corners, rails between them, and slats.
 void Frame::AddOpenSide(double y0) {
-  const double b = carcass_.board_m - kJointM;
+  const double b = carcass_.board_m - kCarcassJointM;
   const double x0 = x1_ - carcass_.depth_m;
   // the back's board stands between the rear posts' inner faces and what is behind them
-  const double rear = carcass_.back ? x0 + kBackM + kJointM : x0;
+  const double rear = carcass_.back ? x0 + kBackM + kCarcassJointM : x0;
   for (const double x : {rear, x1_ - b})
     Add(ChamferedBox({x, y0, z_.low}, {x + b, y0 + b, z_.high}, kBoardEdgeM));
   const int bars = carcass_.sides == "slatted" ? 6 : 2;
   const double high = 0.045;
   for (int i = 0; i < bars; ++i) {
     const double z = z_.low + (z_.size() - high) * i / (bars - 1);
-    Add(ChamferedBox({rear + b + kJointM, y0, z}, {x1_ - b - kJointM, y0 + b, z + high},
-                     kBoardEdgeM));
+    Add(ChamferedBox({rear + b + kCarcassJointM, y0, z},
+                     {x1_ - b - kCarcassJointM, y0 + b, z + high}, kBoardEdgeM));
   }
 }
 
 void Frame::AddWalls() {
   if (carcass_.sides != "panel") {
     AddOpenSide(y_.low);
-    AddOpenSide(y_.high - carcass_.board_m + kJointM);
+    AddOpenSide(y_.high - carcass_.board_m + kCarcassJointM);
   }
   for (std::size_t i = 1; i < plan_.size(); ++i) {
     const std::size_t next = (i + 1) % plan_.size();
     const bool is_back = std::abs(plan_[next].x() - plan_[i].x()) < 1e-9;
     if (is_back ? !carcass_.back : carcass_.sides != "panel") continue;
     const Polygon wall = {plan_[i], plan_[next], inner_[next], inner_[i]};
-    Add(ConvexPrism(Inset(wall, kJointM), PrismAxis::kZ, {z_.low, z_.high}, kBoardEdgeM));
+    Add(ConvexPrism(Inset(wall, kCarcassJointM), PrismAxis::kZ, {z_.low, z_.high}, kBoardEdgeM));
   }
 }
 
 // A level board with its upper face at z + half its thickness, `depth` of the room deep.
 void Frame::AddLevel(double z, const Interval& y, double depth) {
-  const double half = carcass_.board_m / 2 - kJointM;
+  const double half = carcass_.board_m / 2 - kCarcassJointM;
   const auto back = std::ranges::min(inner_, {}, [](const auto& p) { return p.x(); }).x();
   const Polygon deep =
       depth < 1 ? ClippedToBand(inner_, 0, back, back + depth * (x1_ - back)) : inner_;
   const Polygon board = ClippedToBand(deep, 1, y.low, y.high);
   if (board.size() >= 3)
-    Add(ConvexPrism(Inset(board, kJointM), PrismAxis::kZ, {z - half, z + half}, kBoardEdgeM));
+    Add(ConvexPrism(Inset(board, kCarcassJointM), PrismAxis::kZ, {z - half, z + half},
+                    kBoardEdgeM));
 }
 
 void Frame::AddUpright(double y, const Interval& z) {
   const double half = carcass_.board_m / 2;
   const Polygon board = ClippedToBand(inner_, 1, y - half, y + half);
-  Add(ConvexPrism(Inset(board, kJointM), PrismAxis::kZ, {z.low + kJointM, z.high - kJointM},
-                  kBoardEdgeM));
+  Add(ConvexPrism(Inset(board, kCarcassJointM), PrismAxis::kZ,
+                  {z.low + kCarcassJointM, z.high - kCarcassJointM}, kBoardEdgeM));
 }
 
 void Frame::AddFront(const Interval& y, const Interval& z) {
@@ -216,7 +218,7 @@ void Frame::AddFront(const Interval& y, const Interval& z) {
   const Rectangle field{slab.outline.min_m.array() + border, slab.outline.max_m.array() - border};
   if (carcass_.fronts == "sunk")
     slab.fields = {{field, SunkPanel(0.005, 0.003), ReliefSide::kFront}};
-  Add(Moved(ReliefSolid(slab, kHullToleranceM), {front_x_, 0, 0}));
+  Add(Moved(ReliefSolid(slab, kCarcassHullToleranceM), {front_x_, 0, 0}));
 }
 
 // Part i of n, `gap` between neighbours.
@@ -239,7 +241,7 @@ void Frame::AddSideBay(const Bay& bay, const Interval& y) {
     if (!open) AddFront(y, z);
     if (open && i > 0) AddLevel(z.low - kBetweenFrontsM / 2, inside);
     if (bay.kind == "grid") {
-      const double clear = half + kJointM;
+      const double clear = half + kCarcassJointM;
       const bool lowest = i == 0;
       const bool highest = i == bay.count - 1;
       AddUpright((inside.low + inside.high) / 2,
@@ -317,13 +319,13 @@ Ring SquareRing(const Eigen::Vector2d& at, double half, double z) {
 }
 
 void Frame::AddLeg(const Eigen::Vector2d& at) {
-  const double top = base_ - kJointM;
+  const double top = base_ - kCarcassJointM;
   if (carcass_.base == "stand") {
     const double half = 0.02;
     const double shelf = 0.28 * base_;
     Add(ChamferedBox({at.x() - half, at.y() - half, 0},
-                     {at.x() + half, at.y() + half, shelf - kJointM}, 0.002));
-    Add(ChamferedBox({at.x() - half, at.y() - half, shelf + 0.018 + kJointM},
+                     {at.x() + half, at.y() + half, shelf - kCarcassJointM}, 0.002));
+    Add(ChamferedBox({at.x() - half, at.y() - half, shelf + 0.018 + kCarcassJointM},
                      {at.x() + half, at.y() + half, top}, 0.002));
   } else if (carcass_.base == "legs") {
     const double half = 0.0225;
@@ -362,15 +364,15 @@ void Frame::AddSled() {
   for (const double y : {y_.low + 0.05, y_.high - 0.05}) {
     Add(ChamferedBox({x0 + 0.02, y - half, 0}, {x1_ - 0.02, y + half, 0.03}, 0.003));
     for (const double x : {x0 + 0.035, x1_ - 0.035})
-      Add(ChamferedBox({x - half, y - half, 0.03 + kJointM}, {x + half, y + half, base_ - kJointM},
-                       0.003));
+      Add(ChamferedBox({x - half, y - half, 0.03 + kCarcassJointM},
+                       {x + half, y + half, base_ - kCarcassJointM}, 0.003));
   }
 }
 
 // A board under each end, or an upright on a foot.
 void Frame::AddEnds() {
   const double x0 = x1_ - carcass_.depth_m;
-  const double top = base_ - kJointM;
+  const double top = base_ - kCarcassJointM;
   const double half = 0.014;
   for (const double y : {y_.low + 0.04, y_.high - 0.04}) {
     if (carcass_.base == "panels") {
@@ -379,22 +381,22 @@ void Frame::AddEnds() {
     }
     const double middle = (x0 + x1_) / 2;
     Add(ChamferedBox({x0 + 0.02, y - 0.025, 0}, {x1_ - 0.02, y + 0.025, 0.04}, 0.006));
-    Add(ChamferedBox({middle - 0.09, y - half, 0.04 + kJointM},
-                     {middle + 0.09, y + half, top - 0.03 - kJointM}, 0.004));
+    Add(ChamferedBox({middle - 0.09, y - half, 0.04 + kCarcassJointM},
+                     {middle + 0.09, y + half, top - 0.03 - kCarcassJointM}, 0.004));
     Add(ChamferedBox({x0 + 0.04, y - 0.02, top - 0.03}, {x1_ - 0.04, y + 0.02, top}, 0.004));
   }
   if (carcass_.base == "trestle") {
     const double middle = (x0 + x1_) / 2;
     const double z = 0.04 + 0.5 * (top - 0.07);
-    Add(ChamferedBox({middle - 0.012, y_.low + 0.04 + half + kJointM, z - 0.02},
-                     {middle + 0.012, y_.high - 0.04 - half - kJointM, z + 0.02}, 0.003));
+    Add(ChamferedBox({middle - 0.012, y_.low + 0.04 + half + kCarcassJointM, z - 0.02},
+                     {middle + 0.012, y_.high - 0.04 - half - kCarcassJointM, z + 0.02}, 0.003));
   }
 }
 
 // A column on a plate.
 void Frame::AddPedestal() {
   const double x0 = x1_ - carcass_.depth_m;
-  const double top = base_ - kJointM;
+  const double top = base_ - kCarcassJointM;
   const Eigen::Vector2d middle((x0 + x1_) / 2, (y_.low + y_.high) / 2);
   const Eigen::Vector2d half(0.42 * carcass_.depth_m, 0.38 * y_.size());
   const auto block = [&](double share, double low, double high) {
@@ -403,7 +405,7 @@ void Frame::AddPedestal() {
                      {middle.x() + reach.x(), middle.y() + reach.y(), high}, 0.004));
   };
   block(1, 0, 0.025);
-  block(0.4, 0.025 + kJointM, top);
+  block(0.4, 0.025 + kCarcassJointM, top);
 }
 
 void Frame::AddBase() {
@@ -411,7 +413,7 @@ void Frame::AddBase() {
   if (carcass_.base == "plinth") {
     std::vector<double> in(plan_.size(), 0.012);
     in[0] = 0.05;
-    Add(ConvexPrism(InsetEach(plan_, in), PrismAxis::kZ, {0, base_ - kJointM}, 0.002));
+    Add(ConvexPrism(InsetEach(plan_, in), PrismAxis::kZ, {0, base_ - kCarcassJointM}, 0.002));
   } else if (carcass_.base == "sled") {
     AddSled();
   } else if (carcass_.base == "panels" || carcass_.base == "trestle") {
@@ -432,7 +434,7 @@ void Frame::AddBoardOnTop(double overhang, const Interval& z) {
     const Eigen::Vector2d edge = plan_[(i + 1) % plan_.size()] - plan_[i];
     if (std::abs(edge.x()) < 1e-9) out[i] = 0;  // against the wall
   }
-  Add(ConvexPrism(InsetEach(plan_, out), PrismAxis::kZ, {z.low + kJointM, z.high}, 0.004));
+  Add(ConvexPrism(InsetEach(plan_, out), PrismAxis::kZ, {z.low + kCarcassJointM, z.high}, 0.004));
 }
 
 // Two uprights, a back, a shelf and a top, less deep than the carcass.
@@ -444,7 +446,7 @@ void Frame::AddHutch() {
   const double z1 = z0 + carcass_.top_height_m;
   AddBoardOnTop(0.012, {z_.high, z0});
   const auto board = [&](const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
-    Add(ChamferedBox(low.array() + kJointM, high.array() - kJointM, kBoardEdgeM));
+    Add(ChamferedBox(low.array() + kCarcassJointM, high.array() - kCarcassJointM, kBoardEdgeM));
   };
   board({x0, y_.low, z0}, {front, y_.low + b, z1 - b});
   board({x0, y_.high - b, z0}, {front, y_.high, z1 - b});
@@ -463,7 +465,7 @@ void Frame::AddGallery() {
   AddBoardOnTop(0.01, {z_.high, z0});
   const double h = carcass_.top_height_m;
   const auto board = [&](const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
-    Add(ChamferedBox(low.array() + kJointM, high.array() - kJointM, kBoardEdgeM));
+    Add(ChamferedBox(low.array() + kCarcassJointM, high.array() - kCarcassJointM, kBoardEdgeM));
   };
   board({x0, y_.low, z0}, {x0 + b, y_.high, z0 + h});
   for (const double y : {y_.low, y_.high - b})
@@ -472,7 +474,7 @@ void Frame::AddGallery() {
 
 void Frame::AddSlope() {
   const double x0 = x1_ - carcass_.depth_m;
-  const double z0 = z_.high + kJointM;
+  const double z0 = z_.high + kCarcassJointM;
   const double shelf = 0.3 * carcass_.depth_m;  // level again behind the slope
   Add(ConvexPrism({{z0, x0},
                    {z0 + carcass_.top_height_m, x0},
@@ -484,7 +486,7 @@ void Frame::AddSlope() {
 
 void Frame::AddPediment() {
   AddBoardOnTop(0.02, {z_.high, z_.high + 0.024});
-  const double z0 = z_.high + 0.024 + kJointM;
+  const double z0 = z_.high + 0.024 + kCarcassJointM;
   Add(ConvexPrism({{y_.low, z0},
                    {y_.high, z0},
                    {(y_.low + y_.high) / 2 + 0.01, z0 + carcass_.top_height_m},
@@ -495,7 +497,7 @@ void Frame::AddPediment() {
 // A framed panel that leans against the wall.
 void Frame::AddMirror() {
   AddBoardOnTop(0.01, {z_.high, z_.high + 0.022});
-  const double z0 = z_.high + 0.022 + kJointM;
+  const double z0 = z_.high + 0.022 + kCarcassJointM;
   const double in = 0.08 * y_.size();
   ReliefSlab slab;
   slab.outline = {{y_.low + in, z0}, {y_.high - in, z0 + carcass_.top_height_m}};
@@ -505,7 +507,7 @@ void Frame::AddMirror() {
   slab.fields = {{{slab.outline.min_m.array() + border, slab.outline.max_m.array() - border},
                   SunkPanel(0.008, 0.004),
                   ReliefSide::kFront}};
-  Add(Moved(ReliefSolid(slab, kHullToleranceM), {x1_ - carcass_.depth_m + 0.024, 0, 0}));
+  Add(Moved(ReliefSolid(slab, kCarcassHullToleranceM), {x1_ - carcass_.depth_m + 0.024, 0, 0}));
 }
 
 // Posts at the corners and rods between them, open in front.
@@ -517,7 +519,7 @@ void Frame::AddRail() {
   const double z1 = z0 + carcass_.top_height_m;
   AddBoardOnTop(0.01, {z_.high, z0});
   const auto rod = [&](const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
-    Add(ChamferedBox(low.array() + kJointM, high.array() - kJointM, 0.003));
+    Add(ChamferedBox(low.array() + kCarcassJointM, high.array() - kCarcassJointM, 0.003));
   };
   for (const double y : {y_.low, y_.high - b}) {
     for (const double x : {x0, front - b}) rod({x, y, z0}, {x + b, y + b, z1 - b});
@@ -529,7 +531,7 @@ void Frame::AddRail() {
 // The arch runs from side to side.
 void Frame::AddBarrel() {
   AddBoardOnTop(0.008, {z_.high, z_.high + 0.02});
-  const double z0 = z_.high + 0.02 + kJointM;
+  const double z0 = z_.high + 0.02 + kCarcassJointM;
   constexpr int kSteps = 12;
   const double half = y_.size() / 2;
   Polygon arch;

@@ -10,7 +10,7 @@
 namespace doorforge::internal {
 namespace {
 
-constexpr double kHullToleranceM = 0.006;
+constexpr double kStorageHullToleranceM = 0.006;
 
 /// What all cabinets share.
 struct StorageBody {
@@ -196,10 +196,10 @@ ReliefSlab SlabOf(const StorageBody& body) {
 Part BuildSlab(const nlohmann::ordered_json& json, const std::string& path) {
   const auto body = ReadParameters<StorageBody>(json, path);
   Check(body, path);
-  return BodyPart(body, path, ReliefSolid(SlabOf(body), kHullToleranceM));
+  return BodyPart(body, path, ReliefSolid(SlabOf(body), kStorageHullToleranceM));
 }
 
-Part BuildFramed(const nlohmann::ordered_json& json, const std::string& path) {
+Part BuildStorageFramed(const nlohmann::ordered_json& json, const std::string& path) {
   const auto body = ReadParameters<FramedStorage>(json, path);
   Check(body, path);
   RequireRange(path, "panel_depth_m", body.panel_depth_m, 0.002, 0.4 * body.thickness_m);
@@ -217,26 +217,26 @@ Part BuildFramed(const nlohmann::ordered_json& json, const std::string& path) {
     throw Error(ErrorCode::kInvalidConfig,
                 path + ".field: found \"" + body.field + "\", allowed sunk, raised, open");
   }
-  return BodyPart(body, path, ReliefSolid(slab, kHullToleranceM));
+  return BodyPart(body, path, ReliefSolid(slab, kStorageHullToleranceM));
 }
 
-Part BuildPlanked(const nlohmann::ordered_json& json, const std::string& path) {
+Part BuildStoragePlanked(const nlohmann::ordered_json& json, const std::string& path) {
   const auto body = ReadParameters<PlankedStorage>(json, path);
   Check(body, path);
   RequireRange(path, "planks", body.planks, 2, 10);
   ReliefSlab slab = SlabOf(body);
   slab.fields = PlankGrooves(slab.outline, body.planks, ReliefSide::kFront);
-  return BodyPart(body, path, ReliefSolid(slab, kHullToleranceM));
+  return BodyPart(body, path, ReliefSolid(slab, kStorageHullToleranceM));
 }
 
-Part BuildLouvred(const nlohmann::ordered_json& json, const std::string& path) {
+Part BuildStorageLouvred(const nlohmann::ordered_json& json, const std::string& path) {
   const auto body = ReadParameters<LouvredStorage>(json, path);
   CheckBorder(body, path);
   RequireRange(path, "slats", body.slats, 4, 24);
   return BodyPart(body, path, LouvredLeaf(ShapeOf(body), body.slats));
 }
 
-Part BuildBraced(const nlohmann::ordered_json& json, const std::string& path) {
+Part BuildStorageBraced(const nlohmann::ordered_json& json, const std::string& path) {
   const auto body = ReadParameters<BracedStorage>(json, path);
   CheckBorder(body, path);
   RequireRange(path, "panels", body.panels, 1, 2);
@@ -251,7 +251,7 @@ Part BuildLatticed(const nlohmann::ordered_json& json, const std::string& path) 
   return BodyPart(body, path, LatticedLeaf(ShapeOf(body), body.bars, body.bar_width_m));
 }
 
-Part BuildArched(const nlohmann::ordered_json& json, const std::string& path) {
+Part BuildStorageArched(const nlohmann::ordered_json& json, const std::string& path) {
   const auto body = ReadParameters<ArchedStorage>(json, path);
   CheckBorder(body, path);
   RequireRange(path, "rise_m", body.rise_m, 0.02, 0.2);
@@ -287,7 +287,7 @@ Part BuildLocker(const nlohmann::ordered_json& json, const std::string& path) {
       slab.fields.push_back({slot, SunkPanel(0.005, 0.003), ReliefSide::kFront});
     }
   }
-  return BodyPart(body, path, ReliefSolid(slab, kHullToleranceM));
+  return BodyPart(body, path, ReliefSolid(slab, kStorageHullToleranceM));
 }
 
 }  // namespace
@@ -295,12 +295,12 @@ Part BuildLocker(const nlohmann::ordered_json& json, const std::string& path) {
 std::span<const Family> StorageBodyFamilies() {
   static const Family kFamilies[] = {
       {"storage_slab", PartRole::kBody, Mechanism::kNone, BuildSlab},
-      {"storage_framed", PartRole::kBody, Mechanism::kNone, BuildFramed},
-      {"storage_planked", PartRole::kBody, Mechanism::kNone, BuildPlanked},
-      {"storage_louvred", PartRole::kBody, Mechanism::kNone, BuildLouvred},
-      {"storage_braced", PartRole::kBody, Mechanism::kNone, BuildBraced},
+      {"storage_framed", PartRole::kBody, Mechanism::kNone, BuildStorageFramed},
+      {"storage_planked", PartRole::kBody, Mechanism::kNone, BuildStoragePlanked},
+      {"storage_louvred", PartRole::kBody, Mechanism::kNone, BuildStorageLouvred},
+      {"storage_braced", PartRole::kBody, Mechanism::kNone, BuildStorageBraced},
       {"storage_latticed", PartRole::kBody, Mechanism::kNone, BuildLatticed},
-      {"storage_arched", PartRole::kBody, Mechanism::kNone, BuildArched},
+      {"storage_arched", PartRole::kBody, Mechanism::kNone, BuildStorageArched},
       {"storage_bowed", PartRole::kBody, Mechanism::kNone, BuildBowed},
       {"storage_reeded", PartRole::kBody, Mechanism::kNone, BuildReeded},
       {"storage_locker", PartRole::kBody, Mechanism::kNone, BuildLocker},

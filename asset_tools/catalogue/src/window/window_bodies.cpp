@@ -13,11 +13,11 @@
 namespace doorforge::internal {
 namespace {
 
-constexpr double kGapM = 0.005;     // between leaf and frame
-constexpr double kJointM = 0.0002;  // between solids that touch
-constexpr double kStopM = 0.012;    // how far the frame reaches behind the leaf
-constexpr double kHullToleranceM = 0.006;
-constexpr double kMountToEdgeM = 0.03;  // UniDoorManip: 3 cm from the leaf's free edge
+constexpr double kWindowGapM = 0.005;     // between leaf and frame
+constexpr double kWindowJointM = 0.0002;  // between solids that touch
+constexpr double kWindowStopM = 0.012;    // how far the frame reaches behind the leaf
+constexpr double kWindowHullToleranceM = 0.006;
+constexpr double kWindowMountToEdgeM = 0.03;  // UniDoorManip: 3 cm from the leaf's free edge
 
 struct WindowFrame {
   double width_m = 0.05;  ///< Seen from the front.
@@ -166,7 +166,7 @@ void Check(const WindowBody& body, const std::string& path) {
 // Where the leaf's lower edge is, so that the window stands on z = 0.
 double LeafBottom(const WindowBody& body) {
   const double sill = body.frame.sill_m > 0 ? 0.03 : 0;
-  return sill + body.frame.casing_m + body.frame.width_m + kGapM + body.below.size_m;
+  return sill + body.frame.casing_m + body.frame.width_m + kWindowGapM + body.below.size_m;
 }
 
 Rectangle LeafBox(const WindowBody& body) {
@@ -188,14 +188,15 @@ Solid MainFrame(const WindowBody& body, const Polygon& leaf) {
   const double back = frame.front_m - frame.depth_m;
   const double front = frame.front_m;
   const double stop = -body.thickness_m - 0.004;
-  const double outer = kGapM + frame.width_m;
+  const double outer = kWindowGapM + frame.width_m;
   constexpr double kEdge = 0.003;
-  const Polygon section = {{-kStopM, back + kEdge}, {-kStopM + kEdge, back}, {outer, back},
-                           {outer, front - kEdge},  {outer - kEdge, front},  {kGapM + kEdge, front},
-                           {kGapM, front - kEdge},  {kGapM, stop},           {-kStopM, stop}};
-  return OutlineHoop(
-      leaf, section,
-      {{{{kGapM, back}, {outer, front}}, 0.4 * kGapM}, {{{-kStopM, back}, {kGapM, stop}}, 0.012}});
+  const Polygon section = {
+      {-kWindowStopM, back + kEdge}, {-kWindowStopM + kEdge, back}, {outer, back},
+      {outer, front - kEdge},        {outer - kEdge, front},        {kWindowGapM + kEdge, front},
+      {kWindowGapM, front - kEdge},  {kWindowGapM, stop},           {-kWindowStopM, stop}};
+  return OutlineHoop(leaf, section,
+                     {{{{kWindowGapM, back}, {outer, front}}, 0.4 * kWindowGapM},
+                      {{{-kWindowStopM, back}, {kWindowGapM, stop}}, 0.012}});
 }
 
 // A fixed light that fills an outline, its frame inside it.
@@ -215,7 +216,7 @@ Solid Light(const WindowBody& body, const Polygon& outline, const FixedLight& li
   const Polygon inside = Inset(outline, width);
   const PrismSpan depth{back + 0.3 * (front - back), front - 0.3 * (front - back)};
   if (light.panel)
-    solids.push_back(ConvexPrism(Inset(inside, kJointM), PrismAxis::kX, depth, 0));
+    solids.push_back(ConvexPrism(Inset(inside, kWindowJointM), PrismAxis::kX, depth, 0));
   else
     solids.push_back(BarsInside(inside, light.bars, depth));
   return Joined(solids);
@@ -226,20 +227,20 @@ Solid Casing(const WindowBody& body, const Rectangle& around) {
   const double width = body.frame.casing_m;
   const double front = body.frame.front_m + 0.004;
   const double back = front - 0.024;
-  const Polygon section = {{kJointM, back},        {width, back},  {width, front - 0.006},
-                           {width - 0.006, front}, {0.006, front}, {kJointM, front - 0.006}};
+  const Polygon section = {{kWindowJointM, back},  {width, back},  {width, front - 0.006},
+                           {width - 0.006, front}, {0.006, front}, {kWindowJointM, front - 0.006}};
   return OutlineHoop(BoxPolygon(around.min_m, around.max_m), section,
-                     {{{{kJointM, back}, {width, front}}}});
+                     {{{{kWindowJointM, back}, {width, front}}}});
 }
 
 Solid FrameSolid(const WindowBody& body, const std::string& path, const Polygon& leaf) {
   const Rectangle box = LeafBox(body);
-  const double margin = kGapM + body.frame.width_m;
+  const double margin = kWindowGapM + body.frame.width_m;
   Rectangle all{box.min_m.array() - margin, box.max_m.array() + margin};
   std::vector<Solid> solids = {MainFrame(body, leaf)};
   const auto add = [&](const Eigen::Vector2d& low, const Eigen::Vector2d& high,
                        const HeadShape& head, const FixedLight& light) {
-    const Rectangle place{low.array() + kJointM, high.array() - kJointM};
+    const Rectangle place{low.array() + kWindowJointM, high.array() - kWindowJointM};
     solids.push_back(Light(body, OutlineWithHead(place, head, path + ".head"), light));
   };
   if (body.beside.size_m > 0) {
@@ -269,7 +270,8 @@ Solid FrameSolid(const WindowBody& body, const std::string& path, const Polygon&
   if (body.frame.sill_m > 0)
     solids.push_back(ChamferedBox(
         {body.frame.front_m - body.frame.depth_m, all.min_m.x() - 0.02, 0},
-        {body.frame.front_m + body.frame.sill_m, all.max_m.x() + 0.02, 0.03 - kJointM}, 0.004));
+        {body.frame.front_m + body.frame.sill_m, all.max_m.x() + 0.02, 0.03 - kWindowJointM},
+        0.004));
   return Joined(solids);
 }
 
@@ -301,7 +303,7 @@ Part BodyPart(const WindowBody& body, const std::string& path, const Solid& leaf
   part.pieces.push_back(MakePiece("leaf", leaf, body.finish, path + ".finish"));
   // high enough for an upright handle below an arch
   part.part_from_mount =
-      Translation({0, body.leaf_width_m - kMountToEdgeM,
+      Translation({0, body.leaf_width_m - kWindowMountToEdgeM,
                    bottom + std::min(0.46 * body.leaf_height_m, upright - 0.14)});
   return part;
 }
@@ -327,12 +329,12 @@ Part BuildDivided(const nlohmann::ordered_json& json, const std::string& path) {
   if (body.panel_m > 0) {
     RequireRange(path, "panel_m", body.panel_m, body.stile_m + 0.1, 0.7 * body.leaf_height_m);
     const double rail = LeafBottom(body) + body.panel_m;
-    const Polygon within = Inset(inside, kJointM);
+    const Polygon within = Inset(inside, kWindowJointM);
     const Polygon lower = ClippedToBand(within, 1, within[0].y(), rail - body.stile_m);
     solids.push_back(ConvexPrism(lower, PrismAxis::kX, BarDepth(body), 0.003));
-    solids.push_back(
-        ConvexPrism(ClippedToBand(within, 1, rail - body.stile_m + kJointM, rail - kJointM),
-                    PrismAxis::kX, {-0.98 * body.thickness_m, -0.02 * body.thickness_m}, 0.003));
+    solids.push_back(ConvexPrism(
+        ClippedToBand(within, 1, rail - body.stile_m + kWindowJointM, rail - kWindowJointM),
+        PrismAxis::kX, {-0.98 * body.thickness_m, -0.02 * body.thickness_m}, 0.003));
     lights = Clipped(inside, {0, rail}, {0, -1});
   }
   solids.push_back(BarsInside(lights, body.bars, BarDepth(body)));
@@ -362,7 +364,7 @@ Part BuildLattice(const nlohmann::ordered_json& json, const std::string& path) {
   return BodyPart(body, path, LatticedLeaf(ShapeOf(body), body.bars, body.bar_width_m));
 }
 
-Part BuildLouvred(const nlohmann::ordered_json& json, const std::string& path) {
+Part BuildWindowLouvred(const nlohmann::ordered_json& json, const std::string& path) {
   const auto body = ReadParameters<ShutterWindow>(json, path);
   Check(body, path);
   RequireFlatLeaf(body, path);
@@ -370,7 +372,7 @@ Part BuildLouvred(const nlohmann::ordered_json& json, const std::string& path) {
   return BodyPart(body, path, LouvredLeaf(ShapeOf(body), body.slats));
 }
 
-Part BuildBraced(const nlohmann::ordered_json& json, const std::string& path) {
+Part BuildWindowBraced(const nlohmann::ordered_json& json, const std::string& path) {
   const auto body = ReadParameters<SolidShutterWindow>(json, path);
   Check(body, path);
   RequireFlatLeaf(body, path);
@@ -385,8 +387,8 @@ std::span<const Family> WindowBodyFamilies() {
       {"window_divided", PartRole::kBody, Mechanism::kNone, BuildDivided},
       {"window_fanned", PartRole::kBody, Mechanism::kNone, BuildFanned},
       {"window_lattice", PartRole::kBody, Mechanism::kNone, BuildLattice},
-      {"window_louvred", PartRole::kBody, Mechanism::kNone, BuildLouvred},
-      {"window_braced", PartRole::kBody, Mechanism::kNone, BuildBraced},
+      {"window_louvred", PartRole::kBody, Mechanism::kNone, BuildWindowLouvred},
+      {"window_braced", PartRole::kBody, Mechanism::kNone, BuildWindowBraced},
   };
   return kFamilies;
 }

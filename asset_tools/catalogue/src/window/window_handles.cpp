@@ -13,9 +13,8 @@
 namespace doorforge::internal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kHullToleranceM = 0.0015;
-constexpr double kJointM = 0.0002;  // between solids of one grip that touch
+constexpr double kWindowHandleHullToleranceM = 0.0015;
+constexpr double kWindowHandleJointM = 0.0002;  // between solids of one grip that touch
 
 /// What all window handles share: an upright grip above the axis, on a neck out of a rose.
 struct WindowHandle {
@@ -158,12 +157,12 @@ Solid FlatBar(const WindowHandle& handle, const std::vector<Eigen::Vector3d>& po
   const auto section = [&](double fraction) { return FlatSection(handle, fraction); };
   return LoftSolid(
       SweepRings(SmoothPath(points, first, last), Eigen::Vector3d::UnitX(), section, dome_m),
-      kHullToleranceM);
+      kWindowHandleHullToleranceM);
 }
 
 // The end of a neck that carries a flat bar.
 double BarBack(const WindowHandle& handle) {
-  return handle.projection_m - handle.depth_m / 2 - kJointM;
+  return handle.projection_m - handle.depth_m / 2 - kWindowHandleJointM;
 }
 
 Part BuildEspagnolette(const nlohmann::ordered_json& json, const std::string& path) {
@@ -182,11 +181,11 @@ Part BuildEspagnolette(const nlohmann::ordered_json& json, const std::string& pa
   const double total = line.back().length_m;
   line.pop_back();
   const double bend_end = line.back().length_m / total;
-  const double bend_begin = bend_end - handle.bend_radius_m * kPi / 2 / total;
+  const double bend_begin = bend_end - handle.bend_radius_m * std::numbers::pi / 2 / total;
   std::vector<Eigen::Vector3d> bar;
   for (int i = 0; i <= 10; ++i) {
     const double t = i / 10.0;
-    const double bow = handle.bow_m * (0.5 - 0.5 * std::cos(2 * kPi * t));
+    const double bow = handle.bow_m * (0.5 - 0.5 * std::cos(2 * std::numbers::pi * t));
     bar.emplace_back(x + bow, 0, handle.bend_radius_m + t * (end - handle.bend_radius_m));
   }
   const double so_far = line.back().length_m;
@@ -205,7 +204,8 @@ Part BuildEspagnolette(const nlohmann::ordered_json& json, const std::string& pa
                    2 + (handle.squareness - 2) * smooth};
   };
   AddGrip(handle, path,
-          LoftSolid(SweepRings(line, Eigen::Vector3d::UnitY(), section, dome), kHullToleranceM),
+          LoftSolid(SweepRings(line, Eigen::Vector3d::UnitY(), section, dome),
+                    kWindowHandleHullToleranceM),
           part);
   SetGrasp(handle, {x + 0.9 * handle.bow_m, 0, 0.6 * handle.length_m}, part);
   return part;
@@ -229,12 +229,14 @@ Part BuildCockspur(const nlohmann::ordered_json& json, const std::string& path) 
   const double end = handle.length_m - 0.004;
   for (int i = 0; i <= 14; ++i) {
     const double t = i / 14.0;
-    const double sway = -handle.hook_m * (0.5 - 0.5 * std::cos(kPi * std::min(1.0, 1.6 * t)));
+    const double sway =
+        -handle.hook_m * (0.5 - 0.5 * std::cos(std::numbers::pi * std::min(1.0, 1.6 * t)));
     const double back_sway = 0.6 * handle.hook_m * std::pow(std::max(0.0, t - 0.5) * 2, 2);
     points.emplace_back(handle.projection_m, sway + back_sway, begin + t * (end - begin));
   }
   AddGrip(handle, path,
-          Joined({nose, Neck(handle, nose_end + kJointM, back), FlatBar(handle, points, 0.004)}),
+          Joined({nose, Neck(handle, nose_end + kWindowHandleJointM, back),
+                  FlatBar(handle, points, 0.004)}),
           part);
   SetGrasp(handle, points[9], part);
   return part;
@@ -265,7 +267,7 @@ Part BuildCrank(const nlohmann::ordered_json& json, const std::string& path) {
                                  {0.97 * length, 0.75 * radius},
                                  {length, 0.5 * radius}},
                                 {handle.knob_sides, 0, 0});
-  const double front = handle.projection_m + handle.depth_m / 2 + kJointM;
+  const double front = handle.projection_m + handle.depth_m / 2 + kWindowHandleJointM;
   AddGrip(handle, path,
           Joined({Neck(handle, start_x, BarBack(handle)), arm, Moved(knob, {front, 0, top})}),
           part);
@@ -274,7 +276,7 @@ Part BuildCrank(const nlohmann::ordered_json& json, const std::string& path) {
   return part;
 }
 
-Part BuildTee(const nlohmann::ordered_json& json, const std::string& path) {
+Part BuildWindowHandleTee(const nlohmann::ordered_json& json, const std::string& path) {
   const auto handle = ReadParameters<BentHandle>(json, path);
   Check(handle, path);
   RequireRange(path, "length_m", handle.length_m, 0.05, 0.078);
@@ -294,13 +296,13 @@ Part BuildTee(const nlohmann::ordered_json& json, const std::string& path) {
   const Solid bar = LoftSolid(SweepRings(SmoothPath(points, (points[1] - points[0]).normalized(),
                                                     (points[16] - points[15]).normalized()),
                                          Eigen::Vector3d::UnitX(), section, 0.004),
-                              kHullToleranceM);
+                              kWindowHandleHullToleranceM);
   AddGrip(handle, path, Joined({Neck(handle, start_x, BarBack(handle)), bar}), part);
   SetGrasp(handle, points[13], part);
   return part;
 }
 
-Part BuildScroll(const nlohmann::ordered_json& json, const std::string& path) {
+Part BuildWindowHandleScroll(const nlohmann::ordered_json& json, const std::string& path) {
   const auto handle = ReadParameters<ScrollHandle>(json, path);
   Check(handle, path);
   const double bar = handle.width_m * std::max(1.0, handle.tip_scale);
@@ -320,7 +322,7 @@ Part BuildScroll(const nlohmann::ordered_json& json, const std::string& path) {
   for (int i = 0; i <= steps; ++i) {
     const double turn = handle.turns * i / steps;
     const double radius = curl - 1.25 * bar * turn * 0.8;
-    const double angle = 2 * kPi * turn;
+    const double angle = 2 * std::numbers::pi * turn;
     points.emplace_back(x, -curl + radius * std::cos(angle), top + radius * std::sin(angle));
   }
   AddGrip(handle, path,
@@ -351,7 +353,7 @@ Part BuildLoop(const nlohmann::ordered_json& json, const std::string& path) {
   std::vector<PathPoint> line;
   constexpr int kSides = 40;
   for (int i = 0; i < kSides; ++i) {
-    const double angle = 2 * kPi * i / kSides;
+    const double angle = 2 * std::numbers::pi * i / kSides;
     line.push_back(
         {at(angle), (at(angle + 0.01) - at(angle - 0.01)).normalized(), static_cast<double>(i)});
   }
@@ -395,9 +397,11 @@ Part BuildDrop(const nlohmann::ordered_json& json, const std::string& path) {
   const Solid drop =
       LoftSolid(SweepRings(SmoothPath(points, Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitZ()),
                            Eigen::Vector3d::UnitX(), section, 0.003),
-                kHullToleranceM);
+                kWindowHandleHullToleranceM);
   AddGrip(handle, path,
-          Joined({Neck(handle, start_x, handle.projection_m - 1.15 * stem - kJointM), drop}), part);
+          Joined({Neck(handle, start_x, handle.projection_m - 1.15 * stem - kWindowHandleJointM),
+                  drop}),
+          part);
   SetGrasp(handle, {handle.projection_m, 0, handle.bulge_at * handle.length_m}, part);
   return part;
 }
@@ -409,8 +413,8 @@ std::span<const Family> WindowHandleFamilies() {
       {"window_espagnolette", PartRole::kHandle, Mechanism::kLever, BuildEspagnolette},
       {"window_cockspur", PartRole::kHandle, Mechanism::kLever, BuildCockspur},
       {"window_crank", PartRole::kHandle, Mechanism::kLever, BuildCrank},
-      {"window_tee", PartRole::kHandle, Mechanism::kLever, BuildTee},
-      {"window_scroll", PartRole::kHandle, Mechanism::kLever, BuildScroll},
+      {"window_tee", PartRole::kHandle, Mechanism::kLever, BuildWindowHandleTee},
+      {"window_scroll", PartRole::kHandle, Mechanism::kLever, BuildWindowHandleScroll},
       {"window_loop", PartRole::kHandle, Mechanism::kLever, BuildLoop},
       {"window_drop", PartRole::kHandle, Mechanism::kLever, BuildDrop},
   };

@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kMaxMeshes = 64;
+constexpr std::size_t kMaxObjectMeshes = 64;
 
 // raw DAE: z up, front at -y; link: y up, z out of the door
 Eigen::Matrix3d LinkFromRaw() {
@@ -96,8 +96,8 @@ class MeshCollector {
     const auto* mesh = std::get_if<UrdfMeshFile>(&shape.geometry);
     if (mesh == nullptr)
       throw Error(ErrorCode::kFormat, where_ + ": a visual of the " + piece + " is no mesh");
-    if (++count_ > kMaxMeshes)
-      throw Error(ErrorCode::kFormat, where_ + ": more than " + std::to_string(kMaxMeshes) +
+    if (++count_ > kMaxObjectMeshes)
+      throw Error(ErrorCode::kFormat, where_ + ": more than " + std::to_string(kMaxObjectMeshes) +
                                           " meshes, which no object of this format has");
     const double scale = UniformScale(*mesh, where_);
     UniDoorManipObject::Mesh found;

@@ -102,7 +102,7 @@ double DistanceIfComplete(const HingedObject& object) {
   }
 }
 
-std::vector<ForeignObject> Read(const fs::path& folder, const ReadConfig& config) {
+std::vector<ForeignObject> ReadAkb48(const fs::path& folder, const ReadConfig& config) {
   if (config.category.empty())
     throw Error(ErrorCode::kInvalidArgument,
                 folder.string() + ": AKB-48 does not say what kind of door it is; pass --category");
@@ -131,6 +131,6 @@ std::vector<ForeignObject> Read(const fs::path& folder, const ReadConfig& config
 
 }  // namespace
 
-ImportFormat Akb48Format() { return {"akb48", IsAkb48, Read}; }
+ImportFormat Akb48Format() { return {"akb48", IsAkb48, ReadAkb48}; }
 
 }  // namespace doorforge::internal

@@ -97,7 +97,7 @@ Eigen::AlignedBox3d StatedBox(const fs::path& folder, const Json& record, double
   return box;
 }
 
-std::vector<ForeignObject> Read(const fs::path& folder, const ReadConfig& config) {
+std::vector<ForeignObject> ReadDoorGym(const fs::path& folder, const ReadConfig& config) {
   const Kind& kind = KindOf(folder);
   const Json record = ReadJsonFile(folder / "info.json");
   HandleSource handle;
@@ -117,6 +117,6 @@ std::vector<ForeignObject> Read(const fs::path& folder, const ReadConfig& config
 
 }  // namespace
 
-ImportFormat DoorGymFormat() { return {"doorgym", IsDoorGym, Read}; }
+ImportFormat DoorGymFormat() { return {"doorgym", IsDoorGym, ReadDoorGym}; }
 
 }  // namespace doorforge::internal

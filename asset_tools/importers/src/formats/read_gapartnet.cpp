@@ -12,12 +12,12 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kUrdf = "mobility_annotation_gapartnet.urdf";
+constexpr const char* kAnnotatedUrdf = "mobility_annotation_gapartnet.urdf";
 constexpr const char* kAnnotation = "link_annotation_gapartnet.json";
 
 bool IsGaPartNet(const fs::path& path) {
   std::error_code error;
-  return fs::is_regular_file(path / kUrdf, error);
+  return fs::is_regular_file(path / kAnnotatedUrdf, error);
 }
 
 // eight corners in the base's frame, joints at zero
@@ -42,9 +42,9 @@ void ReadAnnotation(const fs::path& file, HingedObject& object) {
   }
 }
 
-std::vector<ForeignObject> Read(const fs::path& folder, const ReadConfig& config) {
+std::vector<ForeignObject> ReadGaPartNet(const fs::path& folder, const ReadConfig& config) {
   PartNetFiles files;
-  files.urdf = kUrdf;
+  files.urdf = kAnnotatedUrdf;
   files.semantics = "semantics_gapartnet.txt";
   files.name = "gapartnet";
   files.id_prefix = "gap-";
@@ -58,6 +58,6 @@ std::vector<ForeignObject> Read(const fs::path& folder, const ReadConfig& config
 
 }  // namespace
 
-ImportFormat GaPartNetFormat() { return {"gapartnet", IsGaPartNet, Read}; }
+ImportFormat GaPartNetFormat() { return {"gapartnet", IsGaPartNet, ReadGaPartNet}; }
 
 }  // namespace doorforge::internal

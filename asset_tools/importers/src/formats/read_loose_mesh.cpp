@@ -368,7 +368,7 @@ class BodyMeshReader {
   ForeignObject object_;
 };
 
-std::vector<ForeignObject> Read(const fs::path& path, const ReadConfig& config) {
+std::vector<ForeignObject> ReadLooseMesh(const fs::path& path, const ReadConfig& config) {
   if (config.mesh.role == "handle") return {ReadHandleMesh(path, config)};
   if (config.mesh.role == "body") return {BodyMeshReader(path, config).Read()};
   Wrong(path.string() + ": a mesh does not say what it is; pass --role body or --role handle" +
@@ -377,6 +377,6 @@ std::vector<ForeignObject> Read(const fs::path& path, const ReadConfig& config) 
 
 }  // namespace
 
-ImportFormat LooseMeshFormat() { return {"mesh", IsMesh, Read}; }
+ImportFormat LooseMeshFormat() { return {"mesh", IsMesh, ReadLooseMesh}; }
 
 }  // namespace doorforge::internal

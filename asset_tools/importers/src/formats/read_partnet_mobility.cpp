@@ -25,22 +25,23 @@ using Json = nlohmann::ordered_json;
 constexpr std::uint64_t kMaxSmallFile = 1 << 20;
 
 // what an object of the data set is for us, and how high such a thing usually is
-struct Kind {
+struct ModelCategory {
   const char* name;  // meta.json's model_cat
   Category category;
   double height_m;
 };
 // appliances are boxes with a hinged door, as cabinets are
-constexpr std::array<Kind, 10> kKinds = {{{"Door", Category::kInterior, 2.1},
-                                          {"Window", Category::kWindow, 1.1},
-                                          {"Safe", Category::kSafe, 0.8},
-                                          {"StorageFurniture", Category::kStorageFurniture, 1.0},
-                                          {"Table", Category::kStorageFurniture, 0.75},
-                                          {"Refrigerator", Category::kRefrigerator, 1.5},
-                                          {"Microwave", Category::kStorageFurniture, 0.32},
-                                          {"Oven", Category::kStorageFurniture, 0.9},
-                                          {"Dishwasher", Category::kStorageFurniture, 0.85},
-                                          {"WashingMachine", Category::kStorageFurniture, 0.95}}};
+constexpr std::array<ModelCategory, 10> kModelCategories = {
+    {{"Door", Category::kInterior, 2.1},
+     {"Window", Category::kWindow, 1.1},
+     {"Safe", Category::kSafe, 0.8},
+     {"StorageFurniture", Category::kStorageFurniture, 1.0},
+     {"Table", Category::kStorageFurniture, 0.75},
+     {"Refrigerator", Category::kRefrigerator, 1.5},
+     {"Microwave", Category::kStorageFurniture, 0.32},
+     {"Oven", Category::kStorageFurniture, 0.9},
+     {"Dishwasher", Category::kStorageFurniture, 0.85},
+     {"WashingMachine", Category::kStorageFurniture, 0.95}}};
 constexpr double kUsualHeight = 0.5;  // of anything else
 
 std::string ModelKind(const fs::path& folder) {
@@ -50,10 +51,10 @@ std::string ModelKind(const fs::path& folder) {
   return ValueOf<std::string>(ReadJsonFile(file), "model_cat", file.string());
 }
 
-const Kind* KindNamed(const std::string& name) {
-  const auto kind =
-      std::find_if(kKinds.begin(), kKinds.end(), [&](const Kind& k) { return name == k.name; });
-  return kind == kKinds.end() ? nullptr : &*kind;
+const ModelCategory* KindNamed(const std::string& name) {
+  const auto kind = std::find_if(kModelCategories.begin(), kModelCategories.end(),
+                                 [&](const ModelCategory& k) { return name == k.name; });
+  return kind == kModelCategories.end() ? nullptr : &*kind;
 }
 
 // one line of semantics.txt
@@ -151,7 +152,7 @@ bool IsPartNet(const fs::path& path) {
           fs::is_regular_file(path / "semantics.txt", error));
 }
 
-std::vector<ForeignObject> Read(const fs::path& path, const ReadConfig& config) {
+std::vector<ForeignObject> ReadPartNet(const fs::path& path, const ReadConfig& config) {
   return ReadPartNetObject(path, {}, config);
 }
 
@@ -171,7 +172,7 @@ HingedObject ReadPartNetFiles(const fs::path& folder, const PartNetFiles& files,
   const std::vector<LinkSemantics> semantics = ReadSemantics(folder / files.semantics);
   for (const LinkSemantics& link : semantics) object.words[link.link] = link.word;
   RestoreJoints(folder, semantics, object.model);
-  const Kind* kind = KindNamed(ModelKind(folder));
+  const ModelCategory* kind = KindNamed(ModelKind(folder));
   object.category = CategoryOr(config, kind ? kind->category : Category::kStorageFurniture);
   object.height_m = config.height_m > 0 ? config.height_m : kind ? kind->height_m : kUsualHeight;
   object.folder = folder;
@@ -199,6 +200,6 @@ std::vector<ForeignObject> ReadPartNetObject(const fs::path& folder, const PartN
   return objects;
 }
 
-ImportFormat PartNetMobilityFormat() { return {"partnet-mobility", IsPartNet, Read}; }
+ImportFormat PartNetMobilityFormat() { return {"partnet-mobility", IsPartNet, ReadPartNet}; }
 
 }  // namespace doorforge::internal

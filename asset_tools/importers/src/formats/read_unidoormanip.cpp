@@ -25,7 +25,7 @@ ForeignPart PartOf(const std::shared_ptr<const UniDoorManipObject>& object, Part
   return part;
 }
 
-std::vector<ForeignObject> Read(const fs::path& folder, const ReadConfig& config) {
+std::vector<ForeignObject> ReadUniDoorManip(const fs::path& folder, const ReadConfig& config) {
   const auto object = std::make_shared<const UniDoorManipObject>(
       ReadUniDoorManip(folder, config.category, config.allow_missing == "frame"));
   ForeignObject read;
@@ -41,6 +41,8 @@ std::vector<ForeignObject> Read(const fs::path& folder, const ReadConfig& config
 
 }  // namespace
 
-ImportFormat UniDoorManipFormat() { return {"unidoormanip", IsUniDoorManipObject, Read}; }
+ImportFormat UniDoorManipFormat() {
+  return {"unidoormanip", IsUniDoorManipObject, ReadUniDoorManip};
+}
 
 }  // namespace doorforge::internal

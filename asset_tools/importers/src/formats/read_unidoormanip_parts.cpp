@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr double kOpening =
+constexpr double kPartOpening =
     86.4 * std::numbers::pi / 180;  // [rad] as in all objects of the release
 
 // How the release's scripts scale a mesh: to a length along an axis of the raw file, by a factor.
@@ -273,7 +273,7 @@ class BodyReader {
     part.category = task_.category;
     part.joint.origin_m = up * Eigen::Vector3d(0, leaf.min().y(), leaf.max().z());
     part.joint.axis = -Eigen::Vector3d::UnitZ();
-    part.joint.upper_rad = kOpening;
+    part.joint.upper_rad = kPartOpening;
     part.part_from_mount = Translation(up * MountOn(leaf, task_, frame_.has_value()));
     part.license = "NOASSERTION";
     part.source =
@@ -342,7 +342,7 @@ ForeignObject ReadHandlePart(const fs::path& folder, const Task& task) {
   return object;
 }
 
-std::vector<ForeignObject> Read(const fs::path& folder, const ReadConfig& config) {
+std::vector<ForeignObject> ReadUniDoorManipParts(const fs::path& folder, const ReadConfig& config) {
   const std::string parent = ParentName(folder);
   const bool any = config.category.empty();
   std::vector<ForeignObject> objects;
@@ -361,6 +361,8 @@ std::vector<ForeignObject> Read(const fs::path& folder, const ReadConfig& config
 
 }  // namespace
 
-ImportFormat UniDoorManipPartsFormat() { return {"unidoormanip-parts", IsPart, Read}; }
+ImportFormat UniDoorManipPartsFormat() {
+  return {"unidoormanip-parts", IsPart, ReadUniDoorManipParts};
+}
 
 }  // namespace doorforge::internal

@@ -129,7 +129,7 @@ void AddNotes(const std::vector<UrdfFault>& faults, const std::string& file,
   for (ForeignObject& object : objects) object.notes.push_back(UrdfFaultsText(file, faults));
 }
 
-std::vector<ForeignObject> Read(const fs::path& path, const ReadConfig& config) {
+std::vector<ForeignObject> ReadUrdfObject(const fs::path& path, const ReadConfig& config) {
   const fs::path urdf = IsUrdfFile(path) ? path : OnlyUrdfIn(path).value();
   if (config.category.empty())
     throw Error(ErrorCode::kInvalidArgument,
@@ -161,6 +161,6 @@ std::vector<ForeignObject> Read(const fs::path& path, const ReadConfig& config) 
 
 }  // namespace
 
-ImportFormat UrdfFormat() { return {"urdf", IsUrdf, Read}; }
+ImportFormat UrdfFormat() { return {"urdf", IsUrdf, ReadUrdfObject}; }
 
 }  // namespace doorforge::internal

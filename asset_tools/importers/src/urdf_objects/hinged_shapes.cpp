@@ -14,7 +14,7 @@
 namespace doorforge::internal {
 namespace {
 
-constexpr std::size_t kMaxMeshes = 2000;
+constexpr std::size_t kMaxShapes = 2000;
 
 std::string LowerCase(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -41,8 +41,8 @@ class ShapeCollector {
 
  private:
   void AddShape(std::size_t link, const UrdfShape& shape) {
-    if (found_.shapes.size() >= kMaxMeshes)
-      throw Error(ErrorCode::kFormat, object_.where + ": more than " + std::to_string(kMaxMeshes) +
+    if (found_.shapes.size() >= kMaxShapes)
+      throw Error(ErrorCode::kFormat, object_.where + ": more than " + std::to_string(kMaxShapes) +
                                           " meshes; split the object");
     HingedShape added{link, IsHandleWord(LowerCase(shape.name)), {}, {}};
     const RigidTransform base_from_shape = tree_[link].base_from_link * shape.link_from_shape;

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 
@@ -32,6 +33,16 @@ struct DoorIdentity {
 /// Writes all meshes as text to hash them.
 DoorIdentity IdentityOf(const DoorAsset& door);
 
+/// A door with the hash of its content, which was found once, when the door was read: whoever needs
+/// the hash later need not write the meshes as text again.
+struct IdentifiedDoor {
+  std::shared_ptr<const DoorAsset> door;
+  std::string sha256;  ///< ContentHash(*door).
+
+  const DoorAsset& operator*() const { return *door; }
+  const DoorAsset* operator->() const { return door.get(); }
+};
+
 /// Finds the identities of many doors that share meshes: what a mesh of the pool hashes to where it
 /// lies in the door is remembered, so that few are read more than once. Safe to use from several
 /// threads.
@@ -42,8 +53,19 @@ class DoorIdentifier {
   /// as ReadDoor().
   DoorIdentity Identify(const nlohmann::ordered_json& record, const std::filesystem::path& folder);
 
+  struct ReadResult {
+    DoorAsset door;
+    DoorIdentity identity;
+  };
+  /// ReadDoor(folder) and IdentityOf() it. All meshes are read and checked against the record;
+  /// those that the doors before shared are not written as text and hashed again. Throws as
+  /// ReadDoor().
+  ReadResult Read(const std::filesystem::path& folder);
+
  private:
   class Recording;
+
+  std::string HashOfDoor(const Recording& recording);
 
   std::mutex mutex_;
   std::map<std::string, std::string> known_;  ///< Hash of a placed mesh, by mesh and place.

@@ -79,7 +79,7 @@ std::vector<FoundDoor> FindRecordedDoors(const DoorSelection& selection,
                                          const std::vector<DatasetDoor>& recorded, int threads);
 
 /// Gives a door by its number; called from several threads at once.
-using DoorGiver = std::function<std::shared_ptr<const DoorAsset>(std::size_t)>;
+using DoorGiver = std::function<IdentifiedDoor(std::size_t)>;
 
 /// The doors of a set, read when they are needed. At most 32 stay in memory, whatever their number.
 /// Safe to use from several threads.
@@ -92,7 +92,7 @@ class DoorCache {
   ///
   /// @throws Error(kMissing, kIo or kFormat) if it can be read no more, or is not what its identity
   ///     says: changed since then, or described wrongly by its index.
-  std::shared_ptr<const DoorAsset> Take(std::size_t door);
+  IdentifiedDoor Take(std::size_t door);
 
  private:
   struct Place {
@@ -101,8 +101,10 @@ class DoorCache {
   };
 
   std::shared_ptr<const DoorAsset> Kept(std::size_t door);
+  std::shared_ptr<const DoorAsset> Read(const FoundDoor& found);
 
   const std::vector<FoundDoor>& doors_;
+  DoorIdentifier identifier_;
   std::mutex mutex_;
   std::map<std::size_t, Place> places_;
   std::uint64_t clock_ = 0;

@@ -44,6 +44,15 @@ inline constexpr NamedValue<LatchChoice> kLatchChoices[] = {{LatchChoice::kAuto,
                                                             {LatchChoice::kBolt, "bolt"}};
 constexpr std::span<const NamedValue<LatchChoice>> ValuesOf(LatchChoice) { return kLatchChoices; }
 
+/// Which way a handle turns to unlock.
+enum class HandleSense {
+  kAsMade,    ///< It turns the way that its author made it turn: levers go down.
+  kReversed,  ///< It turns the other way, which nobody sees from its shape: levers go up.
+};
+inline constexpr NamedValue<HandleSense> kHandleSenses[] = {{HandleSense::kAsMade, "as_made"},
+                                                            {HandleSense::kReversed, "reversed"}};
+constexpr std::span<const NamedValue<HandleSense>> ValuesOf(HandleSense) { return kHandleSenses; }
+
 /// How a door differs from what the authors of its parts made. Where a number is "0: as ..." or
 /// "-1: by preset", any other value replaces what the parts, the category or the preset say.
 struct ComposeConfig {
@@ -59,7 +68,8 @@ struct ComposeConfig {
   HingeSide hinge_side = HingeSide::kLeft;
   Opening opening = Opening::kPull;
   bool handle_mirrored = false;  ///< A lever then points the other way.
-  int handle_turn_deg = 0;       ///< 0, 90, 180, 270, about x.
+  HandleSense handle_sense = HandleSense::kAsMade;
+  int handle_turn_deg = 0;  ///< 0, 90, 180, 270, about x.
   LatchChoice latch = LatchChoice::kAuto;
   double unlock_angle_rad = 0;       ///< 0: the category's share of the handle's range.
   double handle_done_angle_rad = 0;  ///< 0: the same.
@@ -91,6 +101,7 @@ struct ComposeConfig {
     visit("hinge_side", self.hinge_side);
     visit("opening", self.opening);
     visit("handle_mirrored", self.handle_mirrored);
+    visit("handle_sense", self.handle_sense);
     visit("handle_turn_deg", self.handle_turn_deg);
     visit("latch", self.latch);
     visit("unlock_angle_rad", self.unlock_angle_rad);

@@ -7,13 +7,13 @@
 #include "doorforge/dataset/collect.h"
 #include "doorforge/dataset/collection_plan.h"
 #include "doorforge/physics/robot_model.h"
-#include "doorforge/schemas/door_asset.h"
+#include "doorforge/schemas/door_identity.h"
 
 namespace doorforge {
 
 /// Samples the scene of a planned episode, runs its three stages, records one of them, and
 /// describes what happened. Thread-safe; a pure function of its arguments.
-CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const DoorAsset& door,
+CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const IdentifiedDoor& door,
                                  const RobotModel& robot, const StageConfig& config,
                                  StagePolicies& policies);
 

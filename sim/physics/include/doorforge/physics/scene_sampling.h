@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "doorforge/schemas/door_asset.h"
+#include "doorforge/schemas/door_identity.h"
 #include "doorforge/schemas/scene.h"
 
 namespace doorforge {
@@ -67,8 +68,8 @@ struct SceneConfig {
   }
 };
 
-/// Draws episode number `episode` of a door. A pure function of its arguments: the random streams
-/// are named "scene/<door id>/<episode>/<purpose>".
+/// Draws episode number `episode` of a door, as DoorCache gives it. A pure function of its
+/// arguments: the random streams are named "scene/<door id>/<episode>/<purpose>".
 ///
 /// The door stands axis-parallel, 0.1 m or more over the floor, so that the closed door's grasp
 /// point lies where UniDoorManip's objects of this category have it (its range of heights, sideways
@@ -85,6 +86,9 @@ struct SceneConfig {
 /// robot and handle, as the back of a cupboard does; Error(kInvalidConfig) on an unknown
 /// randomisation, a height_jitter_m out of 0..0.5, as CheckEpisodeLimits() and as CameraOf(). A
 /// stronger randomisation leaves the draws of a weaker one as they are.
+Scene SampleScene(const IdentifiedDoor& door, std::uint64_t seed, std::uint64_t episode,
+                  const SceneConfig& config = {});
+/// The same for a door that was made or changed in memory. Writes all meshes as text to hash them.
 Scene SampleScene(const DoorAsset& door, std::uint64_t seed, std::uint64_t episode,
                   const SceneConfig& config = {});
 

@@ -37,8 +37,9 @@ std::string_view NameOf(RayIsa isa);  ///< "sse4.2", "avx2", "avx512".
 /// Library, version and default instruction set, such as "Embree 3.13.5, avx2". For provenance.
 std::string RayCasterVersion();
 
-/// Meshes prepared for ray casting: one search tree a mesh, built once; one instance a mesh, moved
-/// with its link. Belongs to one thread at a time; several objects may be used side by side.
+/// Meshes prepared for ray casting: one search tree a mesh, shared with the scenes that the thread
+/// made before of equal meshes; one instance a mesh, moved with its link. Belongs to one thread at
+/// a time; several objects may be used side by side.
 class SceneGeometry {
  public:
   /// All links start at the identity pose. Vertices are rounded to float.

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "doorforge/physics/scene_sampling.h"
-#include "doorforge/schemas/door_asset.h"
+#include "doorforge/schemas/door_identity.h"
 
 namespace doorforge {
 
@@ -37,7 +37,7 @@ struct RecordedSight {
 ///
 /// @throws Error(kInvalidArgument) if the rules do not come to opening the door in this episode,
 ///     and as SampleScene(), CameraObserver; Error(kIo) as CommitFile().
-RecordedSight RecordSight(const DoorAsset& door, const SightRequest& request,
+RecordedSight RecordSight(const IdentifiedDoor& door, const SightRequest& request,
                           const std::filesystem::path& folder);
 
 }  // namespace doorforge

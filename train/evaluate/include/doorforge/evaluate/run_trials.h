@@ -39,7 +39,7 @@ class TrialPlan {
   /// Returns the same in every call. Throws as the doors' giver and SampleScene().
   Staged At(std::size_t trial) const;
 
-  std::shared_ptr<const DoorAsset> Door(std::size_t door) const { return give_door_(door); }
+  std::shared_ptr<const DoorAsset> Door(std::size_t door) const { return give_door_(door).door; }
   const RobotModel& robot() const { return robot_; }
   const CloudConfig& cloud() const { return cloud_; }
 

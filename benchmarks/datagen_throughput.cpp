@@ -105,8 +105,8 @@ StageRequest RequestFor(const std::string& doors, std::uint64_t episodes) {
 Split MeasureSplit(const std::string& doors, const fs::path& scratch, std::uint64_t episodes) {
   const StageRequest request = RequestFor(doors, episodes);
   StageRun run(request);
-  DoorShelf shelf(run.doors());
-  const RobotModel robot = LoadRobot("", RobotBaseNamed(request.config.scene.physics.base));
+  DoorCache shelf(run.doors());
+  const RobotModel robot = LoadRobot("", request.config.scene.physics.base);
   ShardWriter writer(scratch / "split", {0, "open", "train", ""});
   Split split;
   for (const PlannedShard& shard : run.plan().shards) {
@@ -114,7 +114,7 @@ Split MeasureSplit(const std::string& doors, const fs::path& scratch, std::uint6
       CollectedEpisode collected;
       const double whole = SecondsOf([&] { collected = run.Run(planned); });
       const auto door = shelf.Take(planned.door);
-      const Scene scene = SceneFor(
+      const Scene scene = PlaceRobotBase(
           robot, SampleScene(door, request.config.seed, planned.number, request.config.scene),
           *door);
       OpeningExpert expert(request.config.expert);

@@ -266,12 +266,12 @@ int Run(const Options& options) {
   DoorSelection selection = DoorSelectionOf(options.doors, "train");
   selection.per_category = options.per_category;
   const std::vector<FoundDoor> doors = FindDoorSet(selection, 1).doors;
-  DoorShelf shelf(doors);
+  DoorCache shelf(doors);
   const RobotModel robot = LoadRobot({}, RobotBase::kSliders);
   for (std::size_t d = 0; d < doors.size() && StopRequested() == 0; ++d) {
     const auto door = shelf.Take(d);
-    const Scene scene = SceneFor(robot, SampleScene(door, options.seed, 0), *door);
-    const Scene close_up = SceneOf(GraspLook{}, scene);
+    const Scene scene = PlaceRobotBase(robot, SampleScene(door, options.seed, 0), *door);
+    const Scene close_up = SceneOf(GraspCameraConfig{}, scene);
     CameraObserver look(close_up, *door, robot, {}, /*sees_robot=*/false);
     Photographer photographer(scene, *door, robot);
     ShownGrasp grasp(grasper, look, ViewOf(close_up.camera),

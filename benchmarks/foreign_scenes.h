@@ -23,8 +23,9 @@ struct Shot {
 /// robot, it stands before the rest as it did.
 std::vector<Shot> ForeignShots(const DepthImage& sound, const PinholeView& view, Rng& rng);
 
-/// As ForeignShots(), of the closed door before the robot comes into view, with the handle's mask
-/// in the label; the mask stays where it was, and one kind has it on the leaf above the handle.
+/// Does what ForeignShots() does for the closed door before the robot comes into view, with the
+/// handle's mask in the label; the mask stays where it was, and one kind has it on the leaf above
+/// the handle.
 std::vector<Shot> ForeignLooks(const DepthImage& sound, const PinholeView& view, Rng& rng);
 
 }  // namespace doorforge::benchmark

@@ -29,7 +29,7 @@ struct PartShape {
   std::unique_ptr<PointTree> tree;
 };
 
-/// Of the pieces of this name, or of all if it is empty. Deterministic.
+/// Measures the pieces of this name, or all if it is empty. Deterministic.
 PartShape ShapeOf(const Part& part, const std::string& piece_name);
 
 /// The folders that hold a part.json, sorted.

@@ -13,8 +13,8 @@ namespace doorforge {
 /// a handle must be held at its grasp frame with the space behind it free.
 std::string FaultOf(const Part& part);
 
-/// The same for what takes longer to find: hulls that leave the surface uncovered or stand out of
-/// it, and a leaf that does not swing free of its frame.
+/// Returns the fault that takes longer to find: hulls that leave the surface uncovered or stand out
+/// of it, and a leaf that does not swing free of its frame.
 std::string SlowFaultOf(const Part& part);
 
 }  // namespace doorforge

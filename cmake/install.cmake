@@ -9,7 +9,7 @@
 
 set(DOORFORGE_DATADIR ${CMAKE_INSTALL_DATADIR}/doorforge)
 set(DOORFORGE_PYTHONDIR lib/python3/dist-packages CACHE STRING
-    "where doorforge_reader.py is installed; relative to the prefix")
+    "where the Python package is installed; relative to the prefix")
 
 foreach(folder CMAKE_INSTALL_BINDIR CMAKE_INSTALL_DATADIR)
   if(IS_ABSOLUTE "${${folder}}")
@@ -58,7 +58,8 @@ endfunction()
 function(doorforge_install_files)
   install(DIRECTORY data/ DESTINATION ${DOORFORGE_DATADIR} COMPONENT programs)
   install(DIRECTORY schemas/json/ DESTINATION ${DOORFORGE_DATADIR}/schemas COMPONENT programs)
-  install(DIRECTORY python/ DESTINATION ${DOORFORGE_PYTHONDIR} COMPONENT programs FILES_MATCHING PATTERN "*.py")
+  install(DIRECTORY python/ DESTINATION ${DOORFORGE_PYTHONDIR} COMPONENT programs
+          FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN "py.typed" PATTERN src EXCLUDE)
   install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
   install(FILES NOTICE CHANGELOG.md cmake/package/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
   install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT elsewhere)
@@ -130,8 +131,8 @@ robot arm open them in simulation, sees them through an occluded depth camera,
 collects data sets, and trains and evaluates policies that open them.
 .
 This package holds the programs, the catalogue of parts, the built-in robot,
-trained policies, the JSON Schemas of the records, and a reader of data sets
-for Python.]])
+trained policies, the JSON Schemas of the records, and the Python package
+doorforge.]])
 
   doorforge_development_packages(packages)
   set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libdoorforge-dev)

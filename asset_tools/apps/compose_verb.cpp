@@ -78,7 +78,7 @@ void AddOptions(CLI::App& app, ComposeOptions& options) {
          "handle's own plane of mounting; author: as on the object that both were imported from; "
          "axis: about the same axis, on the leaf; auto: axis for parts of one object, plane with "
          "--handle-mount, else seat")
-      ->check(CLI::IsMember({"auto", "seat", "plane", "axis", "author"}));
+      ->check(CLI::IsMember(NamesOf<HandlePlace>()));
   AddConfig(app, options.config, "YAML file with body, handle and all settings");
   AddSettings(app, options.settings, "overrides one setting");
   app.add_flag("--standalone", options.standalone,
@@ -135,7 +135,7 @@ ComposeRequest RequestOf(const ComposeOptions& options) {
   auto request = LoadConfig<ComposeRequest>(options.config, options.settings);
   if (!options.body.empty()) request.body = options.body;
   if (!options.handle.empty()) request.handle = options.handle;
-  if (!options.place.empty()) request.door.place = options.place;
+  if (!options.place.empty()) request.door.place = *ValueNamed<HandlePlace>(options.place);
   if (!options.category.empty()) request.category = options.category;
   OverrideMesh(request.body_mesh, options.body_mesh);
   OverrideMesh(request.handle_mesh, options.handle_mesh);

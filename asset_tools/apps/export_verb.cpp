@@ -34,12 +34,11 @@ ExportOptions ParseExport(int argc, char** argv) {
   ExportOptions options;
   CLI::App app("Writes doors for other simulators and viewers.", "doorforge export");
   app.add_option("DOOR", options.paths, "folders of doors, or folders that hold some")->required();
-  app.add_option("--format,--to", options.formats,
-                 "urdf, mjcf, sdf, glb, usda; several with commas")
+  app.add_option("--format,--to", options.formats, "several with commas")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->required()
-      ->check(CLI::IsMember({"urdf", "mjcf", "sdf", "glb", "usda"}));
+      ->check(CLI::IsMember(DoorFormatNames()));
   app.add_option("--out", options.out, "each door goes to OUT/<id>")->required();
   AddThreads(app, options.threads, "0: all processors; no byte depends on it");
   AddOverwrite(app, options.overwrite, "replace what is there already");

@@ -54,8 +54,8 @@ constexpr std::array kVerbs = {
     FrontVerb{"eval", "doorforge-eval", "success of a policy per category, with a report"},
     FrontVerb{"report", "doorforge-eval", "one table of the reports of several trainings"},
     FrontVerb{"act", "doorforge-act", "a real depth picture -> the hand's next pose"},
-    FrontVerb{"sight", "doorforge-sight",
-              "a simulated door as the pictures and states that act reads"},
+    FrontVerb{"serve-policy", "doorforge-serve-policy", "a policy for robot stacks, by WebSocket"},
+    FrontVerb{"sight", "doorforge-sight", "a simulated door as the pictures that act reads"},
     FrontVerb{"doctor", "doorforge-train", "what is installed, and what to do about it"},
 };
 

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "doorforge/cli/answer.h"
 #include "doorforge/cli/command_line.h"
 #include "doorforge/core/error.h"
 #include "doorforge/pipeline/pipeline_graph.h"
@@ -81,10 +82,14 @@ void ParseOptions(int argc, char** argv, Options& options) {
 
 int RunPipelineVerb(int argc, char** argv) {
   Options options;
+  options.run.progress = PrintProgress;
+  options.run.result = PrintText;
   ParseOptions(argc, argv, options);
   Pipeline pipeline = ReadPipeline(options.preset[0], options.settings);
   if (!options.doors.empty()) GiveOutput(pipeline, "doors", options.doors);
-  return options.dry_run ? PlanPipeline(pipeline, options.run) : RunPipeline(pipeline, options.run);
+  if (!options.dry_run) return RunPipeline(pipeline, options.run);
+  PrintText(PlanPipeline(pipeline, options.run));
+  return 0;
 }
 
 }  // namespace doorforge

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "doorforge/cli/answer.h"
 #include "doorforge/cli/command_line.h"
 #include "doorforge/pipeline/quickstart.h"
 
@@ -16,6 +17,8 @@ namespace {
 
 QuickstartRequest Parse(int argc, char** argv) {
   QuickstartRequest request;
+  request.progress = PrintProgress;
+  request.result = PrintText;
   CLI::App app(
       "The whole chain at small size: parts -> doors -> validation -> shards -> policy -> report.\n"
       "Without --assets it runs on the embedded catalogue, with it on imported real objects.",

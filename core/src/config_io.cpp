@@ -19,6 +19,14 @@ void ThrowUnknownKey(const std::string& path, const std::string& key,
                    "unknown key; did you mean \"" + NearestName(key, known) + "\"?");
 }
 
+void ThrowUnknownName(const std::string& path, const std::string& name,
+                      const std::vector<std::string>& allowed) {
+  std::string all;
+  for (const std::string& known : allowed) all += (all.empty() ? "" : ", ") + known;
+  ThrowConfigError(path, "found \"" + name + "\", allowed " + all + "; did you mean \"" +
+                             NearestName(name, allowed) + "\"?");
+}
+
 }  // namespace internal
 
 void RequireRange(const std::string& path, const char* name, double value, double low,

@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/stop_signals.h"
 
 extern char** environ;  // NOLINT: POSIX names it so
 
@@ -71,6 +72,19 @@ int RunProgram(const std::function<int()>& body) {
 }
 
 int StopRequested() { return stop_signal; }
+
+StopSignals::StopSignals() {
+  stop_signal = 0;
+  ::sigaction(SIGINT, nullptr, &interrupt_before_);
+  ::sigaction(SIGTERM, nullptr, &terminate_before_);
+  InstallHandlers();
+}
+
+StopSignals::~StopSignals() {
+  ::sigaction(SIGINT, &interrupt_before_, nullptr);
+  ::sigaction(SIGTERM, &terminate_before_, nullptr);
+  stop_signal = 0;
+}
 
 fs::path ProgramFolder() { return fs::read_symlink("/proc/self/exe").parent_path(); }
 

@@ -22,7 +22,7 @@ class CircleAboutHinge : public doorforge::Policy {
     const Eigen::Vector3d arm = hand - state.hinge_origin_in_world;
     return {turn.linear() * arm - arm, turn.linear() * state.world_from_hand.linear()};
   }
-  bool Looks() const override { return false; }  // it needs no picture
+  bool UsesPointCloud() const override { return false; }  // it needs no picture
 };
 
 // Takes hold of the middle of what is seen of the handle, straight in and upright.

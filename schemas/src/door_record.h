@@ -20,7 +20,7 @@ namespace doorforge::internal {
 struct GeometryHashes {
   std::string mesh;
   std::vector<std::string> hulls;
-  std::optional<VisualFiles> visual;  ///< Of what its author drew, if anything.
+  std::optional<VisualFiles> visual;  ///< They hold what its author drew, if anything.
 };
 /// Indexed as DoorAsset::links and the geometry of each.
 using DoorHashes = std::array<std::vector<GeometryHashes>, 3>;

@@ -323,7 +323,7 @@ std::vector<FoundDoor> FindRecordedDoors(const DoorSelection& selection,
   return doors;
 }
 
-std::shared_ptr<const DoorAsset> DoorShelf::Kept(std::size_t door) {
+std::shared_ptr<const DoorAsset> DoorCache::Kept(std::size_t door) {
   const std::scoped_lock lock(mutex_);
   const auto found = places_.find(door);
   if (found == places_.end()) return nullptr;
@@ -331,7 +331,7 @@ std::shared_ptr<const DoorAsset> DoorShelf::Kept(std::size_t door) {
   return found->second.door;
 }
 
-std::shared_ptr<const DoorAsset> DoorShelf::Read(const FoundDoor& found) {
+std::shared_ptr<const DoorAsset> DoorCache::Read(const FoundDoor& found) {
   if (found.folder.empty())
     throw Error(ErrorCode::kMissing,
                 "door \"" + found.identity.id + "\": not in the folders of --doors");
@@ -349,7 +349,7 @@ std::shared_ptr<const DoorAsset> DoorShelf::Read(const FoundDoor& found) {
   return std::make_shared<const DoorAsset>(std::move(door));
 }
 
-IdentifiedDoor DoorShelf::Take(std::size_t door) {
+IdentifiedDoor DoorCache::Take(std::size_t door) {
   const FoundDoor& found = doors_.at(door);
   if (auto kept = Kept(door)) return {std::move(kept), found.identity.sha256};
   auto read = Read(found);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
+#include <variant>
 
 #include <nlohmann/json.hpp>
 
@@ -14,36 +16,21 @@
 namespace doorforge {
 namespace {
 
-// Arrays of all decisions, one after the other.
-struct Columns {
-  std::vector<float> cloud;
-  std::vector<std::uint8_t> label;
-  std::vector<float> proprio;
-  std::vector<float> action;
-  std::vector<float> executed;
-  std::vector<float> joints;
-  std::vector<float> score;
-  std::vector<double> state;
-};
+// One array of the record, in numbers of type T.
+template <class T>
+struct TypedColumn {
+  EpisodeFeature feature;
+  void (*append)(const Decision& decision, std::vector<T>& numbers);
+  std::span<const T> EpisodeArrays::*view;
+  bool since_the_first_build = true;  // else it may be missing in shards of before
 
-Columns ColumnsOf(const Episode& episode) {
-  Columns columns;
-  for (const Decision& decision : episode.decisions) {
-    const auto append = [](std::vector<float>& column, const auto& values) {
-      column.insert(column.end(), values.begin(), values.end());
-    };
-    append(columns.cloud, decision.cloud.xyz);
-    columns.label.insert(columns.label.end(), decision.cloud.label.begin(),
-                         decision.cloud.label.end());
-    append(columns.proprio, decision.proprioception);
-    append(columns.action, decision.action);
-    append(columns.executed, decision.executed);
-    columns.joints.push_back(static_cast<float>(decision.hinge_rad));
-    columns.joints.push_back(static_cast<float>(decision.handle_rad));
-    columns.score.push_back(static_cast<float>(decision.score_rad));
-    columns.state.insert(columns.state.end(), decision.state.begin(), decision.state.end());
-  }
-  return columns;
+  using Number = T;
+};
+using Column = std::variant<TypedColumn<float>, TypedColumn<std::uint8_t>, TypedColumn<double>>;
+
+template <class T, class Values>
+void AppendAll(const Values& values, std::vector<T>& numbers) {
+  numbers.insert(numbers.end(), values.begin(), values.end());
 }
 
 void CheckEpisode(const Episode& episode) {
@@ -58,11 +45,11 @@ void CheckEpisode(const Episode& episode) {
 }
 
 template <class T>
-void CheckFinite(const std::vector<T>& column, const char* name) {
+void CheckFinite(const std::vector<T>& column, const std::string& name) {
   const bool finite =
       std::all_of(column.begin(), column.end(), [](T value) { return std::isfinite(value); });
   Require(finite, ErrorCode::kInvalidArgument,
-          std::string("episode record: a number in ") + name + " is not finite");
+          "episode record: a number in " + name + " is not finite");
 }
 
 template <class T>
@@ -82,81 +69,125 @@ bool Has(const ShardReader& reader, std::size_t episode, std::string_view member
                      [&](const ShardMember& known) { return known.name == member; });
 }
 
+// The arrays, a row each, sorted by name: writer, reader and description follow from it.
+const std::vector<Column>& Columns() {
+  static const std::vector<Column> kColumns = {
+      TypedColumn<float>{
+          {"action",
+           "<f4",
+           {9},
+           "m, 1",
+           "world",
+           "asked-for hand position minus present one (stage grasp: contact point); first two rows "
+           "of the target rotation"},
+          [](const Decision& decision, auto& numbers) { AppendAll(decision.action, numbers); },
+          &EpisodeArrays::action},
+      TypedColumn<float>{
+          {"cloud",
+           "<f4",
+           {0, 3},
+           "m",
+           "world",
+           "visible points by farthest point sampling; point 0 is the nearest to the hand"},
+          [](const Decision& decision, auto& numbers) { AppendAll(decision.cloud.xyz, numbers); },
+          &EpisodeArrays::cloud},
+      TypedColumn<float>{
+          {"executed",
+           "<f4",
+           {9},
+           "m, 1",
+           "world",
+           "what the robot was told to do, like action: with noise, or by a learner that action "
+           "corrects"},
+          [](const Decision& decision, auto& numbers) { AppendAll(decision.executed, numbers); },
+          &EpisodeArrays::executed,
+          false},
+      TypedColumn<float>{
+          {"joints", "<f4", {2}, "rad", "", "hinge and handle angle before the action"},
+          [](const Decision& decision, auto& numbers) {
+            numbers.push_back(static_cast<float>(decision.hinge_rad));
+            numbers.push_back(static_cast<float>(decision.handle_rad));
+          },
+          &EpisodeArrays::joints},
+      TypedColumn<std::uint8_t>{
+          {"label", "|u1", {0}, "", "", "0 body, 1 handle, 2 frame, 3 robot, 4 other"},
+          [](const Decision& decision, auto& numbers) { AppendAll(decision.cloud.label, numbers); },
+          &EpisodeArrays::label},
+      TypedColumn<float>{
+          {"proprio",
+           "<f4",
+           {32},
+           "1, m/s, rad/s, m",
+           "world",
+           "11 joint positions in [-1, 1], 11 velocities, base xyz, hand xyz, hand quaternion "
+           "xyzw"},
+          [](const Decision& decision, auto& numbers) {
+            AppendAll(decision.proprioception, numbers);
+          },
+          &EpisodeArrays::proprio},
+      TypedColumn<float>{
+          {"score",
+           "<f4",
+           {1},
+           "rad",
+           "",
+           "angle gained by what was executed, of the hinge (stage open) or the handle (stage "
+           "handle); stage grasp: the door's final angle"},
+          [](const Decision& decision, auto& numbers) {
+            numbers.push_back(static_cast<float>(decision.score_rad));
+          },
+          &EpisodeArrays::score},
+      TypedColumn<double>{
+          {"state",
+           "<f8",
+           {std::tuple_size_v<JointState>},
+           "m, rad",
+           "",
+           "joints before the action: 11 of the robot, hinge, handle, bolt"},
+          [](const Decision& decision, auto& numbers) { AppendAll(decision.state, numbers); },
+          &EpisodeArrays::state,
+          false}};
+  return kColumns;
+}
+
+// Of `decisions` decisions with clouds of `points` points.
+std::vector<std::size_t> ShapeOf(const EpisodeFeature& feature, std::size_t decisions,
+                                 std::size_t points) {
+  std::vector<std::size_t> shape = {decisions};
+  for (const std::size_t size : feature.shape) shape.push_back(size == 0 ? points : size);
+  return shape;
+}
+
+template <class T>
+MemberBytes Encoded(const TypedColumn<T>& column, const Episode& episode) {
+  std::vector<T> numbers;
+  for (const Decision& decision : episode.decisions) column.append(decision, numbers);
+  CheckFinite(numbers, column.feature.name);
+  const std::size_t points = episode.decisions[0].cloud.label.size();
+  return {column.feature.name + ".npy",
+          MakeNpy<T>(numbers, ShapeOf(column.feature, episode.decisions.size(), points))};
+}
+
 }  // namespace
 
 const std::vector<EpisodeFeature>& EpisodeFeatures() {
-  static const std::vector<EpisodeFeature> kFeatures = {
-      {"action",
-       "<f4",
-       {9},
-       "m, 1",
-       "world",
-       "asked-for hand position minus present one (stage grasp: contact point); first two rows of "
-       "the target rotation"},
-      {"cloud",
-       "<f4",
-       {0, 3},
-       "m",
-       "world",
-       "visible points by farthest point sampling; point 0 is the nearest to the hand"},
-      {"executed",
-       "<f4",
-       {9},
-       "m, 1",
-       "world",
-       "what the robot was told to do, like action: with noise, or by a learner that action "
-       "corrects"},
-      {"joints", "<f4", {2}, "rad", "", "hinge and handle angle before the action"},
-      {"label", "|u1", {0}, "", "", "0 body, 1 handle, 2 frame, 3 robot, 4 other"},
-      {"proprio",
-       "<f4",
-       {32},
-       "1, m/s, rad/s, m",
-       "world",
-       "11 joint positions in [-1, 1], 11 velocities, base xyz, hand xyz, hand quaternion xyzw"},
-      {"score",
-       "<f4",
-       {1},
-       "rad",
-       "",
-       "angle gained by what was executed, of the hinge (stage open) or the handle (stage handle); "
-       "stage "
-       "grasp: the door's final angle"},
-      {"state",
-       "<f8",
-       {std::tuple_size_v<JointState>},
-       "m, rad",
-       "",
-       "joints before the action: 11 of the robot, hinge, handle, bolt"}};
+  static const std::vector<EpisodeFeature> kFeatures = [] {
+    std::vector<EpisodeFeature> features;
+    for (const Column& column : Columns())
+      features.push_back(std::visit([](const auto& typed) { return typed.feature; }, column));
+    return features;
+  }();
   return kFeatures;
 }
 
 std::vector<MemberBytes> EncodeEpisode(const Episode& episode, const nlohmann::ordered_json& meta,
                                        const std::string& preview_png) {
   CheckEpisode(episode);
-  const Columns columns = ColumnsOf(episode);
-  CheckFinite(columns.cloud, "cloud");
-  CheckFinite(columns.proprio, "proprio");
-  CheckFinite(columns.action, "action");
-  CheckFinite(columns.executed, "executed");
-  CheckFinite(columns.joints, "joints");
-  CheckFinite(columns.score, "score");
-  CheckFinite(columns.state, "state");
-  const std::size_t count = episode.decisions.size();
-  const std::size_t points = episode.decisions[0].cloud.label.size();
-  const auto npy = [](const std::vector<float>& column, const std::vector<std::size_t>& shape) {
-    return MakeNpy<float>(column, shape);
-  };
-  std::vector<MemberBytes> members = {
-      {"action.npy", npy(columns.action, {count, 9})},
-      {"cloud.npy", npy(columns.cloud, {count, points, 3})},
-      {"executed.npy", npy(columns.executed, {count, 9})},
-      {"joints.npy", npy(columns.joints, {count, 2})},
-      {"label.npy", MakeNpy<std::uint8_t>(columns.label, {count, points})},
-      {"meta.json", JsonText(meta, 1) + "\n"},
-      {"proprio.npy", npy(columns.proprio, {count, 32})},
-      {"score.npy", npy(columns.score, {count, 1})},
-      {"state.npy", MakeNpy<double>(columns.state, {count, std::tuple_size_v<JointState>})}};
+  std::vector<MemberBytes> members = {{"meta.json", JsonText(meta, 1) + "\n"}};
+  for (const Column& column : Columns())
+    members.push_back(
+        std::visit([&](const auto& typed) { return Encoded(typed, episode); }, column));
+  std::ranges::sort(members, {}, &MemberBytes::name);
   if (!preview_png.empty()) members.push_back({"preview.png", preview_png});
   return members;
 }
@@ -169,18 +200,17 @@ EpisodeArrays ViewEpisode(const ShardReader& reader, std::size_t episode) {
   EpisodeArrays arrays;
   arrays.decisions = label.shape[0];
   arrays.points = label.shape[1];
-  arrays.label = label.values;
-  const std::size_t count = arrays.decisions;
-  arrays.cloud = ViewArray<float>(reader, episode, "cloud", {count, arrays.points, 3});
-  arrays.proprio = ViewArray<float>(reader, episode, "proprio", {count, 32});
-  arrays.action = ViewArray<float>(reader, episode, "action", {count, 9});
-  arrays.joints = ViewArray<float>(reader, episode, "joints", {count, 2});
-  arrays.score = ViewArray<float>(reader, episode, "score", {count, 1});
-  if (Has(reader, episode, "executed.npy"))
-    arrays.executed = ViewArray<float>(reader, episode, "executed", {count, 9});
-  if (Has(reader, episode, "state.npy"))
-    arrays.state =
-        ViewArray<double>(reader, episode, "state", {count, std::tuple_size_v<JointState>});
+  for (const Column& column : Columns()) {
+    std::visit(
+        [&](const auto& typed) {
+          using Number = typename std::decay_t<decltype(typed)>::Number;
+          const std::string& name = typed.feature.name;
+          if (!typed.since_the_first_build && !Has(reader, episode, name + ".npy")) return;
+          arrays.*typed.view = ViewArray<Number>(
+              reader, episode, name, ShapeOf(typed.feature, arrays.decisions, arrays.points));
+        },
+        column);
+  }
   return arrays;
 }
 

@@ -30,7 +30,7 @@ nlohmann::ordered_json PhysicsToJson(const PhysicsConfig& physics) {
 
 }  // namespace
 
-DoorAsset Varied(const DoorAsset& door, const DoorVariation& variation) {
+DoorAsset ApplyVariation(const DoorAsset& door, const DoorVariation& variation) {
   DoorAsset varied = door;
   Scale(varied.links[kLeafLink].mass, variation.leaf_mass);
   Scale(varied.links[kHandleLink].mass, variation.handle_mass);

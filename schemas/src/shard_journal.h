@@ -32,12 +32,12 @@ std::vector<nlohmann::ordered_json> JournalEntries(std::string_view journal);
 
 /// What holds of an unfinished shard.
 struct RecoveredJournal {
-  std::vector<std::string> keys;  ///< Of episodes and failures, in order.
+  std::vector<std::string> keys;  ///< They name episodes and failures in order.
   std::vector<ShardEpisode> episodes;
   std::vector<FailedEpisode> failures;
   std::uint64_t journal_bytes = 0;  ///< Length of the lines that hold; 0: not even the first.
-  std::uint64_t tar_bytes = 0;      ///< Of their episodes in the tar.
-  Sha256 hash;                      ///< Of these bytes.
+  std::uint64_t tar_bytes = 0;      ///< Their episodes take so many in the tar.
+  Sha256 hash;                      ///< It runs over these bytes.
 };
 
 /// Reads journal and tar up to the first line or episode that is damaged or cut.

@@ -68,7 +68,7 @@ class StagesTest : public testing::Test {
   fs::path Collected(Stage stage, std::uint64_t episodes, double noise_m = 0,
                      double sampled_grasps = 0) const {
     StageRequest stage_request = RequestFor(stage, episodes);
-    if (noise_m > 0) stage_request.config.cloud.noise.sensor = "structured_light";
+    if (noise_m > 0) stage_request.config.cloud.noise.sensor = DepthSensor::kStructuredLight;
     stage_request.config.sampled_grasps = sampled_grasps;
     StageRun run(stage_request);
     CollectRequest request = run.Request();
@@ -276,8 +276,8 @@ TEST_F(StagesTest, ThePreviewEndsWithTheLastLookThatIsRecorded) {
   const PrimitiveDoor shape;
   const DoorAsset door = MakePrimitiveDoor(shape);
   const StageConfig config = DefaultsOf(Stage::kHandle);
-  const RobotModel robot = LoadRobot("", RobotBaseNamed(config.scene.physics.base));
-  const Scene scene = SceneFor(robot, SampleScene(door, 1, 0, config.scene), door);
+  const RobotModel robot = LoadRobot("", config.scene.physics.base);
+  const Scene scene = PlaceRobotBase(robot, SampleScene(door, 1, 0, config.scene), door);
   const auto preview_after = [&](const std::vector<double>& hinges, std::size_t recorded) {
     RecordingCamera camera(scene, door, robot, config.cloud);
     for (const double hinge_rad : hinges) {
@@ -313,7 +313,7 @@ TEST_F(StagesTest, APolicyOfOnesOwnActsAndIsInTheRecord) {
     Action Act(const Observation& seen) override {
       return {Eigen::Vector3d::Zero(), seen.privileged.world_from_hand.linear()};
     }
-    bool Looks() const override { return false; }
+    bool UsesPointCloud() const override { return false; }
   };
   StageRequest request = RequestFor(Stage::kGrasp, 1);
   const std::string by_expert = StageRun(request).Request().config_text;

@@ -84,5 +84,41 @@ TEST(ConfigIo, ARangeHoldsItsEndsAndNoNumberIsInNone) {
   }
 }
 
+enum class Shape { kRound, kFlat };
+constexpr NamedValue<Shape> kShapes[] = {{Shape::kRound, "round"}, {Shape::kFlat, "flat"}};
+constexpr std::span<const NamedValue<Shape>> ValuesOf(Shape) { return kShapes; }
+
+struct Shaped {
+  Shape shape = Shape::kFlat;
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    visit("shape", self.shape);
+  }
+};
+
+TEST(ConfigIo, AnEnumIsTheWordOfItsTable) {
+  EXPECT_EQ(ToJson(Shaped{}).dump(), R"({"shape":"flat"})");
+  Shaped shaped;
+  Assign(nlohmann::ordered_json::parse(R"({"shape": "round"})"), shaped, "cut");
+  EXPECT_EQ(shaped.shape, Shape::kRound);
+}
+
+TEST(ConfigIo, AWordThatAnEnumHasNotIsRefusedWithThoseThatThereAre) {
+  for (const char* text : {R"({"shape": "square"})", R"({"shape": 1})", R"({"shape": ""})"}) {
+    Shaped shaped;
+    try {
+      Assign(nlohmann::ordered_json::parse(text), shaped, "cut");
+      ADD_FAILURE() << text;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kInvalidConfig);
+      const std::string message = error.what();
+      EXPECT_NE(message.find("cut.shape"), std::string::npos) << message;
+      EXPECT_NE(message.find("round, flat"), std::string::npos) << message;
+    }
+    EXPECT_EQ(shaped.shape, Shape::kFlat);
+  }
+}
+
 }  // namespace
 }  // namespace doorforge

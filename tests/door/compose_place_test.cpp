@@ -31,22 +31,24 @@ const RigidTransform kFloating = Translation({0.05, 0.395, 1.2});
 
 TEST(ComposePlace, AnImportedHandleKeepsItsAxisAndIsLaidOnTheLeaf) {
   ExpectAt(ComposeDoor(SmallBody(), SmallLever(), {}, kFloating), {0.02, 0.395, 1.2});
-  ExpectAt(ComposeDoor(SmallBody(), SmallLever(), {.place = "axis"}, kFloating),
+  ExpectAt(ComposeDoor(SmallBody(), SmallLever(), {.place = HandlePlace::kAxis}, kFloating),
            {0.02, 0.395, 1.2});
 }
 
 TEST(ComposePlace, AuthorKeepsTheDepthTooAndSeatMovesTheBackOntoTheLeaf) {
-  ExpectAt(ComposeDoor(SmallBody(), SmallLever(), {.place = "author"}, kFloating),
+  ExpectAt(ComposeDoor(SmallBody(), SmallLever(), {.place = HandlePlace::kAuthor}, kFloating),
            kFloating.translation());
   // of the body's mount, not of the author's place
-  ExpectAt(ComposeDoor(SmallBody(), SmallLever(), {.place = "seat"}, kFloating), {0.02, 0.32, 0.8});
+  ExpectAt(ComposeDoor(SmallBody(), SmallLever(), {.place = HandlePlace::kSeat}, kFloating),
+           {0.02, 0.32, 0.8});
 }
 
 TEST(ComposePlace, PlaneLaysTheHandlesOwnPlaneOnTheLeaf) {
   Part floating = SmallLever();
   for (PartPiece& piece : floating.pieces) Shift(piece, {0.034, 0, 0});
-  ExpectAt(ComposeDoor(SmallBody(), floating, {.place = "plane"}), {0.02, 0.32, 0.8});
-  ExpectAt(ComposeDoor(SmallBody(), floating, {.place = "seat"}), {0.02 - 0.034, 0.32, 0.8});
+  ExpectAt(ComposeDoor(SmallBody(), floating, {.place = HandlePlace::kPlane}), {0.02, 0.32, 0.8});
+  ExpectAt(ComposeDoor(SmallBody(), floating, {.place = HandlePlace::kSeat}),
+           {0.02 - 0.034, 0.32, 0.8});
 }
 
 TEST(ComposePlace, AHandleWhoseAxisLiesInTheLeafIsNotMovedAtAll) {
@@ -76,7 +78,7 @@ TEST(ComposePlace, WhatLiesFarBehindAHandleIsNotWhatItSitsOn) {
 }
 
 TEST(ComposePlace, ADoorHingedRightIsTheMirrorImage) {
-  ExpectAt(ComposeDoor(SmallBody(), SmallLever(), {.hinge_side = "right"}, kFloating),
+  ExpectAt(ComposeDoor(SmallBody(), SmallLever(), {.hinge_side = HingeSide::kRight}, kFloating),
            {0.02, -0.395, 1.2});
 }
 
@@ -84,10 +86,10 @@ TEST(ComposePlace, OtherSettingsThatMoveTheHandleComeFirst) {
   EXPECT_NEAR(
       HandleAt(ComposeDoor(SmallBody(), SmallLever(), {.handle_height_m = 1.1}, kFloating)).z(),
       1.1, 1e-9);
-  for (const char* place : {"author", "axis"}) {
+  for (const HandlePlace place : {HandlePlace::kAuthor, HandlePlace::kAxis}) {
     try {
       ComposeDoor(SmallBody(), SmallLever(), {.handle_height_m = 1.1, .place = place}, kFloating);
-      ADD_FAILURE() << place << " was accepted";
+      ADD_FAILURE() << NameOf(place) << " was accepted";
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ErrorCode::kInvalidConfig);
       EXPECT_NE(std::string(error.what()).find("handle_height_m"), std::string::npos);
@@ -97,7 +99,7 @@ TEST(ComposePlace, OtherSettingsThatMoveTheHandleComeFirst) {
 
 TEST(ComposePlace, ForPartsOfDifferentObjectsThereIsNoAuthorsPlace) {
   try {
-    ComposeDoor(SmallBody(), SmallLever(), {.place = "author"});
+    ComposeDoor(SmallBody(), SmallLever(), {.place = HandlePlace::kAuthor});
     ADD_FAILURE() << "was accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::kInvalidArgument);

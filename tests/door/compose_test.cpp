@@ -119,7 +119,8 @@ TEST(ComposeDoor, TheLatchFollowsTheMechanism) {
   EXPECT_EQ(lever.latch.type, LatchType::kEffort);
   EXPECT_NEAR(lever.latch.unlock_angle_rad, 29.25 * std::numbers::pi / 180, 1e-9);
   EXPECT_NEAR(lever.latch.handle_done_angle_rad, 33.75 * std::numbers::pi / 180, 1e-9);
-  EXPECT_EQ(ComposeDoor(SmallBody(), SmallLever(), {.latch = "none"}).latch.type, LatchType::kNone);
+  EXPECT_EQ(ComposeDoor(SmallBody(), SmallLever(), {.latch = LatchChoice::kNone}).latch.type,
+            LatchType::kNone);
   Part pull = SmallLever();
   pull.mechanism = Mechanism::kNone;
   pull.joint.upper_rad = 0;

@@ -5,9 +5,11 @@
 #include <sstream>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "doorforge/compose/compose.h"
 #include "doorforge/core/closed_mesh.h"
+#include "doorforge/core/config_io.h"
 #include "doorforge/core/error.h"
 #include "doorforge/exporters/export_urdf.h"
 #include "doorforge/validate/validate_door.h"
@@ -55,7 +57,7 @@ std::string Refusal(const Part& body, const Part& handle, const ComposeConfig& c
 
 TEST(ComposeVariants, ARightHingedDoorIsTheMirrorImageOfTheLeftOne) {
   const DoorAsset left = ComposeDoor(SmallBody(), SmallLever(), {});
-  const DoorAsset right = ComposeDoor(SmallBody(), SmallLever(), {.hinge_side = "right"});
+  const DoorAsset right = ComposeDoor(SmallBody(), SmallLever(), {.hinge_side = HingeSide::kRight});
   EXPECT_EQ(right.hinge_side, HingeSide::kRight);
   EXPECT_EQ(right.id, "small_body__small_lever__right");
   EXPECT_EQ(right.body.sha256, left.body.sha256);
@@ -82,7 +84,7 @@ TEST(ComposeVariants, ARightHingedDoorIsTheMirrorImageOfTheLeftOne) {
 }
 
 TEST(ComposeVariants, APushedDoorGoesAwayFromItsHandle) {
-  const DoorAsset door = ComposeDoor(SmallBody(), SmallLever(), {.opening = "push"});
+  const DoorAsset door = ComposeDoor(SmallBody(), SmallLever(), {.opening = Opening::kPush});
   const Eigen::AlignedBox3d shut = BoxOfLink(door, kLeafLink, 0);
   const Eigen::AlignedBox3d open = BoxOfLink(door, kLeafLink, 0.8);
   EXPECT_LT(open.min().x(), shut.min().x() - 0.3);
@@ -91,7 +93,7 @@ TEST(ComposeVariants, APushedDoorGoesAwayFromItsHandle) {
   Part safe = SmallBody();
   Part knob = SmallLever();
   safe.category = knob.category = Category::kSafe;
-  EXPECT_NE(Refusal(safe, knob, {.opening = "push"}).find("CMP006"), std::string::npos);
+  EXPECT_NE(Refusal(safe, knob, {.opening = Opening::kPush}).find("CMP006"), std::string::npos);
 }
 
 TEST(ComposeVariants, AMirroredLeverPointsTheOtherWayAndStillGoesDown) {
@@ -103,6 +105,28 @@ TEST(ComposeVariants, AMirroredLeverPointsTheOtherWayAndStillGoesDown) {
   EXPECT_GT((shut[2] * grasp).y(), shut[2].translation().y() + 0.05);
   EXPECT_LT((pressed[2] * grasp).z(), (shut[2] * grasp).z() - 0.03);
   EXPECT_NE(Refusal(SmallBody(), SmallLever(), {.handle_mirrored = true}).find("CMP010"),
+            std::string::npos);
+}
+
+TEST(ComposeVariants, AReversedLeverLooksTheSameAndGoesUp) {
+  const DoorAsset made = ComposeDoor(SmallBody(), SmallLever(), {});
+  const DoorAsset door =
+      ComposeDoor(SmallBody(), SmallLever(), {.handle_sense = HandleSense::kReversed});
+  EXPECT_EQ(door.id, "small_body__small_lever__reversed");
+  const Eigen::Vector3d grasp = door.handle_from_grasp.translation();
+  const auto shut = DoorFromLinks(door, 0, 0);
+  const auto lifted = DoorFromLinks(door, 0, 0.5);
+  EXPECT_GT((lifted[2] * grasp).z(), (shut[2] * grasp).z() + 0.03);
+  // the handle's frame and shape are those of the other door: it is the axis alone that is reversed
+  for (std::size_t link = 0; link < 3; ++link) {
+    EXPECT_TRUE(shut[link].isApprox(DoorFromLinks(made, 0, 0)[link], 0));
+    EXPECT_EQ(door.links[link].geometry[0].mesh.vertices,
+              made.links[link].geometry[0].mesh.vertices);
+  }
+  EXPECT_TRUE(DoorFromLinks(door, 0, 0.5)[2].isApprox(DoorFromLinks(made, 0, -0.5)[2], 1e-12));
+  Part pull = SmallLever();
+  pull.mechanism = Mechanism::kNone;
+  EXPECT_NE(Refusal(SmallBody(), pull, {.handle_sense = HandleSense::kReversed}).find("CMP012"),
             std::string::npos);
 }
 
@@ -143,15 +167,17 @@ TEST(ComposeVariants, PresetsSetMassesAndJointsAndNameTheirSource) {
 }
 
 TEST(ComposeVariants, ALatchIsWhatTheConfigSays) {
-  const DoorAsset bolt = ComposeDoor(
-      SmallBody(), SmallLever(), {.latch = "bolt", .unlock_angle_rad = 0.4, .bolt_throw_m = 0.01});
+  const DoorAsset bolt =
+      ComposeDoor(SmallBody(), SmallLever(),
+                  {.latch = LatchChoice::kBolt, .unlock_angle_rad = 0.4, .bolt_throw_m = 0.01});
   EXPECT_EQ(bolt.latch.type, LatchType::kBolt);
   EXPECT_DOUBLE_EQ(bolt.latch.unlock_angle_rad, 0.4);
   EXPECT_DOUBLE_EQ(bolt.latch.bolt_throw_m, 0.01);
   Part pull = SmallLever();
   pull.joint.upper_rad = 0;
   pull.mechanism = Mechanism::kNone;
-  EXPECT_NE(Refusal(SmallBody(), pull, {.latch = "bolt"}).find("CMP007"), std::string::npos);
+  EXPECT_NE(Refusal(SmallBody(), pull, {.latch = LatchChoice::kBolt}).find("CMP007"),
+            std::string::npos);
   EXPECT_NE(Refusal(SmallBody(), SmallLever(), {.unlock_angle_rad = 3}).find("unlock_angle_rad"),
             std::string::npos);
 }
@@ -182,9 +208,13 @@ TEST(ComposeVariants, RefusalsNameTheirRule) {
             std::string::npos);
   EXPECT_NE(Refusal(SmallBody(), SmallLever(), {.license_allow = {"MIT"}}).find("CMP009"),
             std::string::npos);
-  EXPECT_NE(
-      Refusal(SmallBody(), SmallLever(), {.hinge_side = "rigth"}).find("did you mean \"right\""),
-      std::string::npos);
+  ComposeConfig config;
+  try {
+    Assign(nlohmann::ordered_json{{"hinge_side", "rigth"}}, config, "config");
+    ADD_FAILURE() << "taken";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("did you mean \"right\""), std::string::npos);
+  }
 }
 
 TEST(ComposeVariants, ThePageListsEveryRuleAndPreset) {
@@ -203,21 +233,22 @@ TEST(ComposeVariants, ThePageListsEveryRuleAndPreset) {
 }
 
 TEST(ComposeVariants, MuJoCoOpensEveryVariantTheWayWeSay) {
-  for (const char* side : {"left", "right"}) {
-    for (const char* opening : {"pull", "push"}) {
+  for (const HingeSide side : {HingeSide::kLeft, HingeSide::kRight}) {
+    for (const Opening opening : {Opening::kPull, Opening::kPush}) {
       const DoorAsset door =
           ComposeDoor(SmallBody(), SmallLever(), {.hinge_side = side, .opening = opening});
-      const fs::path folder = ScratchFolder(std::string("variant_") + side + opening);
+      const fs::path folder =
+          ScratchFolder("variant_" + std::string(NameOf(side)) + std::string(NameOf(opening)));
       WriteDoorFolder(door, folder, Existing::kReplace);
       const MuJoCoDoor simulated(folder / "model.urdf");
       ASSERT_TRUE(simulated.ok()) << simulated.error();
       const Eigen::Vector3d com = door.links[kLeafLink].mass.center_of_mass_m;
       const double moved =
           (simulated.LinkPoses(0.6, 0)[0] * com).x() - (simulated.LinkPoses(0, 0)[0] * com).x();
-      EXPECT_GT(std::string(opening) == "pull" ? moved : -moved, 0.1);
+      EXPECT_GT(opening == Opening::kPull ? moved : -moved, 0.1);
       // the grasp lies on the far side of the hinge
       const double along_y = DoorFromLinks(door, 0, 0)[2].translation().y();
-      EXPECT_GT(std::string(side) == "left" ? along_y : -along_y, 0.2);
+      EXPECT_GT(side == HingeSide::kLeft ? along_y : -along_y, 0.2);
       for (const Finding& finding : ValidateDoor(folder).findings)
         EXPECT_NE(finding.code, "MEC004") << finding.where;
       fs::remove_all(folder);
@@ -227,8 +258,11 @@ TEST(ComposeVariants, MuJoCoOpensEveryVariantTheWayWeSay) {
 
 TEST(ComposeVariants, EverySideOpeningAndLatchCanBeSimulated) {
   for (const ComposeConfig& config :
-       {ComposeConfig{}, ComposeConfig{.hinge_side = "right"}, ComposeConfig{.opening = "push"},
-        ComposeConfig{.hinge_side = "right", .opening = "push", .latch = "bolt"},
+       {ComposeConfig{}, ComposeConfig{.hinge_side = HingeSide::kRight},
+        ComposeConfig{.opening = Opening::kPush},
+        ComposeConfig{.hinge_side = HingeSide::kRight,
+        .opening = Opening::kPush,
+        .latch = LatchChoice::kBolt},
         ComposeConfig{.unlocks_ajar = true}})
     EXPECT_NO_THROW(RequireSimulatable(ComposeDoor(SmallBody(), SmallLever(), config), "test"));
   EXPECT_NE(Refusal(SmallBody(), SmallLever(), {.relatch = true, .unlocks_ajar = true})

@@ -72,9 +72,7 @@ class Model {
 
 fs::path Exported(const DoorAsset& door, const std::string& name) {
   const fs::path folder = ScratchFolder("export") / name;
-  const DoorFormat all[] = {DoorFormat::kUrdf, DoorFormat::kMjcf, DoorFormat::kSdf,
-                            DoorFormat::kGlb, DoorFormat::kUsda};
-  WriteExportedDoor(door, all, folder, Existing::kReplace);
+  WriteExportedDoor(door, DoorFormats(), folder, Existing::kReplace);
   return folder;
 }
 
@@ -241,8 +239,9 @@ void ExpectAllAgree(const DoorAsset& door, const fs::path& folder) {
 
 TEST(ExportDoor, EveryVariantAgreesWithItsUrdfInEveryFormat) {
   for (const ComposeConfig& config :
-       {ComposeConfig{}, ComposeConfig{.hinge_side = "right"}, ComposeConfig{.opening = "push"},
-        ComposeConfig{.handle_turn_deg = 90, .latch = "bolt"}}) {
+       {ComposeConfig{}, ComposeConfig{.hinge_side = HingeSide::kRight},
+        ComposeConfig{.opening = Opening::kPush},
+        ComposeConfig{.handle_turn_deg = 90, .latch = LatchChoice::kBolt}}) {
     const DoorAsset door = SmallDoor(config);
     SCOPED_TRACE(door.id);
     const fs::path folder = Exported(door, door.id);
@@ -263,8 +262,8 @@ TEST(ExportDoor, SdfIsReadBySdformat) {
 }
 
 TEST(ExportDoor, MuJoCosLatchHoldsAndLetsGoOnBothSidesAndBothWays) {
-  for (const char* side : {"left", "right"}) {
-    for (const char* opening : {"pull", "push"}) {
+  for (const HingeSide side : {HingeSide::kLeft, HingeSide::kRight}) {
+    for (const Opening opening : {Opening::kPull, Opening::kPush}) {
       const DoorAsset door = SmallDoor({.hinge_side = side, .opening = opening});
       SCOPED_TRACE(door.id);
       const Bolt bolt = BoltOf(door);

@@ -282,12 +282,12 @@ void ExpectComposesAboutTheAxesOf(const ForeignSource& source) {
   stated.handle.point += up;
   const RigidTransform authored =
       Translation(body.joint.origin_m + object.hinge_to_handle_m.value());
-  for (const char* place : {"auto", "author"}) {
+  for (const HandlePlace place : {HandlePlace::kAuto, HandlePlace::kAuthor}) {
     const DoorAsset door = ComposeDoor(body, handle, {.place = place}, authored);
     const auto links = DoorFromLinks(door, 0, 0);
     EXPECT_LT(Distance(stated.hinge, links[kLeafLink].translation()), 1e-4);
     EXPECT_LT(Angle(links[kLeafLink].linear() * door.hinge.axis, stated.hinge.direction), 1e-4);
-    EXPECT_LT(Distance(stated.handle, links[kHandleLink].translation()), 1e-4) << place;
+    EXPECT_LT(Distance(stated.handle, links[kHandleLink].translation()), 1e-4) << NameOf(place);
     EXPECT_LT(Angle(links[kHandleLink].linear() * door.handle_joint.axis, stated.handle.direction),
               1e-4);
     // slid along its axis, if at all; the surface is within a leaf's thickness

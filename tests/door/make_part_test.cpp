@@ -102,7 +102,7 @@ TEST(MakePart, AMeshThatCannotBeClosedIsAnOutcomeWithAReason) {
   PartDraft draft = BoxBody();
   draft.pieces[0].mesh = {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}};
   MakePartConfig config;
-  config.repair.wrap = "never";
+  config.repair.wrap = WrapUse::kNever;
   const MadePart made = MakePart(draft, config);
   EXPECT_FALSE(made.part.has_value());
   EXPECT_NE(ProblemOf(made).find("frame"), std::string::npos) << ProblemOf(made);

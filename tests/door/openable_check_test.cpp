@@ -123,9 +123,9 @@ TEST(OpenableCheck, TriesABoltAsItDoesAnEffort) {
 
 TEST(OpenableCheck, TriesDoorsOfEverySideAndOpening) {
   const OpenableCheck check;
-  for (const char* side : {"left", "right"}) {
-    for (const char* opening : {"pull", "push"}) {
-      SCOPED_TRACE(std::string(side) + " " + opening);
+  for (const HingeSide side : {HingeSide::kLeft, HingeSide::kRight}) {
+    for (const Opening opening : {Opening::kPull, Opening::kPush}) {
+      SCOPED_TRACE(std::string(NameOf(side)) + " " + std::string(NameOf(opening)));
       ComposeConfig config;
       config.hinge_side = side;
       config.opening = opening;

@@ -69,13 +69,21 @@ class SharedDoors : public testing::Test {
   std::vector<Part> handles_;
 };
 
+TEST_F(SharedDoors, APairThatIsNoDoorIsNamedAsTheDoorWouldBe) {
+  const ComposeConfig config{.handle_height_m = 3, .hinge_side = HingeSide::kRight};
+  for (const SharedDoorOutcome& outcome : Write(folder_, 1, Existing::kRefuse, config)) {
+    EXPECT_NE(outcome.problem.find("CMP008"), std::string::npos) << outcome.problem;
+    EXPECT_TRUE(outcome.id.ends_with("__right")) << outcome.id;
+  }
+}
+
 TEST_F(SharedDoors, ADoorThatSharesMeshesIsTheDoorComposedAlone) {
-  for (const char* side : {"left", "right"}) {
+  for (const HingeSide side : {HingeSide::kLeft, HingeSide::kRight}) {
     const ComposeConfig config{.hinge_side = side};
-    const fs::path out = folder_ / side;
+    const fs::path out = folder_ / NameOf(side);
     for (const SharedDoorOutcome& outcome : Write(out, 1, Existing::kRefuse, config))
       EXPECT_EQ(outcome.problem, "");
-    const std::string suffix = std::string(side) == "right" ? "__right" : "";
+    const std::string suffix = side == HingeSide::kRight ? "__right" : "";
     const DoorAsset shared = ReadDoor(out / ("second_body__small_lever" + suffix));
     const DoorAsset alone = ComposeDoor(bodies_[1], handles_[0], config);
     EXPECT_EQ(ContentHash(shared), ContentHash(alone));
@@ -125,8 +133,9 @@ TEST_F(SharedDoors, MuJoCoAndTheValidatorFollowTheUrdfIntoThePool) {
 }
 
 TEST_F(SharedDoors, TheirIndexHoldsTheHashesOfTheDoorsThemselves) {
-  for (const ComposeConfig& config : {ComposeConfig{}, ComposeConfig{.hinge_side = "right"},
-                                      ComposeConfig{.opening = "push", .handle_turn_deg = 90}}) {
+  for (const ComposeConfig& config :
+       {ComposeConfig{}, ComposeConfig{.hinge_side = HingeSide::kRight},
+        ComposeConfig{.opening = Opening::kPush, .handle_turn_deg = 90}}) {
     const fs::path out = folder_ / (config.hinge_side + config.opening);
     Write(out, 1, Existing::kRefuse, config);
     WriteDoorIndex(out, 2);
@@ -166,7 +175,7 @@ TEST_F(SharedDoors, AChangedPoolFileIsNoticedBesideAnIndexToo) {
   Write(folder_, 1, Existing::kRefuse);
   WriteDoorIndex(folder_, 1);
   const std::vector<FoundDoor> doors = FindDoorSet({.folders = {folder_}}, 1).doors;
-  DoorShelf shelf(doors);
+  DoorCache shelf(doors);
   const fs::path mesh = doors.at(0).folder / ReadDoorFiles(doors[0].folder)[kLeafLink][0].mesh;
   CommitFile(mesh, ReadFile(mesh) + "v 9 9 9\n");
   EXPECT_THROW(shelf.Take(0), Error);

@@ -305,7 +305,7 @@ TEST(VisualDoor, MirroredAndStretchedItIsStillSeenFromOutside) {
   ImportBoxes(root);
   const Part body = Read(root, "leaf");
   const DoorAsset left = ComposeDoor(body, Read(root, "bar"), {});
-  const DoorAsset right = ComposeDoor(body, Read(root, "bar"), {.hinge_side = "right"});
+  const DoorAsset right = ComposeDoor(body, Read(root, "bar"), {.hinge_side = HingeSide::kRight});
   EXPECT_NEAR(SignedVolume(LeafOf(right).visual), SignedVolume(LeafOf(left).visual), 1e-6);
   Corners mirrored;
   for (const auto& [corner, count] : CornersOf(LeafOf(left).visual))
@@ -314,7 +314,7 @@ TEST(VisualDoor, MirroredAndStretchedItIsStillSeenFromOutside) {
   const DoorAsset wide = ComposeDoor(body, Read(root, "bar"), {.leaf_width_m = 1.35});
   EXPECT_NEAR(SignedVolume(LeafOf(wide).visual), 1.5 * SignedVolume(LeafOf(left).visual), 1e-6);
   const DoorAsset pushed =
-      ComposeDoor(body, Read(root, "bar"), {.opening = "push", .handle_turn_deg = 90});
+      ComposeDoor(body, Read(root, "bar"), {.opening = Opening::kPush, .handle_turn_deg = 90});
   for (const DoorLink& link : pushed.links) {
     for (const DoorGeometry& geometry : link.geometry)
       EXPECT_NEAR(SignedVolume(geometry.visual), MeasureTopology(geometry.mesh).volume_m3, 1e-6);
@@ -417,7 +417,8 @@ TEST(VisualDoor, MuJoCoLoadsADoorWhoseAuthorDrewAnOpenLeaf) {
   ImportBoxes(root, {.open = true});
   const DoorAsset door = ComposeDoor(Read(root, "leaf"), Read(root, "bar"), {});
   EXPECT_TRUE(ClosedMesh::From(LeafOf(door).mesh));
-  const DoorFormat formats[] = {DoorFormat::kUrdf, DoorFormat::kMjcf, DoorFormat::kUsda};
+  const DoorFormat formats[] = {*DoorFormatNamed("urdf"), *DoorFormatNamed("mjcf"),
+                                *DoorFormatNamed("usda")};
   WriteExportedDoor(door, formats, root / "door", Existing::kRefuse);
   const MuJoCoDoor urdf(root / "door/model.urdf");
   EXPECT_TRUE(urdf.ok()) << urdf.error();

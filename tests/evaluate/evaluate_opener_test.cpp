@@ -177,7 +177,7 @@ TEST_F(EvaluateOpenerTest, ATrainedHandlePolicyTurnsTheHandleAndItsDoorsAreSeenT
   EXPECT_FALSE(IsSwitchPredicted(ruled.provenance)) << "a rule has the simulator's answer";
   const std::string by_rule = ruled.episodes.at(0).state_sha256;
   request.policies.handler = folder_ / "handler";
-  request.config.unlock_switch = "privileged";
+  request.config.unlock_switch = SwitchSource::kSimulator;
   const EvaluationReport report = EvaluateOpener(request).report;
   EXPECT_NE(report.episodes.at(0).state_sha256, by_rule);
   EXPECT_EQ(report.provenance.handler_sha256,
@@ -210,9 +210,6 @@ TEST_F(EvaluateOpenerTest, AHandlePolicyThatSaysWhenItIsDoneIsBelieved) {
   EXPECT_EQ(row.outcome, EpisodeOutcome::kHandleStuck) << row.detail;
   EXPECT_NE(row.detail.find("the switch came with the handle at"), std::string::npos) << row.detail;
   fs::remove(handler / "turned.safetensors");
-
-  request.config.unlock_switch = "sometimes";
-  EXPECT_THROW(EvaluateOpener(request), Error);
 }
 
 TEST_F(EvaluateOpenerTest, AProgramWithItsOwnPolicyEvaluatesItWithOneCommand) {

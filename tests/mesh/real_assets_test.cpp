@@ -54,7 +54,7 @@ TEST_F(RealMeshes, DirtyOnesAreReadOrRefusedButNeverCrashTheReader) {
       ++read;
       if (mesh.triangles.size() > 400) continue;
       RepairConfig exact;
-      exact.wrap = "never";
+      exact.wrap = WrapUse::kNever;
       const RepairResult result = RepairMesh(mesh, exact);
       EXPECT_EQ(result.mesh.has_value(), result.report.outcome != RepairOutcome::kFailed);
     } catch (const Error& error) {

@@ -26,7 +26,7 @@ DoorAsset Bolted(DoorAsset door, double throw_m = 0.012) {
 }
 
 // Turns the handle until it is `angle` and holds it there by a stiff, damped hand.
-void HoldHandle(LoneDoor& door, double angle, double seconds, double hinge_nm = 0) {
+void HoldHandle(RobotlessDoor& door, double angle, double seconds, double hinge_nm = 0) {
   for (double time = 0; time < seconds; time += kBoltTimeStep)
     door.Step(hinge_nm, 40 * (angle - door.handle_rad()) - 0.15 * door.handle_rad_s());
 }
@@ -48,13 +48,13 @@ TEST(Bolt, NeedsAHandleThatTurnsAndAThrow) {
   EXPECT_THROW(BoltOf(MakePrimitiveDoor({.mechanism = Mechanism::kNone})), Error);
   DoorAsset door = Bolted(MakePrimitiveDoor({}), 0);
   EXPECT_THROW(BoltOf(door), Error);
-  EXPECT_THROW(LoneDoor{door}, Error);
+  EXPECT_THROW(RobotlessDoor{door}, Error);
 }
 
 // throw * min(1, handle / unlock), within a twentieth of a millimetre
 TEST(Bolt, IsDrawnBackInProportionToTheHandleAndNoFurtherThanItsThrow) {
   const DoorAsset door = Bolted(MakePrimitiveDoor({}));
-  LoneDoor lone(door);
+  RobotlessDoor lone(door);
   const double unlock = door.latch.unlock_angle_rad;
   for (const double angle : {0.25 * unlock, 0.5 * unlock, 0.9 * unlock, 1.3 * unlock}) {
     HoldHandle(lone, angle, 1);
@@ -71,7 +71,7 @@ TEST(Bolt, IsDrawnBackInProportionToTheHandleAndNoFurtherThanItsThrow) {
 TEST(Bolt, ItsSpringIsFeltAtTheHandle) {
   const DoorAsset door = Bolted(MakePrimitiveDoor({}));
   const Bolt bolt = BoltOf(door);
-  LoneDoor lone(door);
+  RobotlessDoor lone(door);
   const double torque = 0.8;
   for (int i = 0; i < 2400; ++i) lone.Step(0, torque * std::min(1.0, i / 480.0));
   const double drawn = bolt.travel_m_per_rad * lone.handle_rad();
@@ -83,13 +83,13 @@ TEST(Bolt, ItsSpringIsFeltAtTheHandle) {
 
 TEST(Bolt, HoldsWhateverTheEffortUntilTheHandleHasDrawnItBack) {
   const DoorAsset door = Bolted(MakePrimitiveDoor({}));
-  LoneDoor lone(door);
+  RobotlessDoor lone(door);
   for (int i = 0; i < 480; ++i) {
     lone.Step(400, 0);
     ASSERT_LT(lone.hinge_rad(), 0.004);
   }
   EXPECT_TRUE(lone.latch().locked);
-  LoneDoor other(door);
+  RobotlessDoor other(door);
   HoldHandle(other, 1.2 * door.latch.unlock_angle_rad, 0.5);
   EXPECT_FALSE(other.latch().locked);
   HoldHandle(other, 1.2 * door.latch.unlock_angle_rad, 0.5, 20);
@@ -99,7 +99,7 @@ TEST(Bolt, HoldsWhateverTheEffortUntilTheHandleHasDrawnItBack) {
 // Pushed shut with the handle at rest, the bevel drives the bolt in and it springs out behind the
 // strike.
 void ExpectCatchesAgain(const DoorAsset& door, double closing_nm) {
-  LoneDoor lone(door);
+  RobotlessDoor lone(door);
   const double turned = std::min(1.2 * door.latch.unlock_angle_rad, door.handle_joint.upper_rad);
   HoldHandle(lone, turned, 0.5);
   for (int i = 0; i < 960 && lone.hinge_rad() < 0.3; ++i)

@@ -40,7 +40,7 @@ class Oscillator {
   bool overdamped_ = false;
 };
 
-TEST(LoneDoor, SwingsAsTheOscillatorThatItsSpringAndDampingMakeIt) {
+TEST(RobotlessDoor, SwingsAsTheOscillatorThatItsSpringAndDampingMakeIt) {
   for (const double damping : {0.0, 0.5, 40.0}) {
     for (const Opening opening : {Opening::kPull, Opening::kPush}) {
       DoorAsset door = MakePrimitiveDoor({.mechanism = Mechanism::kNone, .opening = opening});
@@ -48,7 +48,7 @@ TEST(LoneDoor, SwingsAsTheOscillatorThatItsSpringAndDampingMakeIt) {
       door.latch.hinge_spring_nm_per_rad = 6;
       const double torque = 4;  // 0.67 rad at rest, twice that without damping
       const Oscillator exact(InertiaAboutHinge(door), damping, 6, torque);
-      LoneDoor lone(door, kTimeStep);
+      RobotlessDoor lone(door, kTimeStep);
       for (int i = 1; i <= 1920; ++i) {
         lone.Step(torque, 0);
         ASSERT_NEAR(lone.hinge_rad(), exact.At(i * kTimeStep), 0.004)
@@ -61,7 +61,7 @@ TEST(LoneDoor, SwingsAsTheOscillatorThatItsSpringAndDampingMakeIt) {
 
 // A hand that lets go: the spring takes the handle back as the oscillator's return, up to the half
 // step by which the positions of a stepped simulation run ahead.
-TEST(LoneDoor, ItsHandleSpringsBackAsAnOscillator) {
+TEST(RobotlessDoor, ItsHandleSpringsBackAsAnOscillator) {
   DoorAsset door = MakePrimitiveDoor({});
   door.handle_joint.damping_nm_s = 0.08;
   const double inertia = door.links[kHandleLink].mass.inertia_kg_m2(0, 0) +
@@ -69,7 +69,7 @@ TEST(LoneDoor, ItsHandleSpringsBackAsAnOscillator) {
                              door.links[kHandleLink].mass.center_of_mass_m.tail<2>().squaredNorm();
   const double torque = 1.2;
   const double spring = door.latch.handle_spring_nm_per_rad;
-  LoneDoor lone(door, kTimeStep);
+  RobotlessDoor lone(door, kTimeStep);
   for (int i = 0; i < 9600; ++i) lone.Step(0, torque);
   ASSERT_NEAR(lone.handle_rad(), torque / spring, 1e-4);
   const Oscillator exact(inertia, 0.08, spring, torque);
@@ -84,13 +84,13 @@ TEST(LoneDoor, ItsHandleSpringsBackAsAnOscillator) {
 }
 
 // The lock effort and the pull meet: below it nothing moves, above it the rest accelerates.
-TEST(LoneDoor, TheEffortLatchHoldsExactlyItsTorque) {
+TEST(RobotlessDoor, TheEffortLatchHoldsExactlyItsTorque) {
   DoorAsset door = MakePrimitiveDoor({});
   door.hinge.damping_nm_s = 0;
-  LoneDoor held(door, kTimeStep);
+  RobotlessDoor held(door, kTimeStep);
   for (int i = 0; i < 960; ++i) held.Step(door.latch.lock_effort_nm, 0);
   EXPECT_NEAR(held.hinge_rad(), 0, 1e-6);
-  LoneDoor forced(door, kTimeStep);
+  RobotlessDoor forced(door, kTimeStep);
   const double over = 5;
   const int steps = 480;
   for (int i = 0; i < steps; ++i) forced.Step(door.latch.lock_effort_nm + over, 0);
@@ -100,10 +100,10 @@ TEST(LoneDoor, TheEffortLatchHoldsExactlyItsTorque) {
   EXPECT_TRUE(forced.latch().locked);  // however far: force alone does not unlock it
 }
 
-TEST(LoneDoor, TheReleasedVariantComesFreeAHundredthOfARadianOut) {
+TEST(RobotlessDoor, TheReleasedVariantComesFreeAHundredthOfARadianOut) {
   DoorAsset door = MakePrimitiveDoor({});
   door.latch.unlocks_ajar = true;
-  LoneDoor lone(door, kTimeStep);
+  RobotlessDoor lone(door, kTimeStep);
   double last_locked = 0;
   for (int i = 0; i < 1920 && lone.hinge_rad() < 0.5; ++i) {
     if (lone.latch().locked) last_locked = lone.hinge_rad();
@@ -114,10 +114,10 @@ TEST(LoneDoor, TheReleasedVariantComesFreeAHundredthOfARadianOut) {
   EXPECT_LE(last_locked, 0.01);
 }
 
-TEST(LoneDoor, RefusesWhatCannotBeSimulatedAndSaysWhy) {
+TEST(RobotlessDoor, RefusesWhatCannotBeSimulatedAndSaysWhy) {
   const auto refusal = [](DoorAsset door) -> std::string {
     try {
-      LoneDoor lone(door);
+      RobotlessDoor lone(door);
     } catch (const Error& error) {
       return error.what();
     }

@@ -194,9 +194,9 @@ class HardwareInMuJoCo {
 };
 
 /// This project's world behind the same face.
-class HardwareHere : public LoneDoor {
+class HardwareHere : public RobotlessDoor {
  public:
-  explicit HardwareHere(const DoorAsset& door) : LoneDoor(door) {}
+  explicit HardwareHere(const DoorAsset& door) : RobotlessDoor(door) {}
   static double time_step_s() { return 1.0 / 240; }
 };
 
@@ -265,7 +265,7 @@ struct ExportedDoor {
       : door(std::move(asset)),
         // tests of this program run side by side
         folder(fs::path(testing::TempDir()) / ("latch_hardware_" + std::to_string(::getpid()))) {
-    const std::array formats = {DoorFormat::kMjcf};
+    const std::array formats = {*DoorFormatNamed("mjcf")};
     WriteExportedDoor(door, formats, folder, Existing::kReplace);
   }
   ~ExportedDoor() { fs::remove_all(folder); }

@@ -20,9 +20,9 @@ namespace doorforge {
 namespace {
 
 // A scene with the robot out of the door's reach.
-Scene EmptyScene(const DoorAsset& door, const RobotModel& robot, const std::string& controller) {
+Scene EmptyScene(const DoorAsset& door, const RobotModel& robot, ArmController controller) {
   SceneConfig config;
-  config.physics.base = NameOf(robot.base());
+  config.physics.base = robot.base();
   config.physics.controller = controller;
   Scene scene = SampleScene(door, 1, 0, config);
   scene.world_from_robot_base = Translation({5, 0, 0.1});
@@ -35,7 +35,7 @@ struct LineErrors {
   double end_rad = 0;
 };
 
-LineErrors FollowLine(const RobotModel& robot, const std::string& controller) {
+LineErrors FollowLine(const RobotModel& robot, ArmController controller) {
   const DoorAsset door = MakePrimitiveDoor({});
   const Scene scene = EmptyScene(door, robot, controller);
   const JointVector start = robot.level_postures().front();
@@ -63,7 +63,7 @@ TEST(OperationalSpace, LeadsTheHandAlongAStraightLine) {
   const RobotModel box = BuildRobot(BoxArm(), {}, RobotBase::kSliders);
   for (const RobotModel& robot : {LoadMobileFranka(), LoadRobot({}, RobotBase::kFixed),
                                   LoadRobot({}, RobotBase::kYaw), box}) {
-    const LineErrors errors = FollowLine(robot, "operational_space");
+    const LineErrors errors = FollowLine(robot, ArmController::kOperationalSpace);
     EXPECT_LT(errors.beside_m, 0.005) << robot.name() << ' ' << NameOf(robot.base());
     EXPECT_LT(errors.end_m, 0.002) << robot.name() << ' ' << NameOf(robot.base());
     EXPECT_LT(errors.end_rad, 0.01) << robot.name() << ' ' << NameOf(robot.base());
@@ -77,7 +77,7 @@ TEST(OperationalSpace, TorquesOfTheUrdfAreItsLimit) {
     if (joint.effort) joint.effort = 0.02;
   }
   const RobotModel robot = BuildRobot(weak, {}, RobotBase::kFixed);
-  EXPECT_GT(FollowLine(robot, "operational_space").end_m, 0.05);
+  EXPECT_GT(FollowLine(robot, ArmController::kOperationalSpace).end_m, 0.05);
 }
 
 TEST(OperationalSpace, AnUnknownControllerOrAnotherBaseIsRefused) {
@@ -85,8 +85,8 @@ TEST(OperationalSpace, AnUnknownControllerOrAnotherBaseIsRefused) {
   const RobotModel robot = LoadMobileFranka();
   EXPECT_THROW(DoorWorld(EmptyScene(door, robot, "magic"), door, robot, robot.InitialPosition()),
                Error);
-  Scene scene = EmptyScene(door, robot, "joint_motors");
-  scene.physics.base = "fixed";
+  Scene scene = EmptyScene(door, robot, ArmController::kJointMotors);
+  scene.physics.base = RobotBase::kFixed;
   EXPECT_THROW(DoorWorld(scene, door, robot, robot.InitialPosition()), Error);
 }
 
@@ -119,7 +119,8 @@ Stop StopsAt(const RobotModel& robot, const Scene& scene, const DoorAsset& door,
 TEST(JointLimits, StopEveryJointThatIsPushedAgainstThem) {
   const DoorAsset door = MakePrimitiveDoor({});
   const RobotModel robot = LoadMobileFranka();
-  for (const char* controller : {"joint_motors", "operational_space"}) {
+  for (const ArmController controller :
+       {ArmController::kJointMotors, ArmController::kOperationalSpace}) {
     const Scene scene = EmptyScene(door, robot, controller);
     for (int joint = 0; joint < robot.arm_count(); ++joint) {
       for (const double way : {-1.0, 1.0}) {
@@ -137,7 +138,7 @@ TEST(JointLimits, StopEveryJointThatIsPushedAgainstThem) {
 TEST(SelfCollision, AFoldedArmStopsAtItself) {
   const DoorAsset door = MakePrimitiveDoor({});
   const RobotModel robot = LoadMobileFranka();
-  const Scene scene = EmptyScene(door, robot, "joint_motors");
+  const Scene scene = EmptyScene(door, robot, ArmController::kJointMotors);
   JointVector start = robot.level_postures().front();
   DoorWorld world(scene, door, robot, start);
   HandController hand(robot, scene.world_from_robot_base, start);
@@ -174,7 +175,8 @@ TEST(SelfCollision, TheInitialPostureTouchesNothing) {
   const DoorAsset door = MakePrimitiveDoor({});
   for (const RobotModel& robot :
        {LoadMobileFranka(), BuildRobot(BoxArm(), {}, RobotBase::kSliders)}) {
-    DoorWorld world(EmptyScene(door, robot, "joint_motors"), door, robot, robot.InitialPosition());
+    DoorWorld world(EmptyScene(door, robot, ArmController::kJointMotors), door, robot,
+                    robot.InitialPosition());
     RobotCommand hold;
     hold.arm_position = robot.InitialPosition().head(robot.arm_count());
     for (int i = 0; i < 24; ++i) world.Step(hold);

@@ -153,7 +153,7 @@ TEST(SceneSampling, StrongRandomisationVariesTheDoorWithinItsRangesAndKeepsThePa
 
 TEST(SceneSampling, AVariedDoorHasItsFactors) {
   const DoorAsset door = MakePrimitiveDoor({});
-  const DoorAsset varied = Varied(door, {.leaf_mass = 2, .handle_damping = 0.5});
+  const DoorAsset varied = ApplyVariation(door, {.leaf_mass = 2, .handle_damping = 0.5});
   EXPECT_EQ(varied.links[kLeafLink].mass.mass_kg, 2 * door.links[kLeafLink].mass.mass_kg);
   EXPECT_TRUE(varied.links[kLeafLink].mass.inertia_kg_m2.isApprox(
       2 * door.links[kLeafLink].mass.inertia_kg_m2));

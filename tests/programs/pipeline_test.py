@@ -199,6 +199,13 @@ class Graph(PipelineTest):
         (self.folder / "mine/record.json").write_text("changed")
         self.pipeline("diamond.yaml", "--out", "out", "--doors", "mine", "--overwrite")
         self.assertEqual(self.ran(), ["check", "d"])
+        # what would be made of a is the user's own as well then, and nobody needs a any more
+        with_c = json.loads((self.folder / "diamond.yaml").read_text())
+        with_c["steps"][3]["given_with"] = "doors"
+        (self.folder / "diamond.yaml").write_text(json.dumps(with_c))
+        plan = json.loads(self.pipeline("plan", "diamond.yaml", "--out", "new", "--doors", "mine", "--json").stdout)
+        self.assertEqual({step["step"]: step["action"] for step in plan["steps"]},
+                         {"doors": "given", "check": "run", "c": "given", "d": "run"})
 
     def test_a_preset_like_another_changes_its_sizes_and_its_steps(self):
         mine = {"schema": "doorforge.pipeline", "schema_version": 1, "about": "another", "like": "diamond.yaml",
@@ -221,6 +228,7 @@ class Graph(PipelineTest):
         good = json.loads(declaration(0))
         for change, word in ((lambda d: d["steps"][1].update(needs=["d"]), '"d"'),
                              (lambda d: d["steps"][1].update(output="../x"), "output"),
+                             (lambda d: d["steps"][1].update(given_with="d"), "given_with"),
                              (lambda d: d["steps"][1].update(command=["datagen", "{nobody}"]), "{nobody}"),
                              (lambda d: d["steps"][1].update(core_seconds={"value_x": 1}), "value_x"),
                              (lambda d: d["steps"][1].update(name="a"), "earlier"),
@@ -248,7 +256,7 @@ class Presets(ProgramTest):
             self.assert_ends(result, 0)
             steps = [step for step in json.loads(result.stdout)["steps"]
                      if step["command"][0] in ("datagen", "train", "eval")]
-            self.assertEqual(len(steps), 14)
+            self.assertEqual(len(steps), 18)
             for step in steps:
                 for option, value in zip(step["command"], step["command"][1:]):
                     if option != "--out" and value.startswith(str(out)):

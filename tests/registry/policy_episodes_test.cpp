@@ -82,7 +82,7 @@ TEST_F(PolicyEpisodesTest, ARobotWhoseStateNoPolicyKnowsIsForTheExpert) {
   SimulationRun run;
   run.doors = {folder_};
   run.threads = 1;
-  run.config.scene.physics.base = "yaw";
+  run.config.scene.physics.base = RobotBase::kYaw;
   EXPECT_NO_THROW(SimulateDoorsWith({}, run));
   EXPECT_THROW(SimulateDoorsWith({.opener = kShipped + "opener"}, run), Error);
 }

@@ -8,6 +8,7 @@
 
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/program.h"
+#include "doorforge/report/report_table.h"
 
 #include "example_pictures.h"
 #include "example_report.h"
@@ -53,6 +54,22 @@ TEST(ReportPage, ShowsTheHeadlineAndEveryCause) {
     const bool occurs = summary.outcomes[static_cast<std::size_t>(i)] > 0;
     EXPECT_EQ(page.find("data-outcome=\"" + name + '"') != std::string::npos, occurs) << name;
   }
+}
+
+// A baseline of the toolkit is no trained policy, whatever stage it plays.
+TEST(ReportPage, APolicyOfTheToolkitIsCalledByItsName) {
+  EvaluationReport report = ExampleReport();
+  report.provenance.policy = "expert";
+  report.provenance.policy_sha256.clear();
+  report.provenance.handler_sha256 = "wiggle";
+  report.provenance.grasper_sha256 = "nearest";
+  const std::string page = ReportPage(report, {});
+  EXPECT_NE(page.find("The policy nearest chooses the grasp"), std::string::npos);
+  EXPECT_NE(page.find("the policy wiggle turns it"), std::string::npos);
+  EXPECT_EQ(page.find("trained policy"), std::string::npos);
+  const std::string table = ReportTable(report);
+  EXPECT_NE(table.find("grasp: nearest; handle: wiggle; opening: expert"), std::string::npos)
+      << table;
 }
 
 TEST(ReportPage, ADoorWhoseHandleWasNeverInViewHasACauseWithoutAFilm) {

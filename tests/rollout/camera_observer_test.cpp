@@ -46,7 +46,7 @@ TEST(CameraObserver, NoiseIsAFunctionOfTheSceneAndOfTheLook) {
   const DoorAsset door = MakePrimitiveDoor({});
   const Scene scene = SampleScene(door, 1, 0);
   CloudConfig config;
-  config.noise.sensor = "time_of_flight";
+  config.noise.sensor = DepthSensor::kTimeOfFlight;
   OpeningExpert expert;
   const auto clouds = [&](const CloudConfig& used) {
     CameraObserver camera(scene, door, robot, used);

@@ -16,6 +16,7 @@
 #include "doorforge/rollout/expert_grasp.h"
 #include "doorforge/rollout/handle_expert.h"
 #include "doorforge/rollout/opening_expert.h"
+#include "doorforge/rollout/reward.h"
 
 #include "../physics/primitive_door.h"
 
@@ -129,21 +130,21 @@ TEST_F(EpisodeStepperTest, DrivenByHandItOpensAsRunEpisodeDoesBitByBit) {
     Observation seen = stepper.Reset(scene);
     expert.Reset();
     std::vector<double> rewards;
+    std::vector<double> worth;
     while (!stepper.now().over()) {
       const Action action = expert.Act(seen);
       EXPECT_EQ(ToVector(action), expected.decisions.at(rewards.size()).action);
       EXPECT_EQ(stepper.state().time_s, expected.decisions.at(rewards.size()).time_s);
+      const PrivilegedState before = seen.privileged;
       const StepResult& result = stepper.Step(action);
       seen = result.observation;
       rewards.push_back(result.reward);
+      worth.push_back(RewardOf(Stage::kOpen, {before, seen.privileged, action}));
     }
     ASSERT_EQ(rewards.size(), expected.decisions.size());
-    double sum = 0;
-    for (std::size_t t = 0; t < rewards.size(); ++t) {
+    EXPECT_EQ(rewards, worth);
+    for (std::size_t t = 0; t < rewards.size(); ++t)
       EXPECT_EQ(rewards[t], expected.decisions[t].score_rad);
-      sum += rewards[t];
-    }
-    EXPECT_NEAR(sum, stepper.state().hinge_rad - expected.decisions[0].hinge_rad, 1e-12);
     EXPECT_EQ(stepper.now().cause, EpisodeOutcome::kOpened);
     EXPECT_TRUE(stepper.now().terminated);
     EXPECT_FALSE(stepper.now().truncated);
@@ -178,7 +179,7 @@ TEST_F(EpisodeStepperTest, TheCloudsAreThoseThatRunEpisodeRecords) {
   const Scene scene = SampleScene(door, 23, 0);
   CloudConfig config;
   config.point_count = 256;
-  config.noise.sensor = "structured_light";
+  config.noise.sensor = DepthSensor::kStructuredLight;
   OpeningExpert expert;
   CameraObserver first(scene, door, robot_, config);
   const Episode expected = RunEpisode(scene, door, robot_, expert, &first);
@@ -197,10 +198,10 @@ TEST_F(EpisodeStepperTest, TheCloudsAreThoseThatRunEpisodeRecords) {
 class CountingObserver : public Observer {
  public:
   LabelledCloud Observe(const SceneSnapshot& snapshot) override {
-    stages.emplace_back(snapshot.stage);
+    phases.push_back(snapshot.phase);
     return {};
   }
-  std::vector<std::string> stages;
+  std::vector<EpisodePhase> phases;
 };
 
 TEST_F(EpisodeStepperTest, MakesNoPictureWhereNobodyAskedForOne) {
@@ -210,13 +211,13 @@ TEST_F(EpisodeStepperTest, MakesNoPictureWhereNobodyAskedForOne) {
   EpisodeStepper blind(door, robot_, {.first = Stage::kHandle});
   blind.Reset(scene, &observer);
   Finish(blind, HandleExpert(), OpeningExpert());
-  EXPECT_TRUE(observer.stages.empty());
+  EXPECT_TRUE(observer.phases.empty());
   EpisodeStepper sees(door, robot_, {.first = Stage::kHandle, .clouds = {Stage::kHandle}});
   sees.Reset(scene, &observer);
   const std::size_t steps = Finish(sees, HandleExpert(), OpeningExpert()).size();
-  EXPECT_GT(observer.stages.size(), 0U);
-  EXPECT_LT(observer.stages.size(), steps);
-  for (const std::string& stage : observer.stages) EXPECT_EQ(stage, "unlock");
+  EXPECT_GT(observer.phases.size(), 0U);
+  EXPECT_LT(observer.phases.size(), steps);
+  for (const EpisodePhase phase : observer.phases) EXPECT_EQ(phase, EpisodePhase::kUnlock);
 }
 
 // Whoever comes back to a point gets the same bits from there on, whatever happened in between, and
@@ -286,7 +287,7 @@ TEST_F(EpisodeStepperTest, TheNoiseOfTheCameraComesBackToo) {
   const Scene scene = SampleScene(door, 23, 0);
   CloudConfig config;
   config.point_count = 64;
-  config.noise.sensor = "structured_light";
+  config.noise.sensor = DepthSensor::kStructuredLight;
   CameraObserver camera(scene, door, robot_, config);
   EpisodeStepper stepper(door, robot_, {.clouds = {Stage::kOpen}});
   stepper.Reset(scene, &camera);
@@ -373,8 +374,8 @@ TEST_F(EpisodeStepperTest, AGraspThatIsLeftToTheRulesAfterwardsIsRatedByTheDoors
   stepper.Reset(scene);
   const StepResult& result = stepper.Step(takes.Choose(stepper.Snapshot()));
   EXPECT_EQ(result.cause, EpisodeOutcome::kOpened);
-  EXPECT_EQ(result.reward, stepper.state().hinge_rad);
-  EXPECT_GT(result.reward, std::numbers::pi / 4);
+  EXPECT_GT(stepper.state().hinge_rad, std::numbers::pi / 4);
+  EXPECT_EQ(result.reward, GraspRating(result.observation.privileged));
   ExpectSameEnd(stepper.Summary(), expected);
 
   // an action is a grasp there as well: this one is in the air
@@ -382,7 +383,7 @@ TEST_F(EpisodeStepperTest, AGraspThatIsLeftToTheRulesAfterwardsIsRatedByTheDoors
   const RigidTransform hand = stepper.now().observation.privileged.world_from_hand;
   const StepResult& missed = stepper.Step(Action{hand.translation(), hand.linear()});
   EXPECT_TRUE(missed.terminated);
-  EXPECT_LT(missed.reward, 1e-3);
+  EXPECT_EQ(missed.reward, GraspRating(missed.observation.privileged));
 }
 
 TEST_F(EpisodeStepperTest, AnEpisodeThatTheRulesLoseIsOverBeforeTheFirstStep) {

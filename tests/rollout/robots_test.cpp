@@ -25,16 +25,16 @@ namespace {
 namespace fs = std::filesystem;
 
 Episode Open(const RobotModel& robot, const DoorAsset& door, std::uint64_t seed,
-             const std::string& controller = "joint_motors") {
+             ArmController controller = ArmController::kJointMotors) {
   SceneConfig config;
-  config.physics.base = NameOf(robot.base());
+  config.physics.base = robot.base();
   config.physics.controller = controller;
   OpeningExpert expert;
-  return RunEpisode(SceneFor(robot, SampleScene(door, seed, 0, config), door), door, robot, expert,
-                    nullptr);
+  return RunEpisode(PlaceRobotBase(robot, SampleScene(door, seed, 0, config), door), door, robot,
+                    expert, nullptr);
 }
 
-int OpenedOf(const RobotModel& robot, int doors, const std::string& controller) {
+int OpenedOf(const RobotModel& robot, int doors, ArmController controller) {
   int opened = 0;
   for (int i = 0; i < doors; ++i) {
     const auto index = static_cast<std::uint64_t>(i);
@@ -45,11 +45,11 @@ int OpenedOf(const RobotModel& robot, int doors, const std::string& controller) 
 }
 
 TEST(Robots, TheBuiltInArmOpensDoorsWithTorquesToo) {
-  EXPECT_GE(OpenedOf(LoadMobileFranka(), 5, "operational_space"), 4);
+  EXPECT_GE(OpenedOf(LoadMobileFranka(), 5, ArmController::kOperationalSpace), 4);
 }
 
 TEST(Robots, ATurntableUnderTheArmDoesNotHinderIt) {
-  EXPECT_GE(OpenedOf(LoadRobot({}, RobotBase::kYaw), 5, "joint_motors"), 4);
+  EXPECT_GE(OpenedOf(LoadRobot({}, RobotBase::kYaw), 5, ArmController::kJointMotors), 4);
 }
 
 TEST(Robots, AFixedBaseStandsBesideTheLeafAndIsRecorded) {
@@ -58,7 +58,7 @@ TEST(Robots, AFixedBaseStandsBesideTheLeafAndIsRecorded) {
   const Episode episode = Open(robot, door, 8);
   EXPECT_TRUE(HasProprioception(robot));
   EXPECT_NE(episode.outcome, EpisodeOutcome::kNotReached) << episode.detail;
-  EXPECT_EQ(episode.scene.physics.base, "fixed");
+  EXPECT_EQ(episode.scene.physics.base, RobotBase::kFixed);
   EXPECT_TRUE(episode.scene.robot.sha256.empty());
 }
 

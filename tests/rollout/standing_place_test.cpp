@@ -28,7 +28,7 @@ bool StartsInside(const RobotModel& robot, const Scene& scene, const DoorAsset& 
                   double farther_m = 0) {
   RigidTransform base = scene.world_from_robot_base;
   base.translation().x() += farther_m;
-  return StartProbe(door, robot)
+  return SpawnCollisionChecker(door, robot)
       .Find(robot.PoseAt(StartPosition(scene, robot), base), scene.world_from_door)
       .has_value();
 }
@@ -37,7 +37,7 @@ TEST(StandingPlace, IsTheScenesOwnWhereTheRobotIsFree) {
   const RobotModel robot = LoadMobileFranka();
   const DoorAsset door = MakePrimitiveDoor({});
   const Scene sampled = SampleScene(door, 4, 0);
-  const Scene scene = SceneFor(robot, sampled, door);
+  const Scene scene = PlaceRobotBase(robot, sampled, door);
   EXPECT_EQ(scene.world_from_robot_base.matrix(), sampled.world_from_robot_base.matrix());
   EXPECT_FALSE(StartsInside(robot, scene, door));
 }
@@ -48,7 +48,7 @@ TEST(StandingPlace, IsJustOutsideOfABodyThatBulges) {
     const DoorAsset door = BulgingDoor(reach_m);
     const Scene sampled = SampleScene(door, 4, 0);
     ASSERT_TRUE(StartsInside(robot, sampled, door)) << reach_m;
-    const Scene scene = SceneFor(robot, sampled, door);
+    const Scene scene = PlaceRobotBase(robot, sampled, door);
     EXPECT_FALSE(StartsInside(robot, scene, door)) << reach_m;
     EXPECT_TRUE(StartsInside(robot, scene, door, -0.021)) << reach_m << ": farther than need be";
     const Eigen::Vector3d moved =
@@ -63,7 +63,7 @@ TEST(StandingPlace, IsRefusedInABodyWithoutAnEnd) {
   for (const RobotBase base : {RobotBase::kSliders, RobotBase::kFixed}) {
     const RobotModel robot = LoadRobot({}, base);
     try {
-      SceneFor(robot, SampleScene(door, 4, 0), door);
+      PlaceRobotBase(robot, SampleScene(door, 4, 0), door);
       ADD_FAILURE() << "the robot was put into a wall";
     } catch (const Error& error) {
       const std::string text = error.what();

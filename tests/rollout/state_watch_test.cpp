@@ -171,7 +171,7 @@ void Inject(BlowUp kind, HeldDoor& held) {
   }
 }
 
-TEST(StateWatch, FindsEveryBlowUpWithinTenSteps) {
+TEST(DivergenceDetector, FindsEveryBlowUpWithinTenSteps) {
   const RobotModel robot = LoadMobileFranka();
   const std::size_t count = LongTests() ? 1000 : 48;
   std::mutex mutex;
@@ -206,7 +206,7 @@ std::vector<std::filesystem::path> DoorsOf(const char* folder) {
   return doors;
 }
 
-TEST(StateWatch, AccusesNoGoodEpisode) {
+TEST(DivergenceDetector, AccusesNoGoodEpisode) {
   const RobotModel robot = LoadMobileFranka();
   const auto folders =
       LongTests() ? DoorsOf(std::getenv("DOORFORGE_DOORS")) : std::vector<std::filesystem::path>{};
@@ -227,7 +227,7 @@ TEST(StateWatch, AccusesNoGoodEpisode) {
   std::printf("%zu episodes, %d opened\n", count, opened.load());
 }
 
-TEST(StateWatch, LetsAnArmOutOfTheDoorInWhichTheSceneBegins) {
+TEST(DivergenceDetector, LetsAnArmOutOfTheDoorInWhichTheSceneBegins) {
   const RobotModel robot = LoadMobileFranka();
   const DoorAsset door = MakePrimitiveDoor({});
   const Scene scene = SampleScene(door, 1, 0);
@@ -249,7 +249,7 @@ class NanPolicy final : public Policy {
   }
 };
 
-TEST(StateWatch, ABlowUpIsAnOutcomeThatSaysWhatWasFound) {
+TEST(DivergenceDetector, ABlowUpIsAnOutcomeThatSaysWhatWasFound) {
   const DoorAsset door = MakePrimitiveDoor(RandomPrimitive(Mechanism::kNone, 5, 1));
   NanPolicy policy;
   const RobotModel robot = LoadMobileFranka();
@@ -258,10 +258,10 @@ TEST(StateWatch, ABlowUpIsAnOutcomeThatSaysWhatWasFound) {
   EXPECT_NE(episode.detail.find("not_finite"), std::string::npos) << episode.detail;
 }
 
-StateWatch WatchOfOneJoint() { return StateWatch({{"hinge", false, 0, 1.5, 20}}); }
+DivergenceDetector WatchOfOneJoint() { return DivergenceDetector({{"hinge", false, 0, 1.5, 20}}); }
 
-TEST(StateWatch, AddsUpEnergyThatNothingAccountsFor) {
-  StateWatch watch = WatchOfOneJoint();
+TEST(DivergenceDetector, AddsUpEnergyThatNothingAccountsFor) {
+  DivergenceDetector watch = WatchOfOneJoint();
   WatchedStep step{{0.5}, {1.0}, 0, 0, 0, 0};
   std::optional<StateFault> fault;
   int steps = 0;
@@ -272,12 +272,12 @@ TEST(StateWatch, AddsUpEnergyThatNothingAccountsFor) {
     fault = watch.Check(step);
   }
   ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->kind, Implausibility::kEnergyGain);
-  EXPECT_NEAR(steps, StateWatchLimits{}.energy_j / 0.2, 2);
+  EXPECT_EQ(fault->kind, DivergenceKind::kEnergyGain);
+  EXPECT_NEAR(steps, DivergenceLimits{}.energy_j / 0.2, 2);
 }
 
-TEST(StateWatch, EnergyThatWasPutInIsNoGain) {
-  StateWatch watch = WatchOfOneJoint();
+TEST(DivergenceDetector, EnergyThatWasPutInIsNoGain) {
+  DivergenceDetector watch = WatchOfOneJoint();
   WatchedStep step{{0.5}, {1.0}, 0, 0, 5, 0};
   for (int i = 0; i < 100; ++i) {
     step.kinetic_j += 5;
@@ -286,8 +286,8 @@ TEST(StateWatch, EnergyThatWasPutInIsNoGain) {
   EXPECT_EQ(watch.surplus_j(), 0);
 }
 
-TEST(StateWatch, AllowsTheOverlapWithWhichTheSceneBegins) {
-  StateWatch watch = WatchOfOneJoint();
+TEST(DivergenceDetector, AllowsTheOverlapWithWhichTheSceneBegins) {
+  DivergenceDetector watch = WatchOfOneJoint();
   WatchedStep step{{0.5}, {0.0}, 0.06, 0, 0, 0};
   EXPECT_FALSE(watch.Check(step));
   step.deepest_m = 0.001;
@@ -295,7 +295,7 @@ TEST(StateWatch, AllowsTheOverlapWithWhichTheSceneBegins) {
   step.deepest_m = 0.06;
   const auto fault = watch.Check(step);
   ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->kind, Implausibility::kPenetration);
+  EXPECT_EQ(fault->kind, DivergenceKind::kPenetration);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ struct Kind {
   std::string name;
   Mechanism mechanism;
   LatchType latch;
-  std::string controller;
+  ArmController controller;
 };
 
 DoorAsset DoorOf(const Kind& kind, std::uint64_t index) {
@@ -137,11 +137,12 @@ TEST_P(WorldImageTest, TheSameCommandsGiveTheSameBitsAfterComingBack) {
 
 INSTANTIATE_TEST_SUITE_P(
     Kinds, WorldImageTest,
-    testing::Values(Kind{"lever", Mechanism::kLever, LatchType::kEffort, "joint_motors"},
-                    Kind{"round", Mechanism::kRound, LatchType::kEffort, "joint_motors"},
-                    Kind{"bolt", Mechanism::kLever, LatchType::kBolt, "joint_motors"},
-                    Kind{"torques", Mechanism::kLever, LatchType::kEffort, "operational_space"},
-                    Kind{"none", Mechanism::kNone, LatchType::kNone, "joint_motors"}),
+    testing::Values(
+        Kind{"lever", Mechanism::kLever, LatchType::kEffort, ArmController::kJointMotors},
+        Kind{"round", Mechanism::kRound, LatchType::kEffort, ArmController::kJointMotors},
+        Kind{"bolt", Mechanism::kLever, LatchType::kBolt, ArmController::kJointMotors},
+        Kind{"torques", Mechanism::kLever, LatchType::kEffort, ArmController::kOperationalSpace},
+        Kind{"none", Mechanism::kNone, LatchType::kNone, ArmController::kJointMotors}),
     [](const auto& info) { return info.param.name; });
 
 TEST(WorldImage, IsOfItsOwnWorldAlone) {

@@ -206,7 +206,7 @@ TEST_F(DoorSetTest, WithAnIndexTheSameDoorsAreFoundAndNoMeshIsRead) {
     EXPECT_FALSE(read[i].is_indexed);
   }
   for (const char* id : {"a", "b", "c"}) fs::rename(folder_ / id / "away", folder_ / id / "meshes");
-  DoorShelf shelf(indexed);
+  DoorCache shelf(indexed);
   for (std::size_t i = 0; i < indexed.size(); ++i) {
     for (int time = 0; time < 2; ++time) {
       const IdentifiedDoor taken = shelf.Take(i);
@@ -257,7 +257,7 @@ TEST_F(DoorSetTest, AMeshChangedSinceTheIndexIsRefusedWhenTheDoorIsTaken) {
   const fs::path mesh = folder_ / "a/meshes/visual/leaf.obj";
   ASSERT_TRUE(fs::exists(mesh));
   CommitFile(mesh, ReadFile(mesh) + "v 1 2 3\n");
-  DoorShelf shelf(doors);
+  DoorCache shelf(doors);
   RefusalOf(ErrorCode::kFormat, [&] { shelf.Take(0); });
 }
 
@@ -269,7 +269,7 @@ TEST_F(DoorSetTest, AForgedEntryNeverLeadsToADoor) {
     Forge(change);
     const auto doors = Find();
     ASSERT_TRUE(doors.at(0).is_indexed);
-    DoorShelf shelf(doors);
+    DoorCache shelf(doors);
     const std::string refusal = RefusalOf(ErrorCode::kFormat, [&] { shelf.Take(0); });
     EXPECT_NE(refusal.find((folder_ / "a").string()), std::string::npos) << refusal;
     CommitFile(IndexFile(), sound);
@@ -283,7 +283,7 @@ TEST_F(DoorSetTest, AForgedEntryNeverLeadsToADoor) {
   refused([](auto& json) { json["parts"][0]["id"] = "unseen"; });
   refused([](auto& json) { json["parts"][1]["shape"][0] = 0.5; });
   const auto doors = Find();
-  DoorShelf shelf(doors);
+  DoorCache shelf(doors);
   EXPECT_EQ(shelf.Take(0)->id, "a");
 }
 
@@ -352,7 +352,7 @@ TEST_F(DoorSetTest, AShelfKeepsAFewDoorsHoweverManyAreTaken) {
     std::ofstream(folder_ / id / "door.json") << other;
   }
   const auto doors = Find();
-  DoorShelf shelf(doors);
+  DoorCache shelf(doors);
   std::vector<std::weak_ptr<const DoorAsset>> taken;
   for (std::size_t i = 0; i < doors.size(); ++i) taken.push_back(shelf.Take(i).door);
   std::size_t kept = 0;
@@ -371,7 +371,7 @@ TEST_F(DoorSetTest, DoorsOfARecordAreFoundById) {
   recorded[0].id = "gone";
   const auto doors = FindRecordedDoors({.folders = {folder_}}, recorded, 1);
   ASSERT_EQ(doors.size(), 3U);
-  DoorShelf shelf(doors);
+  DoorCache shelf(doors);
   RefusalOf(ErrorCode::kMissing, [&] { shelf.Take(0); });
   EXPECT_EQ(shelf.Take(1)->id, "a");
   Write("b", "x/b", 0.7);

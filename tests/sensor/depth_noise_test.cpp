@@ -75,7 +75,7 @@ TEST(DepthNoise, NoSensorMeansNoNoise) {
 }
 
 TEST(DepthNoise, StructuredLightRoundsANoisyDisparity) {
-  const DepthNoiseConfig config{.sensor = "structured_light"};
+  const DepthNoiseConfig config{.sensor = DepthSensor::kStructuredLight};
   for (const double distance : {0.8, 1.5, 2.4}) {
     const Spread spread = SpreadOf(Noisy(WallAt(distance), distance, config));
     const Spread expected = RoundedDisparities(351.3 / distance);
@@ -86,7 +86,7 @@ TEST(DepthNoise, StructuredLightRoundsANoisyDisparity) {
 }
 
 TEST(DepthNoise, StructuredLightMeasuresWholeDisparities) {
-  const DepthImage noisy = Noisy(WallAt(1.5), 1.5, {.sensor = "structured_light"});
+  const DepthImage noisy = Noisy(WallAt(1.5), 1.5, {.sensor = DepthSensor::kStructuredLight});
   for (const float depth : noisy.depth_m) {
     const double disparity = 351.3 / depth;
     ASSERT_NEAR(disparity, std::round(disparity), 1e-4);
@@ -94,7 +94,7 @@ TEST(DepthNoise, StructuredLightMeasuresWholeDisparities) {
 }
 
 TEST(DepthNoise, TimeOfFlightSpreadsAboutAMillimetreAndIsUnbiased) {
-  const Spread spread = SpreadOf(Noisy(WallAt(1.5), 1.5, {.sensor = "time_of_flight"}));
+  const Spread spread = SpreadOf(Noisy(WallAt(1.5), 1.5, {.sensor = DepthSensor::kTimeOfFlight}));
   const double noise = 0.0004 + 0.0003 * 1.5 * 1.5;
   EXPECT_NEAR(spread.deviation, std::sqrt(noise * noise + 1e-6 / 12), 5e-5);
   EXPECT_NEAR(spread.mean, 1.5, 5e-5);  // 65,536 pixels
@@ -107,7 +107,7 @@ TEST(DepthNoise, EdgesLoseTheShareOfPixelsThatWasAskedFor) {
                                         {shapes::Wall(0.2, 0.5), 1, PointLabel::kHandle}})
                                .Render(Facing(1.5), kStillWall);
   const auto missing = [&](double dropout) {
-    DepthNoiseConfig config{.sensor = "time_of_flight"};
+    DepthNoiseConfig config{.sensor = DepthSensor::kTimeOfFlight};
     config.edge_dropout = dropout;
     const DepthImage noisy = Noisy(ideal, 1.5, config);
     for (std::size_t i = 0; i < noisy.depth_m.size(); ++i)
@@ -125,7 +125,7 @@ TEST(DepthNoise, FlyingPixelsLieBetweenTheTwoSidesOfAnEdge) {
   const DepthImage ideal = DepthCamera({{shapes::Wall(0, 9), 0, PointLabel::kBody},
                                         {shapes::Wall(0.2, 0.5), 1, PointLabel::kHandle}})
                                .Render(Facing(1.5), kStillWall);
-  DepthNoiseConfig config{.sensor = "time_of_flight"};
+  DepthNoiseConfig config{.sensor = DepthSensor::kTimeOfFlight};
   config.edge_dropout = 0;
   int flying = 0;
   for (const float depth : Noisy(ideal, 1.5, config).depth_m) {
@@ -143,7 +143,7 @@ TEST(DepthNoise, SurfacesAlongTheRaysAreNotSeen) {
   floor.triangles = {{0, 1, 2}, {0, 2, 3}};
   const CameraModel camera = Facing(1.5);
   const DepthImage ideal = DepthCamera({{floor, 0, PointLabel::kBody}}).Render(camera, kStillWall);
-  DepthNoiseConfig config{.sensor = "time_of_flight"};
+  DepthNoiseConfig config{.sensor = DepthSensor::kTimeOfFlight};
   config.edge_step_m = 10;  // rows of the floor are far apart in depth
   const DepthImage noisy = WithDepthNoise(ideal, camera, config, Rng(1, "noise"));
   const int center = 128;
@@ -158,7 +158,7 @@ TEST(DepthNoise, SurfacesAlongTheRaysAreNotSeen) {
 }
 
 TEST(DepthNoise, CalibrationErrorsHaveTheSpreadThatWasAskedFor) {
-  DepthNoiseConfig config{.sensor = "time_of_flight"};
+  DepthNoiseConfig config{.sensor = DepthSensor::kTimeOfFlight};
   config.extrinsic_m = 0.01;
   config.extrinsic_rad = 0.02;
   const CameraModel camera = Facing(1.5);
@@ -166,7 +166,8 @@ TEST(DepthNoise, CalibrationErrorsHaveTheSpreadThatWasAskedFor) {
   double turn = 0;
   constexpr int kDraws = 2000;
   for (int i = 0; i < kDraws; ++i) {
-    const CameraModel believed = BelievedCamera(camera, config, Rng(7, std::to_string(i)));
+    const CameraModel believed =
+        CameraWithCalibrationError(camera, config, Rng(7, std::to_string(i)));
     shift += (believed.position_m - camera.position_m).squaredNorm();
     const Eigen::Matrix3d between =
         WorldFromCamera(camera).linear().transpose() * WorldFromCamera(believed).linear();
@@ -174,16 +175,15 @@ TEST(DepthNoise, CalibrationErrorsHaveTheSpreadThatWasAskedFor) {
   }
   EXPECT_NEAR(std::sqrt(shift / kDraws), 0.01 * std::sqrt(3), 5e-4);
   EXPECT_NEAR(std::sqrt(turn / kDraws), 0.02 * std::sqrt(3), 1e-3);
-  EXPECT_EQ(BelievedCamera(camera, {}, Rng(7, "")).position_m, camera.position_m);
+  EXPECT_EQ(CameraWithCalibrationError(camera, {}, Rng(7, "")).position_m, camera.position_m);
 }
 
 TEST(DepthNoise, RefusesWhatIsOutOfRange) {
   const auto refused = [](auto&& change) {
-    DepthNoiseConfig config{.sensor = "time_of_flight"};
+    DepthNoiseConfig config{.sensor = DepthSensor::kTimeOfFlight};
     change(config);
     EXPECT_THROW(CheckDepthNoise(config), Error);
   };
-  refused([](auto& c) { c.sensor = "lidar"; });
   refused([](auto& c) { c.edge_dropout = 1.1; });
   refused([](auto& c) { c.scale = -1; });
   refused([](auto& c) { c.extrinsic_m = std::nan(""); });

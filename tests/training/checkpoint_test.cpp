@@ -32,10 +32,10 @@ TrainerState SomeState() {
   TrainerState state;
   state.networks = InitialNetworks(MeasureNormalisation(made.samples), false, 9);
   state.step = 2;
-  state.actor_first.assign(ActorLayout().size(), 0.25F);
-  state.actor_second.assign(ActorLayout().size(), 0.5F);
-  state.critic_first.assign(CriticLayout().size(), -1.0F);
-  state.critic_second.assign(CriticLayout().size(), 1e-20F);
+  state.actor_first_moment.assign(ActorLayout().size(), 0.25F);
+  state.actor_second_moment.assign(ActorLayout().size(), 0.5F);
+  state.critic_first_moment.assign(CriticLayout().size(), -1.0F);
+  state.critic_second_moment.assign(CriticLayout().size(), 1e-20F);
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   state.steps = {{0.1, 0.2, 0.3, 0.4}, {0.01, 1.0 / 3, 0.03, 0.04}};
   state.epochs = {{{0.055, 0.25, 0.165, 0.22}, {kNone, kNone, kNone, kNone}}};
@@ -168,10 +168,10 @@ TEST(Checkpoint, ATrainingStateComesBackExactly) {
   EXPECT_EQ(back.step, state.step);
   EXPECT_EQ(back.networks.actor, state.networks.actor);
   EXPECT_EQ(back.networks.normalisation.action.mean, state.networks.normalisation.action.mean);
-  EXPECT_EQ(back.actor_first, state.actor_first);
-  EXPECT_EQ(back.actor_second, state.actor_second);
-  EXPECT_EQ(back.critic_first, state.critic_first);
-  EXPECT_EQ(back.critic_second, state.critic_second);
+  EXPECT_EQ(back.actor_first_moment, state.actor_first_moment);
+  EXPECT_EQ(back.actor_second_moment, state.actor_second_moment);
+  EXPECT_EQ(back.critic_first_moment, state.critic_first_moment);
+  EXPECT_EQ(back.critic_second_moment, state.critic_second_moment);
   EXPECT_EQ(back.best.epochs, (BestEpochs{0, 1}));
   EXPECT_TRUE(back.best.networks.actor.empty());
   EXPECT_EQ(back.best.networks.critic, state.best.networks.critic);
@@ -239,7 +239,7 @@ TEST(Checkpoint, LossCurvesAreWrittenForPeopleAndPrograms) {
   TrainConfig config;
   config.epochs = 1;
   config.warmup_steps = 4;
-  config.schedule = "constant";
+  config.schedule = RateSchedule::kConstant;
   WriteLosses(folder, SomeState(), {config, 2});
   EXPECT_EQ(ReadFile(folder / "losses.jsonl"),
             "{\"step\": 1, \"epoch\": 1, \"learning_rate\": 0.00025, \"actor.position_m\": 0.1, "

@@ -104,6 +104,29 @@ TEST(Familiarity, KnowsLooksLikeThoseOfTheTrainingAndNotAWall) {
   }
 }
 
+TEST(Familiarity, KnowsMirrorImagesWhereThePolicyWasShownThem) {
+  const Looks train(400, "train");
+  const Looks validation(300, "validation");
+  const Looks fresh(100, "fresh looks");
+  const auto as_seen = FitFamiliarity(train.samples, validation.samples, NetworkFamily::kGrasp);
+  const auto both = FitFamiliarity(train.samples, validation.samples, NetworkFamily::kGrasp,
+                                   SampleSides::kMirroredToo);
+  int foreign_as_seen = 0;
+  int foreign_with_both = 0;
+  for (TrainingSample sample : fresh.samples) {
+    std::vector<float> cloud(sample.cloud.begin(), sample.cloud.end());
+    for (std::size_t y = 1; y < cloud.size(); y += 3) cloud[y] = -cloud[y];
+    sample.cloud = cloud;
+    const auto is_foreign = [&](const Familiarity& familiarity) {
+      return DistanceOf(familiarity, sample, NetworkFamily::kGrasp) > familiarity.DistanceAt(95);
+    };
+    foreign_as_seen += is_foreign(*as_seen) ? 1 : 0;
+    foreign_with_both += is_foreign(*both) ? 1 : 0;
+  }
+  EXPECT_LT(foreign_with_both, 20);  // 5 are expected
+  EXPECT_GT(foreign_as_seen, 50);
+}
+
 TEST(Familiarity, AMaskBesideTheHandleIsForeign) {
   const Looks train(200, "train");
   const Looks validation(100, "validation");

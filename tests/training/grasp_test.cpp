@@ -144,7 +144,7 @@ TrainConfig GraspConfig() {
   return config;
 }
 
-TEST(TrainGrasp, GivesTheSameBitsForAnyNumberOfThreadsAndInterruptionsInBothLessons) {
+TEST(TrainGrasp, GivesTheSameBitsForAnyNumberOfThreadsAndInterruptionsInBothPhases) {
   const GraspSamples train = MakeGraspSamples(1, 16);
   const GraspSamples validation = MakeGraspSamples(2, 2);
   TrainConfig config = GraspConfig();
@@ -171,12 +171,12 @@ TEST(TrainGrasp, GivesTheSameBitsForAnyNumberOfThreadsAndInterruptionsInBothLess
     const TrainerState state = TrainStage(train.samples, validation.samples, config, resumed);
     EXPECT_EQ(state.networks.actor, whole.networks.actor) << stop_after;
     EXPECT_EQ(state.networks.critic, whole.networks.critic) << stop_after;
-    EXPECT_EQ(state.actor_second, whole.actor_second) << stop_after;
+    EXPECT_EQ(state.actor_second_moment, whole.actor_second_moment) << stop_after;
     EXPECT_EQ(state.epochs[3].validation.affordance_rad, whole.epochs[3].validation.affordance_rad);
   }
 }
 
-TEST(TrainGrasp, GivesTheSameBitsWithNormalisedLayersInBothLessons) {
+TEST(TrainGrasp, GivesTheSameBitsWithNormalisedLayersInBothPhases) {
   const GraspSamples train = MakeGraspSamples(1, 8);
   const GraspSamples validation = MakeGraspSamples(2, 2);
   TrainConfig config = GraspConfig();
@@ -184,7 +184,7 @@ TEST(TrainGrasp, GivesTheSameBitsWithNormalisedLayersInBothLessons) {
   config.batch_size = 4;
   config.near_points = 0;
   config.augment_mirror = true;
-  config.encoder_norm = "batch";
+  config.encoder_norm = EncoderNorm::kBatch;
   const TrainerState whole = TrainStage(train.samples, validation.samples, config, {});
   EXPECT_EQ(whole.step, 4U);
   EXPECT_NE(whole.actor_statistics.mean, whole.critic_statistics.mean);
@@ -205,7 +205,7 @@ TEST(TrainGrasp, PrefersThePointsAndTheTurnsThatOpenDoorsItHasNotSeen) {
   config.batch_size = 8;
   config.sampled_points = 2;
   config.learning_rate = 2e-3;
-  config.frame = "world";
+  config.frame = ViewFrame::kWorld;
   config.near_points = 0;  // which half is the upper one, only the world's frame tells
   const StageNetworks networks = TrainStage(train.samples, {}, config, {}).networks;
   const auto policy = MakeGraspPolicy(networks, {.orientations = 32});
@@ -293,7 +293,7 @@ TEST(GraspPolicy, InTheHandsFrameItChoosesAlikeWhereverTheDoorIsAndSeesNoFarther
   config.batch_size = 8;
   config.context_m = 0.3;
   const Eigen::Vector3f by(0.5F, -0.25F, -0.5F);
-  for (const char* frame : {"hand", "world"}) {
+  for (const ViewFrame frame : {ViewFrame::kHand, ViewFrame::kWorld}) {
     config.frame = frame;
     const auto policy = MakeGraspPolicy(TrainStage(train.samples, {}, config, {}).networks);
     const auto choose = [&](const GraspWorld& world) {
@@ -309,7 +309,7 @@ TEST(GraspPolicy, InTheHandsFrameItChoosesAlikeWhereverTheDoorIsAndSeesNoFarther
     for (std::size_t i = 0; i < a.explanation->affordance_rad.size(); ++i)
       difference = std::max<double>(difference, std::abs(a.explanation->affordance_rad[i] -
                                                          b.explanation->affordance_rad[i]));
-    if (config.frame == "world") {
+    if (config.frame == ViewFrame::kWorld) {
       EXPECT_GT(difference, 1e-3);
       continue;
     }

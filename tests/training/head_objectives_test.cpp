@@ -29,13 +29,11 @@ struct Fixture {
   TrainConfig config;
 
   Fixture() {
-    std::vector<std::size_t> indices(made.samples.size());
-    std::iota(indices.begin(), indices.end(), std::size_t{0});
-    batch = internal::MakeHeadBatch(made.samples, indices, networks.normalisation);
+    batch = internal::MakeHeadBatch(made.samples, networks.normalisation);
     Rng rng(1, "test/heads");
-    for (std::size_t i = 0; i < indices.size() * kFeatureSize; ++i)
+    for (std::size_t i = 0; i < made.samples.size() * kFeatureSize; ++i)
       batch.features.push_back(static_cast<float>(rng.Normal()));
-    for (std::size_t i = 0; i < indices.size() * kLatentSize; ++i)
+    for (std::size_t i = 0; i < made.samples.size() * kLatentSize; ++i)
       batch.noise.push_back(static_cast<float>(rng.Normal()));
   }
 };
@@ -117,8 +115,9 @@ struct GraspFixture : Fixture {
 };
 
 TEST(HeadNetworks, TheDiscriminatorsGradientIsThatOfFiniteDifferencesForBothLosses) {
-  for (const auto& [loss, by_near_points] :
-       {std::pair{"squared", true}, {"squared", false}, {"absolute", false}}) {
+  for (const auto& [loss, by_near_points] : {std::pair{ScoreLoss::kSquared, true},
+                                             {ScoreLoss::kSquared, false},
+                                             {ScoreLoss::kAbsolute, false}}) {
     GraspFixture f;
     f.config.score_loss = loss;
     if (!by_near_points) f.batch.near.clear();

@@ -34,6 +34,7 @@ struct Options {
   OnlineControllerSetup setup;
   std::string camera;
   std::string stage = "auto";
+  std::string base = "sliders";
   std::string depth;
   std::string state;
   std::string before;
@@ -75,7 +76,7 @@ void AddPolicies(CLI::App& app, Options& options) {
                  "which of them acts: open, handle, or auto: as the state says (unlocked)")
       ->check(CLI::IsMember({"auto", "open", "handle"}))
       ->capture_default_str();
-  app.add_option("--base", options.setup.base, "what the robot stands on")
+  app.add_option("--base", options.base, "what the robot stands on")
       ->check(CLI::IsMember({"sliders", "fixed"}))
       ->capture_default_str();
   app.add_option("--candidates", options.candidates,
@@ -206,6 +207,7 @@ int Stream(OnlineController& controller, const Options& options) {
 
 int Act(Options options) {
   options.setup.config = ConfigOf(options);
+  options.setup.base = *ValueNamed<RobotBase>(options.base);
   if (options.stage != "auto") options.setup.stage = StageNamed(options.stage);
   RequireNoFile(options.picture, options.overwrite);
   options.setup.camera = ReadCalibratedCamera(options.camera);

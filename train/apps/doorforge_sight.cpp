@@ -71,7 +71,7 @@ int Record(Options options) {
               " doors, and the files are of one; name the folder of one of them");
   const fs::path out = options.out;
   RequireNoFile(out / "grasp" / "depth.png", options.overwrite);
-  DoorShelf shelf(doors);
+  DoorCache shelf(doors);
   const RecordedSight recorded = RecordSight(shelf.Take(0), options.request, out);
   std::printf("%s: a look at the closed door, %d of turning the handle, %d of opening\n",
               out.c_str(), recorded.handle_decisions, recorded.open_decisions);

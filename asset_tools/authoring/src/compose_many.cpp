@@ -164,7 +164,7 @@ std::vector<ComposedDoor> WriteStandalone(const SharedDoorPlan& plan, const Part
   ParallelFor(plan.pairs.size(), plan.threads, [&](std::size_t i) {
     const Part& body = made.at(plan.parts[plan.pairs[i].body].id());
     const Part& handle = made.at(plan.parts[plan.pairs[i].handle].id());
-    doors[i].id = body.id + "__" + handle.id;
+    doors[i].id = NameOfPair(body.id, handle.id, plan.config);
     try {
       if (StopRequested() != 0) throw Error(ErrorCode::kIncomplete, "stopped before its turn");
       const WorkBudget budget(doors[i].id, run.max_seconds);

@@ -40,8 +40,9 @@ class OneDoor {
     const std::optional<RigidTransform> authored =
         body_folder.empty() ? std::nullopt : PlaceOf(*handle_, ReadAuthorPlaces(body_folder));
     // who says where the leaf lies in the file is believed
-    if (own_handle_ && !request_.handle_mesh.mount.empty() && request_.door.place == "auto")
-      request_.door.place = "plane";
+    if (own_handle_ && !request_.handle_mesh.mount.empty() &&
+        request_.door.place == HandlePlace::kAuto)
+      request_.door.place = HandlePlace::kPlane;
     const WorkBudget budget(run_.out.string(), run_.max_seconds);
     const DoorAsset door = ComposeDoor(*body_, *handle_, request_.door, authored);
     WriteDoorFolder(door, run_.out, run_.existing);

@@ -16,7 +16,7 @@ namespace doorforge {
 struct OwnPartRequest {
   std::filesystem::path source;  ///< A mesh file, a URDF, a folder of some data set.
   PartRole role = PartRole::kHandle;
-  Category category = Category::kInterior;  ///< Of the door it is for.
+  Category category = Category::kInterior;  ///< It is made for doors of this category.
   LooseMeshConfig mesh = {};                ///< Its role is not looked at.
 };
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "family.h"
 
-#include <array>
 #include <optional>
 
 #include "doorforge/core/closed_mesh.h"
@@ -18,12 +17,8 @@ namespace doorforge::internal {
 
 const Family& FamilyNamed(std::string_view name, const std::string& path) {
   std::vector<std::string> known;
-  for (const auto& families :
-       {InteriorBodyFamilies(), InteriorShapedBodyFamilies(), StorageBodyFamilies(),
-        SafeBodyFamilies(), SafeHandleFamilies(), RefrigeratorBodyFamilies(), LatchLeverFamilies(),
-        LeverFamilies(), ShapedLeverFamilies(), KnobFamilies(), PullFamilies(),
-        WindowBodyFamilies(), WindowHandleFamilies(), CarBodyFamilies(), CarHandleFamilies()}) {
-    for (const Family& family : families) {
+  for (const auto& source : kFamilySources) {
+    for (const Family& family : source()) {
       if (family.name == name) return family;
       known.emplace_back(family.name);
     }

@@ -25,7 +25,8 @@ struct Family {
   Part (*build)(const nlohmann::ordered_json& parameters, const std::string& path);
 };
 
-/// The families of each source file, in the order in which errors list them.
+/// The families of each source file. A new file is declared here, listed below and named in
+/// CMakeLists.txt.
 std::span<const Family> InteriorBodyFamilies();
 std::span<const Family> InteriorShapedBodyFamilies();
 std::span<const Family> StorageBodyFamilies();
@@ -41,6 +42,17 @@ std::span<const Family> WindowBodyFamilies();
 std::span<const Family> WindowHandleFamilies();
 std::span<const Family> CarBodyFamilies();
 std::span<const Family> CarHandleFamilies();
+
+/// All of them, in the order in which errors list their families.
+inline constexpr std::span<const Family> (*kFamilySources[])() = {
+    InteriorBodyFamilies, InteriorShapedBodyFamilies,
+    StorageBodyFamilies,  SafeBodyFamilies,
+    SafeHandleFamilies,   RefrigeratorBodyFamilies,
+    LatchLeverFamilies,   LeverFamilies,
+    ShapedLeverFamilies,  KnobFamilies,
+    PullFamilies,         WindowBodyFamilies,
+    WindowHandleFamilies, CarBodyFamilies,
+    CarHandleFamilies};
 
 /// Throws Error(kInvalidConfig) that suggests the nearest family; `path` names the recipe.
 const Family& FamilyNamed(std::string_view name, const std::string& path);

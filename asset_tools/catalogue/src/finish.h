@@ -12,7 +12,7 @@ namespace doorforge::internal {
 struct Finish {
   const char* name;
   Eigen::Vector3d color_rgb;  ///< In [0, 1].
-  double density_kg_m3;       ///< Of the whole piece: a hollow-core leaf counts its cavities.
+  double density_kg_m3;       ///< It is the whole piece's: a hollow-core leaf counts its cavities.
 };
 
 /// Throws Error(kInvalidConfig) that suggests the nearest name; `path` names the parameter.

@@ -63,6 +63,14 @@ void CheckPair(const Part& body, const Part& handle) {
                                        handle.id + "\" of " + std::string(NameOf(handle.category)));
 }
 
+void CheckSense(const Part& handle, HandleSense sense) {
+  if (sense == HandleSense::kAsMade) return;
+  if (handle.mechanism == Mechanism::kNone || handle.mechanism == Mechanism::kFlap)
+    internal::RefusePair("CMP012", "handle \"" + handle.id + "\" is of mechanism " +
+                                       std::string(NameOf(handle.mechanism)) +
+                                       "; use handle_sense: as_made");
+}
+
 Eigen::Vector3d WantedMount(const Pair& pair) {
   const ComposeConfig& config = pair.config;
   const Eigen::AlignedBox3d& leaf = pair.body.leaf->bounds;
@@ -71,8 +79,8 @@ Eigen::Vector3d WantedMount(const Pair& pair) {
       config, pair.body.part.id + "__" + pair.handle.part.id + "/handle_height");
   if (config.handle_height_m > 0) mount.z() = config.handle_height_m;
   if (config.backset_m > 0)
-    mount.y() = config.hinge_side == "right" ? leaf.min().y() + config.backset_m
-                                             : leaf.max().y() - config.backset_m;
+    mount.y() = config.hinge_side == HingeSide::kRight ? leaf.min().y() + config.backset_m
+                                                       : leaf.max().y() - config.backset_m;
   const bool set = config.handle_height_m > 0 || config.backset_m > 0;
   const Eigen::AlignedBox2d outline(leaf.min().tail<2>().eval(), leaf.max().tail<2>().eval());
   if (set && !outline.contains(mount.tail<2>().eval()))
@@ -113,15 +121,15 @@ RigidTransform SeatedMount(const Pair& pair) {
       internal::SeatOn(*pair.body.leaf, back, WantedMount(pair));
   if (!seat) internal::RefusePair("CMP005", names + "; set handle_height_m or backset_m");
   body_from_handle.translation() = *seat;
-  if (pair.config.place == "plane") body_from_handle.translation().x() += back.rear_m;
+  if (pair.config.place == HandlePlace::kPlane) body_from_handle.translation().x() += back.rear_m;
   CheckOutline(pair, body_from_handle);
   return body_from_handle;
 }
 
 bool KeepsTheAuthorsPlace(const Pair& pair) {
-  const std::string& place = pair.config.place;
-  if (place == "seat" || place == "plane") return false;
-  if (place == "auto")
+  const HandlePlace place = pair.config.place;
+  if (place == HandlePlace::kSeat || place == HandlePlace::kPlane) return false;
+  if (place == HandlePlace::kAuto)
     return pair.authored.has_value() && internal::MovesTheHandle(pair.config).empty();
   if (!pair.authored)
     internal::RefusePair("CMP011", "body \"" + pair.body.part.id + "\" and handle \"" +
@@ -145,12 +153,12 @@ void SlideOntoLeaf(const Pair& pair, RigidTransform& body_from_handle) {
 
 RigidTransform AuthoredMount(const Pair& pair) {
   RigidTransform body_from_handle = *pair.authored;
-  if (pair.config.hinge_side == "right") {
+  if (pair.config.hinge_side == HingeSide::kRight) {
     const Eigen::Matrix3d mirror = internal::MirrorY();
     body_from_handle.linear() = mirror * body_from_handle.linear() * mirror;
     body_from_handle.translation() = mirror * body_from_handle.translation();
   }
-  if (pair.config.place != "author") SlideOntoLeaf(pair, body_from_handle);
+  if (pair.config.place != HandlePlace::kAuthor) SlideOntoLeaf(pair, body_from_handle);
   return body_from_handle;
 }
 
@@ -222,6 +230,7 @@ void AddJoints(const Pair& pair, const RigidTransform& body_from_handle, DoorAss
   door.handle_joint =
       MakeJoint("handle_joint", handle, body_from_handle * handle.origin_m - hinge.origin_m);
   door.handle_joint.axis = body_from_handle.linear() * door.handle_joint.axis;
+  if (pair.config.handle_sense == HandleSense::kReversed) door.handle_joint.axis *= -1;
   door.handle_joint.effort_limit_nm = internal::kHandleLimits.effort_nm;
   door.handle_joint.velocity_limit_rad_s = internal::kHandleLimits.velocity_rad_s;
   door.handle_joint.damping_nm_s = numbers.handle_damping_nm_s;
@@ -269,12 +278,13 @@ Latch MakeLatch(const Pair& pair, const DoorAsset& door) {
   const internal::JointNumbers numbers =
       internal::JointNumbersOf(config, pair.body.part.id + "__" + pair.handle.part.id);
   const bool turns = door.handle_joint.upper_rad > door.handle_joint.lower_rad;
-  const bool asked = config.latch == "effort" || config.latch == "bolt";
+  const bool asked = config.latch == LatchChoice::kEffort || config.latch == LatchChoice::kBolt;
   if (asked && !turns)
-    internal::RefusePair("CMP007",
-                         "handle \"" + door.handle.id + "\" does not turn; latch: " + config.latch);
+    internal::RefusePair("CMP007", "handle \"" + door.handle.id + "\" does not turn; latch: " +
+                                       std::string(NameOf(config.latch)));
   const bool locks =
-      turns && (asked || (config.latch == "auto" && door.mechanism != Mechanism::kNone));
+      turns &&
+      (asked || (config.latch == LatchChoice::kAuto && door.mechanism != Mechanism::kNone));
   const Mechanism mechanism =
       door.mechanism == Mechanism::kNone ? Mechanism::kLever : door.mechanism;
   Latch latch =
@@ -285,7 +295,7 @@ Latch MakeLatch(const Pair& pair, const DoorAsset& door) {
   latch.lock_effort_nm = config.lock_effort_nm;
   latch.relatch = config.relatch;
   latch.unlocks_ajar = config.unlocks_ajar;
-  if (config.latch == "bolt") {
+  if (config.latch == LatchChoice::kBolt) {
     latch.type = LatchType::kBolt;
     latch.bolt_throw_m = config.bolt_throw_m;
   }
@@ -301,13 +311,14 @@ Composed Compose(const Pair& pair) {
   const Part& body = pair.body.part;
   const Part& handle = pair.handle.part;
   CheckPair(body, handle);
+  CheckSense(handle, pair.config.handle_sense);
   Composed composed;
   DoorAsset& door = composed.door;
   door.id = internal::DoorIdOf(body.id, handle.id, pair.config);
   door.category = body.category;
   door.mechanism = handle.mechanism;
-  door.hinge_side = *HingeSideNamed(pair.config.hinge_side);
-  door.opening = *OpeningNamed(pair.config.opening);
+  door.hinge_side = pair.config.hinge_side;
+  door.opening = pair.config.opening;
   door.body = pair.body.identity;
   door.handle = pair.handle.identity;
   door.license = JoinedLicense(body.license, handle.license);

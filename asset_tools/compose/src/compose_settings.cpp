@@ -30,6 +30,7 @@ constexpr std::array kRules = {
     ComposeRule{"CMP009", "the licence of each part is one of license_allow"},
     ComposeRule{"CMP010", "a mirrored or turned handle reaches at most 10 mm beyond the leaf"},
     ComposeRule{"CMP011", "the author's place is that of one imported object"},
+    ComposeRule{"CMP012", "what turns the other way is a lever, a knob, a key or a wheel"},
 };
 
 constexpr std::array kJointPresets = {
@@ -122,11 +123,10 @@ MassProperties Scaled(MassProperties mass, double factor) {
 }
 
 void CheckPlace(const ComposeConfig& config) {
-  CheckName("place", config.place, {"auto", "seat", "plane", "author", "axis"});
-  if (config.place != "author" && config.place != "axis") return;
+  if (config.place != HandlePlace::kAuthor && config.place != HandlePlace::kAxis) return;
   const std::string moved = internal::MovesTheHandle(config);
   if (!moved.empty())
-    Fail("place", '"' + config.place + "\" together with " + moved,
+    Fail("place", '"' + std::string(NameOf(config.place)) + "\" together with " + moved,
          "auto or seat where the handle or the leaf is changed");
 }
 
@@ -145,12 +145,9 @@ void CheckComposeConfig(const ComposeConfig& config) {
   CheckUnless("backset_m", config.backset_m, 0, {0.005, 4});
   CheckRange("handle_scale", config.handle_scale, {0.5, 2});
   CheckPlace(config);
-  CheckName("hinge_side", config.hinge_side, {"left", "right"});
-  CheckName("opening", config.opening, {"pull", "push"});
   const int turn = config.handle_turn_deg;
   if (turn != 0 && turn != 90 && turn != 180 && turn != 270)
     Fail("handle_turn_deg", std::to_string(turn), "0, 90, 180, 270");
-  CheckName("latch", config.latch, {"auto", "none", "effort", "bolt"});
   CheckUnless("unlock_angle_rad", config.unlock_angle_rad, 0, {0.01, 6.283});
   CheckUnless("handle_done_angle_rad", config.handle_done_angle_rad, 0, {0.01, 6.283});
   CheckRange("lock_effort_nm", config.lock_effort_nm, {0, 1000});
@@ -170,7 +167,7 @@ std::string MovesTheHandle(const ComposeConfig& config) {
   if (config.handle_height_m > 0) return "handle_height_m";
   if (config.backset_m > 0) return "backset_m";
   if (config.handle_scale != 1) return "handle_scale";
-  if (config.opening == "push") return "opening: push";
+  if (config.opening == Opening::kPush) return "opening: push";
   if (config.handle_mirrored) return "handle_mirrored";
   if (config.handle_turn_deg != 0) return "handle_turn_deg";
   return config.seed != 0 ? "seed" : "";
@@ -227,9 +224,10 @@ std::string DoorIdOf(const std::string& body, const std::string& handle,
     return config.id;
   }
   std::string id = body + "__" + handle;
-  if (config.hinge_side == "right") id += "__right";
-  if (config.opening == "push") id += "__push";
+  if (config.hinge_side == HingeSide::kRight) id += "__right";
+  if (config.opening == Opening::kPush) id += "__push";
   if (config.handle_mirrored) id += "__mirrored";
+  if (config.handle_sense == HandleSense::kReversed) id += "__reversed";
   if (config.handle_turn_deg != 0) id += "__turned" + std::to_string(config.handle_turn_deg);
   if (config.seed != 0) id += "__s" + std::to_string(config.seed);
   const std::string problem = IdProblem(id);
@@ -243,4 +241,13 @@ double DrawnFactor(const ComposeConfig& config, const std::string& stream) {
 }
 
 }  // namespace internal
+
+std::string NameOfPair(const std::string& body, const std::string& handle,
+                       const ComposeConfig& config) {
+  try {
+    return internal::DoorIdOf(body, handle, config);
+  } catch (const Error&) {
+    return body + "__" + handle;
+  }
+}
 }  // namespace doorforge

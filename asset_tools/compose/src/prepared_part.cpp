@@ -24,7 +24,7 @@ void CheckPart(const Part& part, const ComposeConfig& config) {
   if (FindPiece(part, body ? "leaf" : "grip") == nullptr)
     internal::RefusePair("CMP003", (body ? "body \"" : "handle \"") + part.id +
                                        "\" has no piece \"" + (body ? "leaf" : "grip") + '"');
-  const bool pushed = body && config.opening == "push";
+  const bool pushed = body && config.opening == Opening::kPush;
   if (pushed && part.category != Category::kInterior && part.category != Category::kWindow)
     internal::RefusePair("CMP006", "body \"" + part.id + "\" is of category " +
                                        std::string(NameOf(part.category)) + "; use opening: pull");
@@ -51,8 +51,8 @@ PartMap BodyMap(const Part& part, const ComposeConfig& config) {
   map.scale.z() = config.leaf_height_m > 0
                       ? StretchTo("leaf_height_m", config.leaf_height_m, size.z())
                       : internal::DrawnFactor(config, part.id + "/leaf_height");
-  if (config.opening == "push") map.turn = internal::MirrorX() * map.turn;
-  if (config.hinge_side == "right") map.turn = internal::MirrorY() * map.turn;
+  if (config.opening == Opening::kPush) map.turn = internal::MirrorX() * map.turn;
+  if (config.hinge_side == HingeSide::kRight) map.turn = internal::MirrorY() * map.turn;
   return map;
 }
 
@@ -61,7 +61,7 @@ PartMap HandleMap(const ComposeConfig& config) {
   map.scale.setConstant(config.handle_scale);
   if (config.handle_mirrored) map.turn = internal::MirrorY();
   map.turn = internal::QuarterTurnsAboutX(config.handle_turn_deg / 90) * map.turn;
-  if (config.hinge_side == "right") map.turn = internal::MirrorY() * map.turn;
+  if (config.hinge_side == HingeSide::kRight) map.turn = internal::MirrorY() * map.turn;
   return map;
 }
 
@@ -87,7 +87,8 @@ Part ChangedPart(const Part& part, const ComposeConfig& config) {
   const bool body = part.role == PartRole::kBody;
   const PartMap map = body ? BodyMap(part, config) : HandleMap(config);
   Part changed = internal::MappedPart(part, map);
-  if (body && map.scale.y() != 1) KeepBackset(part, config.hinge_side == "right", changed);
+  if (body && map.scale.y() != 1)
+    KeepBackset(part, config.hinge_side == HingeSide::kRight, changed);
   if (!body && config.handle_scale != 1) RefineScaledGrasp(changed);
   for (PartPiece& piece : changed.pieces)
     piece.mass = internal::PresetMass(piece, part.role, config.masses);

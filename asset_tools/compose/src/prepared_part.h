@@ -20,7 +20,7 @@ struct PreparedPart::State {
     TriangleMesh mesh;
     std::vector<TriangleMesh> hulls;
     RigidTransform shape_from_part = RigidTransform::Identity();
-    std::string sha256;  ///< Of its record in a mesh pool.
+    std::string sha256;  ///< A mesh pool's record of it has this hash.
     std::vector<std::string> hull_sha256;
     std::string mesh_sha256;
     VisualMesh visual;  ///< What its author drew; may be empty.
@@ -28,11 +28,11 @@ struct PreparedPart::State {
     std::optional<VisualFiles> visual_files;
   };
 
-  Part part;                                  ///< As the config changes it.
-  PartIdentity identity;                      ///< Of the part as it was made.
+  Part part;                                  ///< The config has changed it already.
+  PartIdentity identity;                      ///< It names the part as it was made.
   std::vector<Shape> shapes;                  ///< One a piece of `part`.
-  std::optional<internal::LeafSurface> leaf;  ///< Of a body.
-  std::optional<internal::BackOutline> back;  ///< Of a handle, in its own frame.
+  std::optional<internal::LeafSurface> leaf;  ///< Bodies have it.
+  std::optional<internal::BackOutline> back;  ///< Handles have it, in their own frame.
 };
 
 namespace internal {

@@ -84,7 +84,7 @@ SharedDoorOutcome WriteDoorOf(const SharedDoorPlan& plan, const PartPair& pair,
   SharedDoorOutcome outcome;
   const PreparedPart& body = plan.parts[pair.body];
   const PreparedPart& handle = plan.parts[pair.handle];
-  outcome.id = body.id() + "__" + handle.id();
+  outcome.id = NameOfPair(body.id(), handle.id(), plan.config);
   try {
     const SharedDoor door = ComposeSharedDoor(body, handle, plan.config, pair.body_from_handle);
     outcome.id = door.id;
@@ -140,8 +140,9 @@ std::vector<SharedDoorOutcome> WriteSharedDoors(const SharedDoorPlan& plan, cons
     if (!stopped) batch.Commit();
     for (std::size_t i = first; stopped && i < first + count; ++i) {
       const PartPair& pair = plan.pairs[i];
-      outcomes[i] = {plan.parts[pair.body].id() + "__" + plan.parts[pair.handle].id(), false,
-                     "stopped before its turn; run the same command again"};
+      outcomes[i] = {
+          NameOfPair(plan.parts[pair.body].id(), plan.parts[pair.handle].id(), plan.config), false,
+          "stopped before its turn; run the same command again"};
     }
     progress(count);
   }

@@ -7,9 +7,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "doorforge/core/committed_file.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/exporters/export_door.h"
 
+#include "door_formats.h"
 #include "export_text.h"
 
 namespace doorforge {
@@ -264,4 +266,11 @@ class GlbWriter {
 
 std::string ToGlb(const DoorAsset& door) { return GlbWriter(door).Write(); }
 
+namespace internal {
+
+void WriteGlb(const DoorAsset& door, const std::filesystem::path& folder) {
+  CommitFile(folder / "model.glb", ToGlb(door));
+}
+
+}  // namespace internal
 }  // namespace doorforge

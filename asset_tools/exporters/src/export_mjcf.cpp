@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <optional>
 
+#include "doorforge/core/committed_file.h"
 #include "doorforge/exporters/export_door.h"
 #include "doorforge/schemas/bolt.h"
 
+#include "door_formats.h"
 #include "export_text.h"
 
 namespace doorforge {
@@ -239,4 +241,11 @@ std::string ToMjcf(const DoorAsset& door) {
   return internal::Printed(root);
 }
 
+namespace internal {
+
+void WriteMjcf(const DoorAsset& door, const std::filesystem::path& folder) {
+  CommitFile(folder / "model.xml", ToMjcf(door));
+}
+
+}  // namespace internal
 }  // namespace doorforge

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
+#include "doorforge/core/committed_file.h"
 #include "doorforge/exporters/export_door.h"
 
+#include "door_formats.h"
 #include "export_text.h"
 
 namespace doorforge {
@@ -147,4 +149,12 @@ std::string ToSdfConfig(const DoorAsset& door) {
   return internal::Printed(model);
 }
 
+namespace internal {
+
+void WriteSdf(const DoorAsset& door, const std::filesystem::path& folder) {
+  CommitFile(folder / "model.sdf", ToSdf(door));
+  CommitFile(folder / "model.config", ToSdfConfig(door));
+}
+
+}  // namespace internal
 }  // namespace doorforge

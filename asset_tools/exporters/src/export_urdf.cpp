@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/exporters/export_urdf.h"
 
+#include "doorforge/core/committed_file.h"
+
+#include "door_formats.h"
+
 namespace doorforge {
 namespace {
 
@@ -69,4 +73,11 @@ void WriteDoorFolder(const DoorAsset& door, const std::filesystem::path& folder,
   staged.Commit();
 }
 
+namespace internal {
+
+void WriteUrdf(const DoorAsset& door, const std::filesystem::path& folder) {
+  CommitFile(folder / "model.urdf", ToUrdf(ToUrdfModel(door)));
+}
+
+}  // namespace internal
 }  // namespace doorforge

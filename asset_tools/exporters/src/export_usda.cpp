@@ -5,8 +5,10 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "doorforge/core/committed_file.h"
 #include "doorforge/exporters/export_door.h"
 
+#include "door_formats.h"
 #include "export_text.h"
 
 namespace doorforge {
@@ -310,4 +312,25 @@ std::string ToUsda(const DoorAsset& door) {
   return usda.text();
 }
 
+namespace internal {
+namespace {
+
+// Beside a USD layer, which holds all else.
+void WriteTextures(const DoorAsset& door, const std::filesystem::path& folder) {
+  for (const DoorLink& link : door.links) {
+    for (const DoorGeometry& geometry : link.geometry) {
+      for (const auto& texture : TexturesOf(geometry.visual))
+        CommitFile(folder / AuthoredTexturePath(*texture), texture->bytes);
+    }
+  }
+}
+
+}  // namespace
+
+void WriteUsda(const DoorAsset& door, const std::filesystem::path& folder) {
+  CommitFile(folder / "model.usda", ToUsda(door));
+  WriteTextures(door, folder);
+}
+
+}  // namespace internal
 }  // namespace doorforge

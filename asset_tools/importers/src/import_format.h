@@ -17,14 +17,20 @@ struct ImportFormat {
   std::vector<ForeignObject> (*read)(const std::filesystem::path& path, const ReadConfig& config);
 };
 
-ImportFormat UniDoorManipFormat();
-ImportFormat UniDoorManipPartsFormat();
+// A format a reader. A new one is declared here, listed below and named in CMakeLists.txt.
 ImportFormat GaPartNetFormat();
 ImportFormat PartNetMobilityFormat();
+ImportFormat UniDoorManipFormat();
+ImportFormat UniDoorManipPartsFormat();
 ImportFormat Akb48Format();
 ImportFormat DoorGymFormat();
 ImportFormat UrdfFormat();
 ImportFormat LooseMeshFormat();
+
+/// All of them, in the order in which they are tried: later ones know less of what they look at.
+inline constexpr ImportFormat (*kImportFormats[])() = {
+    GaPartNetFormat, PartNetMobilityFormat, UniDoorManipFormat, UniDoorManipPartsFormat,
+    Akb48Format,     DoorGymFormat,         UrdfFormat,         LooseMeshFormat};
 
 /// An id for a part (IdProblem() is empty): letters, digits, '-', '_' and '.' are kept, all else
 /// becomes '-', and a text beyond 50 characters is cut and ends in digits of its hash.

@@ -17,11 +17,11 @@ namespace doorforge::internal {
 
 /// A mesh of a foreign object, not loaded yet, and where it goes.
 struct SourceMesh {
-  std::string piece;           ///< As RawPiece::name; may be empty while it is not known.
+  std::string piece;           ///< It is a RawPiece::name; empty while it is not known.
   std::filesystem::path file;  ///< Empty: `solid` is the mesh.
   /// Folder below which the file's materials and textures must lie; empty: the file's own.
   std::filesystem::path object_folder = {};
-  std::string sha256;       ///< Of the file, or of the solid's canonical text.
+  std::string sha256;       ///< It hashes the file, or the canonical text of a solid.
   TriangleMesh solid = {};  ///< A box, cylinder or sphere of a URDF.
   /// Affine, in general a rigid motion and a scale, maybe with a reflection.
   Eigen::Affine3d part_from_raw = Eigen::Affine3d::Identity();

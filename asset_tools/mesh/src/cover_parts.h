@@ -14,7 +14,7 @@ struct CoverLimits {
   double tolerance_m = 0;  ///< What may be left out.
   double allowed_m = 0;    ///< How deep an added part may reach into air.
   int max_parts = 0;
-  int max_vertices = 0;  ///< Of a part.
+  int max_vertices = 0;  ///< A part has at most so many.
 };
 
 /// The parts and what it takes for them to cover the mesh's surface: parts of their own where there

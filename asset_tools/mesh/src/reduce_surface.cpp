@@ -11,11 +11,9 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_filter.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_policies.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
-#include <CGAL/convex_hull_3.h>
 #include <CGAL/intersections.h>
 
 #include "doorforge/core/error.h"
-#include "doorforge/mesh/convex_parts.h"
 #include "doorforge/mesh/work_budget.h"
 
 #include "box_octree.h"
@@ -206,102 +204,6 @@ struct PlacesAfterCollapse : sms::Edge_collapse_visitor_base<SurfaceMesh> {
   PlacedTriangles* places;
 };
 
-// ---- one triangulation for one hull -----------------------------------------------------------
-
-using Edge = std::pair<int, int>;
-
-// For each triangle the first one of its facet: triangles in one plane, joined across edges.
-std::vector<std::size_t> FacetOfTriangles(const TriangleMesh& hull) {
-  std::map<Edge, std::size_t> triangle_at;
-  for (std::size_t i = 0; i < hull.triangles.size(); ++i) {
-    const Eigen::Vector3i& t = hull.triangles[i];
-    for (int k = 0; k < 3; ++k) triangle_at[{t[k], t[(k + 1) % 3]}] = i;
-  }
-  std::vector<std::size_t> facet(hull.triangles.size(), hull.triangles.size());
-  for (std::size_t first = 0; first < facet.size(); ++first) {
-    if (facet[first] != facet.size()) continue;
-    facet[first] = first;
-    std::vector<std::size_t> pending = {first};
-    while (!pending.empty()) {
-      const Eigen::Vector3i t = hull.triangles[pending.back()];
-      pending.pop_back();
-      for (int k = 0; k < 3; ++k) {
-        const std::size_t next = triangle_at.at({t[(k + 1) % 3], t[k]});
-        if (facet[next] != facet.size()) continue;
-        const bool in_plane = [&] {
-          const Eigen::Vector3i& other = hull.triangles[next];
-          return std::all_of(other.begin(), other.end(), [&](int corner) {
-            return CGAL::orientation(PointAt(hull, t[0]), PointAt(hull, t[1]), PointAt(hull, t[2]),
-                                     PointAt(hull, corner)) == CGAL::COPLANAR;
-          });
-        }();
-        if (!in_plane) continue;
-        facet[next] = first;
-        pending.push_back(next);
-      }
-    }
-  }
-  return facet;
-}
-
-// The convex polygon around each facet, from its smallest vertex, without vertices that lie within
-// an edge (where only two facets meet).
-std::vector<std::vector<int>> FacetPolygons(const TriangleMesh& hull) {
-  const std::vector<std::size_t> facet = FacetOfTriangles(hull);
-  std::map<Edge, std::size_t> facet_at;
-  std::map<int, std::set<std::size_t>> facets_around;
-  for (std::size_t i = 0; i < facet.size(); ++i) {
-    const Eigen::Vector3i& t = hull.triangles[i];
-    for (int k = 0; k < 3; ++k) {
-      facet_at[{t[k], t[(k + 1) % 3]}] = facet[i];
-      facets_around[t[k]].insert(facet[i]);
-    }
-  }
-  std::map<std::size_t, std::map<int, int>> next_around;
-  for (const auto& [edge, at] : facet_at) {
-    if (facet_at.at({edge.second, edge.first}) != at) next_around[at][edge.first] = edge.second;
-  }
-  std::vector<std::vector<int>> polygons;
-  for (const auto& [at, next] : next_around) {
-    std::vector<int> polygon;
-    int vertex = next.begin()->first;
-    do {
-      if (facets_around[vertex].size() >= 3) polygon.push_back(vertex);
-      vertex = next.at(vertex);
-    } while (vertex != next.begin()->first);
-    std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()), polygon.end());
-    polygons.push_back(std::move(polygon));
-  }
-  std::sort(polygons.begin(), polygons.end());
-  return polygons;
-}
-
-// CGAL orders facets by addresses and cuts those with more than three corners either way, so the
-// same points give other triangles each time. The facets themselves are unique: they are cut into
-// fans here, in lexicographic order.
-TriangleMesh CanonicalHull(const TriangleMesh& hull) {
-  const TriangleMesh sorted = InVertexOrder(hull);
-  TriangleMesh canonical;
-  std::vector<int> new_index(sorted.vertices.size(), -1);
-  const std::vector<std::vector<int>> polygons = FacetPolygons(sorted);
-  std::set<int> used;
-  for (const std::vector<int>& polygon : polygons) used.insert(polygon.begin(), polygon.end());
-  for (const int vertex : used) {
-    new_index[static_cast<std::size_t>(vertex)] = static_cast<int>(canonical.vertices.size());
-    canonical.vertices.push_back(sorted.vertices[static_cast<std::size_t>(vertex)]);
-  }
-  const auto at = [&](int vertex) { return new_index[static_cast<std::size_t>(vertex)]; };
-  for (const std::vector<int>& polygon : polygons) {
-    for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
-      canonical.triangles.emplace_back(at(polygon[0]), at(polygon[i]), at(polygon[i + 1]));
-  }
-  return canonical;
-}
-
-}  // namespace
-
-namespace {
-
 template <class Filter, class Visitor>
 TriangleMesh Collapsed(SurfaceMesh& surface, const BudgetAndCost& stop, const Filter& filter,
                        const Visitor& visitor) {
@@ -335,20 +237,6 @@ TriangleMesh SimplifiedWithoutCrossings(const TriangleMesh& mesh, int max_triang
   PlacedTriangles places(surface);
   return Collapsed(surface, StopAt(max_triangles, free_error_m), WithoutCrossings(places),
                    PlacesAfterCollapse(places));
-}
-
-TriangleMesh ConvexHull(std::span<const Eigen::Vector3d> points) {
-  std::vector<Point> cloud;
-  for (const Eigen::Vector3d& p : points) {
-    Require(p.allFinite(), ErrorCode::kInvalidArgument, "a point of a convex hull is not finite");
-    cloud.emplace_back(p.x(), p.y(), p.z());
-  }
-  SurfaceMesh surface;
-  if (cloud.size() >= 4) CGAL::convex_hull_3(cloud.begin(), cloud.end(), surface);
-  TriangleMesh hull = TrianglesOf(surface);
-  Require(ClosedMesh::From(hull).has_value(), ErrorCode::kInvalidArgument,
-          "the points of a convex hull lie in one plane");
-  return CanonicalHull(hull);
 }
 
 }  // namespace doorforge

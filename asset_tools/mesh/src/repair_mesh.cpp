@@ -38,8 +38,6 @@ void CheckConfig(const RepairConfig& config) {
   const auto require = [](bool holds, const char* message) {
     Require(holds, ErrorCode::kInvalidConfig, message);
   };
-  require(config.wrap == "never" || config.wrap == "auto" || config.wrap == "always",
-          "repair.wrap: expected never, auto or always");
   require(config.alpha_fraction >= 1e-4 && config.alpha_fraction <= 1,
           "repair.alpha_fraction: allowed 0.0001..1");
   require(config.offset_fraction >= 1e-5 && config.offset_fraction <= 1,
@@ -98,15 +96,16 @@ class Repair {
   // The exact result where there is one that is near enough, else the wrap, or whichever is nearer.
   RepairResult Best() {
     TriangleMesh mesh;
-    if (config_.wrap == "always")
+    if (config_.wrap == WrapUse::kAlways)
       report_.reason = "a wrap was asked for";
     else
       mesh = KeptExactly();
     if (mesh.triangles.empty())
-      return config_.wrap == "never" ? Failed(report_.reason) : Finished(WithinBudget(Wrapped()));
+      return config_.wrap == WrapUse::kNever ? Failed(report_.reason)
+                                             : Finished(WithinBudget(Wrapped()));
     const RepairReport begun = report_;
     RepairResult exact = Finished(WithinBudget(std::move(mesh)));
-    if (config_.wrap == "never" || IsGood(exact)) return exact;
+    if (config_.wrap == WrapUse::kNever || IsGood(exact)) return exact;
     report_ = begun;
     report_.reason = "the union of its pieces and walls is farther off or has more triangles";
     RepairResult wrap = Finished(WithinBudget(Wrapped()));

@@ -21,8 +21,8 @@ namespace doorforge {
 /// piece; and if its cap keeps near the soup.
 struct HoleLimits {
   double max_size_m = 0;           ///< Diagonal of the bounding box.
-  double max_flat_size_m = 0;      ///< The same for a flat hole.
-  double max_flat_area_share = 0;  ///< Of the piece's area.
+  double max_flat_size_m = 0;      ///< A flat hole may be so large.
+  double max_flat_area_share = 0;  ///< It may take up this share of its piece's area.
   double flatness_m = 0;           ///< How far a flat hole's border may leave its plane.
   double max_cap_distance_m = 0;   ///< How far a point of its cap may lie from the soup.
 };

@@ -19,7 +19,7 @@ namespace doorforge::internal {
 /// A mesh file as it lies on disk.
 struct MeshOnDisk {
   TriangleMesh mesh;   ///< Empty if the file cannot be read.
-  std::string sha256;  ///< Of the canonical text of `mesh`.
+  std::string sha256;  ///< It hashes the canonical text of `mesh`.
   Findings findings;   ///< MSH001 to MSH004, with `where` as the record names the file.
 };
 using SharedMesh = std::shared_ptr<const MeshOnDisk>;
@@ -36,10 +36,11 @@ struct LeafLines {
 /// What a run has found out about mesh contents. Keys are hashes of contents (for files: of what
 /// names them), so the findings of a door do not depend on the doors before it.
 struct ValidationMemory {
-  Memo<MeshOnDisk> files{std::size_t{256} << 20};  ///< Of pools; weighed in bytes.
-  Memo<Findings> pieces{std::size_t{1} << 20};     ///< CheckPiece(), weighed in findings.
-  Memo<double> volumes{std::size_t{1} << 20};      ///< Signed [m3].
-  Memo<LeafLines> leaves{std::size_t{1} << 24};    ///< Weighed in triangles.
+  Memo<MeshOnDisk> files{std::size_t{256}
+                         << 20};  ///< It holds meshes of pools and is weighed in bytes.
+  Memo<Findings> pieces{std::size_t{1} << 20};   ///< CheckPiece(), weighed in findings.
+  Memo<double> volumes{std::size_t{1} << 20};    ///< Signed [m3].
+  Memo<LeafLines> leaves{std::size_t{1} << 24};  ///< Weighed in triangles.
 };
 
 /// Reads the meshes of one record. What cannot be read becomes a finding and an empty mesh, so that

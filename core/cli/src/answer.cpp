@@ -18,6 +18,10 @@ std::string CountedFindings(int errors, int warnings) {
          Counted(static_cast<std::size_t>(warnings), "warning");
 }
 
+void PrintText(const std::string& text) { std::cout << text << std::flush; }
+
+void PrintProgress(const std::string& text) { std::cerr << text << std::flush; }
+
 void PrintJson(const nlohmann::ordered_json& json) { std::cout << JsonText(json, 2) << '\n'; }
 
 int ExitCodeOfBatch(std::size_t failed) {

@@ -100,7 +100,7 @@ bool IsOwnFolder(const fs::path& folder) {
 PipelineStep StepOf(const Json& json, const Json& settings, const std::string& where) {
   RequireKnown(json,
                {"name", "does", "command", "output", "records", "needs", "resume", "fine_codes",
-                "core_seconds", "mebibytes"},
+                "given_with", "core_seconds", "mebibytes"},
                where);
   PipelineStep step;
   step.name = Text(json, "name", where);
@@ -118,12 +118,13 @@ PipelineStep StepOf(const Json& json, const Json& settings, const std::string& w
   if (!step.output.empty() && !IsOwnFolder(step.output))
     Fail(where, "output: expected a folder below the pipeline's");
   if (json.contains("resume")) step.resume = TextOf(json["resume"]);
+  if (json.contains("given_with")) step.given_with = Text(json, "given_with", where);
   if (json.contains("fine_codes")) {
-    step.fine_codes.clear();
+    step.ok_exit_codes.clear();
     for (const Json& code : json["fine_codes"]) {
       if (!code.is_number_integer() || code < 0 || code > 255)
         Fail(where, "fine_codes: expected exit codes, 0 to 255");
-      step.fine_codes.push_back(code.get<int>());
+      step.ok_exit_codes.push_back(code.get<int>());
     }
   }
   step.core_seconds = Cost(json, "core_seconds", settings, where);
@@ -242,6 +243,10 @@ void CheckStep(const PipelineStep& step, const Pipeline& pipeline, const std::st
   }
   if (pipeline.settings.contains(step.name) || step.name == kOut || step.name == kThreads)
     Fail(where, "name: is that of a setting");
+  if (!step.given_with.empty() &&
+      std::ranges::find(pipeline.steps, step.given_with, &PipelineStep::name) ==
+          pipeline.steps.end())
+    Fail(where, "given_with: no step before it is called \"" + step.given_with + "\"");
   for (const std::string& need : step.needs) {
     const auto found = std::ranges::find(pipeline.steps, need, &PipelineStep::name);
     if (found == pipeline.steps.end() || found->output.empty())
@@ -289,8 +294,11 @@ void GiveOutput(Pipeline& pipeline, const std::string& step,
   if (given == pipeline.steps.end())
     throw Error(ErrorCode::kInvalidArgument,
                 "pipeline \"" + pipeline.name + "\": has no step \"" + step + "\" to be given");
-  given->given = folders;
-  given->needs.clear();
+  for (PipelineStep& other : pipeline.steps) {
+    if (other.name != step && other.given_with != step) continue;
+    other.given = folders;
+    other.needs.clear();
+  }
   for (auto i = given - pipeline.steps.begin(); i-- > 0;) {
     const std::string& name = pipeline.steps[static_cast<std::size_t>(i)].name;
     const bool needed = std::ranges::any_of(pipeline.steps, [&](const PipelineStep& other) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <iostream>
 #include <optional>
 
 #include "doorforge/core/error.h"
@@ -23,6 +22,17 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 using Values = std::map<std::string, std::vector<std::string>>;
+
+template <class... Values>
+std::string Format(const char* pattern, Values... values) {
+  std::string text(static_cast<std::size_t>(std::snprintf(nullptr, 0, pattern, values...)), ' ');
+  std::snprintf(text.data(), text.size() + 1, pattern, values...);
+  return text;
+}
+
+void Tell(const PipelineTextSink& sink, const std::string& text) {
+  if (sink) sink(text);
+}
 
 /// What a step would be made from now, and what is to be done about it.
 struct JudgedStep {
@@ -112,7 +122,7 @@ const char* NameOf(StepAction action) {
       return "run";
     case StepAction::kResume:
       return "go on";
-    case StepAction::kAnew:
+    case StepAction::kRestart:
       return "make anew";
   }
   return "";
@@ -143,7 +153,7 @@ void ClearOutput(const PipelineStep& step, const PipelineRun& run, const StepDec
     return;
   }
   if (decision.action == StepAction::kResume && step.resume) return;
-  if (decision.action == StepAction::kAnew && !run.overwrite && fs::exists(output))
+  if (decision.action == StepAction::kRestart && !run.overwrite && fs::exists(output))
     throw Error(ErrorCode::kInvalidArgument,
                 "step " + step.name + " would replace " + output.string() + ", because " +
                     decision.why +
@@ -153,10 +163,11 @@ void ClearOutput(const PipelineStep& step, const PipelineRun& run, const StepDec
   fs::remove_all(output);
 }
 
-int RunStep(const PipelineStep& step, const Workshop& workshop, bool resume) {
+int RunStep(const PipelineStep& step, const Workshop& workshop, const PipelineRun& run,
+            bool resume) {
   std::vector<std::string> command = workshop.Command(step);
   if (resume && !step.resume->empty()) command.push_back(*step.resume);
-  std::fprintf(stderr, "   $ %s\n", Line(command).c_str());
+  Tell(run.progress, "   $ " + Line(command) + "\n");
   command.insert(command.begin(), (ProgramFolder() / "doorforge").string());
   return RunChild(command);
 }
@@ -167,18 +178,18 @@ int Finish(const PipelineStep& step, Workshop& workshop, const PipelineRun& run,
   if (!step.given.empty()) {
     hashes[step.name] = workshop.OutputHash(step);
     RequireGiven(step, hashes[step.name]);
-    std::fprintf(stderr, "   given\n");
+    Tell(run.progress, "   given\n");
     return 0;
   }
   const auto [inputs, output, decision] = workshop.Judge(step, hashes);
-  std::fprintf(stderr, "   %s: %s\n", NameOf(decision.action), decision.why.c_str());
+  Tell(run.progress, std::string("   ") + NameOf(decision.action) + ": " + decision.why + "\n");
   if (decision.action != StepAction::kSkip) {
     ClearOutput(step, run, decision);
     WriteStepRecord(run.out, step.name, {inputs, ""});
     const bool resume = decision.action == StepAction::kResume && step.resume.has_value();
-    const int code = RunStep(step, workshop, resume);
+    const int code = RunStep(step, workshop, run, resume);
     if (code == 130 || code == 143) return code;
-    if (std::ranges::find(step.fine_codes, code) == step.fine_codes.end())
+    if (std::ranges::find(step.ok_exit_codes, code) == step.ok_exit_codes.end())
       throw Error(ErrorCode::kIncomplete, "step " + step.name + " ended with exit code " +
                                               std::to_string(code) + "; repair its cause and " +
                                               run.again);
@@ -192,16 +203,19 @@ int Finish(const PipelineStep& step, Workshop& workshop, const PipelineRun& run,
   return 0;
 }
 
-void PrintSuccess(const fs::path& report) {
+std::string SuccessText(const fs::path& report) {
   const std::string path = (report / "report.json").string();
   const Json json = ReadJsonFile(path);
-  std::printf("\n%-18s %8s   %s\n", "success > 45 deg", "rate", "95 % interval   episodes");
+  std::string text =
+      Format("\n%-18s %8s   %s\n", "success > 45 deg", "rate", "95 % interval   episodes");
   for (const auto& [name, row] : MemberOf(json, "success", path).items()) {
-    std::printf("%-18s %6.1f %%   %.1f - %.1f %%   %d\n", name.c_str(),
-                100 * ValueOf<double>(row, "rate", name), 100 * ValueOf<double>(row, "low", name),
-                100 * ValueOf<double>(row, "high", name), ValueOf<int>(row, "episodes", name));
+    text +=
+        Format("%-18s %6.1f %%   %.1f - %.1f %%   %d\n", name.c_str(),
+               100 * ValueOf<double>(row, "rate", name), 100 * ValueOf<double>(row, "low", name),
+               100 * ValueOf<double>(row, "high", name), ValueOf<int>(row, "episodes", name));
   }
-  std::printf("report: %s\n", fs::absolute(report / "report.html").lexically_normal().c_str());
+  return text + "report: " + fs::absolute(report / "report.html").lexically_normal().string() +
+         "\n";
 }
 
 // ---- planning -----------------------------------------------------------------------------------
@@ -247,7 +261,7 @@ std::vector<PlannedStep> Plan(const Pipeline& pipeline, const PipelineRun& run) 
   return planned;
 }
 
-void PrintPlanJson(const Pipeline& pipeline, const std::vector<PlannedStep>& planned) {
+Json PlanToJson(const Pipeline& pipeline, const std::vector<PlannedStep>& planned) {
   Json steps = Json::array();
   for (const PlannedStep& row : planned)
     steps.push_back({{"step", row.step->name},
@@ -256,12 +270,11 @@ void PrintPlanJson(const Pipeline& pipeline, const std::vector<PlannedStep>& pla
                      {"command", row.command},
                      {"expected_s", row.seconds},
                      {"expected_mib", row.mebibytes}});
-  const Json json = {{"schema", "doorforge.pipeline_plan"},
-                     {"schema_version", 1},
-                     {"pipeline", pipeline.name},
-                     {"settings", pipeline.settings},
-                     {"steps", steps}};
-  std::cout << JsonText(json, 2) << "\n";
+  return {{"schema", "doorforge.pipeline_plan"},
+          {"schema_version", 1},
+          {"pipeline", pipeline.name},
+          {"settings", pipeline.settings},
+          {"steps", steps}};
 }
 
 }  // namespace
@@ -279,44 +292,41 @@ int RunPipeline(const Pipeline& pipeline, const PipelineRun& run) {
   for (std::size_t i = 0; i < pipeline.steps.size(); ++i) {
     const PipelineStep& step = pipeline.steps[i];
     const std::chrono::duration<double> elapsed = Clock::now() - start;
-    std::fprintf(stderr, "\n== %zu/%zu %s: %s   (at %.0f s)\n", i + 1, pipeline.steps.size(),
-                 step.name.c_str(), step.does.c_str(), elapsed.count());
+    Tell(run.progress, Format("\n== %zu/%zu %s: %s   (at %.0f s)\n", i + 1, pipeline.steps.size(),
+                              step.name.c_str(), step.does.c_str(), elapsed.count()));
     int code = StopRequested() == 0 ? 0 : 128 + StopRequested();
     if (code == 0) code = Finish(step, workshop, run, hashes);
     if (code == 0) continue;
-    std::fprintf(stderr, "doorforge: stopped; to go on, %s\n", run.again.c_str());
+    Tell(run.progress, "doorforge: stopped; to go on, " + run.again + "\n");
     return code;
   }
   for (const PipelineStep& step : pipeline.steps) {
     if (!step.output.empty() && fs::exists(run.out / step.output / "report.json"))
-      PrintSuccess(run.out / step.output);
+      Tell(run.result, SuccessText(run.out / step.output));
   }
   return 0;
 }
 
-int PlanPipeline(const Pipeline& pipeline, const PipelineRun& run) {
+std::string PlanPipeline(const Pipeline& pipeline, const PipelineRun& run) {
   const std::vector<PlannedStep> planned = Plan(pipeline, run);
-  if (run.json) {
-    PrintPlanJson(pipeline, planned);
-    return 0;
-  }
+  if (run.json) return JsonText(PlanToJson(pipeline, planned), 2) + "\n";
   double minutes = 0;
   double mebibytes = 0;
   int width = 14;
   for (const PlannedStep& row : planned)
     width = std::max(width, static_cast<int>(row.step->name.size()));
-  std::printf("%-*s %-10s %9s %10s   %s\n", width, "step", "", "minutes", "MiB", "why");
+  std::string text =
+      Format("%-*s %-10s %9s %10s   %s\n", width, "step", "", "minutes", "MiB", "why");
   for (const PlannedStep& row : planned) {
     minutes += row.seconds / 60;
     mebibytes += row.mebibytes;
-    std::printf("%-*s %-10s %9.1f %10.0f   %s\n", width, row.step->name.c_str(), row.action.c_str(),
-                row.seconds / 60, row.mebibytes, row.why.c_str());
+    text += Format("%-*s %-10s %9.1f %10.0f   %s\n", width, row.step->name.c_str(),
+                   row.action.c_str(), row.seconds / 60, row.mebibytes, row.why.c_str());
   }
-  std::printf(
-      "%-*s %-10s %9.1f %10.0f   on %d threads, by the arithmetic of "
-      "docs/pipeline.md\n",
-      width, "together", "", minutes, mebibytes, ThreadCount(run.threads));
-  return 0;
+  return text + Format(
+                    "%-*s %-10s %9.1f %10.0f   on %d threads, by the arithmetic of "
+                    "docs/pipeline.md\n",
+                    width, "together", "", minutes, mebibytes, ThreadCount(run.threads));
 }
 
 }  // namespace doorforge

@@ -63,11 +63,11 @@ std::string BuildThatFinished(const StepRecord& record) {
 StepDecision Decide(const std::optional<StepRecord>& record, const StepInputs& inputs,
                     const std::string& output_sha256) {
   if (!record) return {StepAction::kStart, "it has not run yet"};
-  if (record->inputs != inputs) return {StepAction::kAnew, Difference(record->inputs, inputs)};
+  if (record->inputs != inputs) return {StepAction::kRestart, Difference(record->inputs, inputs)};
   if (record->output_sha256.empty()) return {StepAction::kResume, "it was stopped"};
-  if (output_sha256.empty()) return {StepAction::kAnew, "what it made is gone"};
+  if (output_sha256.empty()) return {StepAction::kRestart, "what it made is gone"};
   if (record->output_sha256 != output_sha256)
-    return {StepAction::kAnew, "what it made has been changed since"};
+    return {StepAction::kRestart, "what it made has been changed since"};
   return {StepAction::kSkip, "nothing has changed"};
 }
 

@@ -22,10 +22,10 @@ struct StepRecord {
 
 /// What is to be done about a step, and why.
 enum class StepAction {
-  kSkip,    ///< Done, nothing has changed.
-  kStart,   ///< Never begun.
-  kResume,  ///< Begun with these very inputs.
-  kAnew,    ///< Begun or done, but not with these inputs, or the output is no longer what it was.
+  kSkip,     ///< Done, nothing has changed.
+  kStart,    ///< Never begun.
+  kResume,   ///< Begun with these very inputs.
+  kRestart,  ///< Begun or done, but not with these inputs, or the output is no longer what it was.
 };
 struct StepDecision {
   StepAction action = StepAction::kStart;

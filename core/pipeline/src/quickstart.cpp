@@ -75,7 +75,7 @@ void ImportParts(Pipeline& pipeline, const fs::path& assets) {
   parts.does = "Parts from real objects";
   parts.command = {"import", assets.string(), "--only",    "interior,storagefurniture",
                    "--out",  "{parts}",       "--threads", "{threads}"};
-  parts.fine_codes = {0, 1};  // some objects were refused, the others are done
+  parts.ok_exit_codes = {0, 1};  // some objects were refused, the others are done
 }
 
 }  // namespace
@@ -91,9 +91,11 @@ int RunQuickstart(const QuickstartRequest& request) {
                                                   "episodes=" + std::to_string(request.episodes),
                                                   "epochs=" + std::to_string(request.epochs)});
   if (!request.assets.empty()) ImportParts(pipeline, request.assets);
-  return RunPipeline(
-      pipeline,
-      {.out = request.out, .threads = request.threads, .again = "run again with --resume"});
+  return RunPipeline(pipeline, {.out = request.out,
+                                .threads = request.threads,
+                                .again = "run again with --resume",
+                                .progress = request.progress,
+                                .result = request.result});
 }
 
 }  // namespace doorforge

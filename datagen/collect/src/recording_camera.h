@@ -18,7 +18,7 @@ namespace doorforge {
 /// points were visible, what was hidden, the depth images of the preview.
 class RecordingCamera : public Observer {
  public:
-  /// As CameraObserver's constructor. Without `sees_robot` only the door is there.
+  /// Takes what CameraObserver's constructor takes. Without `sees_robot` only the door is there.
   RecordingCamera(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
                   const CloudConfig& config, bool sees_robot = true);
 
@@ -26,7 +26,7 @@ class RecordingCamera : public Observer {
   void Remember(RememberedView before) { camera_.Remember(std::move(before)); }
 
   LabelledCloud Observe(const SceneSnapshot& snapshot) override;
-  /// The same look, but every point that is visible.
+  /// Looks likewise, but keeps every point that is visible.
   LabelledCloud LookAtAll(const SceneSnapshot& snapshot);
 
   /// Points inside the crop before sampling, of the first `looks` looks.

@@ -236,7 +236,8 @@ class Reobservation {
                                               ValueOf<bool>(collected.meta, "robot_seen", where));
     const bool at_grasp = source_.stage() == NameOf(Stage::kGrasp);
     const Scene seen = at_grasp ? SceneOf(config_.grasp_look, episode.scene) : episode.scene;
-    const CloudExtent extent{config_.cloud.point_count, at_grasp ? config_.grasp_look.within_m : 0};
+    const CloudExtent extent{config_.cloud.point_count,
+                             at_grasp ? config_.grasp_look.crop_radius_m : 0};
     RecordingCamera camera(seen, door, robot, config_.cloud, sees_robot);
     std::optional<RememberedView> before;
     if (source_.stage() == NameOf(Stage::kHandle) && config_.remembered.IsOn())
@@ -277,8 +278,7 @@ class Reobservation {
   }
 
   RobotModel RobotOf(const Scene& scene) const {
-    RobotModel robot =
-        LoadRobot(robot_file_.urdf, RobotBaseNamed(scene.physics.base), robot_file_.read_mesh);
+    RobotModel robot = LoadRobot(robot_file_.urdf, scene.physics.base, robot_file_.read_mesh);
     Require(robot.sha256() == scene.robot.sha256, ErrorCode::kInvalidArgument,
             "robot \"" + scene.robot.name + "\" is another one than in the dataset");
     return robot;
@@ -287,7 +287,7 @@ class Reobservation {
   const SourceDataset& source_;
   const ReobserveConfig& config_;
   RobotFile robot_file_;
-  DoorShelf shelf_;
+  DoorCache shelf_;
 };
 
 // The cloud's settings as they were, and the file of the robot, from the existing config.yaml.
@@ -302,7 +302,7 @@ SourceConfig ReadSourceConfig(const fs::path& folder, const std::string& robot) 
   SourceConfig source;
   if (json.contains("cloud")) Assign(json["cloud"], source.config.cloud, path.string() + ".cloud");
   // a data set of an earlier build has none: its clouds were of the whole door as it was seen then
-  source.config.grasp_look = {.finer = 1, .within_m = 0};
+  source.config.grasp_look = {.resolution_scale = 1, .crop_radius_m = 0};
   source.config.remembered = {.finer = 0};
   if (json.contains("remembered"))
     Assign(json["remembered"], source.config.remembered, path.string() + ".remembered");
@@ -323,7 +323,7 @@ ReobserveConfig ConfigOf(const ReobserveRequest& request, const ReobserveConfig&
   if (request.without_robot) config.robot = false;
   config.own_camera = config.own_camera || ToJson(config.camera) != ToJson(CameraConfig{});
   CheckDepthNoise(config.cloud.noise);
-  CheckGraspLook(config.grasp_look);
+  CheckGraspCamera(config.grasp_look);
   CheckRememberedView(config.remembered);
   if (config.own_camera) CameraOf(config.camera);
   return config;

@@ -36,13 +36,13 @@ CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const Identified
                                  const RobotModel& robot, const StageConfig& config,
                                  StagePolicies& policies) {
   const DoorAsset& door = *identified;
-  const Scene scene =
-      SceneFor(robot, SampleScene(identified, config.seed, planned.number, config.scene), door);
+  const Scene scene = PlaceRobotBase(
+      robot, SampleScene(identified, config.seed, planned.number, config.scene), door);
   const auto set = policies.Take();
   const bool at_grasp = config.stage == Stage::kGrasp;
   const bool samples_grasp = SamplesGrasp(config, planned);
   const Scene recorded_scene = at_grasp ? SceneOf(config.grasp_look, scene) : scene;
-  const double within_m = at_grasp ? config.grasp_look.within_m : 0;
+  const double within_m = at_grasp ? config.grasp_look.crop_radius_m : 0;
   // the grasp is chosen before the robot stands between camera and handle
   std::optional<RecordingCamera> before;
   if (samples_grasp)

@@ -114,7 +114,7 @@ std::vector<TrainedPolicy> StagePolicies::Trained() const {
 std::string StagePolicies::Text() const {
   std::string text;
   for (const TrainedPolicy& policy : Trained())
-    text += "# " + TrainedPolicyText(policy) + ", loops for " + PolicyArithmetic() + "\n";
+    text += "# " + TrainedPolicyText(policy) + ", loops for " + InferenceKernelName() + "\n";
   return text + OwnText(factory_.handler(), "handler") + OwnText(factory_.opener(), "opener");
 }
 

@@ -71,6 +71,6 @@ std::string TrainedPolicyText(const TrainedPolicy& policy) {
   return policy.role + ": policy.json sha256 " + policy.identity.policy_sha256;
 }
 
-std::string PolicyArithmetic() { return std::string(NameOf(BestInstructionSet())); }
+std::string InferenceKernelName() { return std::string(NameOf(BestInstructionSet())); }
 
 }  // namespace doorforge

@@ -43,12 +43,12 @@ class BalancedDraw {
   };
   /// Doors of one category and mechanism.
   struct Kind {
-    RoundDealer dealer;                       ///< Of bodies.
+    RoundDealer dealer;                       ///< It deals bodies.
     std::vector<std::vector<Choice>> bodies;  ///< Its doors, in an order drawn once.
     std::vector<std::uint64_t> handle_uses;
   };
   struct Category {
-    RoundDealer dealer;  ///< Of kinds.
+    RoundDealer dealer;  ///< It deals kinds.
     std::vector<Kind> kinds;
   };
 
@@ -57,7 +57,7 @@ class BalancedDraw {
   static std::size_t NextOf(Kind& kind);
 
   std::vector<Category> categories_;
-  RoundDealer dealer_;  ///< Of categories.
+  RoundDealer dealer_;  ///< It deals categories.
 };
 
 }  // namespace doorforge

@@ -20,7 +20,8 @@ inline constexpr const char* kConfigRecord = "config.yaml";
 inline constexpr const char* kProvenanceRecord = "provenance.json";
 inline constexpr const char* kFailuresRecord = "failures.jsonl";
 inline constexpr const char* kReadmeRecord = "README.md";
-inline constexpr const char* kCroissantRecord = "croissant.json";  ///< Of `dataset card` alone.
+inline constexpr const char* kCroissantRecord =
+    "croissant.json";  ///< `dataset card` alone writes it.
 inline constexpr const char* kDatasetRecord = "dataset.json";
 
 /// A shard that the plan of a dataset has.

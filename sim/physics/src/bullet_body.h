@@ -81,11 +81,11 @@ class BulletBody {
   int link_count() const { return multibody_->getNumLinks(); }
   double Position(int link) const;
   double Velocity(int link) const;
-  /// Of the joint, in the next step, as far as it is set by now; drives are not in it.
+  /// Acts on the joint in the next step, as far as it is set by now; drives are not in it.
   double AppliedTorque(int link) const;
   /// SyncColliders() has to follow.
   void PlaceJoint(int link, double position, double velocity);
-  /// Of all links [J].
+  /// Adds up all links [J].
   double KineticEnergy() const;
 
  private:

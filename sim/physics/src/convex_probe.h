@@ -27,7 +27,7 @@ ProbeHull MakeProbeHull(const TriangleMesh& mesh, const RigidTransform& owner_fr
 struct Separation {
   double distance = std::numeric_limits<double>::infinity();  ///< Negative: depth of the overlap.
   Eigen::Vector3d point = Eigen::Vector3d::Zero();            ///< On `fixed`, in its owner's frame.
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();           ///< Of `fixed` there, outwards.
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();           ///< It leads out of `fixed` there.
 };
 Separation Separate(const ProbeHull& moving, const RigidTransform& fixed_from_moving,
                     const ProbeHull& fixed);

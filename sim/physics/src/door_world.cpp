@@ -34,17 +34,13 @@ void Check(const PhysicsConfig& config) {
   Require(good, ErrorCode::kInvalidConfig,
           "physics: time_step_s must lie in [0.00001, 0.02], frictions be >= 0, all other numbers "
           "be positive, and solver_iterations and steps_per_action at most 10000");
-  Require(config.controller == "joint_motors" || config.controller == "operational_space",
-          ErrorCode::kInvalidConfig,
-          "physics.controller: found \"" + config.controller +
-              "\", allowed joint_motors, operational_space");
 }
 
 // The scene's robot stands as the robot is made, and is this one.
 void Check(const Scene& scene, const RobotModel& robot) {
-  Require(RobotBaseNamed(scene.physics.base) == robot.base(), ErrorCode::kInvalidArgument,
-          "the scene has physics.base: " + scene.physics.base + ", but the robot was loaded with " +
-              NameOf(robot.base()));
+  Require(scene.physics.base == robot.base(), ErrorCode::kInvalidArgument,
+          "the scene has physics.base: " + std::string(NameOf(scene.physics.base)) +
+              ", but the robot was loaded with " + std::string(NameOf(robot.base())));
   Require(scene.robot.sha256.empty() || scene.robot.sha256 == robot.sha256(),
           ErrorCode::kInvalidArgument,
           "the scene is of robot \"" + scene.robot.name + "\" with another hash than this \"" +
@@ -128,7 +124,7 @@ struct WorldImage::Content {
   WorldState state;
   std::optional<StateFault> fault;
   LatchState latch;
-  internal::WorldMonitor::Memory monitor;
+  internal::StepEnergyAudit::Memory monitor;
   double extra_hinge_torque = 0;
   double extra_handle_torque = 0;
 };
@@ -164,7 +160,7 @@ class DoorWorld::Runtime {
   internal::BulletMemory memory_;
   std::unique_ptr<internal::SelfCollisionFilter> self_collisions_;
   std::unique_ptr<BulletScene> bullet_;
-  std::unique_ptr<internal::WorldMonitor> monitor_;
+  std::unique_ptr<internal::StepEnergyAudit> monitor_;
   std::vector<btMatrix3x3> rotation_before_;  // of every collision object, before the step
 };
 
@@ -179,8 +175,8 @@ DoorWorld::Runtime::Runtime(const Scene& the_scene, const DoorAsset& the_door,
   const internal::BulletMemory::Scope scope(memory_);
   bullet_ = std::make_unique<BulletScene>(scene, door, robot, start, *self_collisions_);
   bullet_->AddTo(memory_);
-  monitor_ = std::make_unique<internal::WorldMonitor>(bullet_->robot_body->body(),
-                                                      bullet_->door_body->body(), robot, door);
+  monitor_ = std::make_unique<internal::StepEnergyAudit>(bullet_->robot_body->body(),
+                                                         bullet_->door_body->body(), robot, door);
   ReadState();
 }
 
@@ -231,7 +227,7 @@ void DoorWorld::Runtime::TurnCachedNormals() {
 void DoorWorld::Runtime::Step(const RobotCommand& command) {
   if (fault) return;
   if (!command.arm_position.allFinite()) {
-    fault = StateFault{Implausibility::kNotFinite, "command", 0, 0, state.time_s};
+    fault = StateFault{DivergenceKind::kNotFinite, "command", 0, 0, state.time_s};
     return;
   }
   const internal::BulletMemory::Scope scope(memory_);

@@ -18,7 +18,7 @@ constexpr double kFastestRadS = 90;  // Bullet cuts at 100
 
 }  // namespace
 
-class LoneDoor::Runtime {
+class RobotlessDoor::Runtime {
  public:
   Runtime(const DoorAsset& door, double time_step_s) : time_step_s_(time_step_s) {
     RequireSimulatable(door, "door alone");
@@ -48,22 +48,22 @@ class LoneDoor::Runtime {
   std::unique_ptr<internal::DoorBody> body_;
 };
 
-LoneDoor::LoneDoor(const DoorAsset& door, double time_step_s)
+RobotlessDoor::RobotlessDoor(const DoorAsset& door, double time_step_s)
     : runtime_(std::make_unique<Runtime>(door, time_step_s)) {}
-LoneDoor::~LoneDoor() = default;
-LoneDoor::LoneDoor(LoneDoor&&) noexcept = default;
-LoneDoor& LoneDoor::operator=(LoneDoor&&) noexcept = default;
+RobotlessDoor::~RobotlessDoor() = default;
+RobotlessDoor::RobotlessDoor(RobotlessDoor&&) noexcept = default;
+RobotlessDoor& RobotlessDoor::operator=(RobotlessDoor&&) noexcept = default;
 
-void LoneDoor::Step(double hinge_nm, double handle_nm) { runtime_->Step(hinge_nm, handle_nm); }
+void RobotlessDoor::Step(double hinge_nm, double handle_nm) { runtime_->Step(hinge_nm, handle_nm); }
 
-double LoneDoor::hinge_rad() const { return runtime_->body().hinge_rad(); }
-double LoneDoor::hinge_rad_s() const { return runtime_->body().hinge_rad_s(); }
-double LoneDoor::handle_rad() const { return runtime_->body().handle_rad(); }
-double LoneDoor::handle_rad_s() const { return runtime_->body().handle_rad_s(); }
-double LoneDoor::bolt_m() const { return runtime_->body().bolt_m(); }
-const LatchState& LoneDoor::latch() const { return runtime_->body().latch(); }
+double RobotlessDoor::hinge_rad() const { return runtime_->body().hinge_rad(); }
+double RobotlessDoor::hinge_rad_s() const { return runtime_->body().hinge_rad_s(); }
+double RobotlessDoor::handle_rad() const { return runtime_->body().handle_rad(); }
+double RobotlessDoor::handle_rad_s() const { return runtime_->body().handle_rad_s(); }
+double RobotlessDoor::bolt_m() const { return runtime_->body().bolt_m(); }
+const LatchState& RobotlessDoor::latch() const { return runtime_->body().latch(); }
 
-bool LoneDoor::Finite() const {
+bool RobotlessDoor::Finite() const {
   const double fastest = std::max(std::abs(hinge_rad_s()), std::abs(handle_rad_s()));
   return std::isfinite(hinge_rad()) && std::isfinite(handle_rad()) && std::isfinite(bolt_m()) &&
          fastest < kFastestRadS;

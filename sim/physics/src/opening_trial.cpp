@@ -30,7 +30,7 @@ class Hand {
       : config_(config), arm_m_(ArmOf(door)) {}
 
   // It stops turning harder once the handle is done.
-  double Turning(const LoneDoor& door) {
+  double Turning(const RobotlessDoor& door) {
     if (!door.latch().handle_done) turning_ += config_.time_step_s / kRampS;
     return config_.handle_torque_nm * std::min(turning_, 1.0);
   }
@@ -52,7 +52,7 @@ int StepsOf(double seconds, const OpeningTrialConfig& config) {
 }
 
 void TryLocked(const DoorAsset& door, const OpeningTrialConfig& config, OpeningTrial& trial) {
-  LoneDoor lone(door, config.time_step_s);
+  RobotlessDoor lone(door, config.time_step_s);
   Hand hand(door, config);
   for (int i = StepsOf(kRampS + kHoldS, config); i > 0 && lone.Finite(); --i) {
     lone.Step(hand.Pulling(config.overload), 0);
@@ -63,7 +63,7 @@ void TryLocked(const DoorAsset& door, const OpeningTrialConfig& config, OpeningT
 }
 
 void TryHandle(const DoorAsset& door, const OpeningTrialConfig& config, OpeningTrial& trial) {
-  LoneDoor lone(door, config.time_step_s);
+  RobotlessDoor lone(door, config.time_step_s);
   Hand hand(door, config);
   for (int i = StepsOf(kRampS + kHoldS, config); i > 0 && lone.Finite(); --i) {
     lone.Step(0, hand.Turning(lone));
@@ -76,7 +76,7 @@ void TryHandle(const DoorAsset& door, const OpeningTrialConfig& config, OpeningT
 }
 
 void TryPull(const DoorAsset& door, const OpeningTrialConfig& config, OpeningTrial& trial) {
-  LoneDoor lone(door, config.time_step_s);
+  RobotlessDoor lone(door, config.time_step_s);
   Hand hand(door, config);
   for (int i = StepsOf(kRampS + kHoldS, config);
        i > 0 && trial.latched && !lone.latch().handle_done && lone.Finite(); --i)

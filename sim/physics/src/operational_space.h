@@ -23,8 +23,8 @@ class OperationalSpace {
         config_(config),
         masses_(std::move(masses)) {}
 
-  /// Of base and arm [N, N m], within the joints' efforts. Without a pose in the command the joints
-  /// follow arm_position one by one.
+  /// Returns those of base and arm [N, N m], within the joints' efforts. Without a pose in the
+  /// command the joints follow arm_position one by one.
   ArmVector Torques(const RobotCommand& command, const JointVector& position,
                     const JointVector& velocity) const;
 

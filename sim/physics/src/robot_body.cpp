@@ -55,7 +55,7 @@ RobotBody::RobotBody(btMultiBodyDynamicsWorld& world, const Scene& scene, const 
       finger_force_n_(scene.physics.finger_force_n),
       body_(world, scene.world_from_robot_base, LinksOf(robot, scene.physics.finger_friction),
             ContactSide::kRobot) {
-  if (scene.physics.controller == "operational_space") {
+  if (scene.physics.controller == ArmController::kOperationalSpace) {
     torques_.emplace(robot, scene.world_from_robot_base, scene.physics.operational_space,
                      SimulatedMasses(robot));
   } else {

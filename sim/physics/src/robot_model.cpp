@@ -3,7 +3,6 @@
 #include "doorforge/physics/robot_model.h"
 
 #include <algorithm>
-#include <array>
 #include <span>
 
 #include "doorforge/core/error.h"
@@ -14,8 +13,6 @@
 
 namespace doorforge {
 namespace {
-
-constexpr std::array<const char*, 3> kBaseNames{"sliders", "fixed", "yaw"};
 
 int BaseJointCount(RobotBase base) {
   switch (base) {
@@ -96,16 +93,6 @@ std::string HashOf(const RobotDescription& robot) {
 }
 
 }  // namespace
-
-RobotBase RobotBaseNamed(const std::string& name) {
-  for (std::size_t i = 0; i < kBaseNames.size(); ++i) {
-    if (name == kBaseNames.at(i)) return static_cast<RobotBase>(i);
-  }
-  throw Error(ErrorCode::kInvalidConfig,
-              "physics.base: found \"" + name + "\", allowed sliders, fixed, yaw");
-}
-
-std::string NameOf(RobotBase base) { return kBaseNames.at(static_cast<std::size_t>(base)); }
 
 RobotModel::RobotModel(RobotDescription description)
     : robot_(std::move(description)), base_count_(BaseJointCount(robot_.base)) {

@@ -22,7 +22,7 @@ class RobotShapes {
 
   /// In the frame's body.
   RobotPiece Visual(const std::string& link, const UrdfShape& shape, const RobotFrame& frame);
-  /// The same, convex.
+  /// Returns its convex hull.
   RobotPiece Hull(const std::string& link, const UrdfShape& shape, const RobotFrame& frame);
 
  private:

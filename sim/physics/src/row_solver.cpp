@@ -43,7 +43,7 @@ Eigen::Index RoundedUpToFour(std::size_t count) {
 
 }  // namespace
 
-bool RowSolver::Knows(int constraint_count) const {
+bool RowSolver::Supports(int constraint_count) const {
   bool known = constraint_count == 0 &&
                m_multiBodyTorsionalFrictionContactConstraints.size() == 0 &&
                m_multiBodySpinningFrictionContactConstraints.size() == 0 &&
@@ -104,13 +104,13 @@ void RowSolver::FillSide(int row, const btMultiBody* body, int bullet_values) {
 }
 
 // want = right side - inverse diagonal * (J v) - softness * impulse, and how impulses change it
-void RowSolver::Couple() {
+void RowSolver::BuildDelassus() {
   const auto count = static_cast<int>(rows_.size());
   const Eigen::Index padded = RoundedUpToFour(rows_.size());
   jacobian_.setZero(padded, dofs_);
   response_.setZero(dofs_, count);
   coupling_.setZero(padded, count);
-  want_.setZero(padded);
+  residual_.setZero(padded);
   impulse_.resize(count);
   for (int i = 0; i < count; ++i) {
     const btMultiBodySolverConstraint& row = *rows_[static_cast<std::size_t>(i)];
@@ -118,11 +118,11 @@ void RowSolver::Couple() {
     FillSide(i, row.m_multiBodyB, row.m_jacBindex);
     jacobian_.row(i) *= row.m_jacDiagABInv;
     impulse_[i] = row.m_appliedImpulse;
-    want_[i] = row.m_rhs - row.m_cfm * impulse_[i];
+    residual_[i] = row.m_rhs - row.m_cfm * impulse_[i];
   }
   for (const Body& at : bodies_)
     for (int i = 0; i < at.dofs; ++i)
-      SubtractScaled(want_.data(), jacobian_.col(at.column + i).data(),
+      SubtractScaled(residual_.data(), jacobian_.col(at.column + i).data(),
                      m_data.m_deltaVelocities[at.bullet_velocity + at.first_dof + i], padded);
   for (int i = 0; i < count; ++i) {
     for (int k = 0; k < dofs_; ++k)
@@ -133,16 +133,16 @@ void RowSolver::Couple() {
   start_impulse_ = impulse_;
 }
 
-void RowSolver::Push(int row, double change) {
+void RowSolver::ApplyImpulse(int row, double change) {
   if (change == 0) return;
   impulse_[row] += change;
-  SubtractScaled(want_.data(), coupling_.col(row).data(), change, want_.size());
+  SubtractScaled(residual_.data(), coupling_.col(row).data(), change, residual_.size());
 }
 
 void RowSolver::SolveRow(int row) {
   const btMultiBodySolverConstraint& limits = *rows_[static_cast<std::size_t>(row)];
-  const double wanted = impulse_[row] + want_[row];
-  Push(row, std::clamp(wanted, limits.m_lowerLimit, limits.m_upperLimit) - impulse_[row]);
+  const double wanted = impulse_[row] + residual_[row];
+  ApplyImpulse(row, std::clamp(wanted, limits.m_lowerLimit, limits.m_upperLimit) - impulse_[row]);
 }
 
 // Coulomb's cone: both directions are solved before either is applied, and shortened together.
@@ -150,16 +150,16 @@ void RowSolver::SolveFrictionPair(int first) {
   const btMultiBodySolverConstraint& row = *rows_[static_cast<std::size_t>(first)];
   const double most = friction_[static_cast<std::size_t>(row.m_frictionIndex)] *
                       impulse_[joint_rows_ + row.m_frictionIndex];
-  double along = impulse_[first] + want_[first];
-  double across = impulse_[first + 1] + want_[first + 1];
+  double along = impulse_[first] + residual_[first];
+  double across = impulse_[first + 1] + residual_[first + 1];
   const double squared = along * along + across * across;
   if (squared > most * most) {
     const double factor = most / std::sqrt(squared);
     along *= factor;
     across *= factor;
   }
-  Push(first, along - impulse_[first]);
-  Push(first + 1, across - impulse_[first + 1]);
+  ApplyImpulse(first, along - impulse_[first]);
+  ApplyImpulse(first + 1, across - impulse_[first + 1]);
 }
 
 void RowSolver::Iterate(int iteration) {
@@ -171,17 +171,18 @@ void RowSolver::Iterate(int iteration) {
 }
 
 void RowSolver::WriteBack() {
-  gained_.setZero(dofs_);
+  velocity_delta_.setZero(dofs_);
   for (int i = 0; i < static_cast<int>(rows_.size()); ++i) {
     rows_[static_cast<std::size_t>(i)]->m_appliedImpulse = impulse_[i];
-    gained_ += response_.col(i) * (impulse_[i] - start_impulse_[i]);
+    velocity_delta_ += response_.col(i) * (impulse_[i] - start_impulse_[i]);
   }
   for (const Body& at : bodies_) {
     const auto first = static_cast<std::size_t>(at.first_dof);
     change_.assign(first + static_cast<std::size_t>(at.dofs), 0.0);
     for (int i = 0; i < at.dofs; ++i) {
-      change_[first + static_cast<std::size_t>(i)] = gained_[at.column + i];
-      m_data.m_deltaVelocities[at.bullet_velocity + at.first_dof + i] += gained_[at.column + i];
+      change_[first + static_cast<std::size_t>(i)] = velocity_delta_[at.column + i];
+      m_data.m_deltaVelocities[at.bullet_velocity + at.first_dof + i] +=
+          velocity_delta_[at.column + i];
     }
     at.body->applyDeltaVeeMultiDof2(change_.data(), 1);
     at.body->setPosUpdated(false);
@@ -192,12 +193,12 @@ btScalar RowSolver::solveGroupCacheFriendlyIterations(
     btCollisionObject** bodies, int body_count, btPersistentManifold** manifolds,
     int manifold_count, btTypedConstraint** constraints, int constraint_count,
     const btContactSolverInfo& info, btIDebugDraw* drawer) {
-  if (!Knows(constraint_count))
+  if (!Supports(constraint_count))
     return btMultiBodyConstraintSolver::solveGroupCacheFriendlyIterations(
         bodies, body_count, manifolds, manifold_count, constraints, constraint_count, info, drawer);
   CollectRows();
   CollectBodies();
-  Couple();
+  BuildDelassus();
   for (int i = 0; i < info.m_numIterations; ++i) Iterate(i);
   WriteBack();
   return 0;

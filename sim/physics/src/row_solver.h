@@ -38,13 +38,13 @@ class RowSolver : public btMultiBodyConstraintSolver {
     int column;           // where they stand in jacobian_ and response_
   };
 
-  bool Knows(int constraint_count) const;
+  bool Supports(int constraint_count) const;
   void CollectRows();
   void CollectBodies();
   void AddBody(btMultiBody* body, int bullet_velocity);
   void FillSide(int row, const btMultiBody* body, int bullet_values);
-  void Couple();
-  void Push(int row, double change);
+  void BuildDelassus();
+  void ApplyImpulse(int row, double change);
   void SolveRow(int row);
   void SolveFrictionPair(int first);
   void Iterate(int iteration);
@@ -61,11 +61,11 @@ class RowSolver : public btMultiBodyConstraintSolver {
   Eigen::MatrixXd jacobian_;  // row, padded to a multiple of four, x joint velocity
   Eigen::MatrixXd response_;  // joint velocity x row, of a unit impulse
   Eigen::MatrixXd coupling_;  // column i: what a unit impulse on row i takes from all wants
-  Eigen::VectorXd want_;      // impulse that each row still lacks
+  Eigen::VectorXd residual_;  // impulse that each row still lacks
   Eigen::VectorXd impulse_;
   Eigen::VectorXd start_impulse_;
-  Eigen::VectorXd gained_;      // joint velocities, by the iterations
-  std::vector<double> change_;  // one body's, with its base
+  Eigen::VectorXd velocity_delta_;  // joint velocities, by the iterations
+  std::vector<double> change_;      // one body's, with its base
 };
 
 }  // namespace doorforge::internal

@@ -33,14 +33,14 @@ bool Overlap(const ProbedPiece& a, const RigidTransform& b_from_a, const ProbedP
 
 }  // namespace
 
-class StartProbe::Runtime {
+class SpawnCollisionChecker::Runtime {
  public:
   std::vector<ProbedPiece> robot;
   std::vector<ProbedPiece> door;
   std::array<RigidTransform, 3> door_from_link;
 };
 
-StartProbe::StartProbe(const DoorAsset& door, const RobotModel& robot)
+SpawnCollisionChecker::SpawnCollisionChecker(const DoorAsset& door, const RobotModel& robot)
     : runtime_(std::make_unique<Runtime>()) {
   runtime_->door_from_link = DoorFromLinks(door, 0, 0);
   for (const RobotPiece& piece : robot.hulls())
@@ -53,12 +53,12 @@ StartProbe::StartProbe(const DoorAsset& door, const RobotModel& robot)
   }
 }
 
-StartProbe::~StartProbe() = default;
-StartProbe::StartProbe(StartProbe&&) noexcept = default;
-StartProbe& StartProbe::operator=(StartProbe&&) noexcept = default;
+SpawnCollisionChecker::~SpawnCollisionChecker() = default;
+SpawnCollisionChecker::SpawnCollisionChecker(SpawnCollisionChecker&&) noexcept = default;
+SpawnCollisionChecker& SpawnCollisionChecker::operator=(SpawnCollisionChecker&&) noexcept = default;
 
-std::optional<StartOverlap> StartProbe::Find(const RobotPose& pose,
-                                             const RigidTransform& world_from_door) const {
+std::optional<StartOverlap> SpawnCollisionChecker::Find(
+    const RobotPose& pose, const RigidTransform& world_from_door) const {
   for (const ProbedPiece& part : runtime_->door) {
     const RigidTransform part_from_world =
         (world_from_door * runtime_->door_from_link[static_cast<std::size_t>(part.body)]).inverse();

@@ -63,8 +63,8 @@ double DeepestOverlap(btCollisionDispatcher& dispatcher) {
 
 }  // namespace
 
-WorldMonitor::WorldMonitor(const BulletBody& robot, const BulletBody& door, const RobotModel& model,
-                           const DoorAsset& asset)
+StepEnergyAudit::StepEnergyAudit(const BulletBody& robot, const BulletBody& door,
+                                 const RobotModel& model, const DoorAsset& asset)
     : robot_(robot),
       door_(door),
       drive_limit_(DriveLimits(model)),
@@ -80,7 +80,7 @@ WorldMonitor::WorldMonitor(const BulletBody& robot, const BulletBody& door, cons
   step_.deepest_m = std::numeric_limits<double>::infinity();
 }
 
-void WorldMonitor::ReadJoints() {
+void StepEnergyAudit::ReadJoints() {
   const int robot_joints = robot_.link_count();
   for (std::size_t i = 0; i < step_.position.size(); ++i) {
     const int index = static_cast<int>(i);
@@ -91,7 +91,7 @@ void WorldMonitor::ReadJoints() {
   }
 }
 
-std::optional<StateFault> WorldMonitor::BeforeStep(double time_s) {
+std::optional<StateFault> StepEnergyAudit::BeforeStep(double time_s) {
   step_.time_s = time_s;
   ReadJoints();
   // Nothing moves between steps, so motion that has appeared is a gain out of nothing.
@@ -104,18 +104,18 @@ std::optional<StateFault> WorldMonitor::BeforeStep(double time_s) {
       speed_before_[at] = body->Velocity(link);
       torque_[at] = body->AppliedTorque(link);
       if (!std::isfinite(torque_[at]))
-        return StateFault{Implausibility::kNotFinite, "torque", torque_[at], 0, time_s};
+        return StateFault{DivergenceKind::kNotFinite, "torque", torque_[at], 0, time_s};
     }
   }
   return CheckTorques(time_s);
 }
 
-std::optional<StateFault> WorldMonitor::CheckTorques(double time_s) const {
+std::optional<StateFault> StepEnergyAudit::CheckTorques(double time_s) const {
   const std::size_t robot_joints = drive_limit_.size();
   for (std::size_t i = 0; i < torque_limit_.size(); ++i) {
     const double torque = std::abs(torque_[robot_joints + i]);
     if (torque > torque_limit_[i])
-      return StateFault{Implausibility::kTorque, watch_.joints()[robot_joints + i].name, torque,
+      return StateFault{DivergenceKind::kTorque, watch_.joints()[robot_joints + i].name, torque,
                         torque_limit_[i], time_s};
   }
   return std::nullopt;
@@ -123,7 +123,7 @@ std::optional<StateFault> WorldMonitor::CheckTorques(double time_s) const {
 
 // An impulse does its work at the mean of the speeds before and after. What the robot's drives did
 // is not known, but it is no more than their limits allow.
-double WorldMonitor::WorkOfStep(double time_step_s) const {
+double StepEnergyAudit::WorkOfStep(double time_step_s) const {
   double work = 0;
   std::size_t at = 0;
   for (int link = 0; link < robot_.link_count(); ++link, ++at) {
@@ -135,8 +135,8 @@ double WorldMonitor::WorkOfStep(double time_step_s) const {
   return work;
 }
 
-std::optional<StateFault> WorldMonitor::AfterStep(btCollisionDispatcher& dispatcher,
-                                                  double time_step_s) {
+std::optional<StateFault> StepEnergyAudit::AfterStep(btCollisionDispatcher& dispatcher,
+                                                     double time_step_s) {
   ReadJoints();
   step_.deepest_m = DeepestOverlap(dispatcher);
   step_.kinetic_j = robot_.KineticEnergy() + door_.KineticEnergy();

@@ -16,13 +16,13 @@
 
 namespace doorforge::internal {
 
-/// Measures each step of a robot and a door for a StateWatch.
-class WorldMonitor {
+/// Measures each step of a robot and a door for a DivergenceDetector.
+class StepEnergyAudit {
  public:
   /// @param robot, door Must outlive this. Links of the robot are its joints; the door's first two
   ///     are hinge and handle.
-  WorldMonitor(const BulletBody& robot, const BulletBody& door, const RobotModel& model,
-               const DoorAsset& asset);
+  StepEnergyAudit(const BulletBody& robot, const BulletBody& door, const RobotModel& model,
+                  const DoorAsset& asset);
 
   /// To be called when all torques of the step are set. A fault says that the state must not be
   /// stepped.
@@ -32,7 +32,7 @@ class WorldMonitor {
 
   /// What it knows of earlier steps.
   struct Memory {
-    StateWatch watch;
+    DivergenceDetector watch;
     WatchedStep step;
   };
   Memory memory() const { return {watch_, step_}; }
@@ -52,7 +52,7 @@ class WorldMonitor {
   const BulletBody& door_;
   std::vector<double> drive_limit_;               // of the robot's joints [N m or N]
   std::array<double, kDoorJoints> torque_limit_;  // of hinge and handle [N m]
-  StateWatch watch_;
+  DivergenceDetector watch_;
   WatchedStep step_;
   std::vector<double> torque_;  // applied, of the robot's links and then all of the door's
   std::vector<double> speed_before_;

@@ -80,7 +80,8 @@ CameraObserver::CameraObserver(const Scene& scene, const DoorAsset& door, const 
     : seed_(scene.seed),
       stream_("sensor/" + scene.door_id + "/" + std::to_string(scene.episode) + "/"),
       model_(scene.camera),
-      believed_(BelievedCamera(scene.camera, config.noise, Stream("calibration"))),
+      camera_as_calibrated_(
+          CameraWithCalibrationError(scene.camera, config.noise, Stream("calibration"))),
       config_(config),
       camera_(sees_robot ? VisibleMeshesOf(door, robot)
                          : WithoutRobot(VisibleMeshesOf(door, robot))) {
@@ -97,10 +98,10 @@ Sight CameraObserver::Look(const SceneSnapshot& snapshot) {
   sight.ideal = camera_.Render(model_, poses);
   sight.depth =
       WithDepthNoise(sight.ideal, model_, config_.noise, Stream(std::to_string(looks_++)));
-  sight.visible = CropCloud(sight.depth, believed_, config_);
+  sight.visible = CropCloud(sight.depth, camera_as_calibrated_, config_);
   sight.sampled = SampleCloud(sight.visible, snapshot.robot.world_from_tcp.translation(),
                               {config_.point_count});
-  if (before_ && snapshot.stage == "unlock" && !sight.visible.label.empty())
+  if (before_ && snapshot.phase == EpisodePhase::kUnlock && !sight.visible.label.empty())
     sight.sampled.cloud = before_->With(sight.visible, snapshot.robot.world_from_tcp.translation());
   return sight;
 }

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "doorforge/rollout/reward.h"
+
 #include "take_hold.h"
 #include "text_format.h"
 
@@ -38,14 +40,14 @@ double EpisodeCourse::Act(const Action& action) {
   target.linear() = action.world_from_hand_rotation;
   target.translation() =
       world_.world().PoseOfRobot().world_from_hand.translation() + action.position_delta_m;
-  const DoorAngles before = world_.Angles();
+  const PrivilegedState before = world_.Privileged();
   world_.controller().MoveHandTo(target, physics().steps_per_action * physics().time_step_s);
   for (int i = 0; i < physics().steps_per_action && !world_.diverged(); ++i) {
     world_.StepHand();
     state_.log.Note(world_);
   }
   ++state_.actions;
-  const double reward = RewardOf(state_.stage, before, world_.Angles());
+  const double reward = RewardOf(state_.stage, {before, world_.Privileged(), action});
   if (state_.stage == Stage::kHandle) {
     EndTurnIfDone();
   } else {
@@ -72,7 +74,7 @@ void EpisodeCourse::EndTurnIfDone() {
 }
 
 void EpisodeCourse::FinishTurn() {
-  world_.Watch("unlock");
+  world_.Watch(EpisodePhase::kUnlock);
   const bool lost = state_.log.StepsWithoutPads(world_.step()) > physics().steps_per_action;
   const bool said = SaysTurned();
   if (!said && (lost || !predicted_turned_)) return End(TurnVerdict(lost));
@@ -116,7 +118,7 @@ void EpisodeCourse::EndOpeningIfDone() {
 }
 
 void EpisodeCourse::FinishOpening() {
-  world_.Watch("end");
+  world_.Watch(EpisodePhase::kEnd);
   state_.handle_done = state_.early.empty() || world_.state().handle_done;
   if (state_.log.opened()) return End(std::nullopt);
   End(JudgeOpening(OpeningNow(), world_.limits()));
@@ -147,7 +149,7 @@ void EpisodeCourse::Turn(HandleRule& rule) {
   rule.Reset(world_.Privileged());
   for (int i = 0; i < budget && lost <= patience && !world_.diverged(); ++i) {
     if (IsTurned(world_.scene().latch, world_.state())) {
-      world_.Watch("unlock");
+      world_.Watch(EpisodePhase::kUnlock);
       return BeginOpening();
     }
     world_.controller().FollowHand(rule.Follow(world_.Privileged()));
@@ -156,7 +158,7 @@ void EpisodeCourse::Turn(HandleRule& rule) {
     state_.log.NoteForce(contacts);
     lost = contacts.AnyPad() ? 0 : lost + 1;
   }
-  world_.Watch("unlock");
+  world_.Watch(EpisodePhase::kUnlock);
   End(TurnVerdict(lost > 0));
 }
 

@@ -34,7 +34,7 @@ class EpisodeCourse {
   Stage stage() const { return state_.stage; }
   bool over() const { return state_.over; }
   bool truncated() const { return state_.truncated; }
-  EpisodeOutcome outcome() const;  ///< Of an episode that is over.
+  EpisodeOutcome outcome() const;  ///< It exists only of an episode that is over.
   /// The record without decisions.
   Episode Summary() const;
 

@@ -68,7 +68,9 @@ const StepResult& EpisodeStepper::Step(const std::optional<ChosenGrasp>& grasp) 
 
 const StepResult& EpisodeStepper::now() const { return Live().now(); }
 const WorldState& EpisodeStepper::state() const { return Live().world().state(); }
-SceneSnapshot EpisodeStepper::Snapshot() const { return Live().world().Snapshot("start"); }
+SceneSnapshot EpisodeStepper::Snapshot() const {
+  return Live().world().Snapshot(EpisodePhase::kStart);
+}
 Episode EpisodeStepper::Summary() const { return Live().course().Summary(); }
 
 EpisodeImage EpisodeStepper::Save() const {

@@ -38,7 +38,7 @@ class Recorder final : public Observer {
   void Watch(const SceneSnapshot& snapshot) override {
     const auto& links = snapshot.door;
     moments.push_back({snapshot,
-                       {std::string(snapshot.stage), snapshot.time_s,
+                       {std::string(NameOf(snapshot.phase)), snapshot.time_s,
                         TurnOf(door_.hinge, links[kBaseLink], links[kLeafLink]),
                         TurnOf(door_.handle_joint, links[kLeafLink], links[kHandleLink])}});
   }
@@ -54,7 +54,8 @@ std::vector<Moment> ChooseFrames(const std::vector<Moment>& moments, int frames)
   std::vector<Moment> chosen;
   std::vector<Moment> opening;
   for (const Moment& moment : moments) {
-    const bool opens = moment.frame.stage == "open" || moment.frame.stage == "end";
+    const EpisodePhase phase = moment.snapshot.phase;
+    const bool opens = phase == EpisodePhase::kOpen || phase == EpisodePhase::kEnd;
     (opens ? opening : chosen).push_back(moment);
   }
   if (!chosen.empty()) chosen.erase(chosen.begin());  // the start says little

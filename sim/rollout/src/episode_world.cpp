@@ -104,12 +104,12 @@ PrivilegedState EpisodeWorld::Privileged() const {
   return privileged;
 }
 
-SceneSnapshot EpisodeWorld::Snapshot(std::string_view stage) const {
-  return {world_.PoseOfRobot(), world_.WorldFromDoorLinks(), state().time_s, stage};
+SceneSnapshot EpisodeWorld::Snapshot(EpisodePhase phase) const {
+  return {world_.PoseOfRobot(), world_.WorldFromDoorLinks(), state().time_s, phase};
 }
 
-void EpisodeWorld::Watch(std::string_view stage) const {
-  if (observer_ != nullptr && !diverged()) observer_->Watch(Snapshot(stage));
+void EpisodeWorld::Watch(EpisodePhase phase) const {
+  if (observer_ != nullptr && !diverged()) observer_->Watch(Snapshot(phase));
 }
 
 void EpisodeWorld::Restore(const WorldImage& image, const Memory& memory) {

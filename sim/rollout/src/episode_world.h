@@ -2,14 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string_view>
-
 #include "doorforge/physics/door_world.h"
 #include "doorforge/physics/hand_controller.h"
 #include "doorforge/physics/robot_model.h"
 #include "doorforge/rollout/observer.h"
 #include "doorforge/rollout/outcome_judge.h"
-#include "doorforge/rollout/reward.h"
 #include "doorforge/schemas/policy.h"
 #include "doorforge/schemas/scene.h"
 
@@ -26,7 +23,7 @@ class EpisodeWorld {
 
   /// Advances by one step of the physics. Does nothing once the world has a fault.
   void Step(const RobotCommand& command);
-  /// The same, by the hand's controller.
+  /// Advances by what the hand's controller commands.
   void StepHand();
   int StepsIn(double seconds) const;
   /// Moves the hand in a straight line and waits for it; whether it has arrived.
@@ -57,11 +54,10 @@ class EpisodeWorld {
   double HandError(const RigidTransform& world_from_hand) const;  ///< [m]
   double Slip() const;      ///< [m] of the tool centre in the handle's frame since the grasp.
   double TurnSlip() const;  ///< [rad] of the hand there.
-  DoorAngles Angles() const { return {state().hinge_rad, state().handle_rad}; }
   Hindrance HindranceNow(const DoorContacts& contacts) const;
   PrivilegedState Privileged() const;
-  SceneSnapshot Snapshot(std::string_view stage) const;
-  void Watch(std::string_view stage) const;
+  SceneSnapshot Snapshot(EpisodePhase phase) const;
+  void Watch(EpisodePhase phase) const;
   Observer* observer() const { return observer_; }
 
   WorldImage SaveWorld() const { return world_.Save(); }

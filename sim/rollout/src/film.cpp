@@ -38,14 +38,14 @@ LabelledCloud Film::Observe(const SceneSnapshot& snapshot) {
 
 void Film::Watch(const SceneSnapshot& snapshot) {
   // every second decision is enough to follow the motion
-  if (snapshot.stage == "open" && decisions_++ % 2 != 0) return;
+  if (snapshot.phase == EpisodePhase::kOpen && decisions_++ % 2 != 0) return;
   const std::vector<RigidTransform> poses = LinkPosesOf(snapshot);
   scene_.MoveLinks(poses);
   ScenePictureConfig shading;
   shading.sky_rays = 4;
   pictures_.push_back(RenderPicture(scene_, view_, shading));
   char caption[64];
-  std::snprintf(caption, sizeof caption, "%s %.2f s", std::string(snapshot.stage).c_str(),
+  std::snprintf(caption, sizeof caption, "%s %.2f s", std::string(NameOf(snapshot.phase)).c_str(),
                 snapshot.time_s);
   captions_.emplace_back(caption);
 }

@@ -6,16 +6,16 @@
 
 namespace doorforge {
 
-void CheckGraspLook(const GraspLook& look) {
-  Require(look.finer >= 1 && look.finer <= 8, ErrorCode::kInvalidConfig,
+void CheckGraspCamera(const GraspCameraConfig& config) {
+  Require(config.resolution_scale >= 1 && config.resolution_scale <= 8, ErrorCode::kInvalidConfig,
           "config.grasp_look.finer: out of 1..8");
-  Require(look.within_m >= 0 && look.within_m < 100, ErrorCode::kInvalidConfig,
+  Require(config.crop_radius_m >= 0 && config.crop_radius_m < 100, ErrorCode::kInvalidConfig,
           "config.grasp_look.within_m: out of 0..100");
 }
 
-Scene SceneOf(const GraspLook& look, Scene scene) {
-  scene.camera.width *= look.finer;
-  scene.camera.height *= look.finer;
+Scene SceneOf(const GraspCameraConfig& config, Scene scene) {
+  scene.camera.width *= config.resolution_scale;
+  scene.camera.height *= config.resolution_scale;
   return scene;
 }
 

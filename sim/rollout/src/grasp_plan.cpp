@@ -25,7 +25,7 @@ struct Variation {
   double roll_rad = 0;
 };
 
-RigidTransform Varied(const RigidTransform& grasp, const Variation& variation) {
+RigidTransform OffsetGrasp(const RigidTransform& grasp, const Variation& variation) {
   return grasp * Translation({variation.along_m, 0, variation.depth_m}) *
          RotationAbout(Eigen::Vector3d::UnitZ(), variation.roll_rad);
 }
@@ -58,7 +58,7 @@ struct JudgedGrasp {
 JudgedGrasp Judge(const GraspProbe& probe, const RobotModel& robot,
                   const RigidTransform& door_from_grasp, const Variation& variation) {
   JudgedGrasp judged;
-  judged.door_from_tcp = Varied(door_from_grasp, variation);
+  judged.door_from_tcp = OffsetGrasp(door_from_grasp, variation);
   const auto left = probe.Close(judged.door_from_tcp, robot.left_finger());
   const auto right = probe.Close(judged.door_from_tcp, robot.right_finger());
   judged.cost = std::abs(variation.depth_m) / 0.1 + std::abs(variation.along_m) / 0.1 +

@@ -12,7 +12,7 @@ bool HasProprioception(const RobotModel& robot) {
 Proprioception ProprioceptionOf(const RobotModel& robot, const WorldState& state,
                                 const RigidTransform& world_from_base) {
   Require(HasProprioception(robot), ErrorCode::kInvalidArgument,
-          "robot \"" + robot.name() + "\", base " + NameOf(robot.base()) + ": has " +
+          "robot \"" + robot.name() + "\", base " + std::string(NameOf(robot.base())) + ": has " +
               std::to_string(robot.joint_count()) +
               " moving joints; policies and their data know two sliders (or a fixed base), seven "
               "arm joints and two fingers; let the expert run with `doorforge simulate`");

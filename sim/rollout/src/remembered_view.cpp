@@ -17,7 +17,7 @@ void Append(const std::vector<T>& from, std::vector<T>& to) {
 
 SceneSnapshot ClosedDoor(const Scene& scene, const DoorAsset& door, const RobotModel& robot) {
   SceneSnapshot closed;
-  closed.stage = "start";
+  closed.phase = EpisodePhase::kStart;
   // the camera leaves the robot out, but wants a pose for each of its bodies
   closed.robot = robot.PoseAt(JointVector::Zero(robot.joint_count()), scene.world_from_robot_base);
   closed.door = DoorFromLinks(door, 0, 0);

@@ -6,24 +6,24 @@
 
 namespace doorforge {
 
-double OpeningReward(const DoorAngles& before, const DoorAngles& after) {
-  return after.hinge_rad - before.hinge_rad;
+double OpeningReward(const Transition& transition) {
+  return transition.after.hinge_rad - transition.before.hinge_rad;
 }
 
-double HandleReward(const DoorAngles& before, const DoorAngles& after) {
-  return after.handle_rad - before.handle_rad;
+double HandleReward(const Transition& transition) {
+  return transition.after.handle_rad - transition.before.handle_rad;
 }
 
-double GraspRating(const DoorAngles& end) { return std::max(0.0, end.hinge_rad); }
+double GraspRating(const PrivilegedState& end) { return std::max(0.0, end.hinge_rad); }
 
-double RewardOf(Stage stage, const DoorAngles& before, const DoorAngles& after) {
+double RewardOf(Stage stage, const Transition& transition) {
   switch (stage) {
     case Stage::kOpen:
-      return OpeningReward(before, after);
+      return OpeningReward(transition);
     case Stage::kHandle:
-      return HandleReward(before, after);
+      return HandleReward(transition);
     case Stage::kGrasp:
-      return GraspRating(after);
+      return GraspRating(transition.after);
   }
   return 0;
 }

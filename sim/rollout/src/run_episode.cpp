@@ -19,7 +19,8 @@ namespace {
 std::vector<Stage> CloudsOf(const EpisodeRoles& roles) {
   std::vector<Stage> clouds;
   const auto add = [&](Stage stage, const Policy* policy) {
-    if (policy != nullptr && (roles.recorded == stage || policy->Looks())) clouds.push_back(stage);
+    if (policy != nullptr && (roles.recorded == stage || policy->UsesPointCloud()))
+      clouds.push_back(stage);
   };
   add(Stage::kHandle, roles.handle);
   add(Stage::kOpen, roles.open);
@@ -49,7 +50,7 @@ class Play {
     while (!stepper_.now().over()) Decide();
     Episode episode = stepper_.Summary();
     if (roles_.recorded == Stage::kGrasp)
-      recorder_.RateAll(GraspRating({stepper_.state().hinge_rad, stepper_.state().handle_rad}));
+      recorder_.RateAll(GraspRating(stepper_.now().observation.privileged));
     episode.decisions = recorder_.Take();
     return episode;
   }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "doorforge/rollout/expert_grasp.h"
+#include "doorforge/rollout/reward.h"
 
 namespace doorforge {
 
@@ -13,7 +14,7 @@ void EpisodeStepper::Running::PlayToTheCallersFirst() {
   if (options_.first != Stage::kGrasp) {
     ExpertGrasp expert(world_.scene(), door_, world_.robot());
     GraspChooser& chooser = options_.grasp != nullptr ? *options_.grasp : expert;
-    course_.Grasp(chooser.Choose(world_.Snapshot("start")));
+    course_.Grasp(chooser.Choose(world_.Snapshot(EpisodePhase::kStart)));
     if (!course_.over()) BeginTurn();
     PlayOthers();
   }
@@ -54,7 +55,7 @@ void EpisodeStepper::Running::Grasp(std::optional<ChosenGrasp> grasp) {
   course_.Grasp(std::move(grasp));
   if (!course_.over()) BeginTurn();
   PlayOthers();
-  Settle(GraspRating(world_.Angles()));
+  Settle(GraspRating(world_.Privileged()));
 }
 
 void EpisodeStepper::Running::Act(const Action& action) {
@@ -66,16 +67,16 @@ void EpisodeStepper::Running::Act(const Action& action) {
 // The place where somebody looks: before each decision, and never where nobody asked for a cloud.
 Observation EpisodeStepper::Running::Observe() const {
   const Stage stage = course_.stage();
-  const std::string_view name = stage == Stage::kOpen     ? "open"
-                                : stage == Stage::kHandle ? "unlock"
-                                                          : "start";
+  const EpisodePhase phase = stage == Stage::kOpen     ? EpisodePhase::kOpen
+                             : stage == Stage::kHandle ? EpisodePhase::kUnlock
+                                                       : EpisodePhase::kStart;
   Observation observation;
   if (!course_.over()) {
-    if (stage != Stage::kGrasp) world_.Watch(name);
+    if (stage != Stage::kGrasp) world_.Watch(phase);
     const auto& clouds = options_.clouds;
     const bool looks = std::find(clouds.begin(), clouds.end(), stage) != clouds.end();
     if (looks && world_.observer() != nullptr)
-      observation.cloud = world_.observer()->Observe(world_.Snapshot(name));
+      observation.cloud = world_.observer()->Observe(world_.Snapshot(phase));
   }
   if (HasProprioception(world_.robot()))
     observation.proprioception =

@@ -26,10 +26,10 @@ class EpisodeStepper::Running {
   Running(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
           const StepperOptions& options, Observer* observer)
       : options_(options),
-        door_(Varied(door, scene.variation)),
+        door_(ApplyVariation(door, scene.variation)),
         world_(scene, door_, robot, observer),
         course_(world_, options.predicted_turned) {
-    world_.Watch("start");
+    world_.Watch(EpisodePhase::kStart);
   }
 
   void PlayToTheCallersFirst();

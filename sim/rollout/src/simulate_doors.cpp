@@ -15,6 +15,7 @@
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
 #include "doorforge/core/record_id.h"
+#include "doorforge/core/wilson_interval.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/rollout/standing_place.h"
 
@@ -60,10 +61,10 @@ void RunRow(const SimulationRun& run, const IdentifiedDoor& identified, const Ro
             SimulatedEpisode& simulated) {
   const DoorAsset& door = *identified;
   const Scene scene =
-      SceneFor(robot,
-               SampleScene(identified, simulated.seed, static_cast<std::uint64_t>(simulated.index),
-                           run.config.scene),
-               door);
+      PlaceRobotBase(robot,
+                     SampleScene(identified, simulated.seed,
+                                 static_cast<std::uint64_t>(simulated.index), run.config.scene),
+                     door);
   std::unique_ptr<Film> film;
   if (!run.film.empty()) film = std::make_unique<Film>(scene, door, robot);
   if (run.run_episode) {
@@ -92,16 +93,10 @@ Json EpisodeToJson(const SimulatedEpisode& simulated) {
           {"state_sha256", episode.state_sha256}};
 }
 
-// Wilson's score interval at 95 %.
 void SetInterval(OutcomeTally& tally) {
-  constexpr double kZ = 1.959963984540054;
-  if (tally.episodes == 0) return;
-  const double n = tally.episodes;
-  const double p = tally.opened / n;
-  const double middle = (p + kZ * kZ / (2 * n)) / (1 + kZ * kZ / n);
-  const double half = kZ / (1 + kZ * kZ / n) * std::sqrt(p * (1 - p) / n + kZ * kZ / (4 * n * n));
-  tally.low = std::max(0.0, middle - half);
-  tally.high = std::min(1.0, middle + half);
+  const Interval interval = WilsonInterval(tally.opened, tally.episodes);
+  tally.low = interval.low;
+  tally.high = interval.high;
 }
 
 Json TallyToJson(const OutcomeTally& tally) {
@@ -121,9 +116,9 @@ std::string NameOf(const SimulatedEpisode& episode) {
 
 std::vector<SimulatedEpisode> SimulateDoors(const SimulationRun& run) {
   const std::vector<FoundDoor> doors = FindDoorSet({.folders = run.doors}, run.threads).doors;
-  DoorShelf shelf(doors);
-  const RobotModel robot = LoadRobot(
-      run.config.scene.robot, RobotBaseNamed(run.config.scene.physics.base), run.read_meshes);
+  DoorCache shelf(doors);
+  const RobotModel robot =
+      LoadRobot(run.config.scene.robot, run.config.scene.physics.base, run.read_meshes);
   std::vector<Row> rows = PlanRows(run, doors);
   RequireNoPictures(run, rows);
   Progress progress("simulating", rows.size());

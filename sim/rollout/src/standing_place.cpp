@@ -111,7 +111,7 @@ class StartCheck {
  private:
   const RobotModel& robot_;
   const Scene& scene_;
-  StartProbe probe_;
+  SpawnCollisionChecker probe_;
   JointVector start_;
 };
 
@@ -165,7 +165,7 @@ JointVector StartPosition(const Scene& scene, const RobotModel& robot) {
   return start;
 }
 
-Scene SceneFor(const RobotModel& robot, Scene scene, const DoorAsset& door) {
+Scene PlaceRobotBase(const RobotModel& robot, Scene scene, const DoorAsset& door) {
   scene.robot = {robot.name(), robot.sha256()};
   scene.world_from_robot_base = robot.base() == RobotBase::kFixed
                                     ? StandingPlace(robot, scene, door)

@@ -19,7 +19,7 @@ std::optional<Verdict> Reach(EpisodeWorld& world, ContactLog& log, const GraspPl
     const JointVector rest = plan.pregrasp - world.state().robot_position;
     if (rest.head(arm).cwiseAbs().maxCoeff() < kJointsThere) break;
   }
-  world.Watch("reach");
+  world.Watch(EpisodePhase::kReach);
   const RigidTransform goal =
       world.WorldFromHandle(0) * plan.handle_from_tcp * world.robot().hand_from_tcp().inverse();
   if (world.MoveHand(goal, world.limits().approach_speed_m_s)) return std::nullopt;
@@ -52,7 +52,7 @@ std::optional<Verdict> Close(EpisodeWorld& world, ContactLog& log, bool needs_bo
     both = contacts.BothPads() ? both + 1 : 0;
     CentreHand(world, contacts);
   }
-  world.Watch("grasp");
+  world.Watch(EpisodePhase::kGrasp);
   world.NoteGrasp();
   if (both >= enough || (!needs_both_pads && contacts.AnyPad())) {
     log.BeginHold(world.step());

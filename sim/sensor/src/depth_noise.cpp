@@ -48,30 +48,42 @@ SensedRange NeighbourRange(const DepthImage& image) {
   return range;
 }
 
+// What chance decides at one pixel, for whatever kind of sensor.
+struct PixelDraws {
+  double mixed = 0;   // uniform in 0..1
+  double across = 0;  // these three are normal with spread 1
+  double down = 0;
+  double along = 0;
+};
+
 class NoisySensor {
  public:
   NoisySensor(const DepthImage& ideal, const CameraModel& camera, const DepthNoiseConfig& config)
-      : ideal_(ideal),
-        rays_(camera),
-        config_(config),
-        range_(NeighbourRange(ideal)),
-        structured_light_(config.sensor == "structured_light") {}
+      : ideal_(ideal), rays_(camera), config_(config), range_(NeighbourRange(ideal)) {}
 
   // infinity where the sensor gives none
   float DepthOf(int row, int column, Rng& rng) const {
     // as many draws for every pixel, so that one pixel's fate does not change the others'
     const double dropped = rng.Uniform();
-    const double mixed = rng.Uniform();
-    const double across = rng.Normal();
-    const double down = rng.Normal();
-    const double along = rng.Normal();
-    const float depth = At(row, column);
-    if (std::isinf(depth) || IsGrazing(row, column)) return kNoDepth;
+    PixelDraws draws;
+    draws.mixed = rng.Uniform();
+    draws.across = rng.Normal();
+    draws.down = rng.Normal();
+    draws.along = rng.Normal();
+    if (std::isinf(At(row, column)) || IsGrazing(row, column)) return kNoDepth;
     const bool edge = range_.high.at<float>(row, column) - range_.low.at<float>(row, column) >=
                       config_.edge_step_m;
     if (edge && dropped < config_.edge_dropout) return kNoDepth;
-    if (structured_light_) return StructuredLight(row, column, {across, down, along});
-    return TimeOfFlight(edge ? FlyingDepth(row, column, mixed) : depth, along);
+    switch (config_.sensor) {
+      case DepthSensor::kStructuredLight:
+        return StructuredLight(row, column, draws);
+      case DepthSensor::kTimeOfFlight:
+        return TimeOfFlight(edge ? FlyingDepth(row, column, draws.mixed) : At(row, column),
+                            draws.along);
+      case DepthSensor::kNone:
+        break;
+    }
+    return At(row, column);
   }
 
  private:
@@ -104,16 +116,16 @@ class NoisySensor {
     return link(row, column) == link(other_row, other_column);
   }
 
-  float StructuredLight(int row, int column, const Eigen::Vector3d& draw) const {
+  float StructuredLight(int row, int column, const PixelDraws& draws) const {
     const double jitter = kJitterPixels * config_.scale;
     const auto moved = [&](int place, double by, int count) {
       return std::clamp(place + static_cast<int>(std::lround(jitter * by)), 0, count - 1);
     };
     const float depth =
-        At(moved(row, draw.y(), ideal_.height), moved(column, draw.x(), ideal_.width));
+        At(moved(row, draws.down, ideal_.height), moved(column, draws.across, ideal_.width));
     if (std::isinf(depth)) return kNoDepth;
     const double disparity = std::floor(kDisparityAtOneMetre / depth +
-                                        config_.scale * kDisparitySpread * draw.z() + 0.5);
+                                        config_.scale * kDisparitySpread * draws.along + 0.5);
     return disparity > 0 ? static_cast<float>(kDisparityAtOneMetre / disparity) : kNoDepth;
   }
 
@@ -139,7 +151,6 @@ class NoisySensor {
   PixelRays rays_;
   const DepthNoiseConfig& config_;
   SensedRange range_;
-  bool structured_light_;
 };
 
 void RequireWithin(double value, double high, const char* name) {
@@ -152,12 +163,6 @@ void RequireWithin(double value, double high, const char* name) {
 }  // namespace
 
 void CheckDepthNoise(const DepthNoiseConfig& config) {
-  const bool known = config.sensor == "none" || config.sensor == "structured_light" ||
-                     config.sensor == "time_of_flight";
-  if (!known)
-    throw Error(ErrorCode::kInvalidConfig,
-                "config.cloud.noise.sensor: found \"" + config.sensor +
-                    "\", allowed none, structured_light, time_of_flight");
   RequireWithin(config.scale, 100, "scale");
   RequireWithin(config.edge_dropout, 1, "edge_dropout");
   RequireWithin(config.edge_step_m, 10, "edge_step_m");
@@ -171,7 +176,7 @@ DepthImage WithDepthNoise(const DepthImage& ideal, const CameraModel& camera,
   CheckDepthNoise(config);
   Require(ideal.width == camera.width && ideal.height == camera.height, ErrorCode::kInvalidArgument,
           "depth noise: image and camera differ in size");
-  if (config.sensor == "none") return ideal;
+  if (config.sensor == DepthSensor::kNone) return ideal;
   const NoisySensor sensor(ideal, camera, config);
   DepthImage noisy = ideal;
   std::size_t pixel = 0;
@@ -186,9 +191,10 @@ DepthImage WithDepthNoise(const DepthImage& ideal, const CameraModel& camera,
   return noisy;
 }
 
-CameraModel BelievedCamera(const CameraModel& camera, const DepthNoiseConfig& config, Rng rng) {
+CameraModel CameraWithCalibrationError(const CameraModel& camera, const DepthNoiseConfig& config,
+                                       Rng rng) {
   CheckDepthNoise(config);
-  if (config.sensor == "none" || (config.extrinsic_m == 0 && config.extrinsic_rad == 0))
+  if (config.sensor == DepthSensor::kNone || (config.extrinsic_m == 0 && config.extrinsic_rad == 0))
     return camera;
   const auto draw = [&](double spread) {
     const double x = rng.Normal();

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-
 #include "doorforge/verbs/eval_verb.h"
 
 #include <cmath>
@@ -21,6 +20,7 @@
 #include "doorforge/core/program.h"
 #include "doorforge/evaluate/evaluate_opener.h"
 #include "doorforge/registry/policy_options.h"
+#include "doorforge/remote/remote_options.h"
 #include "doorforge/report/report_folder.h"
 #include "doorforge/report/report_table.h"
 
@@ -31,6 +31,7 @@ namespace fs = std::filesystem;
 
 struct Options {
   EvaluationRequest request;
+  RemoteOptions remote;
   std::vector<std::string> doors;
   std::string split;
   int per_category = 0;
@@ -48,7 +49,7 @@ struct Options {
 void AddOptions(CLI::App& app, Options& options) {
   EvaluationRequest& request = options.request;
   AddPolicyOptions(app, request.registry, request.policies);
-  AddEarlierName(app, "--policy", "--opener", request.policies.opener);
+  AddRemoteOptions(app, options.remote);
   app.add_option(
          "--doors", options.doors,
          "folders of composed doors, searched in depth; with a split such as full:test only "
@@ -67,7 +68,7 @@ void AddOptions(CLI::App& app, Options& options) {
   app.add_option("--switch", options.unlock_switch,
                  "who says that the handle is turned: a trained handler itself "
                  "(predicted), or the simulator (privileged); (config: switch, predicted)")
-      ->check(CLI::IsMember({"privileged", "predicted"}));
+      ->check(CLI::IsMember(NamesOf<SwitchSource>()));
   app.add_option("--seeds", options.seeds, "repetitions with other scenes (config: seeds, 3)");
   app.add_option("--seed", options.first_seed, "the first of them (config: first_seed, 1)");
   app.add_option("--episodes-per-door", options.episodes_per_door,
@@ -100,6 +101,8 @@ Options Parse(int argc, char** argv, const EvalVerbSetup& setup) {
              "run/opener --data run/data --out run/report" + line +
              "expert --split full:test -n 50");
   ParseVerb(app, argc, argv);
+  UseRemotePolicies(options.remote, setup.opener, options.request.registry,
+                    options.request.policies);
   Require(!options.request.policies.opener.empty(), ErrorCode::kInvalidArgument,
           "--opener is required: " + setup.registry.Choices(Stage::kOpen) + "; see `" +
               setup.program + " --help`");
@@ -108,7 +111,8 @@ Options Parse(int argc, char** argv, const EvalVerbSetup& setup) {
 
 EvaluationConfig ConfigOf(const Options& options) {
   auto config = LoadConfig<EvaluationConfig>(options.config, options.settings);
-  if (options.unlock_switch) config.unlock_switch = *options.unlock_switch;
+  if (options.unlock_switch)
+    config.unlock_switch = *ValueNamed<SwitchSource>(*options.unlock_switch);
   Require(options.unlock_switch != "predicted" || options.request.policies.handler != kExpertPolicy,
           ErrorCode::kInvalidArgument,
           "--switch predicted: a policy that turns the handle says when it is turned; give one "

@@ -47,7 +47,7 @@ void CheckOnlineControllerConfig(const OnlineControllerConfig& config) {
 }
 
 OnlineController::OnlineController(const OnlineControllerSetup& setup)
-    : setup_(setup), robot_(LoadRobot({}, RobotBaseNamed(setup.base))) {
+    : setup_(setup), robot_(LoadRobot({}, setup.base)) {
   CheckOnlineControllerConfig(setup.config);
   opener_ = LoadActor(setup.opener, Stage::kOpen);
   handler_ = LoadHandler(setup.handler);

@@ -123,11 +123,11 @@ class Recorder {
         all_(request.all_decisions),
         folder_(std::move(folder)),
         robot_(LoadMobileFranka()),
-        scene_(SceneFor(robot_, SampleScene(door, request.seed, request.episode, request.scene),
-                        *door)) {}
+        scene_(PlaceRobotBase(
+            robot_, SampleScene(door, request.seed, request.episode, request.scene), *door)) {}
 
   void WriteGrasp() {
-    const Scene close = SceneOf(GraspLook{}, scene_);
+    const Scene close = SceneOf(GraspCameraConfig{}, scene_);
     Onlooker onlooker(close, door_, robot_);
     OpeningExpert opener;
     RunStages(scene_, door_, robot_, {.grasp = &onlooker, .open = &opener}, nullptr);

@@ -38,15 +38,17 @@ LabelledCloud EpisodeFilm::Observe(const SceneSnapshot& snapshot) {
 void EpisodeFilm::Watch(const SceneSnapshot& snapshot) { watched_.push_back(snapshot); }
 
 std::vector<EpisodeFilm::Frame> EpisodeFilm::Frames() const {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kStages = {
-      {{"start", "start"}, {"grasp", "grasped"}, {"unlock", "unlocked"}}};
+  constexpr std::array<std::pair<EpisodePhase, std::string_view>, 3> kNamed = {
+      {{EpisodePhase::kStart, "start"},
+       {EpisodePhase::kGrasp, "grasped"},
+       {EpisodePhase::kUnlock, "unlocked"}}};
   std::vector<Frame> frames;
   const auto add = [&](const SceneSnapshot& snapshot, std::string_view name) {
     frames.push_back({snapshot, std::string(name) + ", " + Fixed(snapshot.time_s, 1) + " s"});
   };
-  for (const auto& [stage, name] : kStages) {
+  for (const auto& [phase, name] : kNamed) {
     for (const SceneSnapshot& snapshot : watched_) {
-      if (snapshot.stage == stage) {
+      if (snapshot.phase == phase) {
         add(snapshot, name);
         break;
       }
@@ -54,7 +56,7 @@ std::vector<EpisodeFilm::Frame> EpisodeFilm::Frames() const {
   }
   std::vector<const SceneSnapshot*> opening;
   for (const SceneSnapshot& snapshot : watched_) {
-    if (snapshot.stage == "open") opening.push_back(&snapshot);
+    if (snapshot.phase == EpisodePhase::kOpen) opening.push_back(&snapshot);
   }
   if (opening.size() > 1) add(*opening[opening.size() / 2], "opening");
   if (!watched_.empty() && watched_.back().time_s > 0) add(watched_.back(), "end");

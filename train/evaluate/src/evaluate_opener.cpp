@@ -31,16 +31,9 @@ namespace fs = std::filesystem;
 constexpr std::size_t kTrainingPreviews = 12;
 constexpr std::size_t kMostNamedDoors = 8;
 
-SwitchSource SwitchSourceOf(const EvaluationConfig& config) {
-  const std::string& name = config.unlock_switch;
-  Require(name == "privileged" || name == "predicted", ErrorCode::kInvalidConfig,
-          "config.switch: \"" + name + "\", expected \"privileged\" or \"predicted\"");
-  return name == "predicted" ? SwitchSource::kPolicy : SwitchSource::kSimulator;
-}
-
 PolicySetFactory FactoryOf(const EvaluationRequest& request) {
   return {request.registry, request.policies, request.config.Policies(),
-          SwitchSourceOf(request.config)};
+          request.config.unlock_switch};
 }
 
 TrialPolicies ExpertPolicies() {
@@ -49,10 +42,11 @@ TrialPolicies ExpertPolicies() {
 
 TrialPolicies PoliciesOf(const PolicySetFactory& factory, const EvaluationConfig& config) {
   if (factory.IsExpertAlone()) return ExpertPolicies();
-  const std::string& base = config.scene.physics.base;
-  const auto robot = std::make_shared<const RobotModel>(LoadRobot({}, RobotBaseNamed(base)));
+  const RobotBase base = config.scene.physics.base;
+  const auto robot = std::make_shared<const RobotModel>(LoadRobot({}, base));
   Require(HasProprioception(*robot), ErrorCode::kInvalidConfig,
-          "config.scene.physics.base: a policy knows sliders or a fixed base, found " + base);
+          "config.scene.physics.base: a policy knows sliders or a fixed base, found " +
+              std::string(NameOf(base)));
   return {[&factory] { return factory.Make(); },
           [&config, robot, remembered = factory.Remembered()](const Scene& scene,
                                                               const DoorAsset& door) {
@@ -173,7 +167,7 @@ Evaluation EvaluateOpener(const EvaluationRequest& request) {
   const PolicySetFactory factory = FactoryOf(request);
   const DoorSet set = FindDoorSet(request.doors, request.threads);
   const std::vector<FoundDoor>& doors = set.doors;
-  DoorShelf shelf(doors);
+  DoorCache shelf(doors);
   const TrialPlan trials([&](std::size_t door) { return shelf.Take(door); }, doors.size(),
                          request.config);
   Evaluation evaluation;

@@ -37,7 +37,7 @@ TrialPlan::TrialPlan(DoorGiver give_door, std::size_t door_count, const Evaluati
       first_seed_(config.first_seed),
       scene_(config.scene),
       cloud_(config.cloud),
-      robot_(LoadRobot({}, RobotBaseNamed(config.scene.physics.base))) {
+      robot_(LoadRobot({}, config.scene.physics.base)) {
   Require(config.scene.robot.empty(), ErrorCode::kInvalidConfig,
           "config.scene.robot: eval knows the built-in robot, on any base; let the expert try \"" +
               config.scene.robot + "\" with `doorforge simulate --robot`");
@@ -57,7 +57,7 @@ TrialPlan::Staged TrialPlan::At(std::size_t trial) const {
   auto door = give_door_(DoorOf(trial));
   Scene scene =
       SampleScene(door, first_seed_ + seed, std::uint64_t{trial % episodes_per_door_}, scene_);
-  scene = SceneFor(robot_, scene, *door);
+  scene = PlaceRobotBase(robot_, scene, *door);
   return {std::move(door.door), std::move(scene)};
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/networks/hand_frame.h"
 
+#include "doorforge/schemas/mirror.h"
+
 namespace doorforge::internal {
 
 ActionVector TurnOf(const ActionVector& action, const Eigen::Matrix3d& world_from_hand) {
@@ -22,6 +24,14 @@ TrainingSample WithTurns(const TrainingSample& sample) {
   turns.action = TurnOf(sample.action, world_from_hand);
   turns.executed = TurnOf(sample.executed, world_from_hand);
   return turns;
+}
+
+TrainingSample WithoutCloudMirrored(const TrainingSample& sample) {
+  TrainingSample mirrored = sample;
+  mirrored.proprioception = MirroredSideways(sample.proprioception);
+  mirrored.action = MirroredSideways(sample.action);
+  mirrored.executed = MirroredSideways(sample.executed);
+  return mirrored;
 }
 
 TrainingSample AboutContact(const TrainingSample& sample) {

@@ -38,7 +38,8 @@ struct PackedLayer {
     return {forward.data() + static_cast<std::ptrdiff_t>(first) * panel, outputs, inputs};
   }
   Panels BackwardPanels() const { return BackwardPanels(0, backward_count); }
-  /// Of `count` of the inputs that pass a gradient on, from `first` on; both multiples of 32.
+  /// Returns those of `count` of the inputs that pass a gradient on, from `first` on; both
+  /// multiples of 32.
   Panels BackwardPanels(int first, int count) const {
     return {backward.data() + static_cast<std::ptrdiff_t>(first) * outputs, count, outputs};
   }

@@ -201,20 +201,6 @@ NetworkView ViewFromJson(const Json& json, const std::string& path) {
 
 }  // namespace
 
-std::string_view NameOf(ViewFrame frame) { return frame == ViewFrame::kHand ? "hand" : "world"; }
-
-std::string_view NameOf(StateKind kind) {
-  switch (kind) {
-    case StateKind::kHand:
-      return "hand";
-    case StateKind::kJoints:
-      return "joints";
-    case StateKind::kNone:
-      return "none";
-  }
-  return "";
-}
-
 PolicyState StateOf(StateKind kind, const Proprioception& proprioception) {
   if (kind == StateKind::kJoints) return PolicyStateOf(proprioception);
   PolicyState state{};

@@ -12,6 +12,7 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/schemas/cloud.h"
+#include "doorforge/schemas/mirror.h"
 
 namespace doorforge {
 namespace {
@@ -132,14 +133,29 @@ std::vector<std::size_t> EvenlyTaken(std::size_t count, std::size_t most) {
 }
 
 // A sample a column.
-Matrix ColumnsOf(std::span<const TrainingSample> samples, const std::vector<std::size_t>& indices,
-                 NetworkFamily family) {
-  Matrix columns(static_cast<Eigen::Index>(SightSize(family)),
-                 static_cast<Eigen::Index>(indices.size()));
-  for (std::size_t i = 0; i < indices.size(); ++i) {
+// Samples that are taken, in their order.
+struct TakenSamples {
+  std::span<const TrainingSample> samples;
+  std::vector<std::size_t> indices;
+  NetworkFamily family;
+  SampleSides sides;
+
+  SightNumbers Numbers(std::size_t i) const {
     const TrainingSample& sample = samples[indices[i]];
-    const SightNumbers numbers =
-        SightNumbersOf({sample.cloud, sample.label}, sample.proprioception, family);
+    if (sides == SampleSides::kAsSeen || i % 2 == 0)
+      return SightNumbersOf({sample.cloud, sample.label}, sample.proprioception, family);
+    std::vector<float> mirrored(sample.cloud.begin(), sample.cloud.end());
+    for (std::size_t y = 1; y < mirrored.size(); y += 3) mirrored[y] = -mirrored[y];
+    return SightNumbersOf({mirrored, sample.label}, MirroredSideways(sample.proprioception),
+                          family);
+  }
+};
+
+Matrix ColumnsOf(const TakenSamples& taken) {
+  Matrix columns(static_cast<Eigen::Index>(SightSize(taken.family)),
+                 static_cast<Eigen::Index>(taken.indices.size()));
+  for (std::size_t i = 0; i < taken.indices.size(); ++i) {
+    const SightNumbers numbers = taken.Numbers(i);
     columns.col(static_cast<Eigen::Index>(i)) =
         Eigen::Map<const Eigen::VectorXf>(numbers.data(), columns.rows()).cast<double>();
   }
@@ -250,7 +266,7 @@ double Familiarity::DistanceAt(double percentile) const {
 
 std::optional<Familiarity> FitFamiliarity(std::span<const TrainingSample> train,
                                           std::span<const TrainingSample> validation,
-                                          NetworkFamily family) {
+                                          NetworkFamily family, SampleSides sides) {
   if (train.size() < kLeastTraining) return std::nullopt;
   Familiarity familiarity;
   std::vector<std::size_t> fitted = EvenlyTaken(train.size(), kMostTraining);
@@ -263,12 +279,10 @@ std::optional<Familiarity> FitFamiliarity(std::span<const TrainingSample> train,
       (i % kHeldOut == 0 ? held : others).push_back(fitted[i]);
     fitted = std::move(others);
   }
-  Whiten(ColumnsOf(train, fitted, family), familiarity);
-  for (const std::size_t index : held) {
-    const TrainingSample& sample = validation[index];
-    familiarity.distances.push_back(static_cast<float>(familiarity.DistanceOf(
-        SightNumbersOf({sample.cloud, sample.label}, sample.proprioception, family))));
-  }
+  Whiten(ColumnsOf({train, std::move(fitted), family, sides}), familiarity);
+  const TakenSamples judged{validation, std::move(held), family, sides};
+  for (std::size_t i = 0; i < judged.indices.size(); ++i)
+    familiarity.distances.push_back(static_cast<float>(familiarity.DistanceOf(judged.Numbers(i))));
   std::ranges::sort(familiarity.distances);
   return familiarity;
 }

@@ -172,6 +172,14 @@ double TurnedClassifier::Probability(const HandMotion& motion) const {
   return Logistic(score);
 }
 
+// A turn is mirrored as its axis is, which keeps y and turns x and z around; a way the other way
+// about.
+HandMotion MirroredSideways(const HandMotion& motion) {
+  HandMotion mirrored = motion;
+  for (const std::size_t odd : {0U, 2U, 3U, 5U, 7U, 10U}) mirrored.at(odd) = -mirrored.at(odd);
+  return mirrored;
+}
+
 std::optional<TurnedClassifier> FitTurnedClassifier(std::span<const TurnedExample> examples) {
   const auto turned =
       std::ranges::count_if(examples, [](const TurnedExample& one) { return one.turned; });

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The policies of this toolkit, a row each. Who adds one adds its file to the room that it belongs
-// to and its row here.
+// The rules of this toolkit, a row each.
 
-#include "doorforge/registry/policy_registry.h"
+#include "built_in_policies.h"
 
 namespace doorforge {
 namespace {
@@ -27,13 +26,17 @@ std::unique_ptr<GraspPolicy> MakeRandomGrasp(const PolicySettings& settings) {
 
 }  // namespace
 
-PolicyRegistry BuiltInPolicies() {
+void internal::AddRules(PolicyRegistry& registry) {
   const std::string expert(kExpertPolicy);
-  PolicyRegistry registry;
   registry.Add(MotionPolicyRow{Stage::kOpen, expert, MakeOpeningExpert, /*is_own=*/false});
   registry.Add(MotionPolicyRow{Stage::kHandle, expert, MakeHandleExpert, /*is_own=*/false});
   registry.Add(GraspPolicyRow{expert, MakeExpertGrasp, 1, /*is_own=*/false});
   registry.Add(GraspPolicyRow{"random", MakeRandomGrasp, 1, /*is_own=*/false});
+}
+
+PolicyRegistry BuiltInPolicies() {
+  PolicyRegistry registry;
+  for (const auto& add : internal::kBuiltInPolicies) add(registry);
   return registry;
 }
 

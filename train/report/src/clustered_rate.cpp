@@ -14,7 +14,6 @@
 namespace doorforge {
 namespace {
 
-constexpr double kNormalQuantile975 = 1.959963984540054;
 constexpr int kResamples = 1000;
 
 /// The trials of one door: numbers of its parts, how many, and how much of them succeeded.
@@ -88,21 +87,6 @@ double ResampledVariance(const Table& table) {
 }
 
 }  // namespace
-
-Interval WilsonInterval(double successes, double trials) {
-  Require(successes >= 0 && successes <= trials, ErrorCode::kInvalidArgument,
-          std::to_string(successes) + " successes of " + std::to_string(trials) +
-              " trials: expected 0 <= successes <= trials");
-  if (trials == 0) return {};
-  const double p = successes / trials;
-  const double z2 = kNormalQuantile975 * kNormalQuantile975;
-  const double center = (p + z2 / (2 * trials)) / (1 + z2 / trials);
-  const double half = kNormalQuantile975 / (1 + z2 / trials) *
-                      std::sqrt(p * (1 - p) / trials + z2 / (4 * trials * trials));
-  // at 0 and n successes one end is exactly 0 or 1; rounding must not say otherwise
-  return {successes == 0 ? 0 : std::max(0.0, center - half),
-          successes == trials ? 1 : std::min(1.0, center + half)};
-}
 
 SuccessRate ClusteredRate(std::span<const ClusteredTrial> trials) {
   if (trials.empty()) return {};

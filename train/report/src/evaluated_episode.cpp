@@ -6,6 +6,7 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
+#include "doorforge/schemas/fallible.h"
 
 namespace doorforge {
 namespace {
@@ -45,7 +46,10 @@ std::string_view CauseOf(const EvaluatedEpisode& episode) {
   const bool unseen =
       episode.outcome == EpisodeOutcome::kNotReached &&
       episode.detail.find("no point to take hold of is in view") != std::string::npos;
-  return unseen ? kNoGraspInView : NameOf(episode.outcome);
+  if (unseen) return kNoGraspInView;
+  const bool failed =
+      episode.outcome == EpisodeOutcome::kDiverged && episode.detail.starts_with(kPolicyFailed);
+  return failed ? kNoAction : NameOf(episode.outcome);
 }
 
 nlohmann::ordered_json EvaluatedEpisodeToJson(const EvaluatedEpisode& episode) {

@@ -172,10 +172,14 @@ auto ArrayFromJson(const Json& json, const std::string& path, const Codec& from_
 
 }  // namespace
 
+bool IsTrained(std::string_view actor) {
+  constexpr std::size_t kDigits = 64;
+  return actor.size() == kDigits &&
+         actor.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
 bool IsSwitchPredicted(const ReportProvenance& provenance) {
-  const bool trained =
-      !provenance.handler_sha256.empty() && provenance.handler_sha256 != kOwnPolicy;
-  return trained && provenance.config.is_object() &&
+  return IsTrained(provenance.handler_sha256) && provenance.config.is_object() &&
          provenance.config.value("switch", "predicted") == "predicted";
 }
 

@@ -110,9 +110,9 @@ std::string Cause(const EvaluationReport& report, const ReportPictures& pictures
   const EvaluatedEpisode& example = report.episodes[cause.first];
   const double share =
       static_cast<double>(cause.episodes) / static_cast<double>(report.episodes.size());
-  // nothing moves in an episode without a grasp
-  const std::string film =
-      cause.name == kNoGraspInView ? "" : FilmFigure(pictures, example.outcome);
+  // nothing moves in an episode without a grasp, and a policy that failed is not asked again
+  const bool filmed = cause.name != kNoGraspInView && cause.name != kNoAction;
+  const std::string film = filmed ? FilmFigure(pictures, example.outcome) : "";
   const std::string text = Fill(R"(<p class="soft">{door}, seed {seed}: {detail}</p>)",
                                 {{"door", Escape(example.door_id)},
                                  {"seed", std::to_string(example.seed)},
@@ -261,19 +261,21 @@ bool IsExpert(const EvaluationReport& report) {
 
 namespace {
 
-// Names of the stages that a trained policy plays.
-std::vector<std::string> TrainedStages(const EvaluationReport& report) {
+// Names of the stages that another policy than a rule of the toolkit plays.
+std::vector<std::string> PlayedStages(const EvaluationReport& report) {
   const ReportProvenance& provenance = report.provenance;
   std::vector<std::string> stages;
-  if (!provenance.grasper_sha256.empty() && provenance.grasper_sha256 != "random")
-    stages.emplace_back("grasp");
-  if (!provenance.handler_sha256.empty()) stages.emplace_back("handle");
+  const auto plays = [](const std::string& actor) {
+    return IsTrained(actor) || actor == kOwnPolicy;
+  };
+  if (plays(provenance.grasper_sha256)) stages.emplace_back("grasp");
+  if (plays(provenance.handler_sha256)) stages.emplace_back("handle");
   if (!IsExpert(report)) stages.emplace_back("opening");
   return stages;
 }
 
 std::string Title(const EvaluationReport& report, bool held_out) {
-  const std::vector<std::string> stages = TrainedStages(report);
+  const std::vector<std::string> stages = PlayedStages(report);
   std::string who = stages.empty()  ? "The rule-based expert"
                     : IsOwn(report) ? "The policy " + Escape(report.provenance.policy) + " for "
                                     : "A trained policy for ";
@@ -285,19 +287,21 @@ std::string Title(const EvaluationReport& report, bool held_out) {
 
 std::string Lead(const EvaluationReport& report, bool held_out) {
   const ReportProvenance& provenance = report.provenance;
-  const std::string grasp = provenance.grasper_sha256.empty()
-                                ? "By rules that read the joints from the simulator, a mobile "
-                                  "Franka grasps the handle"
-                            : provenance.grasper_sha256 == "random"
-                                ? "A mobile Franka tries a sampled grasp"
-                            : provenance.grasper_sha256 == kOwnPolicy
-                                ? "A policy of one's own chooses the grasp"
-                                : "A trained policy chooses the grasp from a point cloud";
+  const std::string grasp =
+      provenance.grasper_sha256.empty()
+          ? "By rules that read the joints from the simulator, a mobile "
+            "Franka grasps the handle"
+      : provenance.grasper_sha256 == kOwnPolicy ? "A policy of one's own chooses the grasp"
+      : IsTrained(provenance.grasper_sha256)
+          ? "A trained policy chooses the grasp from a point cloud"
+          : "The policy " + Escape(provenance.grasper_sha256) + " chooses the grasp";
   const std::string handle =
       provenance.handler_sha256.empty()         ? "; a rule turns it"
       : provenance.handler_sha256 == kOwnPolicy ? "; a policy of one's own turns it"
-      : IsSwitchPredicted(provenance)           ? "; a trained policy turns it and says when it has"
-                                                : "; a trained policy turns it";
+      : !IsTrained(provenance.handler_sha256)
+          ? "; the policy " + Escape(provenance.handler_sha256) + " turns it"
+      : IsSwitchPredicted(provenance) ? "; a trained policy turns it and says when it has"
+                                      : "; a trained policy turns it";
   const std::string opening =
       IsExpert(report) ? "; a rule opens the door."
       : IsOwn(report)  ? "; the policy " + Escape(provenance.policy) + " opens the door."

@@ -68,8 +68,7 @@ std::string Causes(const EvaluationReport& report) {
 std::string StagesLine(const ReportProvenance& provenance) {
   const auto actor = [](const std::string& sha256, const char* otherwise) {
     if (sha256.empty()) return std::string(otherwise);
-    const bool named = sha256 == "random" || sha256 == kOwnPolicy;
-    return named ? sha256 : "trained " + sha256.substr(0, 12);
+    return IsTrained(sha256) ? "trained " + sha256.substr(0, 12) : sha256;
   };
   return "grasp: " + actor(provenance.grasper_sha256, "expert") +
          "; handle: " + actor(provenance.handler_sha256, "rule") +

@@ -33,7 +33,7 @@ class DeviceEncoder {
   /// all rows of the geometries, in balls their padding included, as UniDoorManip's.
   std::vector<float> Forward(const Geometries& geometries, bool for_gradient);
 
-  /// Of the last Forward(): means and unbiased variances.
+  /// Returns those of the last Forward(): means and unbiased variances.
   LayerStatistics Statistics() const;
 
   /// Adds the gradient of sum(feature_gradient * features) of the last Forward() to `gradient`, a

@@ -18,7 +18,7 @@
 namespace doorforge::internal {
 namespace {
 
-constexpr int kAffordanceLesson = 1;
+constexpr int kAffordancePhase = 1;
 
 // What the affordance learns from one cloud.
 struct RatedPoints {
@@ -32,19 +32,19 @@ class GraspTask : public StageTask {
   explicit GraspTask(const TaskInput& input)
       : input_(input),
         contacts_{CacheOf(SampleSet::kTrain, 0), CacheOf(SampleSet::kValidation, 0)},
-        candidates_{CacheOf(SampleSet::kTrain, kAffordanceLesson),
-                    CacheOf(SampleSet::kValidation, kAffordanceLesson)} {}
+        candidates_{CacheOf(SampleSet::kTrain, kAffordancePhase),
+                    CacheOf(SampleSet::kValidation, kAffordancePhase)} {}
 
-  std::vector<NetworkRole> Taught(int lesson) const override {
-    if (lesson == kAffordanceLesson) return {NetworkRole::kActor};
+  std::vector<NetworkRole> NetworksOf(int phase) const override {
+    if (phase == kAffordancePhase) return {NetworkRole::kActor};
     return {NetworkRole::kCritic};
   }
 
   int Interval(NetworkRole /*role*/) const override { return 1; }
 
   // The discriminator does not change any more: its ratings are found once.
-  void Begin(int lesson, const StageNetworks& networks) override {
-    if (lesson != kAffordanceLesson) return;
+  void Begin(int phase, const StageNetworks& networks) override {
+    if (phase != kAffordancePhase) return;
     const GraspRater rater(networks);
     for (const SampleSet set : {SampleSet::kTrain, SampleSet::kValidation}) {
       std::vector<RatedPoints>& rated = rated_.at(static_cast<std::size_t>(set));
@@ -54,12 +54,12 @@ class GraspTask : public StageTask {
     }
   }
 
-  bool ReadsClouds(int lesson) const override {
-    return lesson == kAffordanceLesson || input_.networks->normalisation.view.near_points == 0;
+  bool ReadsClouds(int phase) const override {
+    return phase == kAffordancePhase || input_.networks->normalisation.view.near_points == 0;
   }
 
-  Geometries GeometriesOf(int lesson, const Minibatch& batch) override {
-    auto& caches = lesson == kAffordanceLesson ? candidates_ : contacts_;
+  Geometries GeometriesOf(int phase, const Minibatch& batch) override {
+    auto& caches = phase == kAffordancePhase ? candidates_ : contacts_;
     Geometries found =
         caches.at(static_cast<std::size_t>(batch.set)).Get(batch.indices, input_.threads);
     ParallelFor(found.size(), input_.threads, [&](std::size_t i) {
@@ -82,19 +82,19 @@ class GraspTask : public StageTask {
     return set == SampleSet::kTrain ? input_.train : input_.validation;
   }
 
-  GeometryCache CacheOf(SampleSet set, int lesson) const {
-    // the two lessons share the memory, and validation has a quarter of what training has
+  GeometryCache CacheOf(SampleSet set, int phase) const {
+    // the two phases share the memory, and validation has a quarter of what training has
     const std::size_t bytes = input_.cache_bytes / (set == SampleSet::kTrain ? 2 : 8);
     const auto points =
-        lesson == kAffordanceLesson ? static_cast<std::size_t>(input_.config->sampled_points) : 1;
+        phase == kAffordancePhase ? static_cast<std::size_t>(input_.config->sampled_points) : 1;
     return {SamplesOf(set).size(), points, bytes,
-            [this, set, lesson](std::size_t i) { return GeometryOf(set, lesson, i); }};
+            [this, set, phase](std::size_t i) { return GeometryOf(set, phase, i); }};
   }
 
-  CloudGeometry GeometryOf(SampleSet set, int lesson, std::size_t i) const {
+  CloudGeometry GeometryOf(SampleSet set, int phase, std::size_t i) const {
     const StageNormalisation& normalisation = input_.networks->normalisation;
     const std::span<const float> cloud = SamplesOf(set)[i].cloud;
-    if (lesson != kAffordanceLesson)
+    if (phase != kAffordancePhase)
       return GeometryFor(*input_.config, set, cloud, {GraspWindow(normalisation, cloud), {0}});
     const RatedPoints& rated = rated_.at(static_cast<std::size_t>(set))[i];
     const std::vector<float> begun = BeginningAt(cloud, rated.first);
@@ -114,7 +114,9 @@ class GraspTask : public StageTask {
   // The grasps of the record. On every step each is held one way round or the other, by chance.
   HeadBatch TriedGrasps(const Minibatch& batch) const {
     const StageNormalisation& normalisation = input_.networks->normalisation;
-    HeadBatch head = MakeHeadBatch(SamplesOf(batch.set), batch.indices, normalisation);
+    std::vector<TrainingSample> tried;
+    for (const std::size_t index : batch.indices) tried.push_back(SamplesOf(batch.set)[index]);
+    HeadBatch head = MakeHeadBatch(tried, normalisation);
     const bool training = batch.set == SampleSet::kTrain;
     Rng rng(input_.config->seed, "train/half_turns/" + std::to_string(batch.step));
     for (std::size_t i = 0; i < batch.indices.size(); ++i) {

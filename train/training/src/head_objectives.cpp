@@ -291,7 +291,7 @@ HeadResult DiscriminatorObjective(const StageNetworks& networks, const HeadBatch
   const auto loss_of = [&](const HeadParameters& parameters, const Tensor& features) {
     const Tensor score = DiscriminatorScore(parameters, networks, batch, features);
     Loss loss = MeanAbsolute(score, batch, &StageLosses::score_rad);
-    if (config.score_loss == "squared")
+    if (config.score_loss == ScoreLoss::kSquared)
       loss.objective = (score - View(batch.gains, 1)).square().mean();
     return loss;
   };

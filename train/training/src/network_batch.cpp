@@ -37,12 +37,10 @@ Geometries GeometryCache::Get(std::span<const std::size_t> indices, int threads)
 }
 
 HeadBatch MakeHeadBatch(std::span<const TrainingSample> samples,
-                        std::span<const std::size_t> indices,
                         const StageNormalisation& normalisation) {
   HeadBatch batch;
-  batch.size = static_cast<int>(indices.size());
-  for (const std::size_t index : indices) {
-    const TrainingSample& sample = samples[index];
+  batch.size = static_cast<int>(samples.size());
+  for (const TrainingSample& sample : samples) {
     AppendRobotState(normalisation, sample.proprioception, batch);
     Append(normalisation.action.Apply(sample.action), batch.actions);
     batch.gains.push_back(sample.score_rad);

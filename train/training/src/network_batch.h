@@ -23,13 +23,14 @@ using Geometries = std::vector<std::shared_ptr<const CloudGeometry>>;
 /// Geometries of a set of samples, kept up to a number of them.
 class GeometryCache {
  public:
-  /// Of the sample with this index; called from several threads.
+  /// Builds that of the sample with this index; called from several threads.
   using Build = std::function<CloudGeometry(std::size_t)>;
 
   /// @param points Output points of a geometry, for its size in memory.
   GeometryCache(std::size_t samples, std::size_t points, std::size_t budget_bytes, Build build);
 
-  /// Of the samples with these indices, found on `threads` threads where not yet known.
+  /// Returns those of the samples with these indices, found on `threads` threads where not yet
+  /// known.
   Geometries Get(std::span<const std::size_t> indices, int threads);
 
  private:
@@ -40,7 +41,6 @@ class GeometryCache {
 
 /// The normalised numbers of these samples; features and noise are left empty.
 HeadBatch MakeHeadBatch(std::span<const TrainingSample> samples,
-                        std::span<const std::size_t> indices,
                         const StageNormalisation& normalisation);
 
 /// A batch on its way through one network's encoder. Memory is reused from batch to batch.

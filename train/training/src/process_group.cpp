@@ -20,7 +20,7 @@
 namespace doorforge {
 namespace {
 
-class Alone : public ProcessGroup {
+class OneProcess : public ProcessGroup {
  public:
   int rank() const override { return 0; }
   int size() const override { return 1; }
@@ -163,11 +163,11 @@ std::unique_ptr<ProcessGroup> Join(const Place&) {
 
 }  // namespace
 
-std::unique_ptr<ProcessGroup> SoleProcess() { return std::make_unique<Alone>(); }
+std::unique_ptr<ProcessGroup> SingleProcessGroup() { return std::make_unique<OneProcess>(); }
 
 std::unique_ptr<ProcessGroup> ProcessGroupFromEnvironment() {
   const Place place = PlaceFromEnvironment();
-  return place.size == 1 ? SoleProcess() : Join(place);
+  return place.size == 1 ? SingleProcessGroup() : Join(place);
 }
 
 }  // namespace doorforge

@@ -8,7 +8,7 @@ namespace doorforge::internal {
 
 CloudGeometry GeometryFor(const TrainConfig& config, SampleSet set, std::span<const float> cloud,
                           const Reading& reading) {
-  const bool whole = set == SampleSet::kTrain && NormOf(config) == EncoderNorm::kBatch;
+  const bool whole = set == SampleSet::kTrain && config.encoder_norm == EncoderNorm::kBatch;
   const InstructionSet instructions = BestInstructionSet();
   return whole ? BuildWholeGeometry(cloud, reading.window, reading.points, instructions)
                : BuildGeometry(cloud, reading.window, reading.points, instructions);
@@ -18,10 +18,10 @@ std::size_t BatchSize(std::size_t samples, const TrainConfig& config) {
   return std::min(samples, static_cast<std::size_t>(config.batch_size));
 }
 
-int LessonsOf(NetworkFamily family) { return family == NetworkFamily::kGrasp ? 2 : 1; }
+int PhasesOf(NetworkFamily family) { return family == NetworkFamily::kGrasp ? 2 : 1; }
 
-int EpochsOfLesson(const TrainConfig& config, int lesson) {
-  const bool judges = config.family == NetworkFamily::kGrasp && lesson == 0;
+int EpochsOfPhase(const TrainConfig& config, int phase) {
+  const bool judges = config.family == NetworkFamily::kGrasp && phase == 0;
   return judges && config.discriminator_epochs > 0 ? config.discriminator_epochs : config.epochs;
 }
 

@@ -37,37 +37,38 @@ CloudGeometry GeometryFor(const TrainConfig& config, SampleSet set, std::span<co
 struct Minibatch {
   SampleSet set = SampleSet::kTrain;
   std::vector<std::size_t> indices;
-  std::uint64_t step = 0;  ///< Of the run: names the random draws. Validation draws nothing.
+  std::uint64_t step =
+      0;  ///< It counts the run's steps and names the random draws. Validation draws nothing.
 };
 
-/// What a stage teaches its networks, in lessons one after the other. The loop of
+/// What a stage teaches its networks, in phases one after the other. The loop of
 /// TrainStage() knows steps, gradients and checkpoints, and nothing of what is learnt; a task knows
 /// nothing of steps but the number that names a step's draws.
 class StageTask {
  public:
   virtual ~StageTask() = default;
 
-  /// Networks that a lesson teaches; all read the same geometries.
-  virtual std::vector<NetworkRole> Taught(int lesson) const = 0;
-  /// A network learns on every n-th step of its lesson.
+  /// Networks that a phase teaches; all read the same geometries.
+  virtual std::vector<NetworkRole> NetworksOf(int phase) const = 0;
+  /// A network learns on every n-th step of its phase.
   virtual int Interval(NetworkRole role) const = 0;
-  /// Called before a lesson's first step in this process: once in a run, again when it is resumed.
-  virtual void Begin(int lesson, const StageNetworks& networks) = 0;
-  /// False: the lesson's networks need no clouds; features are empty then.
-  virtual bool ReadsClouds(int lesson) const = 0;
-  /// Of a lesson that reads clouds.
-  virtual Geometries GeometriesOf(int lesson, const Minibatch& batch) = 0;
-  /// Of one network; the gradient is added to `gradient` unless that is empty.
+  /// Called before a phase's first step in this process: once in a run, again when it is resumed.
+  virtual void Begin(int phase, const StageNetworks& networks) = 0;
+  /// False: the phase's networks need no clouds; features are empty then.
+  virtual bool ReadsClouds(int phase) const = 0;
+  /// Exists for a phase that reads clouds.
+  virtual Geometries GeometriesOf(int phase, const Minibatch& batch) = 0;
+  /// Evaluates one network; the gradient is added to `gradient` unless that is empty.
   virtual HeadResult Objective(NetworkRole role, const Minibatch& batch,
                                std::vector<float> features, std::span<float> gradient) = 0;
 };
 
 /// Samples of a batch, of so many in all.
 std::size_t BatchSize(std::size_t samples, const TrainConfig& config);
-/// Lessons of a family: 1, or 2 where one network learns from the other's ratings.
-int LessonsOf(NetworkFamily family);
+/// Phases of a family: 1, or 2 where one network learns from the other's ratings.
+int PhasesOf(NetworkFamily family);
 /// Passes over the samples of one of them.
-int EpochsOfLesson(const TrainConfig& config, int lesson);
+int EpochsOfPhase(const TrainConfig& config, int phase);
 
 /// What a task learns from.
 struct TaskInput {

@@ -21,15 +21,15 @@ void RequireConfig(bool condition, const char* key, const char* allowed) {
     throw Error(ErrorCode::kInvalidConfig, std::string("config.") + key + ": must be " + allowed);
 }
 
-double LearningRateInLesson(const TrainConfig& config, std::uint64_t step, std::uint64_t total) {
+double LearningRateInPhase(const TrainConfig& config, std::uint64_t step, std::uint64_t total) {
   const double warmup = config.warmup_steps > 0
                             ? std::min(1.0, static_cast<double>(step + 1) / config.warmup_steps)
                             : 1.0;
   const auto s = static_cast<double>(step);
   double decay = 1;
-  if (config.schedule == "cosine")
+  if (config.schedule == RateSchedule::kCosine)
     decay = 0.01 + 0.99 * 0.5 * (1 + std::cos(std::numbers::pi * s / static_cast<double>(total)));
-  if (config.schedule == "step") decay = std::pow(0.9, std::floor(s / 5000));
+  if (config.schedule == RateSchedule::kStep) decay = std::pow(0.9, std::floor(s / 5000));
   return config.learning_rate * warmup * decay;
 }
 
@@ -41,29 +41,23 @@ void CheckTrainConfig(const TrainConfig& config) {
   RequireConfig(config.batch_size >= 1, "batch_size", "at least 1");
   RequireConfig(config.learning_rate > 0, "learning_rate", "positive");
   RequireConfig(config.weight_decay >= 0, "weight_decay", "at least 0");
-  RequireConfig(
-      config.schedule == "cosine" || config.schedule == "step" || config.schedule == "constant",
-      "schedule", "cosine, step or constant");
   RequireConfig(config.warmup_steps >= 0, "warmup_steps", "at least 0");
   RequireConfig(config.lambda_position >= 0 && config.lambda_rotation >= 0 &&
                     config.lambda_kl >= 0 && config.prior_reconstruction >= 0,
                 "lambda_*", "at least 0");
-  RequireConfig(config.frame == "hand" || config.frame == "world", "frame", "hand or world");
-  RequireConfig(config.state == "hand" || config.state == "joints" || config.state == "none",
-                "state", "hand, joints or none");
   RequireConfig(config.augment_roll_rad >= 0 && config.augment_roll_rad <= std::numbers::pi,
                 "augment_roll_rad", "in [0, pi]");
-  RequireConfig(config.frame == NameOf(ViewFrame::kHand) ||
-                    (config.augment_roll_rad == 0 && !config.augment_mirror),
-                "augment_roll_rad and augment_mirror", "0 and false in the frame \"world\"");
+  RequireConfig(
+      config.frame == ViewFrame::kHand || (config.augment_roll_rad == 0 && !config.augment_mirror),
+      "augment_roll_rad and augment_mirror", "0 and false in the frame \"world\"");
+  RequireConfig(config.family == NetworkFamily::kGrasp || config.state != StateKind::kJoints ||
+                    !config.augment_mirror,
+                "augment_mirror",
+                "false with the state \"joints\": the mirror image of an arm is another arm");
   RequireConfig(config.zoom > 0 && config.zoom <= 100, "zoom", "in (0, 100]");
   RequireConfig(config.context_m >= 0 && config.context_m < 100, "context_m", "in [0, 100)");
-  RequireConfig(config.encoder_norm == "none" || config.encoder_norm == "batch", "encoder_norm",
-                "none or batch");
   internal::RequireDevice(config.device);
   RequireConfig(config.critic_interval >= 1, "critic_interval", "at least 1");
-  RequireConfig(config.score_loss == "squared" || config.score_loss == "absolute", "score_loss",
-                "squared or absolute");
   RequireConfig(config.sampled_points >= 1 && config.sampled_points <= kCloudPoints,
                 "sampled_points", "1 to 4096");
   RequireConfig(config.near_points >= 0 && config.near_points <= kCloudPoints, "near_points",
@@ -84,18 +78,17 @@ std::uint64_t StepsPerEpoch(std::size_t samples, const TrainConfig& config) {
 
 int EpochsOf(const TrainConfig& config) {
   int epochs = 0;
-  for (int lesson = 0; lesson < internal::LessonsOf(config.family); ++lesson)
-    epochs += internal::EpochsOfLesson(config, lesson);
+  for (int phase = 0; phase < internal::PhasesOf(config.family); ++phase)
+    epochs += internal::EpochsOfPhase(config, phase);
   return epochs;
 }
 
 double LearningRateAt(const TrainConfig& config, TrainingPlace place) {
   std::uint64_t begin = 0;
-  for (int lesson = 0; lesson < internal::LessonsOf(config.family); ++lesson) {
+  for (int phase = 0; phase < internal::PhasesOf(config.family); ++phase) {
     const std::uint64_t steps =
-        place.steps_per_epoch *
-        static_cast<std::uint64_t>(internal::EpochsOfLesson(config, lesson));
-    if (place.step < begin + steps) return LearningRateInLesson(config, place.step - begin, steps);
+        place.steps_per_epoch * static_cast<std::uint64_t>(internal::EpochsOfPhase(config, phase));
+    if (place.step < begin + steps) return LearningRateInPhase(config, place.step - begin, steps);
     begin += steps;
   }
   return 0;

@@ -184,11 +184,21 @@ class FolderTraining {
   void Prepare() {
     output_ = {request_.out, provenance_, per_epoch_, {}, {}};
     CommitFile(request_.out / "config.yaml", JsonText(ToJson(request_.config), 2) + "\n");
-    output_.turned = FitTurnedClassifier(dataset_.turned_train);
-    output_.familiarity =
-        FitFamiliarity(dataset_.train, dataset_.validation, request_.config.family);
+    output_.turned = FitTurnedClassifier(TurnedExamples());
+    output_.familiarity = FitFamiliarity(
+        dataset_.train, dataset_.validation, request_.config.family,
+        request_.config.augment_mirror ? SampleSides::kMirroredToo : SampleSides::kAsSeen);
     WriteBesides(output_, request_.out);
     if (!hooks_.resume) RemoveBest(request_.out);  // of an earlier training
+  }
+
+  // With mirror images where the policy learns from them as well.
+  std::vector<TurnedExample> TurnedExamples() const {
+    std::vector<TurnedExample> examples = dataset_.turned_train;
+    if (!request_.config.augment_mirror) return examples;
+    for (const TurnedExample& example : dataset_.turned_train)
+      examples.push_back({MirroredSideways(example.motion), example.turned});
+    return examples;
   }
 
   // what an interruption must not take away
@@ -271,9 +281,9 @@ std::string LossText(const StageLosses& losses, NetworkFamily family) {
 }
 
 TrainingOutcome TrainIntoFolder(const TrainingRequest& request) {
-  if (request.config.device == "libtorch" || NormOf(request.config) == EncoderNorm::kBatch)
+  if (request.config.device == "libtorch" || request.config.encoder_norm == EncoderNorm::kBatch)
     KeepFreedMemory();
-  const auto group = request.nodes ? ProcessGroupFromEnvironment() : SoleProcess();
+  const auto group = request.nodes ? ProcessGroupFromEnvironment() : SingleProcessGroup();
   std::optional<FolderLock> lock;
   if (group->rank() == 0) {
     // who writes there now is told first: what there is would be half of the answer

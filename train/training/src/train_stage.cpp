@@ -93,11 +93,8 @@ void RequireLikeClouds(std::span<const TrainingSample> samples) {
 
 NetworkView ViewOf(const TrainConfig& config, std::span<const TrainingSample> samples) {
   NetworkView view;
-  if (config.frame == NameOf(ViewFrame::kHand)) view.frame = ViewFrame::kHand;
-  for (const StateKind kind : {StateKind::kHand, StateKind::kNone}) {
-    const bool has_state = config.family == NetworkFamily::kMotion;
-    if (has_state && config.state == NameOf(kind)) view.state = kind;
-  }
+  view.frame = config.frame;
+  if (config.family == NetworkFamily::kMotion) view.state = config.state;
   view.context_m = static_cast<float>(config.context_m);
   view.zoom = static_cast<float>(config.zoom);
   RequireLikeClouds(samples);
@@ -136,7 +133,7 @@ struct Network {
   std::vector<float>* second;
   LayerStatistics* statistics;
   EncodedBatch encoded{};
-  std::optional<internal::DeviceEncoder> in_operators{};   // in the place of `encoded`
+  std::optional<internal::DeviceEncoder> torch_encoder{};  // in the place of `encoded`
   std::array<std::vector<float>, kGradientParts> parts{};  // of the encoder's gradient
   std::vector<float> gradient{};
   std::vector<float> feature_gradient{};
@@ -151,29 +148,31 @@ class Trainer {
         validation_(validation),
         config_(config),
         hooks_(hooks),
-        alone_(hooks.group == nullptr ? SoleProcess() : nullptr),
+        alone_(hooks.group == nullptr ? SingleProcessGroup() : nullptr),
         group_(hooks.group == nullptr ? *alone_ : *hooks.group),
         calls_(group_.size() > 1),
         threads_(ThreadCount(hooks.threads)),
         instruction_set_(BestInstructionSet()),
         state_(hooks.resume ? *hooks.resume : InitialState()),
-        networks_{Network{NetworkRole::kActor, &ActorLayout(config.family, NormOf(config)),
-                          &ActorLayout(config.family), &state_.networks.actor, &state_.actor_first,
-                          &state_.actor_second, &state_.actor_statistics},
-                  Network{NetworkRole::kCritic, &CriticLayout(config.family, NormOf(config)),
-                          &CriticLayout(config.family), &state_.networks.critic,
-                          &state_.critic_first, &state_.critic_second, &state_.critic_statistics}},
+        networks_{
+            Network{NetworkRole::kActor, &ActorLayout(config.family, config.encoder_norm),
+                    &ActorLayout(config.family), &state_.networks.actor, &state_.actor_first_moment,
+                    &state_.actor_second_moment, &state_.actor_statistics},
+            Network{NetworkRole::kCritic, &CriticLayout(config.family, config.encoder_norm),
+                    &CriticLayout(config.family), &state_.networks.critic,
+                    &state_.critic_first_moment, &state_.critic_second_moment,
+                    &state_.critic_statistics}},
         task_(MakeTask()) {}
 
   TrainerState Run() {
     const std::uint64_t per_epoch = StepsPerEpoch(train_.size(), config_);
     std::uint64_t end = 0;
-    for (int number = 0; number < internal::LessonsOf(config_.family); ++number) {
+    for (int number = 0; number < internal::PhasesOf(config_.family); ++number) {
       const std::uint64_t begin = end;
-      end += per_epoch * static_cast<std::uint64_t>(internal::EpochsOfLesson(config_, number));
+      end += per_epoch * static_cast<std::uint64_t>(internal::EpochsOfPhase(config_, number));
       if (state_.step >= end) continue;
       task_->Begin(number, PolicyOf(state_));
-      if (!Teach({number, begin, end, per_epoch})) break;
+      if (!RunPhase({number, begin, end, per_epoch})) break;
     }
     RequireSoundSamples();
     return std::move(state_);
@@ -181,7 +180,7 @@ class Trainer {
 
  private:
   // Steps [begin, end) of the run.
-  struct Lesson {
+  struct Phase {
     int number;
     std::uint64_t begin;
     std::uint64_t end;
@@ -189,12 +188,12 @@ class Trainer {
   };
 
   // False if the run is to stop.
-  bool Teach(const Lesson& lesson) {
-    while (state_.step < lesson.end) {
-      const StageLosses losses = Step(lesson);
+  bool RunPhase(const Phase& phase) {
+    while (state_.step < phase.end) {
+      const StageLosses losses = Step(phase);
       state_.steps.push_back(Updated(LastLosses(), losses));
       ++state_.step;
-      if (state_.step % lesson.per_epoch == 0) EndEpoch(lesson.number, lesson.per_epoch);
+      if (state_.step % phase.per_epoch == 0) EndEpoch(phase.number, phase.per_epoch);
       if (hooks_.on_step) hooks_.on_step(state_);
       if (StopsSomewhere()) return false;
     }
@@ -206,23 +205,33 @@ class Trainer {
     state.networks = hooks_.initial
                          ? *hooks_.initial
                          : InitialNetworks(MeasuredNormalisation(), config_.linear_branches,
-                                           config_.seed, config_.family, NormOf(config_));
-    state.actor_statistics = InitialStatistics(ActorLayout(config_.family, NormOf(config_)));
-    state.critic_statistics = InitialStatistics(CriticLayout(config_.family, NormOf(config_)));
-    state.actor_first.resize(state.networks.actor.size());
-    state.actor_second.resize(state.networks.actor.size());
-    state.critic_first.resize(state.networks.critic.size());
-    state.critic_second.resize(state.networks.critic.size());
+                                           config_.seed, config_.family, config_.encoder_norm);
+    state.actor_statistics = InitialStatistics(ActorLayout(config_.family, config_.encoder_norm));
+    state.critic_statistics = InitialStatistics(CriticLayout(config_.family, config_.encoder_norm));
+    state.actor_first_moment.resize(state.networks.actor.size());
+    state.actor_second_moment.resize(state.networks.actor.size());
+    state.critic_first_moment.resize(state.networks.critic.size());
+    state.critic_second_moment.resize(state.networks.critic.size());
     return state;
   }
 
   StageNormalisation MeasuredNormalisation() const {
     const NetworkView view = ViewOf(config_, train_);
-    StageNormalisation normalisation = MeasureNormalisation(train_, view);
+    StageNormalisation normalisation = MeasureNormalisation(AllShown(), view);
     // about the contact its own place is 0 always: the scale is that of the handle's other points
     if (config_.family == NetworkFamily::kGrasp && view.frame == ViewFrame::kHand)
       std::fill_n(normalisation.action.deviation.begin(), 3, kHandleScale);
     return normalisation;
+  }
+
+  // Motion samples with their mirror images, where these are learned from as well: the mirror image
+  // of a normalised number is normalised then.
+  std::vector<TrainingSample> AllShown() const {
+    std::vector<TrainingSample> all(train_.begin(), train_.end());
+    if (config_.family == NetworkFamily::kGrasp || !config_.augment_mirror) return all;
+    for (const TrainingSample& sample : train_)
+      all.push_back(internal::WithoutCloudMirrored(sample));
+    return all;
   }
 
   std::unique_ptr<StageTask> MakeTask() const {
@@ -267,18 +276,18 @@ class Trainer {
     return static_cast<std::uint64_t>(task_->Interval(network.role));
   }
 
-  // Those of the lesson's networks whose turn it is.
-  std::vector<Network*> Learning(int lesson, std::uint64_t lesson_step) {
+  // Those of the phase's networks whose turn it is.
+  std::vector<Network*> NetworksDueAt(int phase, std::uint64_t phase_step) {
     std::vector<Network*> learning;
-    for (Network* network : Taught(lesson)) {
-      if (lesson_step % Interval(*network) == 0) learning.push_back(network);
+    for (Network* network : NetworksOf(phase)) {
+      if (phase_step % Interval(*network) == 0) learning.push_back(network);
     }
     return learning;
   }
 
-  std::vector<Network*> Taught(int lesson) {
+  std::vector<Network*> NetworksOf(int phase) {
     std::vector<Network*> taught;
-    for (const NetworkRole role : task_->Taught(lesson))
+    for (const NetworkRole role : task_->NetworksOf(phase))
       taught.push_back(&networks_.at(static_cast<std::size_t>(role)));
     return taught;
   }
@@ -288,42 +297,42 @@ class Trainer {
     return {*network.plain, "encoder.", FoldedOf(network), instruction_set_};
   }
 
-  Minibatch BatchAt(const Lesson& lesson, std::uint64_t step) const {
+  Minibatch BatchAt(const Phase& phase, std::uint64_t step) const {
     return {SampleSet::kTrain,
-            internal::BatchOf(config_.seed, step / lesson.per_epoch, step % lesson.per_epoch,
+            internal::BatchOf(config_.seed, step / phase.per_epoch, step % phase.per_epoch,
                               train_.size(), internal::BatchSize(train_.size(), config_)),
             step};
   }
 
   // Of this process's share of the step's batch.
-  Geometries GeometriesAt(const Lesson& lesson, std::uint64_t step) {
+  Geometries GeometriesAt(const Phase& phase, std::uint64_t step) {
     if (next_step_ == step) return std::exchange(next_, {});
-    return task_->GeometriesOf(lesson.number, OwnShare(BatchAt(lesson, step)));
+    return task_->GeometriesOf(phase.number, OwnShare(BatchAt(phase, step)));
   }
 
-  StageLosses Step(const Lesson& lesson) {
-    const std::uint64_t lesson_step = state_.step - lesson.begin;
-    const std::vector<Network*> learning = Learning(lesson.number, lesson_step);
+  StageLosses Step(const Phase& phase) {
+    const std::uint64_t phase_step = state_.step - phase.begin;
+    const std::vector<Network*> learning = NetworksDueAt(phase.number, phase_step);
     for (Network* network : learning) network->gradient.assign(network->layout->size(), 0.0F);
-    const StageLosses losses = task_->ReadsClouds(lesson.number) ? ThroughClouds(lesson, learning)
-                                                                 : HeadsAlone(lesson, learning);
-    const internal::AdamRates rates{LearningRateAt(config_, {state_.step, lesson.per_epoch}),
+    const StageLosses losses = task_->ReadsClouds(phase.number) ? ThroughClouds(phase, learning)
+                                                                : HeadsAlone(phase, learning);
+    const internal::AdamRates rates{LearningRateAt(config_, {state_.step, phase.per_epoch}),
                                     config_.weight_decay};
     ParallelFor(learning.size(), threads_, [&](std::size_t n) {
       Network& network = *learning[n];
       RequireFiniteGradient(network);
-      AdamStep(rates, lesson_step / Interval(network) + 1, network.gradient,
+      AdamStep(rates, phase_step / Interval(network) + 1, network.gradient,
                {*network.parameters, *network.first, *network.second});
     });
     return losses;
   }
 
   // Leaves the gradients of networks that read no clouds, which every process finds by itself.
-  StageLosses HeadsAlone(const Lesson& lesson, const std::vector<Network*>& learning) {
+  StageLosses HeadsAlone(const Phase& phase, const std::vector<Network*>& learning) {
     StageLosses losses = UnknownLosses();
     for (Network* network : learning) {
       const HeadResult result =
-          task_->Objective(network->role, BatchAt(lesson, state_.step), {}, network->gradient);
+          task_->Objective(network->role, BatchAt(phase, state_.step), {}, network->gradient);
       RequireFinite(result.objective, "a loss");
       losses = Updated(losses, result.losses);
     }
@@ -331,13 +340,13 @@ class Trainer {
   }
 
   // Leaves the gradients of networks that read the clouds, of which each process encodes its share.
-  StageLosses ThroughClouds(const Lesson& lesson, const std::vector<Network*>& learning) {
-    const Minibatch batch = BatchAt(lesson, state_.step);
-    const Geometries geometries = GeometriesAt(lesson, state_.step);
-    const StageLosses losses = LearnsInOperators() ? InOperators(learning, batch, geometries)
-                                                   : InKernels(learning, batch, geometries);
-    if (group_.size() > 1 && state_.step + 1 < lesson.end) {  // while the sums travel
-      next_ = GeometriesAt(lesson, state_.step + 1);
+  StageLosses ThroughClouds(const Phase& phase, const std::vector<Network*>& learning) {
+    const Minibatch batch = BatchAt(phase, state_.step);
+    const Geometries geometries = GeometriesAt(phase, state_.step);
+    const StageLosses losses = LearnsInTorch() ? StepInTorch(learning, batch, geometries)
+                                               : StepInKernels(learning, batch, geometries);
+    if (group_.size() > 1 && state_.step + 1 < phase.end) {  // while the sums travel
+      next_ = GeometriesAt(phase, state_.step + 1);
       next_step_ = state_.step + 1;
     }
     for (Network* network : learning) {
@@ -349,8 +358,8 @@ class Trainer {
 
   // Leaves the encoders' gradients on their way; what one network sends travels while the other
   // computes.
-  StageLosses InKernels(const std::vector<Network*>& learning, const Minibatch& batch,
-                        const Geometries& geometries) {
+  StageLosses StepInKernels(const std::vector<Network*>& learning, const Minibatch& batch,
+                            const Geometries& geometries) {
     const std::vector<PointEncoder> encoders = EncodersOf(learning, geometries);
     std::vector<std::future<BatchFeatures>> features;
     for (std::size_t n = 0; n < learning.size(); ++n)
@@ -369,15 +378,15 @@ class Trainer {
   }
 
   // The same, both networks side by side: libtorch has one thread for each.
-  StageLosses InOperators(const std::vector<Network*>& learning, const Minibatch& batch,
+  StageLosses StepInTorch(const std::vector<Network*>& learning, const Minibatch& batch,
                           const Geometries& geometries) {
     std::vector<std::vector<float>> own(learning.size());
     ParallelFor(learning.size(), threads_, [&](std::size_t n) {
       internal::UseOneTorchThread();
       Network& network = *learning[n];
-      network.in_operators.emplace(*network.layout, *network.parameters, OperatorDevice());
-      own[n] = network.in_operators->Forward(geometries, true);
-      MoveTowards(network.in_operators->Statistics(), *network.statistics);
+      network.torch_encoder.emplace(*network.layout, *network.parameters, OperatorDevice());
+      own[n] = network.torch_encoder->Forward(geometries, true);
+      MoveTowards(network.torch_encoder->Statistics(), *network.statistics);
     });
     StageLosses losses = UnknownLosses();
     for (std::size_t n = 0; n < learning.size(); ++n)
@@ -386,7 +395,7 @@ class Trainer {
       internal::UseOneTorchThread();
       Network& network = *learning[n];
       ClearParts(network);  // the operators sum the whole share as they like
-      network.in_operators->AddGradient(network.feature_gradient, network.parts[FirstOwnPart()]);
+      network.torch_encoder->AddGradient(network.feature_gradient, network.parts[FirstOwnPart()]);
     });
     for (Network* network : learning) network->sum = StartSumming(*network);
     return losses;
@@ -406,12 +415,12 @@ class Trainer {
   }
 
   bool OnDevice() const { return config_.device != "cpu"; }
-  bool Normalises() const { return NormOf(config_) == EncoderNorm::kBatch; }
+  bool Normalises() const { return config_.encoder_norm == EncoderNorm::kBatch; }
   const char* OperatorDevice() const { return OnDevice() ? config_.device.c_str() : "libtorch"; }
   std::vector<float> FoldedOf(const Network& network) const {
     return FoldNorms(*network.layout, *network.parameters, *network.statistics);
   }
-  bool LearnsInOperators() const { return OnDevice() || Normalises(); }
+  bool LearnsInTorch() const { return OnDevice() || Normalises(); }
 
   // As packed for this step.
   std::vector<PointEncoder> EncodersOf(const std::vector<Network*>& networks,
@@ -514,13 +523,13 @@ class Trainer {
     return offsets;
   }
 
-  void EndEpoch(int lesson, std::uint64_t per_epoch) {
+  void EndEpoch(int phase, std::uint64_t per_epoch) {
     EpochLosses epoch;
     for (std::uint64_t i = state_.step - per_epoch; i < state_.step; ++i)
       AddScaled(state_.steps[i], 1.0 / static_cast<double>(per_epoch), epoch.train);
     const StageLosses before =
         state_.epochs.empty() ? UnknownLosses() : state_.epochs.back().validation;
-    epoch.validation = Updated(before, Validate(lesson));
+    epoch.validation = Updated(before, Validate(phase));
     RequireSoundSamples();
     state_.epochs.push_back(epoch);
     internal::UpdateBest(config_, state_);
@@ -536,8 +545,8 @@ class Trainer {
     return FeaturesInKernels(network, &encoder, geometries);
   }
 
-  // Mean over the validation set of what the lesson teaches.
-  StageLosses Validate(int lesson) {
+  // Mean over the validation set of what the phase teaches.
+  StageLosses Validate(int phase) {
     if (validation_.empty()) return UnknownLosses();
     constexpr std::size_t kChunk = 64;
     StageLosses sum;
@@ -545,10 +554,10 @@ class Trainer {
       Minibatch batch{SampleSet::kValidation, {}, 0};
       batch.indices.resize(std::min(kChunk, validation_.size() - begin));
       std::iota(batch.indices.begin(), batch.indices.end(), begin);
-      const std::vector<Network*> taught = Taught(lesson);
-      const bool reads = task_->ReadsClouds(lesson);
+      const std::vector<Network*> taught = NetworksOf(phase);
+      const bool reads = task_->ReadsClouds(phase);
       const Geometries geometries =
-          reads ? task_->GeometriesOf(lesson, OwnShare(batch)) : Geometries{};
+          reads ? task_->GeometriesOf(phase, OwnShare(batch)) : Geometries{};
       StageLosses losses = UnknownLosses();
       for (Network* network : taught) {
         std::vector<float> features;
@@ -601,8 +610,9 @@ TrainerState TrainStage(std::span<const TrainingSample> train,
   Require(!hooks.initial || hooks.initial->normalisation.view == view, ErrorCode::kInvalidArgument,
           "the networks to begin with were trained with other settings of frame, state, "
           "context_m, zoom or near_points, or from clouds of another extent, than \"" +
-              config.frame + "\", \"" + config.state + "\", " + std::to_string(config.context_m));
-  if (NormOf(config) == EncoderNorm::kBatch) {
+              std::string(NameOf(config.frame)) + "\", \"" + std::string(NameOf(config.state)) +
+              "\", " + std::to_string(config.context_m));
+  if (config.encoder_norm == EncoderNorm::kBatch) {
     Require(
         !hooks.initial, ErrorCode::kInvalidArgument,
         "a policy's batch statistics are folded into its weights, so that training cannot begin "

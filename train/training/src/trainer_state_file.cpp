@@ -37,9 +37,9 @@ void VisitVectors(State& state, const Visit& visit) {
     visit("norm." + name + "variance", statistics.variance, outputs);
   };
   visit_network(internal::NetworkPrefix(names.actor), ActorLayout(networks.family, networks.norm),
-                state.actor_first, state.actor_second, state.actor_statistics);
+                state.actor_first_moment, state.actor_second_moment, state.actor_statistics);
   visit_network(internal::NetworkPrefix(names.critic), CriticLayout(networks.family, networks.norm),
-                state.critic_first, state.critic_second, state.critic_statistics);
+                state.critic_first_moment, state.critic_second_moment, state.critic_statistics);
 }
 
 // The best networks are those of a policy, none of them where none was validated.
@@ -205,7 +205,7 @@ TrainerState ReadTrainerState(const fs::path& folder, const PolicyProvenance& ex
   TrainerState state;
   state.networks.family = FamilyOf(expected.stage);
   state.networks.linear_branches = expected.config.linear_branches;
-  state.networks.norm = NormOf(expected.config);
+  state.networks.norm = expected.config.encoder_norm;
   internal::ReadWeights(file, path, state.networks);
   VisitVectors(state, [&](const std::string& name, auto& values, std::size_t size) {
     values = ValuesOf<float>(TensorNamed(file, name, path), {size}, path);

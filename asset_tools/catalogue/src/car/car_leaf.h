@@ -23,13 +23,13 @@ struct CarLeafShape {
   double wheel_cut_m = 0.0;     ///< The lower rear corner is cut back along the wheel by this much.
   double crease_m = 0.006;      ///< Height of the line pressed into the skin below the handle.
   double thickness_m = 0.075;   ///< Below the belt line.
-  double frame_width_m = 0.06;  ///< Of the window frame.
+  double frame_width_m = 0.06;  ///< The window frame is so wide.
   double quarter_m = 0;         ///< Not 0: length of a small light in front, behind a bar.
   bool blind = false;           ///< No window in the frame: the side of a panel van.
   double mirror_m = 0;          ///< Not 0: height of the mirror's housing in front of the window.
   double mirror_reach_m = 0.2;  ///< How far it stands out.
   double armrest_m = 0;         ///< Not 0: how far an armrest stands out inside.
-  double pocket_m = 0;          ///< The same of a pocket below it.
+  double pocket_m = 0;          ///< A pocket below it is so large.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {

@@ -14,8 +14,8 @@ struct RoseParameters {
   /// circles), "tablet" (its corners are cut), "lens" (an ellipse) or "none".
   std::string shape = "round";
   double width_m = 0.052;     ///< Along y.
-  double height_m = 0.22;     ///< Of a plate, stadium, tablet or lens only, along z.
-  double center = -0.14;      ///< Of those: their middle above the axis, relative to the height.
+  double height_m = 0.22;     ///< Only a plate, stadium, tablet or lens has it; it is along z.
+  double center = -0.14;      ///< Their middle is so far above the axis, as a share of the height.
   std::string face = "flat";  ///< "flat", "domed" or "stepped".
   double thickness_m = 0.009;
   bool keyhole = false;  ///< A plate's cylinder boss below the handle.

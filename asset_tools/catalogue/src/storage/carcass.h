@@ -49,9 +49,9 @@ struct Carcass {
   /// the back), "pediment", "hutch" (open shelves on top), "mirror" (an upright panel at the back),
   /// "rail" (a low railing), "barrel" (rises to an arch).
   std::string top = "flush";
-  double top_height_m = 0.2;  ///< Of all but flush, board and cornice.
+  double top_height_m = 0.2;  ///< All but flush, board and cornice have it.
   Bay left, right, below, above;
-  std::string fronts = "sunk";  ///< Of drawers and doors that do not move: "plain", "sunk".
+  std::string fronts = "sunk";  ///< Drawers and doors that do not move look so: "plain", "sunk".
   std::string finish = "chipboard_white";
 
   template <class Self, class Visitor>
@@ -83,8 +83,8 @@ struct Carcass {
 struct CarcassLeaf {
   double width_m;
   double height_m;
-  double front_x_m = 0;  ///< Of the fronts beside it.
-  double thickness_m;    ///< Of those fronts; the carcass begins 3 mm behind them.
+  double front_x_m = 0;  ///< The fronts beside it lie here.
+  double thickness_m;    ///< These fronts are so thick; the carcass begins 3 mm behind them.
 };
 
 /// Throws Error(kInvalidConfig) on values out of range; `path` names the carcass.

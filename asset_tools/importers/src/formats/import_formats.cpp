@@ -19,13 +19,12 @@ using internal::ImportFormat;
 
 constexpr int kMaxDepth = 2;  // of folders below the source's own
 
-// in this order: later ones know less of what they look at
 const std::vector<ImportFormat>& Formats() {
-  static const std::vector<ImportFormat> kFormats = {
-      internal::GaPartNetFormat(),    internal::PartNetMobilityFormat(),
-      internal::UniDoorManipFormat(), internal::UniDoorManipPartsFormat(),
-      internal::Akb48Format(),        internal::DoorGymFormat(),
-      internal::UrdfFormat(),         internal::LooseMeshFormat()};
+  static const std::vector<ImportFormat> kFormats = [] {
+    std::vector<ImportFormat> formats;
+    for (const auto& format : internal::kImportFormats) formats.push_back(format());
+    return formats;
+  }();
   return kFormats;
 }
 

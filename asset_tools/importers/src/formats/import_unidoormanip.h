@@ -23,13 +23,13 @@ struct UniDoorManipObject {
   struct Mesh {
     std::string piece;  ///< "frame", "leaf", "rose" or "grip".
     std::filesystem::path file;
-    std::string sha256;  ///< Of the file.
+    std::string sha256;  ///< The file has this hash.
     /// Uniform scale, the turn of the raw (z-up) file into the link frame, and the link's pose at
     /// zero joint angles; rotation times scale plus offset.
     Eigen::Affine3d object_from_raw = Eigen::Affine3d::Identity();
   };
 
-  std::filesystem::path folder;  ///< Of the object; textures lie below it.
+  std::filesystem::path folder;  ///< It is the object's; textures lie below it.
   std::string name;              ///< Sub-task and object, such as "LeverDoor/99650069960003".
   std::string body_name;         ///< First seven digits, or the folder's name.
   std::string handle_name;       ///< Last seven digits, or the folder's name.

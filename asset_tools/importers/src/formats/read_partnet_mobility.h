@@ -16,7 +16,7 @@ namespace doorforge::internal {
 struct PartNetFiles {
   std::string urdf = "mobility.urdf";
   std::string semantics = "semantics.txt";
-  std::string name = "partnet-mobility";  ///< Of the format.
+  std::string name = "partnet-mobility";  ///< The format is called so.
   std::string id_prefix = "pm-";
   std::string source = "PartNet-Mobility";
   std::function<void(HingedObject&)> describe = {};  ///< Adds what other files say.

@@ -12,7 +12,7 @@ namespace doorforge::internal {
 /// What a pickled tensor says of itself; its elements lie elsewhere.
 struct PickledTensor {
   std::string element;  ///< "FloatStorage", "DoubleStorage", "IntStorage", "LongStorage", ...
-  std::string key;      ///< Of the storage.
+  std::string key;      ///< It names the storage.
   std::int64_t offset = 0;
   std::vector<std::int64_t> size;
   std::vector<std::int64_t> stride;

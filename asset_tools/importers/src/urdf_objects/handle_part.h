@@ -16,8 +16,8 @@ namespace doorforge::internal {
 
 /// A handle on its own, in a frame with the axes of a part.
 struct HandleSource {
-  std::string name;    ///< Of the object.
-  std::string id;      ///< Of the part.
+  std::string name;    ///< It names the object.
+  std::string id;      ///< It names the part.
   std::string source;  ///< Its files are added.
   std::string license;
   Category category = Category::kInterior;
@@ -28,7 +28,7 @@ struct HandleSource {
   /// The plane that lies on the leaf; empty: the rearmost.
   std::optional<double> leaf_plane_m;
   std::vector<SourceMesh> meshes;  ///< Pieces "grip" and maybe "rose".
-  Eigen::AlignedBox3d stated_box;  ///< Of the grip; may be empty.
+  Eigen::AlignedBox3d stated_box;  ///< It holds the grip; it may be empty.
   /// A grasp point that the source states, in the same frame.
   std::optional<Eigen::Vector3d> grasp_m = {};
 };

@@ -18,7 +18,7 @@ struct AuthoredLeaf {
   PartJoint hinge;  ///< Axis of unit length; limits as authored.
   bool limited = true;
   TriangleMesh mesh;           ///< At zero angle.
-  Eigen::AlignedBox3d around;  ///< Of what does not move; may be empty.
+  Eigen::AlignedBox3d around;  ///< It holds what does not move; it may be empty.
 };
 
 /// How a leaf opens, told in the frame of a part.

@@ -22,7 +22,8 @@ struct MeshTopology {
   int components = 0;             ///< Sets of triangles connected through edges.
   double volume_m3 = 0;           ///< Signed; a volume only where the mesh is closed.
   double area_m2 = 0;
-  Eigen::AlignedBox3d bounds;  ///< Of the vertices that triangles use; empty without triangles.
+  Eigen::AlignedBox3d
+      bounds;  ///< They hold the vertices that triangles use; empty without triangles.
 };
 
 /// Deterministic, O(T log T). Throws Error(kInvalidArgument) on an index out of range or a vertex

@@ -24,7 +24,7 @@ enum class Existing {
 /// temporary name in the same folder, fsync, rename, fsync of the folder. Creates the folder.
 void CommitFile(const std::filesystem::path& path, std::string_view content,
                 Existing existing = Existing::kReplace);
-/// The same through `files`.
+/// Does so through `files`.
 void CommitFile(FileSystem& files, const std::filesystem::path& path, std::string_view content,
                 Existing existing = Existing::kReplace);
 

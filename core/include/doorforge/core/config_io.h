@@ -12,6 +12,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "doorforge/core/named_enum.h"
+
 // Reading and writing of config structs. Include this from source files only: config structs
 // themselves need no JSON header.
 
@@ -39,6 +41,8 @@ struct IsVector<std::vector<T>> : std::true_type {};
 [[noreturn]] void ThrowConfigError(const std::string& path, const std::string& problem);
 [[noreturn]] void ThrowUnknownKey(const std::string& path, const std::string& key,
                                   const std::vector<std::string>& known);
+[[noreturn]] void ThrowUnknownName(const std::string& path, const std::string& name,
+                                   const std::vector<std::string>& allowed);
 
 }  // namespace internal
 
@@ -59,6 +63,8 @@ nlohmann::ordered_json ToJson(const T& value) {
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
     for (const auto& element : value) json.push_back(ToJson(element));
     return json;
+  } else if constexpr (NamedEnum<T>) {
+    return std::string(NameOf(value));
   } else {
     return value;
   }
@@ -67,8 +73,8 @@ nlohmann::ordered_json ToJson(const T& value) {
 /// Overwrites the fields named in `json`; all others keep their value.
 ///
 /// @param path Name of `value` in error messages, such as "repair".
-/// @throws Error with kInvalidConfig on an unknown key, a value of the wrong type, or an integer
-///     that does not fit.
+/// @throws Error with kInvalidConfig on an unknown key, a value of the wrong type, an integer that
+///     does not fit, or a word that the table of an enum does not have.
 template <class T>
 void Assign(const nlohmann::ordered_json& json, T& value, const std::string& path) {
   if constexpr (Config<T>) {
@@ -100,6 +106,11 @@ void Assign(const nlohmann::ordered_json& json, T& value, const std::string& pat
                                                 : std::in_range<T>(json.get<std::int64_t>());
     if (!fits) internal::ThrowConfigError(path, "integer out of range");
     value = json.get<T>();
+  } else if constexpr (NamedEnum<T>) {
+    const std::string name = json.is_string() ? json.get<std::string>() : json.dump();
+    const std::optional<T> named = ValueNamed<T>(name);
+    if (!named) internal::ThrowUnknownName(path, name, NamesOf<T>());
+    value = *named;
   } else {
     try {
       value = json.get<T>();

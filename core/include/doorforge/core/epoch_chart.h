@@ -12,8 +12,8 @@ struct EpochCurve {
   std::string name;  ///< Read out to those who cannot see the chart.
   std::string unit;  ///< Title of the upright axis.
   std::vector<double> epoch;
-  std::vector<double> train;       ///< As many as epochs; what is not finite is left out.
-  std::vector<double> validation;  ///< Likewise.
+  std::vector<double> train;       ///< There is a value an epoch; what is not finite is left out.
+  std::vector<double> validation;  ///< There is a value an epoch here as well.
   double best_epoch = 0;           ///< Marked by a line; 0: none.
 };
 

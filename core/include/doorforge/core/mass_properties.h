@@ -19,17 +19,17 @@ struct MassProperties {
   Eigen::Matrix3d inertia_kg_m2 = Eigen::Matrix3d::Zero();
 };
 
-/// Of a body of uniform density that fills the mesh, in the mesh's frame. Exact up to rounding: the
-/// integrals over the polyhedron of Mirtich (1996), in the form of Eberly, "Polyhedral Mass
-/// Properties" (2002). Where pieces of the mesh overlap, the overlap counts once for each piece.
-/// Throws Error(kInvalidArgument) unless the density is positive and finite.
+/// Measures a body of uniform density that fills the mesh, in the mesh's frame. Exact up to
+/// rounding: the integrals over the polyhedron of Mirtich (1996), in the form of Eberly,
+/// "Polyhedral Mass Properties" (2002). Where pieces of the mesh overlap, the overlap counts once
+/// for each piece. Throws Error(kInvalidArgument) unless the density is positive and finite.
 MassProperties MassPropertiesOf(const ClosedMesh& mesh, double density_kg_m3);
 
 /// The bodies as one, rigidly joined; all in one frame. Of no bodies, or of bodies without mass:
 /// zeros.
 MassProperties Combined(std::span<const MassProperties> bodies);
 
-/// The same body seen from frame a.
+/// Returns what the same body has when it is seen from frame a.
 MassProperties Transformed(const MassProperties& in_b, const RigidTransform& a_from_b);
 
 }  // namespace doorforge

@@ -20,7 +20,7 @@ namespace doorforge {
 /// earlier versions.
 using ShapeDescriptor = std::vector<double>;
 
-/// Of all meshes together; overlaps count twice. Deterministic.
+/// Describes all meshes together; overlaps count twice. Deterministic.
 ShapeDescriptor DescribeShape(std::span<const TriangleMesh> meshes);
 
 /// Whether one is a copy of the other, at another size or mirrored: no number differs by more than

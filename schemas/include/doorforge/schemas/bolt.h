@@ -26,16 +26,17 @@ struct Bolt {
   double travel_m_per_rad = 0;
   RigidTransform leaf_from_bolt = RigidTransform::Identity();  ///< At position 0.
   TriangleMesh bolt_hull;                                      ///< Convex, in its frame.
-  Eigen::Vector3d tip_m = Eigen::Vector3d::Zero();  ///< Of the bolt, where the strike holds it.
+  Eigen::Vector3d tip_m =
+      Eigen::Vector3d::Zero();  ///< The tip of the bolt is there, where the strike holds it.
   RigidTransform base_from_strike = RigidTransform::Identity();  ///< Origin at the corner.
   TriangleMesh strike_hull;                                      ///< Convex, in its frame.
   double strike_thickness_m = 0;                                 ///< Along x.
 
   double mass_kg = 0.05;
-  double preload_n = 5;            ///< Of the spring that pushes it out, at position 0.
-  double stiffness_n_per_m = 300;  ///< Of the same spring.
+  double preload_n = 5;            ///< The spring pushes the bolt out with it at position 0.
+  double stiffness_n_per_m = 300;  ///< The spring grows by it on the way in.
   double damping_n_s_m = 5;
-  double friction = 0.15;  ///< Of bolt on strike.
+  double friction = 0.15;  ///< Bolt and strike rub with it.
 };
 
 /// The bolt of a door whose handle turns; where its latch is not a bolt, that of an ordinary

@@ -42,20 +42,20 @@ struct DatasetPart {
   std::uint64_t episodes = 0;
   std::uint64_t failed_episodes = 0;
   std::uint64_t decisions = 0;
-  std::uint64_t bytes = 0;  ///< Of the tars.
+  std::uint64_t bytes = 0;  ///< The tars have so many.
 };
 
 /// Per component of a feature, over all decisions (for clouds: over all points) of a split.
 struct FeatureStatistics {
   std::vector<double> mean;
-  std::vector<double> standard_deviation;  ///< Of the population.
+  std::vector<double> standard_deviation;  ///< It is the population's.
   std::vector<double> minimum;
   std::vector<double> maximum;
 };
 
 struct DatasetRecord {
   std::vector<DatasetPart> parts;
-  /// Of the "train" part, by feature; empty if it has no episodes.
+  /// They describe the "train" part by feature; empty if it has no episodes.
   std::map<std::string, FeatureStatistics> statistics;
   /// Largest distance of a point from the mean of its cloud in the "train" part [m], the constant
   /// by which networks may scale clouds; 0 if there are no episodes.
@@ -93,10 +93,10 @@ struct PlannedPart {
 /// A trained policy that acted in the episodes instead of the rule of its stage.
 struct DatasetPolicy {
   std::string stage;           ///< "handle" or "open".
-  std::string policy_sha256;   ///< Of policy.json.
-  std::string weights_sha256;  ///< Of the weights' file.
-  std::string dataset_sha256;  ///< Of what it was trained from.
-  std::string code_version;    ///< Of the build that trained it.
+  std::string policy_sha256;   ///< It hashes policy.json.
+  std::string weights_sha256;  ///< It hashes the file of the weights.
+  std::string dataset_sha256;  ///< The policy was trained from the data with this hash.
+  std::string code_version;    ///< This build trained it.
 };
 
 nlohmann::ordered_json DatasetPolicyToJson(const DatasetPolicy& policy);
@@ -141,8 +141,9 @@ class DatasetReader {
 
   std::size_t size() const { return places_.size(); }  ///< Number of episodes.
   const ShardEpisode& entry(std::size_t episode) const;
-  EpisodeArrays Arrays(std::size_t episode) const;         ///< As ViewEpisode(); thread-safe.
-  nlohmann::ordered_json Meta(std::size_t episode) const;  ///< As ReadEpisodeMeta().
+  EpisodeArrays Arrays(
+      std::size_t episode) const;  ///< It does what ViewEpisode() does and is thread-safe.
+  nlohmann::ordered_json Meta(std::size_t episode) const;  ///< It does what ReadEpisodeMeta() does.
 
   /// ShardReader::RequireWhole() of all shards.
   void RequireWhole() const;

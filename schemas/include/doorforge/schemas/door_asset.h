@@ -78,7 +78,7 @@ struct Latch {
   /// The released code's variant, not together with relatch: ajar by more than 0.01 rad, the door
   /// is unlocked, even if force alone has brought it there.
   bool unlocks_ajar = false;
-  double bolt_throw_m = 0;  ///< Of kBolt.
+  double bolt_throw_m = 0;  ///< Only a latch of type kBolt has it.
 };
 
 enum DoorLinkIndex : int { kBaseLink = 0, kLeafLink = 1, kHandleLink = 2 };
@@ -132,8 +132,9 @@ void WriteDoor(const DoorAsset& door, const std::filesystem::path& folder);
 /// Reads a door's folder. Throws Error(kMissing) or Error(kFormat); mesh paths that leave the
 /// folder are refused. The one way out of it is the mesh pool beside it, see mesh_pool.h.
 DoorAsset ReadDoor(const std::filesystem::path& folder);
-/// The same with meshes from readers, which also decide which paths they accept. Visual meshes are
-/// read as by ReadDoor(folder), which refuses changed files, unless `read_visual` is given.
+/// Reads the meshes with readers of the caller, which also decide which paths they accept. Visual
+/// meshes are read as by ReadDoor(folder), which refuses changed files, unless `read_visual` is
+/// given.
 DoorAsset ReadDoor(const std::filesystem::path& folder, const MeshReader& read_mesh,
                    const VisualReader& read_visual = {});
 
@@ -155,7 +156,7 @@ struct GeometryFiles {
   std::vector<std::string> hulls;
   /// What the files hold is in a frame of its own where doors share them.
   RigidTransform link_from_files = RigidTransform::Identity();
-  std::optional<VisualFiles> visual = {};  ///< Of what its author drew.
+  std::optional<VisualFiles> visual = {};  ///< These files hold what its author drew.
 };
 /// Indexed as DoorAsset::links and the geometry of each.
 using DoorFiles = std::array<std::vector<GeometryFiles>, 3>;
@@ -172,7 +173,7 @@ std::string PooledDoorText(const DoorAsset& door, const DoorFiles& files,
                            const std::array<std::vector<std::string>, 3>& shapes);
 
 /// SHA-256 of door.json's text with the bytes of all files: the door's identity in later records.
-/// The same whether the door has its own meshes or shares them.
+/// It is the same whether the door has its own meshes or shares them.
 std::string ContentHash(const DoorAsset& door);
 
 }  // namespace doorforge

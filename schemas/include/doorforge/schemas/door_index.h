@@ -40,7 +40,7 @@ class DoorIndex {
   const std::map<std::string, DoorIdentity>& doors() const { return doors_; }
 
   void Add(const std::string& record_sha256, DoorIdentity identity);
-  /// The same text whatever the order in which doors were added; one door a line.
+  /// Returns one door a line, the same text in whatever order the doors were added.
   std::string ToText() const;
 
  private:

@@ -60,7 +60,7 @@ struct DoorSet {
   std::vector<std::string> notes;
 };
 
-/// The doors of a selection; their meshes stay on the disk, see DoorShelf. Of doors
+/// The doors of a selection; their meshes stay on the disk, see DoorCache. Of doors
 /// with an entry in the index beside them no mesh is read and the entry is believed until the door
 /// is taken from a shelf; the others are read in full, with a line of progress where they are many.
 /// The same door found twice counts once.
@@ -72,7 +72,7 @@ struct DoorSet {
 DoorSet FindDoorSet(const DoorSelection& selection, int threads);
 
 /// Where the doors of a record lie, in its order; those that the selection does not find have an
-/// empty folder. What is found is compared with the record when it is taken from a DoorShelf.
+/// empty folder. What is found is compared with the record when it is taken from a DoorCache.
 ///
 /// @throws As FindDoorSet(), and Error(kInvalidArgument) if none of the record's doors is there.
 std::vector<FoundDoor> FindRecordedDoors(const DoorSelection& selection,
@@ -83,10 +83,10 @@ using DoorGiver = std::function<IdentifiedDoor(std::size_t)>;
 
 /// The doors of a set, read when they are needed. At most 32 stay in memory, whatever their number.
 /// Safe to use from several threads.
-class DoorShelf {
+class DoorCache {
  public:
   /// Keeps a reference.
-  explicit DoorShelf(const std::vector<FoundDoor>& doors) : doors_(doors) {}
+  explicit DoorCache(const std::vector<FoundDoor>& doors) : doors_(doors) {}
 
   /// Door number `door` of the set.
   ///

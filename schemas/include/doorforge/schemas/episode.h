@@ -27,7 +27,7 @@ enum class EpisodeOutcome {
   kDoorStuck,      ///< The grasp held, but the door stayed below 45 degrees in the budget.
   kJointLimit,     ///< One of these, because an arm joint was at its limit.
   kCollision,      ///< One of these, because the arm or the hand met the door.
-  kDiverged,       ///< The physics became impossible, see StateWatch.
+  kDiverged,       ///< The physics became impossible, see DivergenceDetector.
 };
 std::string_view NameOf(EpisodeOutcome outcome);  ///< "opened", "not_reached", ...
 /// Inverse of NameOf; nothing if the name is unknown.
@@ -53,7 +53,8 @@ inline constexpr std::size_t kStateBolt = 13;
 struct Decision {
   LabelledCloud cloud;  ///< Empty where the episode was run without a camera.
   Proprioception proprioception{};
-  /// As Action; at the stage "grasp" the first three numbers are the contact point in the world.
+  /// It means what Action does; at the stage "grasp" the first three numbers are the contact point
+  /// in the world.
   ActionVector action{};
   /// What the robot was told to do: the action with noise, or that of a learner who is corrected by
   /// it. At the stage "grasp" the action itself.
@@ -72,7 +73,7 @@ struct Episode {
   Scene scene;
   EpisodeOutcome outcome = EpisodeOutcome::kDiverged;
   std::string detail;               ///< The numbers that explain the outcome, for people.
-  std::vector<Decision> decisions;  ///< Of the recorded stage, in order.
+  std::vector<Decision> decisions;  ///< They are those of the recorded stage, in order.
   double peak_hinge_rad = 0;
   double peak_handle_rad = 0;
   double simulated_s = 0;

@@ -19,7 +19,7 @@ namespace doorforge {
 struct EpisodeFeature {
   std::string name;                ///< "cloud"; the member is "cloud.npy".
   std::string type;                ///< NumPy's: "<f4" or "|u1".
-  std::vector<std::size_t> shape;  ///< Of one decision; 0 stands for the number of points.
+  std::vector<std::size_t> shape;  ///< One decision has it; 0 stands for the number of points.
   std::string unit;
   std::string frame;
   std::string meaning;

@@ -30,7 +30,8 @@ struct EpisodeLimits {
   double reach_speed_fraction = 0.6;  ///< Share of the joints' velocity limits in that motion.
   double approach_speed_m_s = 0.15;   ///< From there to the grasp.
   double close_time_s = 1.2;          ///< Longest closing of the fingers.
-  double centering_speed_m_s = 0.05;  ///< Of a hand that follows the finger that touches first.
+  double centering_speed_m_s =
+      0.05;  ///< A hand that follows the finger that touches first is so fast.
   // ---- how the rule turns the handle
   double turn_speed_rad_s = 0.8;
   double turn_lead_rad = 0.25;    ///< Most that the commanded handle is ahead of the measured one.

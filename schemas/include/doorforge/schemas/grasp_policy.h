@@ -35,7 +35,7 @@ struct GraspObservation {
   /// Whether the open gripper gets to a contact [m] with that rotation (world from hand) without
   /// passing through what is seen. Empty: it always does.
   std::function<bool(const Eigen::Vector3d&, const Eigen::Matrix3d&)> fits = nullptr;
-  RigidTransform hand_from_tcp = RigidTransform::Identity();  ///< Of the robot.
+  RigidTransform hand_from_tcp = RigidTransform::Identity();  ///< It is fixed by the robot.
   /// Name the episode, for policies that draw by chance: equal names, equal draws.
   std::uint64_t seed = 0;
   std::string episode;  ///< "<door id>/<number>"
@@ -57,7 +57,7 @@ struct GraspAction {
   LabelledCloud cloud;
   Eigen::Vector3d contact_m = Eigen::Vector3d::Zero();  ///< World, on the surface that is seen.
   Eigen::Matrix3d world_from_hand_rotation = Eigen::Matrix3d::Identity();
-  std::optional<GraspExplanation> explanation = {};  ///< Of policies that Explain().
+  std::optional<GraspExplanation> explanation = {};  ///< Policies that Explain() fill it in.
 };
 
 /// Chooses where and how to take hold, once in an episode. Keeps nothing between calls: equal

@@ -21,7 +21,7 @@ std::string ToObj(const TriangleMesh& mesh);
 /// Reads a canonical file. Throws Error(kMissing) if it does not exist and Error(kFormat), naming
 /// file and line, on anything that ToObj() would not write and on a vertex out of reach.
 TriangleMesh ReadObj(const std::filesystem::path& path);
-/// The same from a text; `name` stands for the file in messages.
+/// Reads it from a text; `name` stands for the file in messages.
 TriangleMesh ParseObj(std::string_view text, const std::string& name);
 
 /// The mesh seen from frame a, with coordinates as canonical files hold them.

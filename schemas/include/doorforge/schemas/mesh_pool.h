@@ -32,8 +32,8 @@ inline constexpr const char* kMeshPoolPath = "../pool";
 /// A closed mesh with its convex pieces, as the pool keeps them.
 struct PooledShape {
   std::string mesh;                        ///< SHA-256 of the canonical text.
-  std::vector<std::string> hulls;          ///< The same, in order.
-  std::optional<VisualFiles> visual = {};  ///< Of what its author drew, as PooledVisualFiles().
+  std::vector<std::string> hulls;          ///< They name the convex hulls in order.
+  std::optional<VisualFiles> visual = {};  ///< PooledVisualFiles() names what its author drew.
 };
 
 /// The files of a visual mesh as a pool holds them. Throws as ToTexts().

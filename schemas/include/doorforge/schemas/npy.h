@@ -18,7 +18,7 @@ namespace doorforge {
 struct NpyHeader {
   std::string type;                ///< "<f4", "<f8", "<i8" or "|u1".
   std::vector<std::size_t> shape;  ///< Empty for a scalar.
-  std::size_t data_offset = 0;     ///< Of the first element; a multiple of 64.
+  std::size_t data_offset = 0;     ///< The first element begins there, at a multiple of 64.
 };
 
 /// Type name of T in NpyHeader.

@@ -53,7 +53,7 @@ struct Part {
   std::string id;
   PartRole role = PartRole::kBody;
   Category category = Category::kInterior;
-  Mechanism mechanism = Mechanism::kNone;  ///< Of a handle; kNone for a body.
+  Mechanism mechanism = Mechanism::kNone;  ///< A body has kNone.
   std::vector<PartPiece> pieces;
   PartJoint joint;  ///< Body: the hinge. Handle: the axis that unlocks.
 
@@ -77,12 +77,14 @@ void WritePart(const Part& part, const std::filesystem::path& folder);
 /// Reads a part's folder. Throws Error(kMissing) or Error(kFormat); mesh paths that leave the
 /// folder are refused. Closedness is not checked here: that is `doorforge validate`.
 Part ReadPart(const std::filesystem::path& folder);
-/// The same with meshes from readers, which also decide which paths they accept. Visual meshes are
-/// read as by ReadPart(folder), which refuses changed files, unless `read_visual` is given.
+/// Reads the meshes with readers of the caller, which also decide which paths they accept. Visual
+/// meshes are read as by ReadPart(folder), which refuses changed files, unless `read_visual` is
+/// given.
 Part ReadPart(const std::filesystem::path& folder, const MeshReader& read_mesh,
               const VisualReader& read_visual = {});
 
-/// Of all pieces; part.json holds it as "shape", so that copies are found without reading meshes.
+/// Describes all pieces together; part.json holds it as "shape", so that copies are found without
+/// reading meshes.
 ShapeDescriptor ShapeOf(const Part& part);
 
 /// SHA-256 over part.json's fields but "shape", and the bytes of meshes and

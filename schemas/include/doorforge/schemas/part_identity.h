@@ -17,8 +17,8 @@ struct PartIdentity {
   std::string sha256;     ///< ContentHash of the part.
   ShapeDescriptor shape;  ///< Empty in records of earlier versions.
 
-  /// The same part has the same id, the same content or the same shape: a real data set repeats
-  /// parts at another size under other ids.
+  /// Whether both are one part, which has the same id, the same content or the same shape: a real
+  /// data set repeats parts at another size under other ids.
   bool SameAs(const PartIdentity& other) const;
 };
 

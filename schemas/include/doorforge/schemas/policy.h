@@ -69,7 +69,7 @@ class Policy {
   virtual void Reset() {}
   virtual Action Act(const Observation& observation) = 0;
   /// Whether Act() reads the cloud. One that does not may be given an empty cloud.
-  virtual bool Looks() const { return true; }
+  virtual bool UsesPointCloud() const { return true; }
 };
 
 }  // namespace doorforge

@@ -4,22 +4,37 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "doorforge/core/named_enum.h"
 #include "doorforge/core/rigid_transform.h"
 #include "doorforge/schemas/camera_model.h"
 #include "doorforge/schemas/door_asset.h"
 #include "doorforge/schemas/episode_limits.h"
+#include "doorforge/schemas/robot_base.h"
 
 namespace doorforge {
 
+/// What moves the arm.
+enum class ArmController {
+  kJointMotors,       ///< Position drives follow joint angles found by damped least squares.
+  kOperationalSpace,  ///< Torques follow the hand's pose (Khatib 1987).
+};
+inline constexpr NamedValue<ArmController> kArmControllers[] = {
+    {ArmController::kJointMotors, "joint_motors"},
+    {ArmController::kOperationalSpace, "operational_space"}};
+constexpr std::span<const NamedValue<ArmController>> ValuesOf(ArmController) {
+  return kArmControllers;
+}
+
 /// Gains of the operational-space controller (Khatib 1987), see docs/robots.md.
 struct OperationalSpaceConfig {
-  double kp = 1500;        ///< Of the hand [1/s^2]; critically damped. UniDoorManip: 200.
-  double posture_kp = 10;  ///< Of the posture, in what the hand leaves free [1/s^2].
-  double armature = 0.01;  ///< Added to the inertia of each joint [kg or kg m^2].
+  double kp = 1500;        ///< It pulls the hand [1/s^2], critically damped. UniDoorManip: 200.
+  double posture_kp = 10;  ///< It pulls the posture in what the hand leaves free [1/s^2].
+  double armature = 0.01;  ///< It is added to the inertia of each joint [kg or kg m^2].
   double lead_m = 0.1;     ///< The hand's error counts no more than this,
   double lead_rad = 0.5;   ///< and no more than this.
 
@@ -52,9 +67,8 @@ struct PhysicsConfig {
   /// for), so that data show how to come back: Laskey et al., DART, CoRL 2017.
   double action_noise_m = 0;
   double action_noise_rad = 0;
-  std::string base = "sliders";  ///< What the arm stands on: "sliders", "fixed" or "yaw".
-  /// "joint_motors": position drives, damped least squares. "operational_space": torques.
-  std::string controller = "joint_motors";
+  RobotBase base = RobotBase::kSliders;
+  ArmController controller = ArmController::kJointMotors;
   OperationalSpaceConfig operational_space = {};
 
   template <class Self, class Visitor>
@@ -95,7 +109,7 @@ struct DoorVariation {
 };
 
 /// The door with these factors applied.
-DoorAsset Varied(const DoorAsset& door, const DoorVariation& variation);
+DoorAsset ApplyVariation(const DoorAsset& door, const DoorVariation& variation);
 
 /// A robot that is not the built-in one: name of its URDF and RobotModel::sha256().
 struct RobotIdentity {
@@ -114,9 +128,9 @@ struct Scene {
   std::uint64_t episode = 0;  ///< Index within its plan; names the random streams.
   RigidTransform world_from_door = RigidTransform::Identity();
   RigidTransform world_from_robot_base = RigidTransform::Identity();
-  RobotIdentity robot;      ///< Empty: the built-in one; the record then has no such field.
-  Latch latch;              ///< With the scene's springs and unlock angle.
-  DoorVariation variation;  ///< Of the rest of the door.
+  RobotIdentity robot;  ///< It is empty for the built-in one; the record then has no such field.
+  Latch latch;          ///< With the scene's springs and unlock angle.
+  DoorVariation variation;  ///< It changes the rest of the door.
   /// Added to the seven arm joints of the robot's initial position.
   std::array<double, 7> arm_start_offset_rad{};
   /// Offset of the expert's grasp from the door's grasp frame, in the grasp frame.

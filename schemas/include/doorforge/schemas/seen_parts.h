@@ -12,7 +12,7 @@ namespace doorforge {
 /// The parts of the doors that a policy was trained on: it knows them on any other door, too.
 struct SeenParts {
   std::vector<PartIdentity> bodies;   ///< Sorted by id, then hash; each once.
-  std::vector<PartIdentity> handles;  ///< Likewise.
+  std::vector<PartIdentity> handles;  ///< They are told apart in the same way.
 
   bool empty() const { return bodies.empty() && handles.empty(); }
   bool Holds(const PartIdentity& body, const PartIdentity& handle) const;  ///< One of the two.

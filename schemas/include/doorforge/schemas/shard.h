@@ -33,9 +33,9 @@ struct MemberBytes {
 /// Where a member lies in the tar.
 struct ShardMember {
   std::string name;
-  std::uint64_t offset = 0;  ///< Of the data, from the beginning of the tar; a multiple of 512.
+  std::uint64_t offset = 0;  ///< The data begin there in the tar, at a multiple of 512.
   std::uint64_t size = 0;    ///< [bytes]
-  std::uint32_t crc32c = 0;  ///< Of the data.
+  std::uint32_t crc32c = 0;  ///< It is computed over the data.
 };
 
 struct ShardEpisode {
@@ -59,7 +59,7 @@ struct ShardHeader {
   int number = 0;             ///< In the file's name, 0..999999.
   std::string stage;          ///< "open", "handle" or "grasp".
   std::string split;          ///< "train", "val", ...
-  std::string config_sha256;  ///< Of the effective config.
+  std::string config_sha256;  ///< It hashes the effective config.
 };
 
 struct ShardIndex {
@@ -208,7 +208,7 @@ class ShardReader {
 
 /// What can be had from a tar whose index is missing or whose end is cut off.
 struct RecoveredShard {
-  ShardIndex index;  ///< Of the complete episodes; header fields other than tar unset.
+  ShardIndex index;  ///< It lists the complete episodes; of the header only `tar` is set.
   std::vector<std::string> incomplete_keys;
   std::string fault;  ///< Why the tar ends early; empty if it does not.
 };

@@ -17,9 +17,10 @@ struct Split {
   std::string schema;
   int schema_version = 0;
   std::vector<std::string> train;
-  std::vector<std::string> validation;         ///< Settings are chosen by these, and by no others.
-  std::vector<std::string> test;               ///< Of categories that are trained on.
-  std::vector<std::string> unseen_categories;  ///< Of categories that are never trained on.
+  std::vector<std::string> validation;  ///< Settings are chosen by these, and by no others.
+  std::vector<std::string> test;        ///< They are of categories that are trained on.
+  std::vector<std::string>
+      unseen_categories;  ///< They are of categories that are never trained on.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {

@@ -29,7 +29,7 @@ std::size_t TarPadding(std::uint64_t size);
 
 struct TarMember {
   std::string name;
-  std::uint64_t offset = 0;  ///< Of the data in the archive; a multiple of 512.
+  std::uint64_t offset = 0;  ///< The data begin there in the archive, at a multiple of 512.
   std::uint64_t size = 0;    ///< Bytes of data.
 };
 

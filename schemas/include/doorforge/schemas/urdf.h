@@ -14,7 +14,7 @@
 namespace doorforge {
 
 struct UrdfMeshFile {
-  std::string filename;  ///< As written; "package://" and "file://" prefixes are kept.
+  std::string filename;  ///< It is as written; prefixes "package://" and "file://" are kept.
   Eigen::Vector3d scale{1, 1, 1};
   int line = 0;  ///< Where the file names it, from 1; 0 in a model that was not read from one.
 };
@@ -59,8 +59,9 @@ struct UrdfJoint {
   std::string parent;
   std::string child;
   RigidTransform parent_from_joint = RigidTransform::Identity();
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< As written, maybe not of unit length.
-  double lower = 0;                                 ///< [rad] or [m]
+  Eigen::Vector3d axis =
+      Eigen::Vector3d::UnitX();  ///< It is as written and may have another length than 1.
+  double lower = 0;              ///< [rad] or [m]
   double upper = 0;
   std::optional<double> effort;    ///< [N m] or [N]; absent where the file omits it.
   std::optional<double> velocity;  ///< [rad/s] or [m/s]
@@ -99,8 +100,8 @@ struct UrdfFault {
 UrdfModel ReadUrdf(const std::filesystem::path& path);
 UrdfModel ParseUrdf(const std::string& text, const std::string& name);
 
-/// The same, with every fault added to `faults` in the order of the file's lines in place of an
-/// error. The model is what could be read, and no more than that while anything is kUnusable.
+/// Reads it likewise, with every fault added to `faults` in the order of the file's lines in place
+/// of an error. The model is what could be read, and no more than that while anything is kUnusable.
 /// Throws where nothing can be: no well-formed XML, no <robot>, more than the limits above.
 UrdfModel ReadUrdf(const std::filesystem::path& path, std::vector<UrdfFault>& faults);
 UrdfModel ParseUrdf(const std::string& text, const std::string& name,
@@ -112,7 +113,7 @@ std::string UrdfFaultsText(const std::string& name, const std::vector<UrdfFault>
 /// Writes numbers with the shortest decimals that read back to the same double. The text carries
 /// the `<mujoco>` element that lets MuJoCo find meshes in subfolders.
 std::string ToUrdf(const UrdfModel& model);
-/// The same without line breaks and indentation: a third smaller.
+/// Writes it without line breaks and indentation: a third smaller.
 std::string ToCompactUrdf(const UrdfModel& model);
 
 /// The one link that is no joint's child. Throws Error(kFormat) if there is none or more than one,

@@ -23,8 +23,8 @@ struct ComposeRequest {
   /// An id of the catalogue or of the folder of parts, a part's folder, a glob of either, or a file
   /// or folder to import.
   std::string body = {};
-  std::string handle = {};         ///< May be given in the same ways as the body.
-  std::string category = {};       ///< Of a door whose body and handle are both to be imported.
+  std::string handle = {};    ///< May be given in the same ways as the body.
+  std::string category = {};  ///< The category applies if body and handle are both to be imported.
   LooseMeshConfig body_mesh = {};  ///< How to read a body that is a mesh file.
   LooseMeshConfig handle_mesh = {};
   ComposeConfig door = {};
@@ -52,7 +52,7 @@ struct ComposeRun {
   std::filesystem::path out;         ///< Folder of the door; of the doors where there may be many.
   std::filesystem::path parts = {};  ///< Folder of parts; empty: the catalogue.
   PairChoice pairs = PairChoice::kNamed;
-  std::string category = {};  ///< Of many doors only those of this category; empty: of any.
+  std::string category = {};  ///< Only doors of this category are composed; empty: those of any.
   bool standalone = false;    ///< Each of many doors has its own copy of the meshes.
   Existing existing = Existing::kRefuse;
   int threads = 0;                      ///< 0: all processors; no byte depends on it.

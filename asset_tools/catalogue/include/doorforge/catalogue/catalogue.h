@@ -18,7 +18,7 @@ struct CatalogueEntry {
   std::string id;  ///< Unique in the catalogue; the recipe's file name without ".yaml".
   PartRole role = PartRole::kBody;
   Category category = Category::kInterior;
-  Mechanism mechanism = Mechanism::kNone;  ///< Of a handle; kNone for a body.
+  Mechanism mechanism = Mechanism::kNone;  ///< A body has kNone.
   std::string family;                      ///< The parametric family that builds it.
   std::filesystem::path recipe;            ///< The recipe's file.
 };

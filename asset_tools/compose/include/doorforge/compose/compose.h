@@ -10,10 +10,48 @@
 #include <string_view>
 #include <vector>
 
+#include "doorforge/core/named_enum.h"
 #include "doorforge/schemas/door_asset.h"
 #include "doorforge/schemas/part.h"
 
 namespace doorforge {
+
+/// Where the handle goes.
+enum class HandlePlace {
+  kAuto,    ///< kAxis for parts of one object that no other setting moves or stretches, else kSeat.
+  kSeat,    ///< The handle sits at the body's mount, its back laid on the leaf's surface.
+  kPlane,   ///< It sits there too, with the plane x = 0 of its frame on the surface.
+  kAuthor,  ///< It is exactly where it was on the object that both parts were imported from.
+  kAxis,  ///< It is about the axis that it had there, slid along it to where that leaves the leaf.
+};
+inline constexpr NamedValue<HandlePlace> kHandlePlaces[] = {{HandlePlace::kAuto, "auto"},
+                                                            {HandlePlace::kSeat, "seat"},
+                                                            {HandlePlace::kPlane, "plane"},
+                                                            {HandlePlace::kAuthor, "author"},
+                                                            {HandlePlace::kAxis, "axis"}};
+constexpr std::span<const NamedValue<HandlePlace>> ValuesOf(HandlePlace) { return kHandlePlaces; }
+
+/// Which latch a composed door has.
+enum class LatchChoice {
+  kAuto,    ///< kEffort where a mechanism turns, else kNone.
+  kNone,    ///< The leaf is free.
+  kEffort,  ///< See LatchType::kEffort.
+  kBolt,    ///< See LatchType::kBolt.
+};
+inline constexpr NamedValue<LatchChoice> kLatchChoices[] = {{LatchChoice::kAuto, "auto"},
+                                                            {LatchChoice::kNone, "none"},
+                                                            {LatchChoice::kEffort, "effort"},
+                                                            {LatchChoice::kBolt, "bolt"}};
+constexpr std::span<const NamedValue<LatchChoice>> ValuesOf(LatchChoice) { return kLatchChoices; }
+
+/// Which way a handle turns to unlock.
+enum class HandleSense {
+  kAsMade,    ///< It turns the way that its author made it turn: levers go down.
+  kReversed,  ///< It turns the other way, which nobody sees from its shape: levers go up.
+};
+inline constexpr NamedValue<HandleSense> kHandleSenses[] = {{HandleSense::kAsMade, "as_made"},
+                                                            {HandleSense::kReversed, "reversed"}};
+constexpr std::span<const NamedValue<HandleSense>> ValuesOf(HandleSense) { return kHandleSenses; }
 
 /// How a door differs from what the authors of its parts made. Where a number is "0: as ..." or
 /// "-1: by preset", any other value replaces what the parts, the category or the preset say.
@@ -21,23 +59,18 @@ struct ComposeConfig {
   std::string id = {};  ///< Empty: "<body id>__<handle id>", with what was changed behind it.
   double leaf_width_m =
       0;  ///< The body is stretched along y until its leaf is so wide; 0: as made.
-  double leaf_height_m = 0;  ///< The same along z.
+  double leaf_height_m = 0;  ///< So it is along z.
   double handle_height_m =
       0;                    ///< Above the body's lowest point; 0: where the body's author put it.
   double backset_m = 0;     ///< Handle to free edge of the leaf; 0: as the body's author put it.
   double handle_scale = 1;  ///< 0.5 to 2, alike in all directions.
-  /// Where the handle goes: "seat" (the body's mount, its back laid on the leaf's surface), "plane"
-  /// (the same, with the plane x = 0 of its frame on the surface, wherever its back is), "author"
-  /// (exactly where it was on the object that both were imported from), "axis" (about the axis it
-  /// had there, slid along it onto the surface where it runs out of the leaf) or "auto": axis for
-  /// parts of one object that no other setting moves or stretches, else seat.
-  std::string place = "auto";
-  std::string hinge_side = "left";  ///< "left", "right": as seen from the handle's side.
-  std::string opening = "pull";     ///< "pull", "push": towards or away from the handle's side.
-  bool handle_mirrored = false;     ///< A lever then points the other way.
-  int handle_turn_deg = 0;          ///< 0, 90, 180, 270, about x.
-  std::string latch =
-      "auto";  ///< "auto" (effort where a mechanism turns), "none", "effort", "bolt".
+  HandlePlace place = HandlePlace::kAuto;
+  HingeSide hinge_side = HingeSide::kLeft;
+  Opening opening = Opening::kPull;
+  bool handle_mirrored = false;  ///< A lever then points the other way.
+  HandleSense handle_sense = HandleSense::kAsMade;
+  int handle_turn_deg = 0;  ///< 0, 90, 180, 270, about x.
+  LatchChoice latch = LatchChoice::kAuto;
   double unlock_angle_rad = 0;       ///< 0: the category's share of the handle's range.
   double handle_done_angle_rad = 0;  ///< 0: the same.
   double lock_effort_nm = 150;
@@ -68,6 +101,7 @@ struct ComposeConfig {
     visit("hinge_side", self.hinge_side);
     visit("opening", self.opening);
     visit("handle_mirrored", self.handle_mirrored);
+    visit("handle_sense", self.handle_sense);
     visit("handle_turn_deg", self.handle_turn_deg);
     visit("latch", self.latch);
     visit("unlock_angle_rad", self.unlock_angle_rad);
@@ -142,6 +176,11 @@ class PreparedPart {
 ///     Error(kInvalidConfig) on a config value out of range.
 DoorAsset ComposeDoor(const Part& body, const Part& handle, const ComposeConfig& config,
                       const std::optional<RigidTransform>& body_from_handle = std::nullopt);
+
+/// What messages call the door of a pair that is not composed: the id that it would have, or the
+/// names of its parts where those make no id.
+std::string NameOfPair(const std::string& body, const std::string& handle,
+                       const ComposeConfig& config);
 
 /// A door whose meshes lie in the pool that WriteMeshPool() writes: the texts of its two files.
 struct SharedDoor {

@@ -32,7 +32,7 @@ struct SharedDoorOutcome {
 struct PartPair {
   std::size_t body;
   std::size_t handle;
-  std::optional<RigidTransform> body_from_handle = {};  ///< As of ComposeDoor().
+  std::optional<RigidTransform> body_from_handle = {};  ///< ComposeDoor() takes the same.
 };
 
 /// What to write, and how.

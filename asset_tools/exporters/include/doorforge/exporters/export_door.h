@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,13 +13,21 @@
 
 namespace doorforge {
 
-/// Formats that a door can be handed on in. All hold the same links, joints, limits and masses;
+/// A format that a door can be handed on in. All hold the same links, joints, limits and masses;
 /// docs/export.md says what becomes of the latch in each.
-enum class DoorFormat { kUrdf, kMjcf, kSdf, kGlb, kUsda };
+struct DoorFormat {
+  std::string_view name;  ///< It is the word for the format in options and records.
+  bool names_meshes;      ///< Whether its files name those of WriteMeshFiles() beside them.
+  /// Writes the format's files into an existing folder.
+  void (*write)(const DoorAsset& door, const std::filesystem::path& folder);
+};
 
-/// "urdf", "mjcf", "sdf", "glb", "usda".
-std::string_view NameOf(DoorFormat format);
-std::optional<DoorFormat> DoorFormatNamed(std::string_view name);
+/// All formats, in the order in which help and messages name them.
+std::span<const DoorFormat> DoorFormats();
+/// Their names, for the choices of an option.
+std::vector<std::string> DoorFormatNames();
+/// Null if there is no such format.
+const DoorFormat* DoorFormatNamed(std::string_view name);
 
 /// MuJoCo's model, with the meshes of WriteDoor() beside it. A latch is a bolt: a sliding body in
 /// the leaf's free edge, coupled to the handle by a joint equality, and a strike on the frame that
@@ -48,10 +55,10 @@ std::string ToUsda(const DoorAsset& door);
 inline constexpr FolderKind kExportFolder{"an exported door", "export.json",
                                           "doorforge.exported_door"};
 
-/// Commits `folder` with the files of these formats and, for those that name them, `meshes/`:
-/// model.urdf, model.xml (MJCF), model.sdf and model.config, model.glb, model.usda; and
-/// export.json, which says of which door and by whom. Throws Error(kInvalidArgument) if the folder
-/// exists and may not be replaced: only what holds an export.json of ours is. Deterministic.
+/// Commits `folder` with the files of these formats, with `meshes/` for those that name them, and
+/// with export.json, which says of which door they are and by whom. Throws Error(kInvalidArgument)
+/// if the folder exists and may not be replaced: only what holds an export.json of ours is.
+/// Deterministic.
 void WriteExportedDoor(const DoorAsset& door, std::span<const DoorFormat> formats,
                        const std::filesystem::path& folder, Existing existing);
 

@@ -16,7 +16,7 @@ namespace doorforge {
 /// How loose meshes are meant; a mesh file says nothing of it.
 struct LooseMeshConfig {
   std::string role = {};           ///< "body" (a leaf) or "handle"; needed.
-  std::string mechanism = "none";  ///< Of a handle, as in names.h.
+  std::string mechanism = "none";  ///< Handles have it; the words are those of names.h.
   /// The unit of the file's numbers is m, cm, mm, in or ft. Where this is empty, the file's own is
   /// taken (glTF, DAE, FBX), or m; if that makes it no handle (0.02 to 0.6 m) or leaf (0.2 to 3.5
   /// m) and there is no scale, the one of m, cm and mm is taken which does.
@@ -29,7 +29,7 @@ struct LooseMeshConfig {
   /// Axis of the file that points out of the door; empty: as the file states, else x (y if up is
   /// x).
   std::string front = {};
-  std::string hinge = "left";  ///< Of a leaf, as seen by who faces it: left or right.
+  std::string hinge = "left";  ///< Who faces the leaf has its hinge to the "left" or "right".
   std::string frame = {};      ///< Mesh file of a leaf's frame, in the same axes and units.
   std::string rose = {};       ///< Mesh file of what stays fixed around a grip.
   /// Point of the file, in its own axes and units. Leaf: where the handle goes. Handle: the point
@@ -56,7 +56,7 @@ struct LooseMeshConfig {
 
 /// What the user knows of an object beyond its files.
 struct ReadConfig {
-  std::string category = {};       ///< As in names.h; empty: told by folder or content.
+  std::string category = {};       ///< It is a word of names.h; empty: folder or content tell it.
   std::string allow_missing = {};  ///< "frame": an object without its frame's mesh is read, too.
   /// This is the height of the whole object [m], for formats without a unit (PartNet-Mobility,
   /// GAPartNet); 0 stands for what is usual for its kind.
@@ -113,8 +113,7 @@ struct ForeignSource {
   std::string format;  ///< One of ImportFormatNames().
 };
 
-/// "unidoormanip", "unidoormanip-parts", "gapartnet", "partnet-mobility", "akb48", "doorgym",
-/// "urdf", "mesh", in the order in which they are tried.
+/// The words for the formats, such as "urdf", in the order in which they are tried.
 const std::vector<std::string>& ImportFormatNames();
 
 /// The objects at or below `source`, by path.

@@ -54,7 +54,7 @@ std::string_view NameOf(ImportOutcome outcome);
 
 struct ImportedObject {
   ForeignSource source;
-  std::string name;  ///< Of the format and object, or the folder's where it cannot be read.
+  std::string name;  ///< It names format and object, or the folder where it cannot be read.
   ImportOutcome outcome = ImportOutcome::kInvalid;
   std::string message;   ///< What, where and what to do; empty if imported.
   std::string category;  ///< Empty where it is not known.

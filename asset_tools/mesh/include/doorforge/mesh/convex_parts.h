@@ -13,8 +13,8 @@ struct ConvexPartsConfig {
   int max_parts = 24;
   double max_concavity_m = 0.005;  ///< How far a part may protrude beyond the mesh, as a grid of
                                    ///< cells of a third of it tells.
-  double max_protrusion_m = 0;     ///< The same as measured; 0: not measured.
-  int max_vertices = 64;           ///< Of a part; at least 4.
+  double max_protrusion_m = 0;     ///< It is measured like the other; 0: it was not.
+  int max_vertices = 64;           ///< A part has at most so many, at least 4.
   int max_grid_cells = 4'000'000;  ///< Cells of the grid that the search works on.
 
   template <class Self, class Visitor>

@@ -21,7 +21,7 @@ struct MeshImportLimits {
   /// together, so more than that is 2 GiB.
   std::uint64_t memory_bytes = 2ULL << 30;
   double timeout_s = 60;  ///< Wall clock and processor time of that process.
-  std::uint64_t max_picture_bytes = 32ULL << 20;  ///< Of a texture; larger ones are left out.
+  std::uint64_t max_picture_bytes = 32ULL << 20;  ///< Larger textures are left out.
   /// Materials, textures and buffers that the file names must lie below this folder, which holds
   /// the file; empty: the file's own folder.
   std::filesystem::path files_below = {};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,22 +11,33 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "doorforge/core/closed_mesh.h"
+#include "doorforge/core/named_enum.h"
 #include "doorforge/mesh/surface_deviation.h"
 
 namespace doorforge {
 
+/// When a mesh is replaced by an alpha wrap around it.
+enum class WrapUse {
+  kNever,   ///< What cannot be repaired exactly fails.
+  kAuto,    ///< Only what cannot be repaired exactly, or not well, is wrapped.
+  kAlways,  ///< Every mesh is wrapped.
+};
+inline constexpr NamedValue<WrapUse> kWrapUses[] = {
+    {WrapUse::kNever, "never"}, {WrapUse::kAuto, "auto"}, {WrapUse::kAlways, "always"}};
+constexpr std::span<const NamedValue<WrapUse>> ValuesOf(WrapUse) { return kWrapUses; }
+
 /// D is the diagonal of the input's bounding box.
 struct RepairConfig {
-  std::string wrap = "auto";     ///< "never", "auto" (only where exact repair fails) or "always".
-  double alpha_fraction = 0.01;  ///< The wrap enters openings wider than this times D.
+  WrapUse wrap = WrapUse::kAuto;
+  double alpha_fraction = 0.01;         ///< The wrap enters openings wider than this times D.
   double offset_fraction = 1.0 / 1200;  ///< The wrap lies this times D outside the input.
   double max_hole_fraction = 0.05;      ///< Holes up to this times D across are filled.
   double max_flat_hole_share = 0.15;  ///< So are flat holes up to this part of their piece's area.
   /// But only where the cap stays within this times D of the surface; a piece with another hole
   /// becomes walls. 1: caps may lie anywhere, so hollow models become solid.
   double max_cap_fraction = 0.01;
-  /// Of the output, and of a wrap never more than three times the input's and 5,000. More are kept
-  /// where fewer would cross. 0: any number.
+  /// The output has at most so many, a wrap never more than three times the input's and 5,000. More
+  /// are kept where fewer would cross. 0: any number.
   int max_triangles = 6000;
 
   template <class Self, class Visitor>
@@ -55,8 +67,8 @@ struct RepairReport {
   RepairOutcome outcome = RepairOutcome::kFailed;
   std::string reason;  ///< Why the input could not be kept exactly, or why nothing came out.
   std::vector<std::string> steps;  ///< What was done, in order, with counts.
-  MeshTopology before;             ///< Of the input after vertices at one position were made one.
-  MeshTopology after;              ///< Of the output; zeros if there is none.
+  MeshTopology before;  ///< It describes the input after vertices at one place were welded.
+  MeshTopology after;   ///< It describes the output; zeros if there is none.
   int holes_filled = 0;
   int components_kept = 0;
   int components_dropped = 0;    ///< Pieces without thickness or hidden wholly inside others.

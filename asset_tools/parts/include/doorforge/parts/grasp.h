@@ -22,8 +22,8 @@ struct GripperShape {
 
 /// What lies between and around the fingers at one grasp.
 struct GraspFit {
-  double width_m = 0;       ///< Of the grip's material between the pads; 0: nothing there.
-  double off_center_m = 0;  ///< Of that material's middle from the grasp frame, along its y.
+  double width_m = 0;       ///< The grip's material between the pads is so wide; 0: there is none.
+  double off_center_m = 0;  ///< Its middle is so far from the grasp frame, along that frame's y.
   /// Share of the pad's area, the smaller of both pads, that lies within 2.5 mm of where it
   /// touches.
   double contact = 0;

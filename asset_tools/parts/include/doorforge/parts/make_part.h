@@ -38,7 +38,7 @@ struct MakePartConfig {
 
 /// A piece in any state, in the part's frame.
 struct RawPiece {
-  std::string name;  ///< As PartPiece::name.
+  std::string name;  ///< It is a PartPiece::name.
   TriangleMesh mesh;
   Eigen::Vector4d color_rgba{0.7, 0.7, 0.7, 1.0};
   VisualMesh visual = {};               ///< What its author drew; may be empty.
@@ -57,7 +57,7 @@ struct PieceReport {
   int convex_parts = 0;
   ConvexPartsFit convex_fit;  ///< Measured, not the bound that was asked for.
   bool mass_limited = false;  ///< The volume times the density lay outside the plausible range.
-  int visual_triangles = 0;   ///< Of what its author drew, where the part keeps it.
+  int visual_triangles = 0;   ///< They count what its author drew, where the part keeps it.
   int visual_materials = 0;
   int visual_textures = 0;
   std::vector<std::string> visual_notes = {};  ///< RawPiece::notes.

@@ -15,8 +15,8 @@ struct PreviewConfig {
   double hinge_deg = 0;      ///< Doors are open by this angle, within their limits.
   double handle_deg = 0;     ///< Handles are turned by this angle, within their limits.
   double azimuth_deg = -34;  ///< Where to stand: 0 in front, positive towards the free edge.
-  int columns = 6;           ///< Of a contact sheet.
-  int width = 0;             ///< Of each picture in pixels; 0: by what is drawn.
+  int columns = 6;           ///< A contact sheet has so many.
+  int width = 0;             ///< Each picture has so many pixels across; 0: what is drawn decides.
   int threads = 0;           ///< 0: all processors.
   /// "all": the whole, and the handle large from three sides with a bar of 50 mm and the axes;
   /// "whole"; "handle"; empty: "all" of one record, "whole" of several.

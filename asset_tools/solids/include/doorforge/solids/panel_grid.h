@@ -15,9 +15,9 @@ namespace doorforge::internal {
 /// each node of which has a point on the panel's front and one on its back.
 struct PanelGrid {
   std::vector<double> u_m;          ///< Ascending lines; see EdgeLines().
-  std::vector<double> v_m;          ///< The same.
+  std::vector<double> v_m;          ///< They divide the other side likewise.
   std::vector<Rectangle> openings;  ///< In (u, v); bounded by lines.
-  double edge_radius_m = 0.004;     ///< Of all borders on the front and the back; may be 0.
+  double edge_radius_m = 0.004;     ///< All borders on front and back have it; it may be 0.
 
   /// Front and back at a node, not yet rounded at the borders. Right-handed: du x dv points from
   /// the back to the front.

@@ -44,13 +44,13 @@ Solid ConvexPrism(const Polygon& polygon, PrismAxis axis, const PrismSpan& span,
 /// A block along x with a cavity that opens to the front.
 struct CupShape {
   Polygon outer;  ///< In (y, z).
-  Polygon inner;  ///< Of the cavity, inside `outer`.
+  Polygon inner;  ///< It bounds the cavity and lies inside `outer`.
   /// The hulls are made of these, which follow the two above with fewer points: at most 30, and at
   /// most 24.
   Polygon outer_hull;
   Polygon inner_hull;
   double back_x_m;
-  double floor_x_m;  ///< Of the cavity.
+  double floor_x_m;  ///< The cavity ends there.
   double front_x_m;
   double edge_radius_m;
 };
@@ -58,10 +58,10 @@ Solid CupSolid(const CupShape& cup);
 
 /// A closed hoop around the x axis through `center`: a rounded section moved along a circle.
 struct HoopShape {
-  double radius_m;      ///< Of the section's centre.
-  double half_width_m;  ///< Of the section, along the radius.
+  double radius_m;      ///< The section's centre runs on it.
+  double half_width_m;  ///< The section reaches so far along the radius to either side.
   double half_depth_m;  ///< Along x.
-  double exponent = 2;  ///< As Section::exponent.
+  double exponent = 2;  ///< It means what Section::exponent does.
   int sides = 40;
 };
 Solid HoopSolid(const HoopShape& hoop, const Eigen::Vector3d& center_m);

@@ -13,7 +13,7 @@ namespace doorforge {
 /// One fault that was mended, or would be.
 struct Fix {
   std::string code;
-  std::string where;  ///< As the finding's.
+  std::string where;  ///< It is the finding's.
   std::string done;   ///< With numbers.
 };
 

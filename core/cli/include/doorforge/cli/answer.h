@@ -19,6 +19,11 @@ std::string CountedFindings(int errors, int warnings);
 /// `--json` asks for.
 void PrintJson(const nlohmann::ordered_json& json);
 
+/// Prints text, line ends included, to standard output: what a verb was asked for.
+void PrintText(const std::string& text);
+/// Prints it to standard error: what people should know meanwhile.
+void PrintProgress(const std::string& text);
+
 /// The exit code of a verb that works on many objects: 128 + the signal that stopped it, else 1 if
 /// any object failed, else 0.
 int ExitCodeOfBatch(std::size_t failed);

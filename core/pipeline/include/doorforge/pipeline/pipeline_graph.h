@@ -27,9 +27,12 @@ struct PipelineStep {
   /// What is added to the command to go on after an interruption, maybe nothing; without it a
   /// step that was interrupted starts again.
   std::optional<std::string> resume;
-  std::vector<int> fine_codes = {0};  ///< Exit codes after which the step is done.
+  std::vector<int> ok_exit_codes = {0};  ///< Exit codes after which the step is done.
   CostTerms core_seconds;
   CostTerms mebibytes;
+  /// A step whose output stands for this one's as well where it is given: doors of another size are
+  /// not made of doors that are the user's own.
+  std::string given_with;
   /// Folders of the user's that stand for the output; the step itself has nothing to do then.
   std::vector<std::string> given;
 };
@@ -53,7 +56,8 @@ Pipeline ReadPipeline(const std::string& name, const std::vector<std::string>& c
 /// Names of the presets.
 std::vector<std::string> PipelinePresets();
 
-/// Lets folders stand for the output of a step, and leaves out the steps that only it needed.
+/// Lets folders stand for the output of a step and of those that are given with it, and leaves out
+/// the steps that only they needed.
 /// Throws Error(kInvalidArgument) if there is no such step.
 void GiveOutput(Pipeline& pipeline, const std::string& step,
                 const std::vector<std::string>& folders);

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "doorforge/pipeline/pipeline_run.h"
+
 namespace doorforge {
 
 /// The whole chain at small size: parts, doors, validation, shards, policy, report.
@@ -12,12 +14,14 @@ struct QuickstartRequest {
   std::filesystem::path out = "run/quickstart";  ///< Everything is made below it.
   /// Folder of objects of UniDoorManip to import; empty: the embedded catalogue.
   std::filesystem::path assets = {};
-  int episodes = 220;      ///< Of the expert, to collect.
-  int epochs = 4;          ///< Passes over the collected samples.
-  int threads = 0;         ///< 0: all processors.
-  std::uint64_t seed = 7;  ///< Decides every random choice.
-  bool overwrite = false;  ///< The folder `out` of an earlier quickstart is replaced.
-  bool resume = false;     ///< The steps that are done in `out` are kept.
+  int episodes = 220;              ///< So many of the expert are collected.
+  int epochs = 4;                  ///< Passes over the collected samples.
+  int threads = 0;                 ///< 0: all processors.
+  std::uint64_t seed = 7;          ///< Decides every random choice.
+  bool overwrite = false;          ///< The folder `out` of an earlier quickstart is replaced.
+  bool resume = false;             ///< The steps that are done in `out` are kept.
+  PipelineTextSink progress = {};  ///< It means what PipelineRun::progress does.
+  PipelineTextSink result = {};    ///< It means what PipelineRun::result does.
 };
 
 /// Runs the preset "quickstart" as RunPipeline() does, and returns its exit code.

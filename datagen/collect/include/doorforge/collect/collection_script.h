@@ -13,7 +13,7 @@ namespace doorforge {
 /// A collection that is given to Slurm instead of being run here.
 struct CollectionScriptRequest {
   StageRequest stage;
-  std::filesystem::path file;  ///< Of the script.
+  std::filesystem::path file;  ///< The script was written there.
   /// What the tasks are and may take. Here `dataset` may be relative; `arguments` are those of the
   /// call that asks for the script, of which a task gets what is its own; of `tasks`, 0 means one a
   /// shard, at most 1000; of `threads`, 0 means 1.
@@ -25,7 +25,7 @@ struct CollectionScriptRequest {
 /// What the written script will run.
 struct CollectionScript {
   int tasks = 0;
-  std::size_t shards = 0;  ///< Of the plan.
+  std::size_t shards = 0;  ///< The plan has so many.
   std::size_t arrays = 0;
 };
 

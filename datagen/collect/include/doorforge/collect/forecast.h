@@ -24,8 +24,8 @@ struct CollectionForecast {
   int probed = 0;
   double written_episodes = 0;  ///< Expected number that become data.
   double decisions = 0;         ///< Samples.
-  double bytes = 0;             ///< Of the shards.
-  double seconds = 0;           ///< Of wall-clock time, with this many threads.
+  double bytes = 0;             ///< The shards take so much room.
+  double seconds = 0;           ///< It takes so much wall-clock time with this many threads.
 };
 
 /// Counts the plan and runs `probe` of its episodes, evenly from the plan, on `threads` threads (0:
@@ -34,7 +34,7 @@ CollectionForecast Forecast(StageRun& run, int probe, int threads);
 
 /// {"schema": "doorforge.collection_forecast", "schema_version", ...}
 nlohmann::ordered_json ForecastToJson(const CollectionForecast& forecast);
-/// The same for people.
+/// Says it for people.
 std::string ForecastText(const CollectionForecast& forecast);
 
 }  // namespace doorforge

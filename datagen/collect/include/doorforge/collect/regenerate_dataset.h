@@ -15,7 +15,7 @@ namespace doorforge {
 /// A dataset of which a share is made again, and what it was made with.
 struct RegenerateDatasetRequest {
   std::filesystem::path folder;    ///< The dataset's.
-  double fraction = 0.01;          ///< Of the planned episodes, in (0, 1].
+  double fraction = 0.01;          ///< This share of the planned episodes is made again, in (0, 1].
   std::vector<std::string> doors;  ///< Folders with the doors of the dataset.
   std::string robot;               ///< URDF of the robot, where config.yaml names one that is not
                                    ///< in the dataset's folder; empty: none is given.

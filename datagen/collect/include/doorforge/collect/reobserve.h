@@ -22,7 +22,7 @@ struct ReobserveConfig {
   bool robot = true;
   bool own_camera = false;  ///< True: `camera` for all episodes; false: each episode's own.
   CameraConfig camera;
-  GraspLook grasp_look;             ///< At "grasp".
+  GraspCameraConfig grasp_look;     ///< At "grasp".
   RememberedViewConfig remembered;  ///< At "handle".
   CloudConfig cloud;
   bool preview = true;
@@ -40,8 +40,8 @@ struct ReobserveConfig {
 };
 
 struct ReobserveRequest {
-  std::filesystem::path folder;    ///< Of the existing dataset.
-  std::filesystem::path out;       ///< Of the new one.
+  std::filesystem::path folder;    ///< It holds the existing dataset.
+  std::filesystem::path out;       ///< It receives the new one.
   std::vector<std::string> doors;  ///< Folders with the doors of the dataset.
   std::string config;              ///< File with settings; empty: none.
   std::vector<std::string> settings;

@@ -31,7 +31,7 @@ struct StageConfig {
   RandomGraspConfig grasp;  ///< How grasps are sampled.
   /// With a learner: it drives 1 to this many decisions, drawn for each episode, then the expert.
   int learner_decisions = 16;
-  GraspLook grasp_look;             ///< At "grasp": what the recorded cloud is seen with.
+  GraspCameraConfig grasp_look;     ///< At "grasp": what the recorded cloud is seen with.
   RememberedViewConfig remembered;  ///< At "handle": what the recorded clouds are joined with.
   CloudConfig cloud;
   /// Adds preview.png to each episode: depth at the first and at the last look.

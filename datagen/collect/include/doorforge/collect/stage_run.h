@@ -17,7 +17,7 @@ namespace doorforge {
 /// What a collection is made from, as a user names it.
 struct StageRequest {
   StageConfig config;
-  std::vector<std::string> doors;  ///< As DoorSelectionOf().
+  std::vector<std::string> doors;  ///< DoorSelectionOf() reads them.
   CollectionWords policies;
   int threads = 0;
   RobotMeshReader robot_meshes;  ///< Reads the meshes of config.scene.robot; see LoadRobot().
@@ -51,7 +51,7 @@ class StageRun {
   RobotModel robot_;
   std::unique_ptr<StagePolicies> policies_;
   std::vector<FoundDoor> doors_;
-  DoorShelf shelf_;
+  DoorCache shelf_;
   CollectionPlan plan_;
 };
 

@@ -17,8 +17,8 @@ struct TrainedPolicy {
   std::filesystem::path folder;
   DatasetPolicy identity;
   std::string role;      ///< handler, opener or learner, as its option is called.
-  int cloud_points = 0;  ///< Of the clouds that it takes; 0: its record does not say.
-  RememberedViewConfig remembered{.finer = 0};  ///< Of the stage "handle": what it remembers.
+  int cloud_points = 0;  ///< It takes clouds of so many; 0: its record does not say.
+  RememberedViewConfig remembered{.finer = 0};  ///< At the stage "handle" it remembers this.
 };
 
 /// Reads the record and checks the weights against it, so that a policy that does not fit is
@@ -34,6 +34,6 @@ std::string TrainedPolicyText(const TrainedPolicy& policy);
 
 /// What the policies' bytes depend on beside their folders: the instruction set of the networks'
 /// loops.
-std::string PolicyArithmetic();
+std::string InferenceKernelName();
 
 }  // namespace doorforge

@@ -63,8 +63,8 @@ struct CollectSummary {
   std::map<std::string, std::uint64_t> failures;  ///< Outcome to count.
   std::uint64_t shards = 0;
   std::uint64_t kept_shards = 0;    ///< Committed before this run.
-  std::uint64_t kept_episodes = 0;  ///< Of unfinished shards, failed ones included.
-  std::uint64_t bytes = 0;          ///< Of all tars.
+  std::uint64_t kept_episodes = 0;  ///< Unfinished shards hold so many, failed ones included.
+  std::uint64_t bytes = 0;          ///< All tars together have so many.
   int stopped_by_signal = 0;        ///< Then what was begun is there, and the rest is not.
 };
 

@@ -53,8 +53,8 @@ struct CollectionStatus {
   bool is_complete = false;  ///< dataset.json is there, and every planned shard.
   std::vector<ShardStatus> shards;
   std::map<std::string, std::uint64_t> failures;  ///< Outcome to count.
-  /// Of the last hour in which episodes came, all tasks together; nothing while too few came to
-  /// tell.
+  /// It is measured over the last hour in which episodes came, all tasks together; nothing while
+  /// too few came to tell.
   std::optional<double> episodes_per_s;
   std::vector<TaskStatus> tasks;  ///< If their number was given.
 
@@ -90,7 +90,7 @@ CollectionStatus StatusOfCollection(const StatusRequest& request);
 /// {"schema": "doorforge.collection_status", ...}
 nlohmann::ordered_json StatusToJson(const CollectionStatus& status, double now_s);
 
-/// The same for people; the last line says what to do next.
+/// Says it for people; the last line says what to do next.
 std::string StatusText(const CollectionStatus& status, double now_s);
 
 }  // namespace doorforge

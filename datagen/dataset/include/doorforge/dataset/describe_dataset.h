@@ -15,7 +15,7 @@ namespace doorforge {
 /// @throws Error(kMissing or kFormat).
 nlohmann::ordered_json DescribeDataset(const std::filesystem::path& folder);
 
-/// The same as a table for people.
+/// Says it for people, as a table.
 std::string DescriptionText(const nlohmann::ordered_json& description);
 
 }  // namespace doorforge

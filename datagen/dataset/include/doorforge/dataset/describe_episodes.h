@@ -28,7 +28,7 @@ struct AngleHistogram {
 struct EpisodeGroup {
   std::uint64_t episodes = 0;
   std::uint64_t succeeded = 0;
-  std::map<std::string, std::uint64_t> causes;  ///< Of those that did not, by outcome.
+  std::map<std::string, std::uint64_t> causes;  ///< They count those that did not, by outcome.
   AngleHistogram hinge;                         ///< Largest hinge angle of each episode.
   AngleHistogram handle;                        ///< Largest handle angle of each episode.
 };
@@ -54,8 +54,9 @@ struct ExampleEpisode {
 };
 
 struct EpisodeDescription {
-  std::vector<StageEpisodes> stages;     ///< Sorted by name.
-  std::vector<ExampleEpisode> examples;  ///< Of every category the first ones that have a preview.
+  std::vector<StageEpisodes> stages;  ///< Sorted by name.
+  std::vector<ExampleEpisode>
+      examples;  ///< They are the first of every category that have a preview.
 };
 
 /// Reads the indices and every episode's meta.json. Does not depend on the number of threads.

@@ -24,7 +24,7 @@ struct RobomimicRequest {
 struct RobomimicSummary {
   std::uint64_t demos = 0;
   std::uint64_t samples = 0;
-  std::uint64_t bytes = 0;    ///< Of the file.
+  std::uint64_t bytes = 0;    ///< The file has so many.
   int stopped_by_signal = 0;  ///< Then there is no file.
 };
 

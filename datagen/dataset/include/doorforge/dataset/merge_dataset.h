@@ -11,14 +11,14 @@
 namespace doorforge {
 
 struct MergeRequest {
-  std::filesystem::path folder;  ///< Of the whole dataset.
+  std::filesystem::path folder;  ///< It holds the whole dataset.
   std::vector<std::filesystem::path>
       parts;  ///< Folders of tasks; none where all wrote in `folder`.
   FileSystem* files = &SystemFiles();
 };
 
 struct MergeSummary {
-  std::uint64_t shards = 0;  ///< Of the whole dataset.
+  std::uint64_t shards = 0;  ///< The whole dataset has so many.
   std::uint64_t linked = 0;  ///< Brought in as hard links.
   std::uint64_t copied = 0;  ///< Brought in as copies: the part is on another file system.
 };

@@ -14,8 +14,9 @@ namespace doorforge {
 struct RegenerateRequest {
   std::filesystem::path folder;  ///< The dataset's.
   std::string stage = "open";
-  double fraction = 0.01;  ///< Of the planned episodes, in (0, 1]; at least one is made again.
-  int threads = 0;         ///< 0: all processors.
+  double fraction =
+      0.01;         ///< This share of the planned episodes, in (0, 1], is made again; at least one.
+  int threads = 0;  ///< 0: all processors.
 };
 
 struct RegenerateResult {

@@ -19,8 +19,8 @@ namespace doorforge {
 struct RobotCommand {
   ArmVector arm_position;      ///< Position targets of sliders and arm.
   bool close_fingers = false;  ///< Squeeze with finger_force_n, or open.
-  /// Where the tool centre is to be; "operational_space" alone looks at it. Without it, and with
-  /// "joint_motors", the joints follow arm_position.
+  /// Where the tool centre is to be; ArmController::kOperationalSpace alone looks at it. Without
+  /// it, and with kJointMotors, the joints follow arm_position.
   std::optional<RigidTransform> world_from_tcp = std::nullopt;
 };
 
@@ -48,7 +48,7 @@ struct DoorContacts {
   int arm_points = 0;       ///< Any other pair of robot and door.
   double arm_force_n = 0;   ///< Sum of their normal forces.
   std::string arm_touches;  ///< Such as "hand-leaf"; empty if there are none.
-  int self_points = 0;      ///< Of the robot with itself.
+  int self_points = 0;      ///< The robot touches itself at so many.
   double self_force_n = 0;
   std::string self_touches;  ///< Such as "link2-hand"; empty if there are none.
 
@@ -120,7 +120,8 @@ class DoorWorld {
   ///     do not outlive their world, and cannot be written to a file.
   void Restore(const WorldImage& image);
 
-  /// What made the simulated state impossible, see StateWatch; nothing as long as it is plausible.
+  /// What made the simulated state impossible, see DivergenceDetector; nothing as long as it is
+  /// plausible.
   const std::optional<StateFault>& fault() const;
 
   /// SHA-256 of all joint positions and velocities, bit by bit, a bolt's among them.

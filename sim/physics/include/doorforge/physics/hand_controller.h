@@ -9,7 +9,7 @@
 namespace doorforge {
 
 struct HandControllerConfig {
-  double max_speed_m_s = 0.6;  ///< Of the commanded hand.
+  double max_speed_m_s = 0.6;  ///< The commanded hand moves no faster.
   double max_turn_rad_s = 2.5;
   double max_joint_lead = 0.15;  ///< Command ahead of the measured joint [rad or m].
 };

@@ -23,7 +23,7 @@ struct LatchTorques {
   double handle_nm = 0;  ///< About the handle's axis; positive unlocks.
 };
 
-/// Of lock effort and springs; a bolt holds by contact and adds nothing here.
+/// Adds up lock effort and springs; a bolt holds by contact and adds nothing here.
 LatchTorques TorquesOf(const Latch& latch, const LatchState& state, double hinge_rad,
                        double handle_rad);
 

@@ -27,7 +27,8 @@ struct LeafSweep {
   /// While the door opens: depth_m is by how much the overlap of a pair of pieces exceeds that of
   /// the same pair on the closed door.
   SweepOverlap opening;
-  /// The same for each pair of pieces that overlaps more than on the closed door, deepest first.
+  /// There is one for each pair of pieces that overlaps more than on the closed door, deepest
+  /// first.
   std::vector<SweepOverlap> opening_pairs;
 };
 

@@ -22,7 +22,7 @@ struct RobotOptions {
   std::vector<double> tcp_xyz_m;    ///< Else its place in the hand link. Both empty: guessed.
   std::vector<double> tcp_rpy_rad;
   std::vector<double> rest_rad;  ///< Posture of the arm joints at the start. Empty: 0.3 (low + up).
-  double density_kg_m3 = 0;      ///< Of links without inertia; 0: they are a fault.
+  double density_kg_m3 = 0;      ///< Links without inertia get it; 0: they are a fault.
   std::string visuals = "mesh";  ///< "collision": the collision shapes are what a camera sees.
   std::vector<std::string> package_folders;  ///< Where package:// is looked for besides.
 

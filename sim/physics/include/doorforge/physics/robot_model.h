@@ -11,6 +11,7 @@
 #include "doorforge/core/mass_properties.h"
 #include "doorforge/core/rigid_transform.h"
 #include "doorforge/core/triangle_mesh.h"
+#include "doorforge/schemas/robot_base.h"
 
 namespace doorforge {
 
@@ -21,7 +22,7 @@ inline constexpr int kMostBaseJoints = 3;
 inline constexpr int kMostArmJoints = kMostBaseJoints + 8;
 inline constexpr int kMostRobotJoints = kMostArmJoints + 2;
 
-/// Of the built-in robot on its sliders, LoadMobileFranka().
+/// The built-in robot on its sliders, LoadMobileFranka(), has so many.
 inline constexpr int kRobotJointCount = 11;
 inline constexpr int kArmJointCount = 9;
 inline constexpr int kSliderCount = 2;
@@ -30,20 +31,10 @@ inline constexpr int kRightFinger = 10;
 
 /// One number a joint, in the order above [m or rad]; as long as RobotModel::joint_count().
 using JointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostRobotJoints, 1>;
-/// The same without the fingers, RobotModel::arm_count() long.
+/// It leaves out the fingers and is RobotModel::arm_count() long.
 using ArmVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostArmJoints, 1>;
 /// Twist of a frame [linear m; angular rad] per unit of each arm joint, in the world.
 using ArmJacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, kMostArmJoints>;
-
-/// What the arm stands on.
-enum class RobotBase {
-  kSliders,  ///< Two sliders of 1 m to each side, as in UniDoorManip.
-  kFixed,    ///< The floor.
-  kYaw,      ///< The sliders, and a turntable on them.
-};
-/// "sliders", "fixed", "yaw". Throws Error(kInvalidConfig) on any other name.
-RobotBase RobotBaseNamed(const std::string& name);
-std::string NameOf(RobotBase base);
 
 /// A moving joint and the body that hangs on it. The body's frame is the joint's frame after the
 /// motion; links that are fixed to each other are one body.
@@ -57,7 +48,7 @@ struct RobotJoint {
   double upper = 0;
   double effort = 0;    ///< [N m] or [N]
   double velocity = 0;  ///< [rad/s] or [m/s]
-  MassProperties mass;  ///< Of the body, in its frame.
+  MassProperties mass;  ///< It is the body's, in the body's frame.
 };
 
 /// A piece of a body, in the body's frame.
@@ -77,7 +68,7 @@ struct RobotFrame {
 /// Poses of the robot at one vector of joint positions, all in the world.
 struct RobotPose {
   RigidTransform world_from_base = RigidTransform::Identity();
-  std::vector<RigidTransform> world_from_body;  ///< Of each joint's body.
+  std::vector<RigidTransform> world_from_body;  ///< There is one a joint: its body's.
   RigidTransform world_from_hand = RigidTransform::Identity();
   /// Tool centre: midway between the pads, z the approach, y the direction in which they close.
   RigidTransform world_from_tcp = RigidTransform::Identity();
@@ -91,7 +82,7 @@ struct RobotDescription {
   std::vector<RobotPiece> visuals;
   std::vector<RobotPiece> hulls;  ///< Convex.
   RobotFrame hand;                ///< On the last arm joint's body.
-  RobotFrame tcp;                 ///< The same.
+  RobotFrame tcp;                 ///< It is fixed to the same joint.
   ArmVector rest;  ///< Posture of the arm without base joints; empty: none of its own.
 };
 

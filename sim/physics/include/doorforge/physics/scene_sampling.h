@@ -68,7 +68,7 @@ struct SceneConfig {
   }
 };
 
-/// Draws episode number `episode` of a door, as DoorShelf gives it. A pure function of its
+/// Draws episode number `episode` of a door, as DoorCache gives it. A pure function of its
 /// arguments: the random streams are named "scene/<door id>/<episode>/<purpose>".
 ///
 /// The door stands axis-parallel, 0.1 m or more over the floor, so that the closed door's grasp

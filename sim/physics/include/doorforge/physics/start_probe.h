@@ -19,12 +19,12 @@ struct StartOverlap {
 
 /// Static geometry of a start: all of a robot, its base among it, against the hulls of a closed
 /// door: frame or shell, leaf and handle.
-class StartProbe {
+class SpawnCollisionChecker {
  public:
-  StartProbe(const DoorAsset& door, const RobotModel& robot);
-  ~StartProbe();
-  StartProbe(StartProbe&&) noexcept;
-  StartProbe& operator=(StartProbe&&) noexcept;
+  SpawnCollisionChecker(const DoorAsset& door, const RobotModel& robot);
+  ~SpawnCollisionChecker();
+  SpawnCollisionChecker(SpawnCollisionChecker&&) noexcept;
+  SpawnCollisionChecker& operator=(SpawnCollisionChecker&&) noexcept;
 
   /// The first pieces that overlap with the robot there, with a millimetre around each; nothing
   /// where the robot is free. Deterministic.

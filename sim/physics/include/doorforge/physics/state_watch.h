@@ -10,7 +10,7 @@
 namespace doorforge {
 
 /// What a simulated state can have that no real one has.
-enum class Implausibility {
+enum class DivergenceKind {
   kNotFinite,    ///< A position, a velocity or a command is not a number, or infinite.
   kTooFast,      ///< A joint is faster than it can become.
   kBeyondLimit,  ///< A joint is past the stop at the end of its range.
@@ -18,11 +18,11 @@ enum class Implausibility {
   kTorque,       ///< A torque acts on a joint of the door that nothing there can give.
   kEnergyGain,   ///< There is more motion than drives, springs and pushes can have caused.
 };
-std::string_view NameOf(Implausibility kind);  ///< "not_finite", "too_fast", ...
+std::string_view NameOf(DivergenceKind kind);  ///< "not_finite", "too_fast", ...
 
 /// What was found, where, and how much of it would have been plausible.
 struct StateFault {
-  Implausibility kind = Implausibility::kNotFinite;
+  DivergenceKind kind = DivergenceKind::kNotFinite;
   std::string where;   ///< A joint's name, or "robot and door".
   double found = 0;    ///< [rad/s, m/s, rad, m or J]; positive past the allowed value.
   double allowed = 0;  ///< In the same unit.
@@ -41,7 +41,7 @@ struct WatchedJoint {
 };
 
 /// Where a plausible state ends; docs/design/simulation.md has what good episodes come to.
-struct StateWatchLimits {
+struct DivergenceLimits {
   double beyond_limit_rad = 0.5;
   double beyond_limit_m = 0.02;
   double penetration_m = 0.04;  ///< Deeper than where the world began.
@@ -53,7 +53,7 @@ struct WatchedStep {
   std::vector<double> position;  ///< One number a joint [rad or m].
   std::vector<double> velocity;
   double deepest_m = 0;  ///< Deepest overlap of robot and door, >= 0.
-  double kinetic_j = 0;  ///< Of all bodies, after the step.
+  double kinetic_j = 0;  ///< All bodies together have it after the step.
   /// Most that drives, springs, latch and pushes can have added in the step [J].
   double work_j = 0;
   double time_s = 0;
@@ -65,13 +65,14 @@ struct WatchedStep {
 /// no more than the work of what drives; what it grows beyond that is added up, and counts down by
 /// what the work left over. Where a scene begins with robot and door inside each other, being
 /// pushed apart is not counted.
-class StateWatch {
+class DivergenceDetector {
  public:
-  explicit StateWatch(std::vector<WatchedJoint> joints, const StateWatchLimits& limits = {});
+  explicit DivergenceDetector(std::vector<WatchedJoint> joints,
+                              const DivergenceLimits& limits = {});
 
   /// The first fault of a state by itself, if any: not finite, too fast, beyond a limit.
   std::optional<StateFault> CheckState(const WatchedStep& step) const;
-  /// The same after a step, and its penetration and energy.
+  /// Checks the state after a step, its penetration and energy.
   ///
   /// @param step Has as many positions and velocities as there are joints.
   std::optional<StateFault> Check(const WatchedStep& step);
@@ -84,7 +85,7 @@ class StateWatch {
   std::optional<StateFault> CheckJoint(std::size_t joint, const WatchedStep& step) const;
 
   std::vector<WatchedJoint> joints_;
-  StateWatchLimits limits_;
+  DivergenceLimits limits_;
   double kinetic_j_ = 0;
   double least_depth_m_ = 0;  // so far
   bool first_step_ = true;

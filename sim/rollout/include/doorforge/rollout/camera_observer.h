@@ -24,9 +24,9 @@ std::vector<RigidTransform> LinkPosesOf(const SceneSnapshot& snapshot);
 /// What the policy's camera makes of an instant.
 struct Sight {
   DepthImage ideal;       ///< Without noise.
-  DepthImage depth;       ///< As the sensor gives it; the same as `ideal` without noise.
+  DepthImage depth;       ///< The sensor gives it; without noise it is `ideal`.
   LabelledCloud visible;  ///< Every point inside the crop.
-  SampledCloud sampled;   ///< Of these.
+  SampledCloud sampled;   ///< It is drawn from the visible points.
 };
 
 /// The scene's camera: depth of robot and door, with the noise that the config asks for, cropped
@@ -56,7 +56,7 @@ class CameraObserver : public Observer {
   std::uint64_t seed_;
   std::string stream_;
   CameraModel model_;
-  CameraModel believed_;
+  CameraModel camera_as_calibrated_;
   CloudConfig config_;
   DepthCamera camera_;
   std::optional<RememberedView> before_;

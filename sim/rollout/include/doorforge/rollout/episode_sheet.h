@@ -13,10 +13,10 @@
 namespace doorforge {
 
 struct EpisodeSheetConfig {
-  std::uint64_t seed = 1;  ///< Of the scenes.
-  int frames = 7;          ///< Of each strip.
-  int width = 0;           ///< Of each picture in pixels; 0: 320, or 200 for several doors.
-  int threads = 0;         ///< 0: all processors.
+  std::uint64_t seed = 1;  ///< The scenes are drawn from it.
+  int frames = 7;          ///< Each strip has so many.
+  int width = 0;    ///< Each picture has so many pixels across; 0: 320, or 200 for several doors.
+  int threads = 0;  ///< 0: all processors.
 };
 
 /// Film strips of the expert, and how each episode ended.

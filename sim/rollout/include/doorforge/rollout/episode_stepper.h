@@ -35,7 +35,7 @@ struct StepperOptions {
   GraspChooser* grasp = nullptr;
   /// Turns the handle in one go, wherever the stage comes: within Reset() or within Step().
   HandleRule* turn = nullptr;
-  Policy* handle = nullptr;  ///< The same, action by action, where there is no such rule.
+  Policy* handle = nullptr;  ///< It turns the handle action by action where no such rule is given.
   Policy* open = nullptr;    ///< Runs the opening within Step(); null: it is the caller's.
   /// Means what EpisodeRoles::predicted_turned does, and is asked after each action at the stage
   /// "handle".
@@ -47,14 +47,14 @@ struct StepperOptions {
 
 /// Where an episode stands.
 struct StepResult {
-  Stage stage = Stage::kGrasp;  ///< Of the next action.
+  Stage stage = Stage::kGrasp;  ///< The next action belongs to it.
   Observation observation;      ///< For it; after the end, of the end.
   /// What the action was worth, see reward.h [rad]; 0 before the first. A grasp is rated by the
   /// door's angle after Step(): where the later stages are the caller's, that is before them.
   double reward = 0;
   bool terminated = false;              ///< The episode has come to an end of its own: see `cause`.
   bool truncated = false;               ///< It was ended by the number of actions.
-  std::optional<EpisodeOutcome> cause;  ///< Of the end; kOpened is success.
+  std::optional<EpisodeOutcome> cause;  ///< It says why the episode ended; kOpened is success.
 
   bool over() const { return terminated || truncated; }
 };

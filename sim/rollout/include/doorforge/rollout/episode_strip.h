@@ -22,7 +22,7 @@ struct EpisodeStripConfig {
 
 /// What a frame shows.
 struct StripFrame {
-  std::string stage;  ///< As in SceneSnapshot.
+  std::string stage;  ///< It is the word for SceneSnapshot::phase.
   double time_s = 0;
   double hinge_rad = 0;
   double handle_rad = 0;

@@ -6,24 +6,25 @@
 
 namespace doorforge {
 
-/// The look that a grasp is chosen from. The policies' camera shows a handle with a few pixels, and
-/// farthest point sampling over the whole door leaves a handful of points on it: enough to follow
-/// it, too little to say how fingers fit around it.
-struct GraspLook {
-  int finer = 2;          ///< Times as many pixels along each side of the scene's camera, 1 to 8.
-  double within_m = 0.4;  ///< CloudExtent::within_m of the cloud about the contact.
+/// How the camera shows the handle that a grasp is chosen on. The policies' camera shows a handle
+/// with a few pixels, and farthest point sampling over the whole door leaves a handful of points on
+/// it: enough to follow it, too little to say how fingers fit around it.
+struct GraspCameraConfig {
+  int resolution_scale =
+      2;  ///< It multiplies the pixels along each side of the scene's camera, 1 to 8.
+  double crop_radius_m = 0.4;  ///< It is the CloudExtent::within_m of the cloud about the contact.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
-    visit("finer", self.finer);
-    visit("within_m", self.within_m);
+    visit("finer", self.resolution_scale);
+    visit("within_m", self.crop_radius_m);
   }
 };
 
 /// Throws Error(kInvalidConfig) on a number out of range.
-void CheckGraspLook(const GraspLook& look);
+void CheckGraspCamera(const GraspCameraConfig& config);
 
-/// The scene with the camera of the look.
-Scene SceneOf(const GraspLook& look, Scene scene);
+/// Returns the scene with that camera.
+Scene SceneOf(const GraspCameraConfig& config, Scene scene);
 
 }  // namespace doorforge

@@ -14,7 +14,7 @@ struct GraspPlan {
   RigidTransform handle_from_tcp = RigidTransform::Identity();
   JointVector pregrasp;  ///< kPregraspDistance before the grasp.
   JointVector grasp;
-  double cost = 0;  ///< Of the geometry; 0 is flat, central contact of both pads.
+  double cost = 0;  ///< It rates the geometry; 0 is flat, central contact of both pads.
 };
 
 inline constexpr double kPregraspDistance = 0.12;  ///< [m], back along the approach.

@@ -15,7 +15,7 @@ namespace doorforge {
 /// known here of the door: what is hidden is taken to be free. Immutable; deterministic.
 class GripperClearance {
  public:
-  /// Of the hulls of the robot's hand and of its fingers, opened all the way.
+  /// Takes the hulls of the robot's hand and of its fingers, opened all the way.
   explicit GripperClearance(const RobotModel& robot);
 
   /// The hand comes straight in, from kPregraspDistance before the grasp, see GraspChooser.

@@ -10,7 +10,7 @@ struct HandleExpertConfig {
   /// How far the hand is led ahead of the measured handle by one action; a handle that is stuck
   /// does not wind it up. UniDoorManip's rules: 20 to 25 degrees on knobs, 6 cm on levers.
   double step_rad = 0.2;
-  double first_step_rad = 0.1;  ///< Of the first action, where the grasp still settles.
+  double first_step_rad = 0.1;  ///< The first action goes so far: the grasp still settles.
   double most_slip_rad = 0.4;   ///< By which the hand may get ahead of what it holds.
 
   template <class Self, class Visitor>
@@ -30,7 +30,7 @@ class HandleExpert : public Policy {
 
   void Reset() override { actions_ = 0; }
   Action Act(const Observation& observation) override;
-  bool Looks() const override { return false; }
+  bool UsesPointCloud() const override { return false; }
 
  private:
   HandleExpertConfig config_;

@@ -4,19 +4,30 @@
 
 #include <any>
 #include <array>
-#include <string_view>
+#include <span>
 
+#include "doorforge/core/named_enum.h"
 #include "doorforge/physics/robot_model.h"
 #include "doorforge/schemas/cloud.h"
 
 namespace doorforge {
+
+/// The part of an episode that an instant belongs to; its words stand in captions of pictures.
+enum class EpisodePhase { kStart, kReach, kGrasp, kUnlock, kOpen, kEnd };
+inline constexpr NamedValue<EpisodePhase> kEpisodePhases[] = {
+    {EpisodePhase::kStart, "start"}, {EpisodePhase::kReach, "reach"},
+    {EpisodePhase::kGrasp, "grasp"}, {EpisodePhase::kUnlock, "unlock"},
+    {EpisodePhase::kOpen, "open"},   {EpisodePhase::kEnd, "end"}};
+constexpr std::span<const NamedValue<EpisodePhase>> ValuesOf(EpisodePhase) {
+  return kEpisodePhases;
+}
 
 /// Where everything is at one instant, in the world.
 struct SceneSnapshot {
   RobotPose robot;
   std::array<RigidTransform, 3> door;  ///< Indexed by DoorLinkIndex.
   double time_s = 0;
-  std::string_view stage;  ///< "start", "reach", "grasp", "unlock", "open", "end".
+  EpisodePhase phase = EpisodePhase::kStart;
 };
 
 /// Looks at an episode while it runs. Episodes run without one as well: the physics does not

@@ -9,12 +9,12 @@ namespace doorforge {
 struct OpeningExpertConfig {
   double step_m = 0.055;         ///< Arc that the hand is led ahead by one action.
   double least_turn_rad = 0.05;  ///< Wide doors get a longer arc, so that 25 actions are enough.
-  double first_step_m = 0.02;    ///< Of the first action; grows to step_m over four.
+  double first_step_m = 0.02;    ///< The first action goes so far; it grows to step_m over four.
   /// The handle stays turned, pressed this much beyond its angle, until the door is ajar.
   double press_rad = 0.25;
   double ajar_rad = 0.0873;             ///< 5 degrees.
   double relax_rad_per_action = 0.133;  ///< 0.8 rad/s.
-  /// Of a pushed door: how much of the door's turn the hand does not follow, so that the arm behind
+  /// So much of a pushed door's turn the hand does not follow, so that the arm behind
   /// it comes through the doorway instead of against the jamb; its pads turn on the handle.
   double push_yaw_share = 0.92;
   double tool_m = 0.1034;  ///< From the hand's frame to the middle of the pads, along its z.
@@ -42,7 +42,7 @@ class OpeningExpert : public Policy {
 
   void Reset() override;
   Action Act(const Observation& observation) override;
-  bool Looks() const override { return false; }
+  bool UsesPointCloud() const override { return false; }
 
  private:
   OpeningExpertConfig config_;

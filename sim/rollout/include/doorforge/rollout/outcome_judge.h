@@ -21,7 +21,7 @@ struct Verdict {
 struct Hindrance {
   double behind_m = 0;  ///< Distance of the hand's origin from its commanded pose.
   DoorContacts contacts;
-  std::string joint_at_limit;  ///< As JointAtLimit().
+  std::string joint_at_limit;  ///< JointAtLimit() gives it.
 };
 
 /// Name of the first joint of base or arm that is nearer to an end of its range than the limits'
@@ -64,13 +64,13 @@ struct OpeningEvidence {
   double hinge_rad = 0;
   int actions = 0;
   double without_pads_s = 0;  ///< Time since a pad touched the handle last.
-  double slip_m = 0;          ///< As in TurnEvidence.
+  double slip_m = 0;          ///< It is measured as in TurnEvidence.
   bool coasted = false;       ///< The door passed the angle without a pad on the handle.
   bool lost_pads = false;     ///< For longer than an action.
   bool handle_done = true;    ///< The stages before opening succeeded.
   bool locked = false;
   std::string early;                       ///< Said of a turn that was thought done too early.
-  std::optional<Verdict> held_up_at_loss;  ///< As HeldUpBy() when the pads left the handle.
+  std::optional<Verdict> held_up_at_loss;  ///< HeldUpBy() gave it when the pads left the handle.
   Hindrance hindrance;                     ///< Now.
 };
 /// kGripLost where the door coasted or the pads are off, unless something held the hand up when

@@ -39,7 +39,7 @@ struct SimulationRun {
   SimulateConfig config;
   std::uint64_t seed = 1;            ///< The first of them; the others follow it.
   int seeds = 1;                     ///< Number of seeds, at least 1.
-  int episodes = 1;                  ///< Of each door in each seed, at least 1.
+  int episodes = 1;                  ///< Each door has so many in each seed, at least 1.
   int threads = 0;                   ///< 0: all processors.
   std::filesystem::path film = {};   ///< Folder for a PNG of each episode; empty: no pictures.
   bool overwrite = false;            ///< Pictures that are there are replaced.
@@ -53,7 +53,7 @@ struct SimulationRun {
 struct SimulatedEpisode {
   DoorIdentity door;
   std::uint64_t seed = 0;
-  int index = 0;    ///< Of the episode, within its door and seed.
+  int index = 0;    ///< It numbers the episodes of one door and seed.
   Episode episode;  ///< Without the clouds of its decisions.
 };
 std::string NameOf(const SimulatedEpisode& episode);  ///< "DOOR_seed7_0".

@@ -22,6 +22,6 @@ JointVector StartPosition(const Scene& scene, const RobotModel& robot);
 ///
 /// @throws Error(kInvalidArgument) if base or arm would start inside the door at every such place,
 ///     up to 0.6 m back.
-Scene SceneFor(const RobotModel& robot, Scene scene, const DoorAsset& door);
+Scene PlaceRobotBase(const RobotModel& robot, Scene scene, const DoorAsset& door);
 
 }  // namespace doorforge

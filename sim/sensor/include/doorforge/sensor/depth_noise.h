@@ -2,21 +2,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
+#include <span>
 
+#include "doorforge/core/named_enum.h"
 #include "doorforge/core/rng.h"
 #include "doorforge/schemas/camera_model.h"
 #include "doorforge/sensor/depth_camera.h"
 
 namespace doorforge {
 
+/// The kinds of depth camera whose faults are known; docs/design/sensor.md says where each model is
+/// from. A new one has its value here, its row below and its function in depth_noise.cpp.
+enum class DepthSensor {
+  kNone,  ///< The camera makes no mistakes.
+  /// Disparities are noisy and quantised, and pixels jitter, as Handa et al. (ICRA 2014) fitted it
+  /// to a Kinect.
+  kStructuredLight,
+  /// The spread grows with the squared depth, pixels fly at edges, and depth comes in whole
+  /// millimetres; about 1 mm at 1.5 m, as Toelgyessy et al. (Sensors 2021) measured it on an Azure
+  /// Kinect.
+  kTimeOfFlight,
+};
+inline constexpr NamedValue<DepthSensor> kDepthSensors[] = {
+    {DepthSensor::kNone, "none"},
+    {DepthSensor::kStructuredLight, "structured_light"},
+    {DepthSensor::kTimeOfFlight, "time_of_flight"}};
+constexpr std::span<const NamedValue<DepthSensor>> ValuesOf(DepthSensor) { return kDepthSensors; }
+
 /// What a real depth camera gets wrong. Off by default, as in the paper.
 struct DepthNoiseConfig {
-  /// "none"; "structured_light": the disparity noise, sub-pixel jitter and quantisation that Handa
-  /// et al. (ICRA 2014) fitted to a Kinect; "time_of_flight": a spread that grows with the squared
-  /// depth, flying pixels at edges, whole millimetres, of the size that Toelgyessy et al. (Sensors
-  /// 2021) measured on an Azure Kinect: about 1 mm at 1.5 m.
-  std::string sensor = "none";
+  DepthSensor sensor = DepthSensor::kNone;
   double scale = 1;           ///< Multiplies every spread; 0 leaves the quantisation alone.
   double edge_dropout = 0.3;  ///< Share of pixels without depth where the depth jumps.
   double edge_step_m = 0.03;  ///< A jump is a difference of this or more among 3 x 3 pixels.
@@ -36,8 +51,8 @@ struct DepthNoiseConfig {
   }
 };
 
-/// Throws Error(kInvalidConfig) on an unknown sensor or a number out of range: shares within 0..1,
-/// grazing_rad within 0..pi/2, the others 0 or more and finite.
+/// Throws Error(kInvalidConfig) on a number out of range: shares are within 0..1, grazing_rad
+/// within 0..pi/2, and the others 0 or more and finite.
 void CheckDepthNoise(const DepthNoiseConfig& config);
 
 /// What the sensor makes of an ideal image. A pixel without depth has infinity, link -1 and label
@@ -50,6 +65,7 @@ DepthImage WithDepthNoise(const DepthImage& ideal, const CameraModel& camera,
 
 /// The camera where calibration believes it to be: what depth is unprojected with. The camera
 /// itself if the config has no extrinsic error.
-CameraModel BelievedCamera(const CameraModel& camera, const DepthNoiseConfig& config, Rng rng);
+CameraModel CameraWithCalibrationError(const CameraModel& camera, const DepthNoiseConfig& config,
+                                       Rng rng);
 
 }  // namespace doorforge

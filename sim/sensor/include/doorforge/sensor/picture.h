@@ -43,7 +43,7 @@ struct PixelMask {
   std::vector<std::uint8_t> set;  ///< 1 or 0.
 };
 
-/// Of a grey PNG of 8 or 16 bits: every pixel that is not 0 is set.
+/// Reads a grey PNG of 8 or 16 bits: every pixel that is not 0 is set.
 ///
 /// @throws Error(kFormat) unless it is such a PNG of at most 8192 pixels a side.
 PixelMask DecodeMaskPng(std::string_view bytes, const std::string& name);

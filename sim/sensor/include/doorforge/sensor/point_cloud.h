@@ -17,7 +17,7 @@ struct CloudConfig {
   double max_depth_m = 2.5;   ///< Points at this depth or farther are dropped.
   double min_height_m = 0.1;  ///< Points at this world z or lower are dropped.
   int point_count = 4096;     ///< In [1, 1000000].
-  DepthNoiseConfig noise{};   ///< Of the depth image that the cloud is made of.
+  DepthNoiseConfig noise{};   ///< The depth image that the cloud is made of has it.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {

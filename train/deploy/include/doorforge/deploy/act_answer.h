@@ -22,8 +22,8 @@ struct HoldConfig {
   /// training's validation samples are.
   double foreign_percentile = 99;
   bool gain = true;           ///< False: whatever is expected.
-  double least_gain_rad = 0;  ///< Of the door or the handle, by one action.
-  /// Of the door, in the end, by a grasp.
+  double least_gain_rad = 0;  ///< One action must turn the door or the handle by as much.
+  /// A grasp must open the door by as much in the end.
   double least_door_angle_rad = 0.1;
 
   template <class Self, class Visitor>
@@ -49,7 +49,7 @@ struct ActAnswer {
   Stage stage = Stage::kOpen;
   RigidTransform world_from_hand = RigidTransform::Identity();  ///< Where it is to go.
   std::optional<RigidTransform> world_from_hand_now;
-  std::optional<Eigen::Vector3d> contact_m;  ///< Of a grasp.
+  std::optional<Eigen::Vector3d> contact_m;  ///< A grasp has it.
   /// What the door, at the stage handle the handle, is expected to turn by the action; at the stage
   /// grasp how far the door is expected to open in the end.
   double expected_gain_rad = 0;
@@ -67,7 +67,7 @@ void Judge(const HoldConfig& config, ActAnswer& answer);
 
 /// docs/act.md.
 nlohmann::ordered_json AnswerToJson(const ActAnswer& answer);
-/// The same for people: a few lines.
+/// Says it for people, in a few lines.
 std::string AnswerText(const ActAnswer& answer);
 
 }  // namespace doorforge

@@ -26,7 +26,7 @@ namespace doorforge {
 struct OnlineControllerConfig {
   PolicyOptions policy;
   GraspOptions grasp;
-  CloudConfig cloud;  ///< As in the data set that the policies were trained from.
+  CloudConfig cloud;  ///< It must be that of the data set that the policies were trained from.
   HoldConfig hold;
   /// About the world's z, from the world's x to the way straight out of the closed leaf.
   double door_yaw_rad = 0;
@@ -53,7 +53,7 @@ struct OnlineControllerSetup {
   std::string grasper;
   /// Which of opener and handler acts; nothing: the handler until the handle is turned.
   std::optional<Stage> stage;
-  std::string base = "sliders";  ///< What the robot stands on: "sliders" or "fixed".
+  RobotBase base = RobotBase::kSliders;  ///< kSliders or kFixed.
   /// Whether every decision of an episode is asked for, in order. Then a handler that can tell when
   /// the handle is turned is believed, and no state needs to say it.
   bool sees_every_decision = false;

@@ -79,10 +79,10 @@ RobotSight ObserveDepth(const DepthImage& depth, const CalibratedCamera& camera,
 struct HandleSight {
   GraspObservation view;
   int visible_count = 0;  ///< Points inside the crop.
-  int handle_count = 0;   ///< Of these, on the handle.
+  int handle_count = 0;   ///< So many of these lie on the handle.
 };
 
-/// As ObserveDepth(), of the handle that the mask shows.
+/// Does what ObserveDepth() does for the handle that the mask shows.
 ///
 /// @param approach World: straight into the leaf.
 /// @throws Error(kInvalidArgument) as ObserveDepth(), if picture and mask differ in size, or no

@@ -7,6 +7,7 @@
 
 #include "doorforge/physics/scene_sampling.h"
 #include "doorforge/registry/policy_registry.h"
+#include "doorforge/registry/policy_set_factory.h"
 #include "doorforge/sensor/point_cloud.h"
 
 namespace doorforge {
@@ -17,16 +18,17 @@ struct EvaluationConfig {
   std::uint64_t first_seed = 1;  ///< The seeds are first_seed, first_seed + 1, ...
   int episodes_per_door = 1;     ///< In each seed, >= 1.
   bool expert_reference = true;  ///< The expert opens the same scenes, too.
-  /// Who says that the handle is turned and opening may begin, where a trained policy turns it:
-  /// "predicted", the policy itself, as on a robot, or "privileged", the simulator. A rule and a
-  /// policy of one's own have the simulator's answer.
-  std::string unlock_switch = "predicted";
+  /// Who ends the turning of the handle where a trained policy turns it. A rule and a policy of
+  /// one's own have the simulator's answer.
+  SwitchSource unlock_switch = SwitchSource::kPolicy;
   PolicyOptions policy;
-  GraspOptions grasp;                        ///< Of a trained grasper.
-  RandomGraspConfig random_grasp;            ///< Of the grasper "random".
-  int grasp_look_finer = GraspLook{}.finer;  ///< GraspLook::finer of a trained grasper.
+  GraspOptions grasp;              ///< A trained grasper has them.
+  RandomGraspConfig random_grasp;  ///< The grasper "random" has it.
+  int grasp_look_finer =
+      GraspCameraConfig{}
+          .resolution_scale;  ///< GraspCameraConfig::resolution_scale of a trained grasper.
   SceneConfig scene;
-  CloudConfig cloud;  ///< As in the data set that the policy was trained from.
+  CloudConfig cloud;  ///< It must be that of the data set that the policy was trained from.
 
   /// What its policies are made with.
   PolicySettings Policies() const {

@@ -24,7 +24,8 @@ namespace doorforge {
 /// use from several threads.
 class TrialPlan {
  public:
-  /// Of the doors 0 to `door_count` - 1. Throws Error(kInvalidConfig) on a number out of range.
+  /// Plans the trials of the doors 0 to `door_count` - 1. Throws Error(kInvalidConfig) on a number
+  /// out of range.
   TrialPlan(DoorGiver give_door, std::size_t door_count, const EvaluationConfig& config);
 
   std::size_t size() const;  ///< Number of episodes.
@@ -35,7 +36,7 @@ class TrialPlan {
     std::shared_ptr<const DoorAsset> door;
     Scene scene;
   };
-  /// The same in every call. Throws as the doors' giver and SampleScene().
+  /// Returns the same in every call. Throws as the doors' giver and SampleScene().
   Staged At(std::size_t trial) const;
 
   std::shared_ptr<const DoorAsset> Door(std::size_t door) const { return give_door_(door).door; }

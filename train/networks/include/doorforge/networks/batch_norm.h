@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "doorforge/core/named_enum.h"
 #include "doorforge/networks/parameters.h"
 
 namespace doorforge {
@@ -14,12 +15,15 @@ namespace doorforge {
 /// kBatch: batch normalisation (Ioffe and Szegedy 2015) in the place of the bias, as UniDoorManip.
 /// A policy always is kNone: what was learnt is folded into its weights.
 enum class EncoderNorm { kNone, kBatch };
+inline constexpr NamedValue<EncoderNorm> kEncoderNorms[] = {{EncoderNorm::kNone, "none"},
+                                                            {EncoderNorm::kBatch, "batch"}};
+constexpr std::span<const NamedValue<EncoderNorm>> ValuesOf(EncoderNorm) { return kEncoderNorms; }
 
 inline constexpr float kNormEpsilon = 1e-5F;  ///< Added to variances (PyTorch's).
 inline constexpr float kNormMomentum = 0.1F;  ///< Share of the newest batch (PyTorch's).
 
-/// Of the products of all normalised layers of an encoder, a number an output, one layer after the
-/// other in the layout's order.
+/// They describe the products of all normalised layers of an encoder: a number an output, one after
+/// the other in the layout's order.
 struct LayerStatistics {
   std::vector<float> mean;
   std::vector<float> variance;

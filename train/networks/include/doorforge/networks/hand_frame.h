@@ -18,6 +18,10 @@ ActionVector TargetOf(const ActionVector& turn, const Eigen::Matrix3d& world_fro
 /// The sample with turns for `action` and `executed`.
 TrainingSample WithTurns(const TrainingSample& sample);
 
+/// The sample in the mirror image of its scene, see MirroredSideways(), but for its cloud, which is
+/// not the sample's own.
+TrainingSample WithoutCloudMirrored(const TrainingSample& sample);
+
 /// The sample of a grasp with its contact told from point 0 of its cloud.
 TrainingSample AboutContact(const TrainingSample& sample);
 

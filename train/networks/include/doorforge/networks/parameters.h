@@ -16,7 +16,7 @@ struct DenseLayer {
   std::string name;  ///< Such as "encoder.sa1.0"; its tensors are name + ".weight" and ".bias".
   int inputs = 0;
   int outputs = 0;
-  std::size_t offset = 0;  ///< Of the weight.
+  std::size_t offset = 0;  ///< The weight begins there.
 
   std::size_t weight_count() const { return static_cast<std::size_t>(inputs) * outputs; }
   std::size_t bias_offset() const { return offset + weight_count(); }

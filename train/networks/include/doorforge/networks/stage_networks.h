@@ -42,14 +42,18 @@ struct Normaliser {
 /// relative to the cloud's point 0. kWorld: one centre for all clouds and absolute rotations, as
 /// UniDoorManip.
 enum class ViewFrame { kHand, kWorld };
-std::string_view NameOf(ViewFrame frame);  ///< "hand", "world".
+inline constexpr NamedValue<ViewFrame> kViewFrames[] = {{ViewFrame::kHand, "hand"},
+                                                        {ViewFrame::kWorld, "world"}};
+constexpr std::span<const NamedValue<ViewFrame>> ValuesOf(ViewFrame) { return kViewFrames; }
 
 /// What the motion networks are told of the robot itself, 18 numbers. kHand: rows 1 and 2 of the
 /// hand's rotation and both finger openings, the rest 0; like the hand's frame it does not depend
 /// on where the door stands. kJoints: nine positions and nine velocities, as UniDoorManip. kNone:
 /// 18 times 0.
 enum class StateKind { kHand, kJoints, kNone };
-std::string_view NameOf(StateKind kind);  ///< "hand", "joints", "none".
+inline constexpr NamedValue<StateKind> kStateKinds[] = {
+    {StateKind::kHand, "hand"}, {StateKind::kJoints, "joints"}, {StateKind::kNone, "none"}};
+constexpr std::span<const NamedValue<StateKind>> ValuesOf(StateKind) { return kStateKinds; }
 PolicyState StateOf(StateKind kind, const Proprioception& proprioception);
 
 /// How the networks are told of the scene. Default: as UniDoorManip. A grasp has no state.
@@ -86,7 +90,7 @@ struct StageNormalisation {
 /// @throws Error(kInvalidArgument) if there is no sample.
 StageNormalisation MeasureNormalisation(std::span<const TrainingSample> samples,
                                         const NetworkView& view = {});
-/// Of a cloud that is seen with the hand, or its own point 0, there.
+/// Returns that of a cloud that is seen with the hand, or its own point 0, there.
 CloudWindow WindowOf(const StageNormalisation& normalisation,
                      const std::array<float, 3>& hand_or_point_m);
 nlohmann::ordered_json NormalisationToJson(const StageNormalisation& normalisation);

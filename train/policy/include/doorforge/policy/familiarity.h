@@ -27,8 +27,8 @@ struct SightCloud {
   std::span<const std::uint8_t> label;  ///< PointLabel, n; read where a grasp is chosen.
 };
 
-/// As seen from the hand, or where a grasp is chosen from the middle of the handle's points, which
-/// are then counted apart from the others as well.
+/// It is seen from the hand, or where a grasp is chosen from the middle of the handle's points,
+/// which are then counted apart from the others as well.
 ///
 /// @throws Error(kInvalidArgument) without a point, or a grasp's labels.
 SightNumbers SightNumbersOf(const SightCloud& cloud, const Proprioception& proprioception,
@@ -48,19 +48,23 @@ class Familiarity {
   /// The distance that so many of a hundred validation samples stay below.
   double DistanceAt(double percentile) const;
 
-  std::vector<float> mean;       ///< As many as the numbers, n.
+  std::vector<float> mean;       ///< It has as many numbers as an input, n.
   std::vector<float> whitening;  ///< n x n, lower triangle, row by row.
-  std::vector<float> distances;  ///< Of validation samples, ascending, at least 2.
+  std::vector<float> distances;  ///< They are those of validation samples, ascending, at least 2.
 };
+
+/// Whether a policy was also shown the mirror images of its samples, see mirror.h.
+enum class SampleSides { kAsSeen, kMirroredToo };
 
 /// From at most 4096 training and 2048 validation samples, evenly taken; without validation samples
 /// every tenth of the others stands for them and is left out of the rest. Equal samples give equal
-/// numbers.
+/// numbers. With mirror images, every second sample that is taken is taken as its own.
 ///
 /// @returns Nothing with fewer than 20 training samples.
 std::optional<Familiarity> FitFamiliarity(std::span<const TrainingSample> train,
                                           std::span<const TrainingSample> validation,
-                                          NetworkFamily family);
+                                          NetworkFamily family,
+                                          SampleSides sides = SampleSides::kAsSeen);
 
 /// Writes `familiar.safetensors` into a policy's folder; without one removes what an earlier
 /// training may have left there.

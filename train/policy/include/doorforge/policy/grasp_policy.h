@@ -17,7 +17,7 @@ struct GraspOptions {
   /// the affordance alone decides about the point (UniDoorManip).
   int points = 8;
   int orientations = 100;  ///< Tried at each of them.
-  /// As in OrientationSampling; 0: all in the plane normal to the handle's axis (UniDoorManip). A
+  /// See OrientationSampling; 0: all lie in the plane normal to the handle's axis (UniDoorManip). A
   /// spread is there to learn from: the discriminator overrates the few that lean the most.
   double tilt_rad = 0;
   /// A hand's rating is the mean of all that were rated, each weighted by exp(-(angle between them
@@ -35,7 +35,7 @@ struct GraspOptions {
   /// Hands that do not fit, as GraspObservation::fits says, are left out, as long as there are
   /// others.
   bool clear = true;
-  std::uint64_t seed = 1;  ///< Of the sampled orientations.
+  std::uint64_t seed = 1;  ///< The sampled orientations are drawn from it.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -54,11 +54,11 @@ struct GraspOptions {
 /// A trained affordance and discriminator choose where and how to take hold; they look at clouds of
 /// the extent that they were trained on and explain their actions.
 ///
-/// Of the folder that `doorforge train grasp` wrote.
+/// Loads it from the folder that `doorforge train grasp` wrote.
 /// @throws Error(kMissing or kFormat) as ReadPolicy(), Error(kInvalidConfig) on bad options.
 std::unique_ptr<GraspPolicy> LoadGraspPolicy(const std::filesystem::path& folder,
                                              const GraspOptions& options = {});
-/// The same of networks of the family kGrasp in memory.
+/// Makes it of networks of the family kGrasp in memory.
 std::unique_ptr<GraspPolicy> MakeGraspPolicy(StageNetworks networks,
                                              const GraspOptions& options = {});
 

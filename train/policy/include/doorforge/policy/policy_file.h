@@ -22,15 +22,15 @@ struct PolicyProvenance {
   std::string code_version;
   TrainConfig config;
   std::uint64_t step = 0;
-  std::string from_weights_sha256 = {};  ///< Of the policy that it began with; empty: of none.
+  std::string from_weights_sha256 = {};  ///< The policy began with these weights; empty: with none.
   SeenParts trained_on = {};             ///< Empty in records of earlier builds.
-  BestEpochs best = {};                  ///< Of which the networks are; all 0: of the last.
+  BestEpochs best = {};  ///< The networks are those of these epochs; all 0: of the last.
 };
 
 /// The record of a policy's folder, docs/format-policy.md.
 struct PolicyRecord {
   PolicyProvenance provenance;
-  std::string weights_sha256;  ///< Of policy.safetensors.
+  std::string weights_sha256;  ///< It hashes policy.safetensors.
   StageNetworks networks;
 };
 

@@ -17,7 +17,7 @@ struct PolicyOptions {
   /// 1: the action decoded from the latent 0. k > 1: that one and k - 1 from latents drawn from
   /// N(0, I); the critic's highest score is taken (the first of equals).
   int candidates = 1;
-  std::uint64_t seed = 1;  ///< Of the draws, which begin anew at every Reset().
+  std::uint64_t seed = 1;  ///< The draws begin with it anew at every Reset().
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -38,7 +38,7 @@ std::unique_ptr<Policy> LoadPolicy(const std::filesystem::path& folder,
                                    const PolicyOptions& options = {},
                                    std::string_view stage = "open");
 
-/// The same of networks in memory.
+/// Makes one of networks in memory.
 std::unique_ptr<Policy> MakePolicy(StageNetworks networks, const PolicyOptions& options = {});
 
 }  // namespace doorforge

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 
+#include "doorforge/core/named_enum.h"
 #include "doorforge/networks/batch_norm.h"
 #include "doorforge/networks/stage_networks.h"
 
@@ -13,13 +15,36 @@
 
 namespace doorforge {
 
+/// How the learning rate goes on behind the warm-up.
+enum class RateSchedule {
+  kCosine,    ///< It falls along half a cosine to 1 % over all steps.
+  kStep,      ///< It is multiplied with 0.9 every 5000 steps (UniDoorManip).
+  kConstant,  ///< It stays.
+};
+inline constexpr NamedValue<RateSchedule> kRateSchedules[] = {
+    {RateSchedule::kCosine, "cosine"},
+    {RateSchedule::kStep, "step"},
+    {RateSchedule::kConstant, "constant"}};
+constexpr std::span<const NamedValue<RateSchedule>> ValuesOf(RateSchedule) {
+  return kRateSchedules;
+}
+
+/// What the discriminator minimises.
+enum class ScoreLoss {
+  kSquared,   ///< Its score becomes the expected angle.
+  kAbsolute,  ///< Its score becomes the median of the angle (UniDoorManip).
+};
+inline constexpr NamedValue<ScoreLoss> kScoreLosses[] = {{ScoreLoss::kSquared, "squared"},
+                                                         {ScoreLoss::kAbsolute, "absolute"}};
+constexpr std::span<const NamedValue<ScoreLoss>> ValuesOf(ScoreLoss) { return kScoreLosses; }
+
 /// What decides a training run besides its samples. Two runs of equal configs on equal samples give
 /// equal bytes, for any number of threads and any interruption.
 struct TrainConfig {
   /// Not a setting: decides which ones there are.
   NetworkFamily family = NetworkFamily::kMotion;
-  /// Of a stage's networks; at "grasp" of the discriminator, and as many of the affordance after
-  /// it.
+  /// A stage's networks learn so long; at "grasp" the discriminator, and the affordance as long
+  /// after it.
   int epochs = 10;
   int discriminator_epochs = 0;  ///< In the place of `epochs`; 0: as many. With near points an
                                  ///< epoch takes a tenth of the affordance's.
@@ -27,9 +52,7 @@ struct TrainConfig {
       32;  ///< UniDoorManip's released code; an epoch leaves out the last, incomplete batch.
   double learning_rate = 1e-3;
   double weight_decay = 1e-5;
-  /// "cosine": half a cosine from the learning rate to 1 % of it over all steps. "step": times 0.9
-  /// every 5000 steps (UniDoorManip). "constant".
-  std::string schedule = "cosine";
+  RateSchedule schedule = RateSchedule::kCosine;
   int warmup_steps = 30;         ///< The rate grows linearly over these.
   double lambda_position = 100;  ///< Times mean L1 of the position [m].
   double lambda_rotation = 5;    ///< Times the geodesic angle [rad].
@@ -39,38 +62,36 @@ struct TrainConfig {
   double prior_reconstruction = 1;
   /// True: no ReLU between the layers of the actor's branches and decoder, as released.
   bool linear_branches = false;
-  /// "hand" or "world" (UniDoorManip), see ViewFrame.
-  std::string frame = "hand";
-  /// "hand", "joints" (UniDoorManip) or "none", see StateKind.
-  std::string state = "hand";
+  ViewFrame frame = ViewFrame::kHand;
+  StateKind state = StateKind::kHand;
   /// Points farther than this from point 0 are not seen [m]; 0: all are, see CloudWindow.
   double context_m = 0;
   /// CloudWindow::zoom of every cloud.
   double zoom = 1;
   /// The critic learns on every n-th step only; 1: on all.
   int critic_interval = 1;
-  /// What the discriminator minimises: "squared" error, which makes its score the expected angle,
-  /// or "absolute" (UniDoorManip), which makes it the median.
-  std::string score_loss = "squared";
-  int sampled_points = 4;         ///< Of each cloud's handle, that the affordance learns from.
+  ScoreLoss score_loss = ScoreLoss::kSquared;
+  int sampled_points = 4;  ///< The affordance learns from so many points of each cloud's handle.
   int sampled_orientations = 50;  ///< Rated by the discriminator at each of them (UniDoorManip).
   int best_orientations = 10;     ///< Whose mean rating is the affordance's target (likewise).
-  double tilt_rad = 0.1;          ///< Of sampled orientations, as OrientationSampling.
+  double tilt_rad = 0.1;          ///< Sampled orientations lean by it, see OrientationSampling.
   /// NetworkView::near_points: the discriminator reads what lies around the fingers, told in the
   /// hand's own frame; 0: the cloud in the frame above and the grasp's numbers (UniDoorManip).
   int near_points = 256;
   /// On every step door and hand are turned together about the way into the leaf, by up to this
-  /// either way [rad], and mirrored sideways by a fair coin; in the frame "hand" only.
+  /// either way [rad]; where a grasp is chosen, and in the frame "hand" only.
   double augment_roll_rad = 0;
+  /// On every step each scene is shown as it is or as its mirror image, by a fair coin: a door
+  /// hinged left is one hinged right then. In the frame "hand" only, and not with joints as state.
   bool augment_mirror = false;
-  /// "none", or "batch" (UniDoorManip), see EncoderNorm: the encoder then learns in libtorch's
-  /// operators also on the device "cpu", from all points of every cloud, in one process.
-  std::string encoder_norm = "none";
+  /// With kBatch (UniDoorManip) the encoder learns in libtorch's operators also on the device
+  /// "cpu", from all points of every cloud, in one process.
+  EncoderNorm encoder_norm = EncoderNorm::kNone;
   /// What computes the encoder. "cpu": this library's own kernels. "libtorch": the same network in
   /// libtorch's operators, on the processor; "cuda", "cuda:N": there. Decides the last digits, and
   /// on a GPU two equal runs may differ in them.
   std::string device = "cpu";
-  double validation_share = 0.1;  ///< Of the episodes, if the data set has no split "val".
+  double validation_share = 0.1;  ///< So much is taken off if the data set has no split "val".
   std::uint64_t seed = 1;
 
   template <class Self, class Visitor>
@@ -98,8 +119,8 @@ struct TrainConfig {
       visit("tilt_rad", self.tilt_rad);
       visit("near_points", self.near_points);
       visit("augment_roll_rad", self.augment_roll_rad);
-      visit("augment_mirror", self.augment_mirror);
     }
+    visit("augment_mirror", self.augment_mirror);
     visit("frame", self.frame);
     visit("context_m", self.context_m);
     visit("zoom", self.zoom);
@@ -109,8 +130,6 @@ struct TrainConfig {
     visit("seed", self.seed);
   }
 };
-
-EncoderNorm NormOf(const TrainConfig& config);
 
 /// Epochs, counted from 1; 0: none, as long as nothing was validated.
 struct BestEpochs {

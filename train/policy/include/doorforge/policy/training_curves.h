@@ -8,7 +8,7 @@
 
 namespace doorforge {
 
-/// Of `losses.json`, which a training writes beside its policy.
+/// It is that of `losses.json`, which a training writes beside its policy.
 inline constexpr int kLossesSchemaVersion = 1;
 
 /// A loss over the epochs; `validation` may hold NaN (null in the file).

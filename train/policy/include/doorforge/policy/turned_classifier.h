@@ -24,6 +24,9 @@ using HandMotion = std::array<float, 12>;
 HandMotion HandMotionOf(const Proprioception& first, const Proprioception& now,
                         const ActionVector& action);
 
+/// The same in the mirror image of the scene, see mirror.h.
+HandMotion MirroredSideways(const HandMotion& motion);
+
 /// A decision of the handle policy's data.
 struct TurnedExample {
   HandMotion motion{};
@@ -39,7 +42,7 @@ inline constexpr std::size_t kTurnedInputs = 28;
 struct TurnedClassifier {
   std::array<float, kTurnedInputs> mean{};
   std::array<float, kTurnedInputs> deviation{};  ///< > 0
-  std::array<float, kTurnedInputs> weight{};     ///< Of (input - mean) / deviation.
+  std::array<float, kTurnedInputs> weight{};     ///< They weigh (input - mean) / deviation.
   float bias = 0;
 
   /// In (0, 1).
@@ -52,7 +55,7 @@ struct TurnedClassifier {
 /// @returns Nothing unless there are examples of both kinds.
 std::optional<TurnedClassifier> FitTurnedClassifier(std::span<const TurnedExample> examples);
 
-/// Of the examples that the classifier calls turned, and of those that are.
+/// It counts the examples that the classifier calls turned, and those that are.
 struct TurnedAccuracy {
   int correct = 0;  ///< Called turned, and are.
   int called = 0;   ///< Called turned, by a probability of at least one half.

@@ -23,7 +23,7 @@ class TurningPolicy : public Policy, public StageSwitch {
   /// The last action is not carried out: whether the handle is turned is as before it was asked
   /// for.
   void TakeBack();
-  bool Looks() const override { return policy_->Looks(); }
+  bool UsesPointCloud() const override { return policy_->UsesPointCloud(); }
 
   /// Whether the handle is turned once the actions so far have been carried out: false after
   /// Reset(), and true from the first action on that the classifier gives one half or more.

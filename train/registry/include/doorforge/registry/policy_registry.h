@@ -24,9 +24,10 @@ namespace doorforge {
 
 /// What the policies of a registry are made with; each reads what concerns it.
 struct PolicySettings {
-  PolicyOptions network;                             ///< Of trained openers and handlers.
-  GraspOptions network_grasp;                        ///< Of trained graspers.
-  int network_grasp_resolution = GraspLook{}.finer;  ///< PolicySet::grasp_resolution_scale of them.
+  PolicyOptions network;       ///< Trained openers and handlers are made with them.
+  GraspOptions network_grasp;  ///< Trained graspers are made with them.
+  int network_grasp_resolution =
+      GraspCameraConfig{}.resolution_scale;  ///< PolicySet::grasp_resolution_scale of them.
   RandomGraspConfig random_grasp = {};
   OpeningExpertConfig opening_expert = {};
   /// With it the expert turns the handle decision by decision; without, by the rule of

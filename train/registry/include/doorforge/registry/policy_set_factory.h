@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <string>
 
+#include "doorforge/core/named_enum.h"
 #include "doorforge/registry/policy_registry.h"
 #include "doorforge/rollout/remembered_view.h"
 #include "doorforge/schemas/policy_set.h"
@@ -21,9 +23,14 @@ struct PolicyWords {
 /// Who says that the handle is turned and opening may begin.
 enum class SwitchSource {
   kSimulator,
-  /// The policy that turns the handle, where it is a trained one; else the simulator.
+  /// The policy that turns the handle does, where it is a trained one; else the simulator.
   kPolicy,
 };
+inline constexpr NamedValue<SwitchSource> kSwitchSources[] = {
+    {SwitchSource::kSimulator, "privileged"}, {SwitchSource::kPolicy, "predicted"}};
+constexpr std::span<const NamedValue<SwitchSource>> ValuesOf(SwitchSource) {
+  return kSwitchSources;
+}
 
 /// Makes sets of policies, all equal.
 class PolicySetFactory {

@@ -40,10 +40,14 @@ std::unique_ptr<CameraObserver> CameraOf(const EpisodePlace& place,
                                          const RememberedViewConfig& remembered);
 
 /// Runs the three stages of an episode with the policies of a set and records the opening, as
-/// RunStages().
+/// RunStages(). Where a policy that is Fallible had no action, the outcome is kDiverged and the
+/// detail is kPolicyFailed with the reason.
 ///
 /// @param observer Gives the clouds of those who open and turn; may be null.
 Episode RunPolicySet(const EpisodePlace& place, const PolicySet& set, Observer* observer);
+
+/// Whether the set's opener or handler is Fallible: nobody knows whether it acts alike twice.
+bool IsFallible(const PolicySet& set);
 
 /// Whether the set's opener or handler looks at the cloud, which an observer must give then.
 bool UsesPointCloud(const PolicySet& set);

@@ -43,7 +43,12 @@ EvaluatedEpisode RowOf(const Episode& episode, const DoorAsset& door);
 /// it as kNotReached, with the reason in the detail.
 inline constexpr std::string_view kNoGraspInView = "no_grasp_in_view";
 
-/// What became of an episode, for statistics: kNoGraspInView, else the name of its outcome.
+/// The cause of an episode in which a policy had no action to give, see Fallible. Records know it
+/// as kDiverged, with the reason in the detail.
+inline constexpr std::string_view kNoAction = "policy_failed";
+
+/// What became of an episode, for statistics: kNoGraspInView, kNoAction, else the name of its
+/// outcome.
 std::string_view CauseOf(const EvaluatedEpisode& episode);
 
 /// Without what the door's identity says but the category.

@@ -19,7 +19,7 @@ struct OutcomeText {
   std::string meaning;  ///< One sentence.
 };
 OutcomeText TextOf(EpisodeOutcome outcome);
-/// Of what CauseOf() gives.
+/// Describes what CauseOf() gives.
 OutcomeText TextOf(std::string_view cause);
 
 std::string TitleOf(Category category);          ///< "Storage furniture"

@@ -15,7 +15,7 @@ namespace doorforge {
 
 /// A share over several trainings.
 struct OverTrainings {
-  std::vector<double> rates;  ///< Of each training, in the order of the reports.
+  std::vector<double> rates;  ///< There is one a training, in the order of the reports.
   double mean = 0;
   double deviation = 0;  ///< Between trainings, unbiased (n - 1); 0 for one.
 };
@@ -33,8 +33,9 @@ struct GroupOverTrainings {
 struct TrainingsSummary {
   std::size_t trainings = 0;
   std::size_t doors = 0;
-  std::vector<GroupOverTrainings> groups;  ///< As GroupsOf().
-  /// Of the categories that occur, each counted alike, whatever the number of its doors.
+  std::vector<GroupOverTrainings> groups;  ///< GroupsOf() gives them.
+  /// It is the mean of the categories that occur, each counted alike, whatever the number of its
+  /// doors.
   OverTrainings mean_of_categories;
 };
 

@@ -31,15 +31,21 @@ struct LossCurve {
 /// Stands for a hash where a policy is no folder but a class of somebody's program.
 inline constexpr const char* kOwnPolicy = "own";
 
+/// Whether `actor`, as a provenance says who acted at a stage, is the SHA-256 of a trained policy's
+/// weights, and not the name of a rule, kOwnPolicy or nothing.
+bool IsTrained(std::string_view actor);
+
 /// Where the numbers come from: hashes name the inputs, so that a report can be checked or made
 /// again. No times of day: equal inputs give equal reports.
 struct ReportProvenance {
-  std::string policy;          ///< Name of the policy's folder or of one's own, or "expert".
-  std::string policy_sha256;   ///< Of its weights; empty for the expert and one's own.
-  std::string dataset_sha256;  ///< Of the data set it was trained from; empty if unknown.
-  /// Weights of who turned the handle, or kOwnPolicy; empty: the rule.
+  std::string policy;         ///< Name of the policy's folder or of one's own, or "expert".
+  std::string policy_sha256;  ///< It hashes the weights; empty for the expert and one's own.
+  std::string
+      dataset_sha256;  ///< The policy was trained from data with this hash; empty if unknown.
+  /// The SHA-256 of the weights that turned the handle, the name of another policy of the toolkit,
+  /// or kOwnPolicy; empty: the expert's rule did.
   std::string handler_sha256 = {};
-  /// Weights of who chose the grasp, or "random"; empty: the expert.
+  /// Names who chose the grasp in the same way.
   std::string grasper_sha256 = {};
   std::string code_version;  ///< CodeVersion() of the evaluating program.
   std::string command;       ///< The command line.
@@ -53,12 +59,13 @@ bool IsSwitchPredicted(const ReportProvenance& provenance);
 /// computed from `episodes`, so that they cannot disagree.
 struct EvaluationReport {
   ReportProvenance provenance;
-  std::vector<DoorIdentity> doors;           ///< Evaluated, sorted by id.
-  SeenParts trained_on;                      ///< By any of the policies; empty for the expert.
-  std::vector<DoorIdentity> training_doors;  ///< Of the opener's data set, if it was given.
-  std::vector<EvaluatedEpisode> episodes;    ///< Sorted by door, seed, episode.
-  std::vector<EvaluatedEpisode> reference;   ///< The expert on the same scenes; may be empty.
-  std::vector<LossCurve> losses;             ///< Of the training; empty for the expert.
+  std::vector<DoorIdentity> doors;  ///< Evaluated, sorted by id.
+  SeenParts trained_on;             ///< By any of the policies; empty for the expert.
+  std::vector<DoorIdentity>
+      training_doors;  ///< They are those of the opener's data set, if it was given.
+  std::vector<EvaluatedEpisode> episodes;   ///< Sorted by door, seed, episode.
+  std::vector<EvaluatedEpisode> reference;  ///< The expert on the same scenes; may be empty.
+  std::vector<LossCurve> losses;            ///< They show the training; empty for the expert.
 };
 
 /// Doors whose body or whose handle was trained on, by id, content or shape: they are not held out.

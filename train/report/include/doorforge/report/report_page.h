@@ -35,8 +35,8 @@ struct ReportPictures {
   std::map<EpisodeOutcome, ReportFilm> episodes;  ///< An episode for each way to end.
   std::vector<ReportGrasp> grasps;  ///< By category, one that opened before one that failed.
   ReportPicture scene;              ///< What the policy's camera looks at, shaded.
-  ReportPicture depth;              ///< The same as the depth image.
-  ReportPicture cloud;              ///< The same as the cloud, coloured by label.
+  ReportPicture depth;              ///< It shows the depth image.
+  ReportPicture cloud;              ///< It shows the cloud, coloured by label.
 };
 
 /// The report as one HTML page for people: success per category with intervals, success over the

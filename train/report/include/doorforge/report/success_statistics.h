@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "doorforge/core/wilson_interval.h"
 #include "doorforge/report/evaluated_episode.h"
 
 namespace doorforge {
@@ -22,14 +23,6 @@ struct SuccessRate {
   double high = 1;    ///< Upper end of the interval, rate..1; 1 where there are no episodes.
   double trials = 0;  ///< Independent trials that the interval stands for, see ClusteredRate().
 };
-
-/// Wilson's score interval (Wilson 1927) of independent trials. Throws Error(kInvalidArgument)
-/// unless 0 <= successes <= trials; they need not be whole numbers.
-struct Interval {
-  double low = 0;
-  double high = 1;
-};
-Interval WilsonInterval(double successes, double trials);
 
 /// A trial for ClusteredRate(): what was tried and how much of it succeeded.
 struct ClusteredTrial {
@@ -57,7 +50,7 @@ SuccessRate ClusteredRate(std::span<const ClusteredTrial> trials);
 struct SeedSpread {
   std::vector<std::uint64_t> seeds;  ///< Ascending, those that have episodes.
   std::vector<double> rates;         ///< Success rate of each seed.
-  double mean = 0;                   ///< Of `rates`; 0 where there are none.
+  double mean = 0;                   ///< It is that of `rates`; 0 where there are none.
   double variance = 0;               ///< Unbiased (n - 1); 0 for fewer than two seeds.
 };
 
@@ -75,17 +68,17 @@ inline constexpr std::array<double, 4> kSuccessAngles = {0.1, 0.2617993877991494
 struct SuccessSummary {
   SuccessRate handle_done;               ///< Handle held, turned and unlocked.
   SuccessRate opened;                    ///< Episodes that ended as EpisodeOutcome::kOpened.
-  SeedSpread over_seeds;                 ///< Of the same.
+  SeedSpread over_seeds;                 ///< It tells how the seeds differ.
   std::vector<AngleSuccess> over_angle;  ///< At kSuccessAngles, in order.
   double median_opening_s = 0;  ///< Simulated time of episodes that opened; 0 where none did.
-  double median_force_n = 0;    ///< Of the episodes' peak forces; 0 where there are no episodes.
-  double peak_force_n = 0;      ///< Greatest of them.
+  double median_force_n = 0;  ///< It is that of the episodes' peaks; 0 where there are no episodes.
+  double peak_force_n = 0;    ///< Greatest of them.
   std::array<int, kEpisodeOutcomeCount> outcomes{};  ///< Episodes by EpisodeOutcome.
 };
 
 /// A way in which episodes failed.
 struct FailureCause {
-  std::string name;       ///< As CauseOf().
+  std::string name;       ///< CauseOf() gives it.
   int episodes = 0;       ///< How many, at least 1.
   std::size_t first = 0;  ///< Index of the first of them.
 };

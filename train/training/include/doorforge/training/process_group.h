@@ -25,7 +25,7 @@ class ProcessGroup {
 };
 
 /// The one process that trains alone.
-std::unique_ptr<ProcessGroup> SoleProcess();
+std::unique_ptr<ProcessGroup> SingleProcessGroup();
 
 /// The group that the variables RANK, WORLD_SIZE, MASTER_ADDR and MASTER_PORT describe, as torchrun
 /// sets them; the process of rank 0 listens on the port. Waits up to five minutes for the others.

@@ -22,11 +22,11 @@ class DatasetReader;
 struct StageDataset {
   std::vector<TrainingSample> train;
   std::vector<TrainingSample> validation;
-  /// Of the stage "handle": one for each sample, in its order.
+  /// The stage "handle" has one for each sample, in its order.
   std::vector<TurnedExample> turned_train;
   std::vector<TurnedExample> turned_validation;
-  SeenParts parts;             ///< Of the doors of all data sets.
-  std::string content_sha256;  ///< As StageContentSha256().
+  SeenParts parts;             ///< They are those of the doors of all data sets.
+  std::string content_sha256;  ///< StageContentSha256() gives it.
   std::vector<std::unique_ptr<DatasetReader>> readers;
 
   StageDataset();

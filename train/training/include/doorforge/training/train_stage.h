@@ -50,7 +50,7 @@ struct EpochLosses {
 /// differ.
 struct BestNetworks {
   BestEpochs epochs;
-  StageNetworks networks;  ///< Of a network whose epoch is 0 nothing.
+  StageNetworks networks;  ///< A network whose epoch is 0 is empty.
 };
 
 /// Everything that a run needs to go on as if it had never stopped.
@@ -58,12 +58,13 @@ struct TrainerState {
   std::uint64_t step = 0;  ///< Steps done.
   StageNetworks networks;
   /// Adam's first and second moments, as the networks' flat vectors.
-  std::vector<float> actor_first, actor_second, critic_first, critic_second;
+  std::vector<float> actor_first_moment, actor_second_moment, critic_first_moment,
+      critic_second_moment;
   /// Running, of the networks' normalised layers.
   LayerStatistics actor_statistics, critic_statistics;
   std::vector<StageLosses> steps;   ///< One a step done.
   std::vector<EpochLosses> epochs;  ///< One an epoch done.
-  BestNetworks best;                ///< Of the epochs done.
+  BestNetworks best;                ///< They are the best of the epochs done.
 };
 
 /// The networks as they act, with the present statistics folded in.

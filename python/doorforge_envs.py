@@ -1,0 +1,26 @@
+# SPDX-FileCopyrightText: 2026 The doorforge authors
+# SPDX-License-Identifier: Apache-2.0
+"""Names of doorforge's environments for Gymnasium, which asks for them when it is imported: so nothing of doorforge is
+loaded here. The environments themselves are in doorforge.gym."""
+from __future__ import annotations
+
+from typing import Any
+
+#: Name -> what differs from OpenDoorEnv's defaults.
+ENVIRONMENTS: dict[str, dict[str, Any]] = {
+    "doorforge/OpenDoor-v0": {},
+    "doorforge/OpenDoorState-v0": {"observation": ("proprioception", "door_state"), "control": "delta"},
+    "doorforge/OpenDoorStrong-v0": {"config": {"randomisation": "strong"}},
+    "doorforge/OpenDoorTest-v0": {"doors": "full:test"},
+    "doorforge/OpenDoorUnseen-v0": {"doors": "full:unseen_categories"},
+    "doorforge/TurnHandle-v0": {"stage": "handle"},
+    "doorforge/GraspDoor-v0": {"stage": "grasp"},
+}
+
+
+def register_envs() -> None:
+    """Makes the names known to gymnasium.make(); calling it again changes nothing."""
+    import gymnasium
+    for name, settings in ENVIRONMENTS.items():
+        if name not in gymnasium.registry:
+            gymnasium.register(id=name, entry_point="doorforge.gym:OpenDoorEnv", kwargs=settings)

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <pybind11/pybind11.h>
+
+#include "doorforge/schemas/policy.h"
+
+namespace doorforge::python {
+
+/// What of somebody's policy in Python is called, and with what.
+struct CallableSettings {
+  pybind11::object policy;         ///< Called with a dict of arrays, gives nine numbers.
+  std::vector<std::string> names;  ///< Of the arrays, see RequireObservationNames().
+  std::string name;                ///< For messages, such as "opener".
+};
+
+/// A policy whose actions a function or object of Python gives; it is Fallible. `reset()` of the
+/// object is called at the beginning of each episode if it has one. Takes Python's lock for its
+/// calls, and may be made and destroyed with or without it.
+std::unique_ptr<Policy> MakeCallablePolicy(const CallableSettings& settings);
+
+}  // namespace doorforge::python

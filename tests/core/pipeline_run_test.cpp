@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/pipeline/pipeline_run.h"
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "doorforge/core/committed_file.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A pipeline whose only step is done already: the user gave what it would have made.
+class PipelineRunTest : public testing::Test {
+ protected:
+  PipelineRunTest()
+      : out_(fs::temp_directory_path() / ("pipeline_run_test_" + std::to_string(::getpid()))) {
+    fs::create_directories(out_ / "pipeline");
+    CommitFile(out_ / "report" / "report.json",
+               R"({"success": {"overall": {"rate": 0.5, "low": 0.25, "high": 0.75,)"
+               R"( "episodes": 12}}})");
+    PipelineStep step;
+    step.name = "report";
+    step.does = "Success on doors never seen";
+    step.output = "report";
+    step.records = {"report.json"};
+    step.given = {(out_ / "report").string()};
+    pipeline_.name = "small";
+    pipeline_.steps = {step};
+  }
+  ~PipelineRunTest() override { fs::remove_all(out_); }
+
+  fs::path out_;
+  Pipeline pipeline_;
+};
+
+TEST_F(PipelineRunTest, TellsWhoeverListensAndPrintsNothingItself) {
+  std::string progress;
+  std::string result;
+  PipelineRun run{.out = out_};
+  run.progress = [&](const std::string& text) { progress += text; };
+  run.result = [&](const std::string& text) { result += text; };
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  const int code = RunPipeline(pipeline_, run);
+  const int unheard = RunPipeline(pipeline_, {.out = out_});
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(code, 0);
+  EXPECT_EQ(unheard, 0);
+  EXPECT_NE(progress.find("== 1/1 report: Success on doors never seen"), std::string::npos);
+  EXPECT_NE(result.find("50.0 %   25.0 - 75.0 %   12"), std::string::npos) << result;
+}
+
+TEST_F(PipelineRunTest, ThePlanIsATextThatNamesEveryStep) {
+  const std::string table = PlanPipeline(pipeline_, {.out = out_});
+  EXPECT_NE(table.find("report"), std::string::npos);
+  EXPECT_NE(table.find("given"), std::string::npos) << table;
+}
+
+}  // namespace
+}  // namespace doorforge

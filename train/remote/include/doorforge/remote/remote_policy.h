@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "doorforge/schemas/policy.h"
+
+namespace doorforge {
+
+/// How somebody else's policy is asked.
+struct RemotePolicySettings {
+  double timeout_s = 10;  ///< For connecting, and for each answer; greater than 0.
+  int chunk = 1;          ///< Of the actions in an answer, so many are carried out; at least 1.
+  std::string stage = "open";  ///< Told to the policy.
+};
+
+/// Whether a word is the address of a server: "ws://HOST:PORT", with a path behind it or without.
+bool IsServerAddress(const std::string& word);
+
+/// A policy behind a WebSocket, in the protocol of openpi and others (docs/serve-policy.md):
+/// MessagePack with numpy's arrays. It is Fallible: a server that is gone, hangs or answers
+/// nonsense ends the episode, and the next one connects anew. Connects when it is first asked.
+///
+/// @throws Error(kInvalidArgument) on an address or settings that are none.
+std::unique_ptr<Policy> MakeServedPolicy(const std::string& address,
+                                         const RemotePolicySettings& settings = {});
+
+/// The same of a program: a shell runs `command`, and messages go over its standard input and
+/// output, each behind its length (4 bytes, big-endian). Starts when it is first asked, once more
+/// in the episode after one in which it failed, and ends with the policy.
+std::unique_ptr<Policy> MakeCommandPolicy(const std::string& command,
+                                          const RemotePolicySettings& settings = {});
+
+/// Connects to a server and lets go again.
+///
+/// @throws Error(kMissing) if none answers there within the time.
+void RequireServer(const std::string& address, const RemotePolicySettings& settings = {});
+
+}  // namespace doorforge

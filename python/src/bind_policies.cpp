@@ -27,7 +27,7 @@ class HeldPolicy {
 
   void Reset() { policy_->Reset(); }
   Action Act(const Observation& observation) { return policy_->Act(observation); }
-  bool Looks() const { return policy_->Looks(); }
+  bool UsesPointCloud() const { return policy_->UsesPointCloud(); }
   RememberedViewConfig Remembered() const { return factory_.Remembered(); }
   py::object Turned() const {
     if (set_.handle_turned == nullptr) return py::none();
@@ -75,7 +75,7 @@ void BindPolicies(py::module_& module) {
              const py::gil_scoped_release others;
              return policy.Act(observation);
            })
-      .def_property_readonly("looks", &HeldPolicy::Looks)
+      .def_property_readonly("looks", &HeldPolicy::UsesPointCloud)
       .def_property_readonly("turned", &HeldPolicy::Turned)
       .def_property_readonly("remembered", [](const HeldPolicy& policy) {
         return ToPython(ToJson(policy.Remembered()));

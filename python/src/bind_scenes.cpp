@@ -23,15 +23,18 @@ namespace {
 void BindRobot(py::module_& module) {
   py::class_<Robot>(module, "Robot")
       .def(py::init([](const std::string& urdf, const std::string& base) {
-             const RobotBase kind = RobotBaseNamed(base);
+             const std::optional<RobotBase> kind = ValueNamed<RobotBase>(base);
+             Require(kind.has_value(), ErrorCode::kInvalidConfig,
+                     "base: found \"" + base + "\", allowed sliders, fixed, yaw");
              return Long([&] {
                return Robot{
-                   std::make_shared<const RobotModel>(LoadRobot(urdf, kind, RobotMeshes()))};
+                   std::make_shared<const RobotModel>(LoadRobot(urdf, *kind, RobotMeshes()))};
              });
            }),
            py::arg("urdf") = "", py::arg("base") = "sliders")
       .def_property_readonly("name", [](const Robot& robot) { return robot.model->name(); })
-      .def_property_readonly("base", [](const Robot& robot) { return NameOf(robot.model->base()); })
+      .def_property_readonly(
+          "base", [](const Robot& robot) { return std::string(NameOf(robot.model->base())); })
       .def_property_readonly("joints", [](const Robot& robot) {
         py::list names;
         for (const RobotJoint& joint : robot.model->joints()) names.append(joint.name);
@@ -99,7 +102,8 @@ void BindScenes(py::module_& module) {
                                 const py::object& settings, const Robot& robot) {
     const auto config = ConfigFrom<SceneConfig>(settings, "scene");
     return Long([&] {
-      return PlaceRobotBase(*robot.model, SampleScene(*door.asset, seed, episode, config), *door.asset);
+      return PlaceRobotBase(*robot.model, SampleScene(*door.asset, seed, episode, config),
+                            *door.asset);
     });
   });
 }

@@ -49,7 +49,7 @@ class CallablePolicy : public Policy, public Fallible {
     return action;
   }
 
-  bool Looks() const override {
+  bool UsesPointCloud() const override {
     const auto& names = settings_->names;
     return std::any_of(names.begin(), names.end(),
                        [](const std::string& name) { return name.starts_with("cloud"); });

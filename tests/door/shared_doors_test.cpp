@@ -136,7 +136,8 @@ TEST_F(SharedDoors, TheirIndexHoldsTheHashesOfTheDoorsThemselves) {
   for (const ComposeConfig& config :
        {ComposeConfig{}, ComposeConfig{.hinge_side = HingeSide::kRight},
         ComposeConfig{.opening = Opening::kPush, .handle_turn_deg = 90}}) {
-    const fs::path out = folder_ / (config.hinge_side + config.opening);
+    const fs::path out =
+        folder_ / (std::string(NameOf(config.hinge_side)) + std::string(NameOf(config.opening)));
     Write(out, 1, Existing::kRefuse, config);
     WriteDoorIndex(out, 2);
     const std::vector<FoundDoor> doors = FindDoorSet({.folders = {out}}, 1).doors;

@@ -164,8 +164,9 @@ class Cover {
   std::vector<TriangleMesh> Over(const ClosedMesh& mesh) {
     const double spacing_m = std::sqrt(MeasureTopology(mesh.mesh()).area_m2 / kCoverSamples);
     const Points probes = ProbesOf(mesh.mesh(), spacing_m);
-    constexpr int kRounds = 3;  // reduced to few vertices, a part may not cover all that it was for
-    for (int round = 0; round < kRounds; ++round) {
+    constexpr int kCoverRounds =
+        3;  // reduced to few vertices, a part may not cover all that it was for
+    for (int round = 0; round < kCoverRounds; ++round) {
       const Points left = LeftOut(probes, shapes_, limits_.tolerance_m);
       if (left.empty()) break;
       for (const Points& cluster : ClustersOf(left, std::max(limits_.allowed_m, 2 * spacing_m)))

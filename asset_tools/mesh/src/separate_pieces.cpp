@@ -178,12 +178,12 @@ std::optional<TriangleMesh> WallsOf(const TriangleMesh& surface, double half_m) 
 }
 
 Separation Separated(std::vector<TriangleMesh> pieces, const SeparationLimits& limits) {
-  constexpr int kRounds = 4;  // growing pieces may make them meet others
+  constexpr int kGrowthRounds = 4;  // growing pieces may make them meet others
   Separation separation;
   const std::size_t before = pieces.size();
   JoinCavities(pieces);
   const std::size_t solids = pieces.size();
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kGrowthRounds; ++round) {
     const Meetings meetings = MeetingsOf(pieces);
     if (meetings.groups.empty() && meetings.with_themselves.empty()) {
       separation.united = round > 0 ? static_cast<int>(solids - pieces.size()) : 0;

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kMostNamed = 5;
+constexpr std::size_t kMostListed = 5;
 
 Json OrNull(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
@@ -117,14 +117,14 @@ std::string LeftShards(const CollectionStatus& status) {
   std::size_t count = 0;
   for (const ShardStatus& shard : status.shards) {
     if (shard.state != ShardState::kBegun && shard.state != ShardState::kOpen) continue;
-    if (++count > kMostNamed) continue;
+    if (++count > kMostListed) continue;
     names += (names.empty() ? "" : ", ") + shard.name + " (number " + std::to_string(shard.place) +
              (status.tasks.empty() ? ""
                                    : ", task " + std::to_string(shard.place % status.tasks.size()) +
                                          "/" + std::to_string(status.tasks.size())) +
              ")";
   }
-  if (count > kMostNamed) names += " and " + std::to_string(count - kMostNamed) + " more";
+  if (count > kMostListed) names += " and " + std::to_string(count - kMostListed) + " more";
   return names;
 }
 

@@ -32,17 +32,17 @@ constexpr double kTimeOfFlightFloorM = 0.0004;
 constexpr double kTimeOfFlightGrowthPerM = 0.0003;
 constexpr double kTimeOfFlightStepM = 0.001;
 
-struct DepthRange {
+struct SensedRange {
   cv::Mat low;
   cv::Mat high;
 };
 
 // least and largest depth among 3 x 3 pixels
-DepthRange NeighbourRange(const DepthImage& image) {
+SensedRange NeighbourRange(const DepthImage& image) {
   cv::Mat depth(image.height, image.width, CV_32F);
   std::transform(image.depth_m.begin(), image.depth_m.end(), depth.begin<float>(),
                  [](float d) { return std::min(d, kFar); });
-  DepthRange range;
+  SensedRange range;
   cv::erode(depth, range.low, {});
   cv::dilate(depth, range.high, {});
   return range;
@@ -150,7 +150,7 @@ class NoisySensor {
   const DepthImage& ideal_;
   PixelRays rays_;
   const DepthNoiseConfig& config_;
-  DepthRange range_;
+  SensedRange range_;
 };
 
 void RequireWithin(double value, double high, const char* name) {

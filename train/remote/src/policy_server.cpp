@@ -72,7 +72,7 @@ std::string AnswerTo(const std::string& message, Policy& policy) {
   const auto begin = std::chrono::steady_clock::now();
   const Value request = internal::Unpacked(message);
   if (IsTrue(request.Find("episode_start"))) policy.Reset();
-  const ActionVector action = ToVector(policy.Act(ObservationOf(request, policy.Looks())));
+  const ActionVector action = ToVector(policy.Act(ObservationOf(request, policy.UsesPointCloud())));
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
   Value::Map answer;
   answer["actions"] = {internal::ArrayOf(action.data(), {1, 9})};
@@ -102,7 +102,7 @@ class Connection {
     socket_.read_message_max(kMostBytes);
     if (!Done([&](auto done) { socket_.async_accept(done); })) return;
     policy.Reset();
-    if (!Send(Greeting(config, policy.Looks()), false)) return;
+    if (!Send(Greeting(config, policy.UsesPointCloud()), false)) return;
     while (true) {
       beast::flat_buffer buffer;
       const bool read = Done([&](auto done) {

@@ -89,7 +89,7 @@ PartJoint FlapJoint() {
   return {Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ(), 0, HandleRange(Category::kCar)};
 }
 
-Eigen::Vector3d PointAtY(const std::vector<PathPoint>& line, double y) {
+Eigen::Vector3d LineAtY(const std::vector<PathPoint>& line, double y) {
   for (std::size_t i = 1; i < line.size(); ++i) {
     const Eigen::Vector3d& a = line[i - 1].position_m;
     const Eigen::Vector3d& b = line[i].position_m;
@@ -110,7 +110,7 @@ void AddGrip(const CarHandle& handle, const std::string& path, const std::vector
   part.pieces.push_back(MakePiece("grip", LoftSolid(rings, kCarHandleHullToleranceM), handle.finish,
                                   path + ".finish"));
   part.joint = FlapJoint();
-  part.part_from_grasp = GraspAt(PointAtY(line, kGraspShare * handle.length_m), Closing::kVertical);
+  part.part_from_grasp = GraspAt(LineAtY(line, kGraspShare * handle.length_m), Closing::kVertical);
   part.grasp_half_extent_m = {0.12 * handle.length_m, 0.004, handle.depth_m / 2 + 0.002};
 }
 

@@ -7,7 +7,6 @@
 #include <numbers>
 
 namespace doorforge::internal {
-namespace {}  // namespace
 
 void CheckLever(const Lever& lever, const std::string& path) {
   RequireRange(path, "length_m", lever.length_m, 0.09, 0.15);

@@ -25,7 +25,8 @@ ForeignPart PartOf(const std::shared_ptr<const UniDoorManipObject>& object, Part
   return part;
 }
 
-std::vector<ForeignObject> ReadUniDoorManip(const fs::path& folder, const ReadConfig& config) {
+std::vector<ForeignObject> ReadUniDoorManipObject(const fs::path& folder,
+                                                  const ReadConfig& config) {
   const auto object = std::make_shared<const UniDoorManipObject>(
       ReadUniDoorManip(folder, config.category, config.allow_missing == "frame"));
   ForeignObject read;
@@ -42,7 +43,7 @@ std::vector<ForeignObject> ReadUniDoorManip(const fs::path& folder, const ReadCo
 }  // namespace
 
 ImportFormat UniDoorManipFormat() {
-  return {"unidoormanip", IsUniDoorManipObject, ReadUniDoorManip};
+  return {"unidoormanip", IsUniDoorManipObject, ReadUniDoorManipObject};
 }
 
 }  // namespace doorforge::internal

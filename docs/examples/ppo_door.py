@@ -12,6 +12,7 @@ import gymnasium
 from stable_baselines3 import PPO
 
 import doorforge
+import doorforge.gym  # makes the names known where the package is not installed
 
 
 def main() -> None:

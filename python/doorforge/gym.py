@@ -152,7 +152,8 @@ class _Player:
         scene = options.get("scene") or sample_scene(door, self.seed, visit, self.task.config, self.task.robot)
         if self.stepper is None or self.stepper.door.id != door.id:
             self.stepper = self.task.stepper(door)
-        self._place = {"door": door.id, "seed": scene.seed, "episode": scene.episode}
+        # not "episode": wrappers and Stable-Baselines3 keep their statistics there
+        self._place = {"door": door.id, "seed": scene.seed, "episode_index": scene.episode}
         return scene
 
     def skip(self) -> None:

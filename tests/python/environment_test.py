@@ -77,6 +77,17 @@ class Environments(unittest.TestCase):
                 over = terminated or truncated
             np.testing.assert_array_equal(np.array(seen), together[0][:, number])
 
+    def test_wrappers_have_their_own_place_in_info(self) -> None:
+        env = gymnasium.make("doorforge/OpenDoor-v0", doors=self.doors[:1], observation="door_state", control="delta")
+        wrapped = gymnasium.wrappers.RecordEpisodeStatistics(env)
+        _, info = wrapped.reset(seed=2)
+        self.assertNotIn("episode", info)
+        over = False
+        while not over:
+            _, _, terminated, truncated, info = wrapped.step(np.zeros(6, np.float32))
+            over = terminated or truncated
+        self.assertEqual((set(info["episode"]), info["episode_index"]), ({"r", "l", "t"}, 0))
+
     def test_wrong_use_is_refused_by_name(self) -> None:
         for settings in ({"observation": "colour"}, {"stage": "close"}, {"control": "torque"}, {"doors": []},
                          {"stage": "grasp", "control": "delta"}):

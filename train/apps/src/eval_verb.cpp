@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/verbs/eval_verb.h"
 
-#include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -91,8 +89,7 @@ Options Parse(int argc, char** argv, const EvalVerbSetup& setup) {
   CLI::App app(
       "Success of policies in closed loop: one takes hold, one turns the handle, one opens; the\n"
       "expert stands in wherever nobody else is named.\n"
-      "Prints success with 95 % intervals per category and the causes of failure, and writes\n"
-      "report.json and report.html.",
+      "Prints success with 95 % intervals per category, causes of failure, and writes a report.",
       setup.program);
   AddOptions(app, options);
   const std::string line = "\n  " + setup.program + " --doors run/doors/test --opener ";

@@ -1,0 +1,46 @@
+# SPDX-FileCopyrightText: 2026 The doorforge authors
+# SPDX-License-Identifier: Apache-2.0
+"""The examples of docs/python.md run, with what Debian has; PYTHONPATH holds the package."""
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import doorforge
+
+ROOT = pathlib.Path(__file__).parents[2]
+
+
+class Examples(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.scratch = tempfile.TemporaryDirectory()
+        cls.door = str(pathlib.Path(cls.scratch.name) / "door")
+        doorforge.compose("interior_flush_01", "interior_lever_tube_01").save(cls.door)
+
+    @classmethod
+    def tearDownClass(cls) -> None:
+        cls.scratch.cleanup()
+
+    def run_example(self, name: str, *words: str) -> str:
+        done = subprocess.run([sys.executable, "-B", str(ROOT / "docs" / "examples" / name), *words], capture_output=True,
+                              text=True, timeout=600, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"overall +\d+\.\d %")
+        return done.stdout
+
+    def test_a_function_is_judged(self) -> None:
+        self.assertIn("opening: callable", self.run_example("callable_policy.py", self.door))
+
+    def test_a_network_is_trained_from_shards_and_judged(self) -> None:
+        told = self.run_example("clone_policy.py", str(ROOT / "tests" / "golden" / "dataset_v1"), self.door, "--epochs", "6",
+                                "--batch", "16")
+        losses = [float(loss) for loss in re.findall(r"loss (\d+\.\d+)", told)]
+        self.assertEqual(len(losses), 6)
+        self.assertLess(losses[-1], 0.8 * losses[0])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -292,7 +292,7 @@ void ExpectComposesAboutTheAxesOf(const ForeignSource& source) {
               1e-4);
     // slid along its axis, if at all; the surface is within a leaf's thickness
     const double off = (links[kHandleLink].translation() - stated.handle.point).norm();
-    EXPECT_LT(off, std::string(place) == "author" ? 1e-4 : 0.1);
+    EXPECT_LT(off, place == HandlePlace::kAuthor ? 1e-4 : 0.1);
   }
 }
 

@@ -49,8 +49,11 @@ std::vector<DoorAsset> Doors() {
 }
 
 TrialPlan PlanFor(const std::vector<DoorAsset>& doors, const EvaluationConfig& config) {
-  return {[doors](std::size_t door) { return std::make_shared<const DoorAsset>(doors.at(door)); },
-          doors.size(), config};
+  const auto give = [doors](std::size_t door) {
+    return IdentifiedDoor{std::make_shared<const DoorAsset>(doors.at(door)),
+                          ContentHash(doors.at(door))};
+  };
+  return {give, doors.size(), config};
 }
 
 TrialPolicies Tiring() {

@@ -243,9 +243,8 @@ void CheckStep(const PipelineStep& step, const Pipeline& pipeline, const std::st
   }
   if (pipeline.settings.contains(step.name) || step.name == kOut || step.name == kThreads)
     Fail(where, "name: is that of a setting");
-  if (!step.given_with.empty() &&
-      std::ranges::find(pipeline.steps, step.given_with, &PipelineStep::name) ==
-          pipeline.steps.end())
+  if (!step.given_with.empty() && std::ranges::find(pipeline.steps, step.given_with,
+                                                    &PipelineStep::name) == pipeline.steps.end())
     Fail(where, "given_with: no step before it is called \"" + step.given_with + "\"");
   for (const std::string& need : step.needs) {
     const auto found = std::ranges::find(pipeline.steps, need, &PipelineStep::name);

@@ -34,7 +34,8 @@ OutcomeText TextOf(std::string_view cause) {
   if (cause == kNoGraspInView)
     return {"No grasp in view", "The camera showed the grasper no point of the handle."};
   if (cause == kNoAction)
-    return {"Policy failed", "A policy had no action to give: it went away, hung or said nonsense."};
+    return {"Policy failed",
+            "A policy had no action to give: it went away, hung or said nonsense."};
   const auto outcome = EpisodeOutcomeNamed(cause);
   return outcome ? TextOf(*outcome) : OutcomeText{"Unknown", ""};
 }

@@ -25,7 +25,8 @@ inline constexpr std::size_t kMostDoorPictures = 30;
 ///
 /// The episodes for film strips are run again with an observer; being deterministic they end in the
 /// same state, and one that does not throws Error(kInvalidArgument), because then `policies` is
-/// not the one that made the rows; of policies that are Fallible it gets no film strip instead. Same arguments, same pictures, for any number of threads.
+/// not the one that made the rows; of policies that are Fallible it gets no film strip instead.
+/// Same arguments, same pictures, for any number of threads.
 ReportPictures TakePictures(const FinishedTrials& finished, const TrialPolicies& policies,
                             int threads = 0);
 

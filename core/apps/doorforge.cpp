@@ -87,7 +87,7 @@ void PrintHelp() {
       "usage: doorforge VERB [ARGUMENTS]     doorforge VERB --help\n\n",
       CodeVersion().c_str(), kAbout);
   for (const FrontVerb& verb : kVerbs) {
-    if (IsBuilt(verb)) std::printf("  %-11s %s\n", verb.name, verb.does);
+    if (IsBuilt(verb)) std::printf("  %-13s %s\n", verb.name, verb.does);
   }
   std::printf("\n%s\n", kExample);
 }

@@ -31,7 +31,7 @@ def _read(text: str) -> Help:
 
 
 def _front(text: str) -> Help:
-    verbs = re.findall(r"^  ([a-z]+) +\S", text.split("example:")[0], re.M)
+    verbs = re.findall(r"^  ([a-z-]+) +\S", text.split("example:")[0], re.M)
     return Help({"--help": [], "--version": []}, [], verbs)
 
 

@@ -26,7 +26,7 @@ const Eigen::Vector3d& At(const TriangleMesh& mesh, int index) {
 
 // ---- the hull ---------------------------------------------------------------------------------
 
-constexpr int kNone = -1;
+constexpr int kNoFacet = -1;
 
 /// A triangle of the growing hull, and the points that are above it and above no triangle before.
 struct HullFace {
@@ -66,19 +66,19 @@ class GrowingHull {
     for (int i = 0; i < static_cast<int>(points_.size()); ++i) {
       if (fits(i)) return i;
     }
-    return kNone;
+    return kNoFacet;
   }
 
   bool Begin() {
     if (points_.empty()) return false;
     const int a = 0;
     const int b = Find([&](int i) { return Point(i) != Point(a); });
-    if (b == kNone) return false;
+    if (b == kNoFacet) return false;
     const int c = Find([&](int i) { return !AreCollinear(Point(a), Point(b), Point(i)); });
-    if (c == kNone) return false;
+    if (c == kNoFacet) return false;
     const auto side = [&](int i) { return SideOfPlane(Point(a), Point(b), Point(c), Point(i)); };
     const int d = Find([&](int i) { return side(i) != 0; });
-    if (d == kNone) return false;
+    if (d == kNoFacet) return false;
     const std::array<int, 4> k =
         side(d) < 0 ? std::array{a, b, c, d} : std::array{a, c, b, d};  // d is below the first
     faces_ = {{{k[0], k[1], k[2]}, {1, 2, 3}, {}},
@@ -158,7 +158,7 @@ class GrowingHull {
         if (neighbour.corners[k] == to && neighbour.corners[(k + 1) % 3] == from)
           neighbour.beside[k] = number;
       }
-      faces_.push_back({{from, to, apex}, {stays, kNone, kNone}, {}});
+      faces_.push_back({{from, to, apex}, {stays, kNoFacet, kNoFacet}, {}});
     }
     for (std::size_t i = first; i < faces_.size(); ++i) {
       const int next = face_from.at(faces_[i].corners[1]);
@@ -170,14 +170,14 @@ class GrowingHull {
 
   TriangleMesh Mesh() const {
     TriangleMesh mesh;
-    std::vector<int> number(points_.size(), kNone);
+    std::vector<int> number(points_.size(), kNoFacet);
     for (const HullFace& face : faces_) {
       if (face.gone) continue;
       Eigen::Vector3i triangle;
       for (int k = 0; k < 3; ++k) {
         const int point = face.corners[static_cast<std::size_t>(k)];
         int& at = number[static_cast<std::size_t>(point)];
-        if (at == kNone) {
+        if (at == kNoFacet) {
           at = static_cast<int>(mesh.vertices.size());
           mesh.vertices.push_back(Point(point));
         }

@@ -17,8 +17,10 @@ namespace doorforge {
 namespace {
 
 int Check(const std::string& page, int pictures) {
+  // tests run side by side
+  const std::string test = ::testing::UnitTest::GetInstance()->current_test_info()->name();
   const std::filesystem::path path =
-      std::filesystem::path(DOORFORGE_BINARY_DIR) / "report_page.html";
+      std::filesystem::path(DOORFORGE_BINARY_DIR) / ("report_page_" + test + ".html");
   CommitFile(path, page);
   return RunChild({PYTHON, DOORFORGE_SOURCE_DIR "/tests/report/page_check.py", path.string(),
                    std::to_string(pictures)});

@@ -75,6 +75,13 @@ function(doorforge_build_from_nothing target owner)
   endif()
 endfunction()
 
+# doorforge_keep_apart(<room>)
+# One object a source: who needs a convex hull alone, such as the Python package, gets no CGAL (GPL)
+# with it, as it would from sources compiled together.
+function(doorforge_keep_apart room)
+  set_target_properties(doorforge_${room} PROPERTIES UNITY_BUILD OFF)
+endfunction()
+
 # doorforge_add_library(<room> HEADERS <public .h> SOURCES <private .h .cpp> [INTERNAL <.h>] [ROOMS <rooms>]
 #                     [PUBLIC <targets>] [PRIVATE <targets>] [PACKAGES <find_package names>])
 # Creates doorforge::<room>. Public headers live in include/doorforge/<room>/, all else in src/.

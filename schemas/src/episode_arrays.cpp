@@ -150,7 +150,7 @@ const std::vector<Column>& Columns() {
   return kColumns;
 }
 
-// Of `decisions` decisions with clouds of `points` points.
+// The members hold `decisions` decisions with clouds of `points` points.
 std::vector<std::size_t> ShapeOf(const EpisodeFeature& feature, std::size_t decisions,
                                  std::size_t points) {
   std::vector<std::size_t> shape = {decisions};

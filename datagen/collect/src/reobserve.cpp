@@ -111,7 +111,7 @@ class SourceDataset {
   const DatasetProvenance& provenance() const { return provenance_; }
   const CollectionPlan& plan() const { return plan_; }
   const std::vector<ShardReader>& shards() const { return shards_; }
-  /// Of an episode of plan().
+  /// The episode is one of plan().
   const Source& SourceOf(const std::string& key) const { return sources_.find(key)->second; }
 
   std::uint64_t decisions() const {

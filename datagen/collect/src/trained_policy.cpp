@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of policies that say so.
+// Policies that do not say so have none.
 int CloudPointsOf(const nlohmann::ordered_json& json, const std::string& path) {
   if (!json.contains("sizes") || !json["sizes"].contains("cloud_points")) return 0;
   return ValueOf<int>(json["sizes"], "cloud_points", path + ".sizes");

@@ -16,7 +16,7 @@ namespace doorforge {
 /// they are: only who does not read them may use this.
 Proprioception MirroredSideways(const Proprioception& proprioception);
 
-/// Of an absolute target rotation, and equally of a turn from the present rotation of the hand.
+/// The rotation may be an absolute target, or a turn from the present rotation of the hand.
 ActionVector MirroredSideways(const ActionVector& action);
 
 }  // namespace doorforge

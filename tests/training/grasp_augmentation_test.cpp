@@ -116,7 +116,7 @@ TEST(SmoothedRatings, AreMeansOfWhatTouchesNearby) {
   EXPECT_NEAR(smoothed[2], 7, 1e-6);
 }
 
-// As the header says it, over all pairs.
+// This follows the header word by word, over all pairs.
 double PlainlySmoothed(const std::vector<RatedHand>& hands, std::size_t i, double width_rad,
                        double width_m) {
   const auto angle = [](const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {

@@ -193,7 +193,7 @@ class Cover {
     }
   }
 
-  // Of the parts near by, the one that reaches least into air afterwards takes the points in.
+  // The part near by that reaches least into air afterwards takes the points in.
   void GrowNearest(const TriangleMesh& added) {
     std::optional<TriangleMesh> best;
     Shape* grown = nullptr;

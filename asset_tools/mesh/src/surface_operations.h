@@ -64,7 +64,7 @@ TriangleMesh AlphaWrap(const TriangleMesh& soup, double alpha_m, double offset_m
 /// closed; the result is closed, but triangles may cross.
 TriangleMesh Simplified(const TriangleMesh& mesh, int max_triangles, double free_error_m);
 
-/// The same by collapses after which no triangles cross, if none do before; slower, and it stops
+/// It reduces by collapses after which no triangles cross, if none do before; slower, and it stops
 /// above `max_triangles` where every collapse would make some cross.
 TriangleMesh SimplifiedWithoutCrossings(const TriangleMesh& mesh, int max_triangles,
                                         double free_error_m);

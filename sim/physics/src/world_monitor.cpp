@@ -45,7 +45,7 @@ std::vector<double> DriveLimits(const RobotModel& model) {
   return limits;
 }
 
-// Of hinge and handle: latch, springs and whoever pulls stay far below.
+// Latch, springs and whoever pulls stay far below these limits of hinge and handle.
 std::array<double, 2> TorqueLimits(const DoorAsset& door) {
   return {kMostOverEffort * std::max(door.hinge.effort_limit_nm, kLeastHingeEffort),
           kMostOverEffort * std::max(door.handle_joint.effort_limit_nm, kLeastHandleEffort)};

@@ -144,7 +144,7 @@ ReachedGrasp ReachFrom(const Reach& reach, const RigidTransform& world_from_fram
 
 using UseOfArm = std::function<double(const ReachedGrasp&)>;
 
-// Of all postures, and of the grasp and its half turn, the one that costs least, its use included.
+// The cheapest of all postures is taken, for the grasp and its half turn, its use included.
 ReachedGrasp BestReach(const Reach& reach, const RigidTransform& world_from_frame,
                        const RigidTransform& frame_from_tcp, const UseOfArm& use) {
   ReachedGrasp best;

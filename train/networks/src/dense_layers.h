@@ -41,7 +41,7 @@ class DenseLayers {
 
   /// One layer and what follows it. @throws Error(kInvalidArgument) if no layer has that name.
   Table Apply(const std::string& name, const Rows& x, Activation activation) const;
-  /// The same into `out`, whose memory is used again.
+  /// This one writes into `out`, whose memory is used again.
   void Apply(const std::string& name, const Rows& x, Activation activation, Table& out) const;
 
   /// Of a layer whose inputs before those of `x` are zero.

@@ -63,7 +63,7 @@ struct DoorSet {
 /// The doors of a selection; their meshes stay on the disk, see DoorCache. Of doors
 /// with an entry in the index beside them no mesh is read and the entry is believed until the door
 /// is taken from a shelf; the others are read in full, with a line of progress where they are many.
-/// The same door found twice counts once.
+/// A door that is found twice counts once.
 ///
 /// @throws Error(kMissing) if a folder does not exist or holds no door, or the selection means
 ///     none; Error(kFormat) that lists every door that cannot be read, or names an index that

@@ -88,7 +88,8 @@ struct SceneConfig {
 /// stronger randomisation leaves the draws of a weaker one as they are.
 Scene SampleScene(const IdentifiedDoor& door, std::uint64_t seed, std::uint64_t episode,
                   const SceneConfig& config = {});
-/// The same for a door that was made or changed in memory. Writes all meshes as text to hash them.
+/// This one takes a door that was made or changed in memory. It writes all meshes as text to hash
+/// them.
 Scene SampleScene(const DoorAsset& door, std::uint64_t seed, std::uint64_t episode,
                   const SceneConfig& config = {});
 

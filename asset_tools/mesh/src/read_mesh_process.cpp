@@ -3,6 +3,7 @@
 #include "doorforge/mesh/read_mesh_process.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <csignal>
@@ -16,6 +17,7 @@
 
 #include "doorforge/core/error.h"
 
+#include "confine.h"
 #include "mesh_message.h"
 #include "mesh_readers.h"
 
@@ -57,6 +59,17 @@ void GiveUpRights() {
 #endif
   Limit(RLIMIT_NOFILE, kOpenFiles, kOpenFiles);
   Limit(RLIMIT_NPROC, 0, 0);  // reading starts neither threads nor programs
+}
+
+// Files below the folder of the mesh, or what the caller names in its place, are all that a mesh's
+// materials and textures may be.
+void Confine([[maybe_unused]] const std::filesystem::path& path,
+             [[maybe_unused]] const MeshImportLimits& limits) {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they need more of the system
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  const std::array readable{path, folder, limits.files_below};
+  internal::ConfineToReading(readable);
+#endif
 }
 
 void LimitProcess([[maybe_unused]] std::uint64_t memory_bytes, std::uint64_t seconds) {
@@ -129,6 +142,7 @@ int ReadMeshForParent(std::span<char* const> arguments) {
   EndWith(static_cast<pid_t>(std::strtol(arguments[8], nullptr, 10)));
   GiveUpRights();
   LimitProcess(limits.memory_bytes, number(5));
+  Confine(arguments[1], limits);
   if (!Send(MessageFor(arguments[1], limits))) return 3;
   return memory_lacked ? kExitMemoryLacked : 0;
 }

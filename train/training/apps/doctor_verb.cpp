@@ -40,6 +40,10 @@ void Print(const Json& json) {
   std::printf("BLAS                %s\n", text("blas_library").c_str());
   std::printf("matrix product      %.1f GFLOP/s on one thread (at least %.0f wanted)\n",
               json["gflops"].get<double>(), kLeastGflops);
+  const int landlock = json["landlock"].get<int>();
+  std::printf("confinement         %s, %s: how far foreign files are kept from the rest\n",
+              landlock > 0 ? ("Landlock " + std::to_string(landlock)).c_str() : "no Landlock",
+              json["seccomp"].get<bool>() ? "seccomp" : "no seccomp");
   if (json["healthy"].get<bool>()) {
     std::printf("all well\n");
     return;

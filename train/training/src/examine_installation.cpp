@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "doorforge/core/confinement.h"
 #include "doorforge/core/program.h"
 #include "doorforge/networks/instruction_set.h"
 #include "doorforge/training/linear_algebra.h"
@@ -30,6 +31,7 @@ std::vector<std::string> SupportedSets() {
 
 Json ExamineInstallation() {
   const LinearAlgebra algebra = MeasureLinearAlgebra();
+  const ConfinementSupport confinement = ConfinementOfThisKernel();
   const bool fast = algebra.gflops >= kLeastGflops;
   Json json = {{"schema", "doorforge.doctor"},
                {"schema_version", 1},
@@ -41,6 +43,8 @@ Json ExamineInstallation() {
                {"blas_library", algebra.blas_library},
                {"gflops", algebra.gflops},
                {"least_gflops", kLeastGflops},
+               {"landlock", confinement.landlock},
+               {"seccomp", confinement.seccomp},
                {"healthy", fast},
                {"remedy", fast ? "" : LinearAlgebraRemedy()}};
   return json;

@@ -3,6 +3,7 @@
 #include "doorforge/schemas/dataset.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -70,59 +71,83 @@ std::vector<double> NumbersFromJson(const Json& json, const std::string& key,
 }
 
 // Sums of one feature, from which its statistics follow. Added to in shard order, so that the
-// result is the same for any number of threads that made the shards.
+// result is the same for any number of threads that made the shards. The width is known to the
+// compiler, which then keeps all sums in registers: a data set's clouds are most of its bytes.
+template <std::size_t Width>
 class FeatureSums {
  public:
-  explicit FeatureSums(std::size_t width)
-      : sum_(width, 0),
-        square_(width, 0),
-        minimum_(width, std::numeric_limits<double>::infinity()),
-        maximum_(width, -std::numeric_limits<double>::infinity()) {}
+  FeatureSums() {
+    minimum_.fill(std::numeric_limits<double>::infinity());
+    maximum_.fill(-std::numeric_limits<double>::infinity());
+  }
 
   void Add(std::span<const float> rows) {
-    const std::size_t width = sum_.size();
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const double value = rows[i];
-      const std::size_t component = i % width;
-      sum_[component] += value;
-      square_[component] += value * value;
-      minimum_[component] = std::min(minimum_[component], value);
-      maximum_[component] = std::max(maximum_[component], value);
+    const std::size_t row_count = rows.size() / Width;
+    const float* values = rows.data();  // the span's own checks would be a quarter of the time
+    Row sum = sum_;
+    Row square = square_;
+    Row minimum = minimum_;
+    Row maximum = maximum_;
+    for (std::size_t row = 0; row < row_count; ++row) {
+      for (std::size_t i = 0; i < Width; ++i) {
+        const double value = values[Width * row + i];
+        sum[i] += value;
+        square[i] += value * value;
+        minimum[i] = std::min(minimum[i], value);
+        maximum[i] = std::max(maximum[i], value);
+      }
     }
-    const std::size_t row_count = rows.size() / width;
+    sum_ = sum;
+    square_ = square;
+    minimum_ = minimum;
+    maximum_ = maximum;
     count_ += static_cast<double>(row_count);
   }
 
   FeatureStatistics Finish() const {
-    FeatureStatistics statistics{{}, {}, minimum_, maximum_};
-    for (std::size_t i = 0; i < sum_.size(); ++i) {
+    FeatureStatistics statistics;
+    for (std::size_t i = 0; i < Width; ++i) {
       const double mean = sum_[i] / count_;
       statistics.mean.push_back(mean);
       statistics.standard_deviation.push_back(
           std::sqrt(std::max(0.0, square_[i] / count_ - mean * mean)));
+      statistics.minimum.push_back(minimum_[i]);
+      statistics.maximum.push_back(maximum_[i]);
     }
     return statistics;
   }
 
  private:
-  std::vector<double> sum_;
-  std::vector<double> square_;
-  std::vector<double> minimum_;
-  std::vector<double> maximum_;
+  using Row = std::array<double, Width>;
+  Row sum_{};
+  Row square_{};
+  Row minimum_;
+  Row maximum_;
   double count_ = 0;
 };
 
+// Of one cloud; sums in registers, as in FeatureSums.
+std::array<double, 3> MeanPoint(std::span<const float> xyz) {
+  double x = 0;
+  double y = 0;
+  double z = 0;
+  for (const float* point = xyz.data(); point != xyz.data() + xyz.size(); point += 3) {
+    x += point[0];
+    y += point[1];
+    z += point[2];
+  }
+  const auto points = static_cast<double>(xyz.size() / 3);
+  return {x / points, y / points, z / points};
+}
+
 // Largest distance of a point from the mean of its cloud; `xyz` is one cloud.
 double RadiusOf(std::span<const float> xyz) {
-  double center[3] = {0, 0, 0};
-  for (std::size_t i = 0; i < xyz.size(); ++i) center[i % 3] += xyz[i];
-  const std::size_t points = xyz.size() / 3;
-  for (double& c : center) c /= static_cast<double>(points);
+  const auto [mean_x, mean_y, mean_z] = MeanPoint(xyz);
   double largest = 0;
-  for (std::size_t i = 0; i < xyz.size(); i += 3) {
-    const double x = xyz[i] - center[0];
-    const double y = xyz[i + 1] - center[1];
-    const double z = xyz[i + 2] - center[2];
+  for (const float* point = xyz.data(); point != xyz.data() + xyz.size(); point += 3) {
+    const double x = point[0] - mean_x;
+    const double y = point[1] - mean_y;
+    const double z = point[2] - mean_z;
     largest = std::max(largest, x * x + y * y + z * z);
   }
   return std::sqrt(largest);
@@ -153,11 +178,11 @@ class StatisticsBuilder {
   }
 
  private:
-  FeatureSums action_{9};
-  FeatureSums cloud_{3};
-  FeatureSums joints_{2};
-  FeatureSums proprio_{32};
-  FeatureSums score_{1};
+  FeatureSums<9> action_;
+  FeatureSums<3> cloud_;
+  FeatureSums<2> joints_;
+  FeatureSums<32> proprio_;
+  FeatureSums<1> score_;
   double radius_ = 0;
   bool any_ = false;
 };

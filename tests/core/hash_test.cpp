@@ -34,6 +34,30 @@ TEST(Hash, Crc32cGivesTheVectorsOfRfc3720) {
   EXPECT_EQ(Crc32c(Bytes("123456789")), 0xE3069283U);
 }
 
+// The definition, bit by bit: division by the polynomial 0x1EDC6F41, reflected.
+std::uint32_t CrcByDivision(std::string_view text) {
+  std::uint32_t crc = 0xFFFFFFFFU;
+  for (const char c : text) {
+    crc ^= static_cast<unsigned char>(c);
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1U) ^ (0x82F63B78U & (0U - (crc & 1U)));
+  }
+  return ~crc;
+}
+
+TEST(Hash, Crc32cOfLongTextsIsThatOfTheDefinition) {
+  std::string text;
+  std::uint32_t state = 1;
+  while (text.size() < 20000) {
+    state = state * 1664525U + 1013904223U;
+    text += static_cast<char>(state >> 24U);
+  }
+  // around the three streams of 1024 bytes that are read side by side
+  for (const std::size_t size : {1023U, 3071U, 3072U, 3073U, 6143U, 6144U, 6151U, 9216U, 20000U}) {
+    const std::string_view part = std::string_view(text).substr(0, size);
+    EXPECT_EQ(Crc32c(std::as_bytes(std::span(part))), CrcByDivision(part)) << size;
+  }
+}
+
 TEST(Hash, Crc32cCanBeContinued) {
   EXPECT_EQ(Crc32c(Bytes("56789"), Crc32c(Bytes("1234"))), Crc32c(Bytes("123456789")));
 }

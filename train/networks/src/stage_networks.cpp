@@ -16,6 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::size_t kWayNumber = 8;  // of the state kHand
 constexpr float kResultScale = 0.1F;
 constexpr float kNearScale =
     0.4F;  // the largest of 256 points is several deviations above the mean
@@ -201,7 +202,7 @@ NetworkView ViewFromJson(const Json& json, const std::string& path) {
 
 }  // namespace
 
-PolicyState StateOf(StateKind kind, const Proprioception& proprioception) {
+PolicyState StateOf(StateKind kind, const Proprioception& proprioception, MotionWay way) {
   if (kind == StateKind::kJoints) return PolicyStateOf(proprioception);
   PolicyState state{};
   if (kind == StateKind::kNone) return state;
@@ -210,7 +211,12 @@ PolicyState StateOf(StateKind kind, const Proprioception& proprioception) {
   for (std::size_t i = 0; i < 6; ++i)
     state[i] = world_from_hand(static_cast<Eigen::Index>(i / 3), static_cast<Eigen::Index>(i % 3));
   for (std::size_t i = 0; i < 2; ++i) state[6 + i] = fingers[static_cast<Eigen::Index>(i)];
+  state[kWayNumber] = way == MotionWay::kOther ? 1.0F : 0.0F;
   return state;
+}
+
+bool KnowsBothWays(const StageNormalisation& normalisation) {
+  return normalisation.view.state == StateKind::kHand && normalisation.state.mean[kWayNumber] > 0;
 }
 
 CloudWindow WindowOf(const StageNormalisation& normalisation,
@@ -231,9 +237,9 @@ StageNormalisation MeasureNormalisation(std::span<const TrainingSample> samples,
   StageNormalisation normalisation;
   normalisation.view = view;
   if (view.frame == ViewFrame::kWorld) normalisation.cloud_centre_m = MeanPoint(samples);
-  normalisation.state =
-      Measure<18>(samples, Filled<18>(view.state == StateKind::kHand ? 0.005F : 0.02F),
-                  [&](const TrainingSample& s) { return StateOf(view.state, s.proprioception); });
+  normalisation.state = Measure<18>(
+      samples, Filled<18>(view.state == StateKind::kHand ? 0.005F : 0.02F),
+      [&](const TrainingSample& s) { return StateOf(view.state, s.proprioception, s.way); });
   normalisation.action = Measure<9>(samples,
                                     {kPosition, kPosition, kPosition, kRotation, kRotation,
                                      kRotation, kRotation, kRotation, kRotation},

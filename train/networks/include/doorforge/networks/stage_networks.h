@@ -49,10 +49,16 @@ constexpr std::span<const NamedValue<ViewFrame>> ValuesOf(ViewFrame) { return kV
 /// What the motion networks are told of the robot itself, 18 numbers. kHand: rows 1 and 2 of the
 /// hand's rotation and both finger openings, the way that the motion is to take (0 the usual, 1 the
 /// other), the rest 0; like the hand's frame it does not depend on where the door stands. kJoints:
-/// nine positions and nine velocities, as UniDoorManip. kNone: 18 times 0.
-enum class StateKind { kHand, kJoints, kNone };
-inline constexpr NamedValue<StateKind> kStateKinds[] = {
-    {StateKind::kHand, "hand"}, {StateKind::kJoints, "joints"}, {StateKind::kNone, "none"}};
+/// nine positions and nine velocities, as UniDoorManip. kNone: 18 times 0. kGripper: the hand's z
+/// axis, the six different numbers of y y^T of its y axis (xx, yy, zz, xy, xz, yz), the fingers'
+/// mean opening, the rest as kHand. Half a turn of the hand about its z changes nothing of a
+/// parallel gripper, and nothing of these numbers: which of both ways an arm reaches a handle does
+/// not matter then, and the mirror image of a hand is a hand.
+enum class StateKind { kHand, kJoints, kNone, kGripper };
+inline constexpr NamedValue<StateKind> kStateKinds[] = {{StateKind::kHand, "hand"},
+                                                        {StateKind::kJoints, "joints"},
+                                                        {StateKind::kNone, "none"},
+                                                        {StateKind::kGripper, "gripper"}};
 constexpr std::span<const NamedValue<StateKind>> ValuesOf(StateKind) { return kStateKinds; }
 PolicyState StateOf(StateKind kind, const Proprioception& proprioception,
                     MotionWay way = MotionWay::kUsual);

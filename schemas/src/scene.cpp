@@ -25,6 +25,7 @@ nlohmann::ordered_json PhysicsToJson(const PhysicsConfig& physics) {
   if (physics.base == standard.base) json.erase("base");
   if (physics.controller == standard.controller) json.erase("controller");
   if (physics.operational_space == standard.operational_space) json.erase("operational_space");
+  if (physics.hand_force_n == standard.hand_force_n) json.erase("hand_force_n");
   return json;
 }
 

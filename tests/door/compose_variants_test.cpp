@@ -12,6 +12,7 @@
 #include "doorforge/core/config_io.h"
 #include "doorforge/core/error.h"
 #include "doorforge/exporters/export_urdf.h"
+#include "doorforge/schemas/motion_way.h"
 #include "doorforge/validate/validate_door.h"
 
 #include "mujoco_door.h"
@@ -59,6 +60,10 @@ TEST(ComposeVariants, ARightHingedDoorIsTheMirrorImageOfTheLeftOne) {
   const DoorAsset left = ComposeDoor(SmallBody(), SmallLever(), {});
   const DoorAsset right = ComposeDoor(SmallBody(), SmallLever(), {.hinge_side = HingeSide::kRight});
   EXPECT_EQ(right.hinge_side, HingeSide::kRight);
+  for (const Stage stage : {Stage::kOpen, Stage::kHandle, Stage::kGrasp}) {
+    EXPECT_EQ(WayOf(left, stage), MotionWay::kUsual);
+    EXPECT_EQ(WayOf(right, stage), MotionWay::kUsual);
+  }
   EXPECT_EQ(right.id, "small_body__small_lever__right");
   EXPECT_EQ(right.body.sha256, left.body.sha256);
   const Eigen::Matrix3d mirror = Eigen::Vector3d(1, -1, 1).asDiagonal();
@@ -85,6 +90,8 @@ TEST(ComposeVariants, ARightHingedDoorIsTheMirrorImageOfTheLeftOne) {
 
 TEST(ComposeVariants, APushedDoorGoesAwayFromItsHandle) {
   const DoorAsset door = ComposeDoor(SmallBody(), SmallLever(), {.opening = Opening::kPush});
+  EXPECT_EQ(WayOf(door, Stage::kOpen), MotionWay::kOther);
+  EXPECT_EQ(WayOf(door, Stage::kHandle), MotionWay::kUsual);
   const Eigen::AlignedBox3d shut = BoxOfLink(door, kLeafLink, 0);
   const Eigen::AlignedBox3d open = BoxOfLink(door, kLeafLink, 0.8);
   EXPECT_LT(open.min().x(), shut.min().x() - 0.3);
@@ -102,6 +109,7 @@ TEST(ComposeVariants, AMirroredLeverPointsTheOtherWayAndStillGoesDown) {
   const Eigen::Vector3d grasp = door.handle_from_grasp.translation();
   const auto shut = DoorFromLinks(door, 0, 0);
   const auto pressed = DoorFromLinks(door, 0, 0.5);
+  EXPECT_EQ(WayOf(door, Stage::kHandle), MotionWay::kUsual);
   EXPECT_GT((shut[2] * grasp).y(), shut[2].translation().y() + 0.05);
   EXPECT_LT((pressed[2] * grasp).z(), (shut[2] * grasp).z() - 0.03);
   EXPECT_NE(Refusal(SmallBody(), SmallLever(), {.handle_mirrored = true}).find("CMP010"),
@@ -113,6 +121,8 @@ TEST(ComposeVariants, AReversedLeverLooksTheSameAndGoesUp) {
   const DoorAsset door =
       ComposeDoor(SmallBody(), SmallLever(), {.handle_sense = HandleSense::kReversed});
   EXPECT_EQ(door.id, "small_body__small_lever__reversed");
+  EXPECT_EQ(WayOf(made, Stage::kHandle), MotionWay::kUsual);
+  EXPECT_EQ(WayOf(door, Stage::kHandle), MotionWay::kOther);
   const Eigen::Vector3d grasp = door.handle_from_grasp.translation();
   const auto shut = DoorFromLinks(door, 0, 0);
   const auto lifted = DoorFromLinks(door, 0, 0.5);

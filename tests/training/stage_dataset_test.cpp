@@ -43,6 +43,13 @@ void WriteProvenance(const fs::path& folder) {
   WriteJsonFile(folder / "provenance.json", ProvenanceToJson(provenance));
 }
 
+// Every other door is pushed.
+nlohmann::ordered_json MetaOf(const Episode& episode, std::size_t number) {
+  nlohmann::ordered_json meta = EpisodeMetaToJson(episode);
+  if (number % 2 == 1) meta["way"] = "other";
+  return meta;
+}
+
 // A data set of `episodes` episodes with three decisions each, in one shard.
 testing::SyntheticSamples WriteDataset(const fs::path& folder, const std::string& split,
                                        std::size_t episodes, int shard = 0,
@@ -67,7 +74,7 @@ testing::SyntheticSamples WriteDataset(const fs::path& folder, const std::string
       episode.decisions.push_back(decision);
     }
     writer.Add("ep" + std::to_string(100000 + e), kDecisions,
-               EncodeEpisode(episode, EpisodeMetaToJson(episode), ""));
+               EncodeEpisode(episode, MetaOf(episode, e), ""));
   }
   writer.Commit();
   WriteProvenance(folder);
@@ -96,6 +103,8 @@ TEST(StageDataset, HoldsTheDecisionsOfTheShards) {
   EXPECT_EQ(sample.executed, made.samples[5].executed);
   EXPECT_NE(sample.executed, sample.action);
   EXPECT_EQ(sample.score_rad, made.samples[5].score_rad);
+  EXPECT_EQ(sample.way, MotionWay::kOther);
+  EXPECT_EQ(dataset.train[0].way, MotionWay::kUsual);
   EXPECT_FLOAT_EQ(sample.proprioception[0], 0.180F);   // first joint position
   EXPECT_FLOAT_EQ(sample.proprioception[11], 0.191F);  // first joint velocity
   EXPECT_FLOAT_EQ(sample.proprioception[31], 0.211F);  // the hand's quaternion, w

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -120,6 +121,27 @@ TEST(StagePolicy, TheStateIsOfTheHandOrOfTheJointsOrNone) {
   EXPECT_TRUE(matters(StateKind::kHand, other_turn));
   for (const Observation& other : {other_arm, other_fingers, other_turn})
     EXPECT_FALSE(matters(StateKind::kNone, other));
+  EXPECT_FALSE(matters(StateKind::kGripper, other_arm));
+  EXPECT_TRUE(matters(StateKind::kGripper, other_fingers));
+  EXPECT_TRUE(matters(StateKind::kGripper, other_turn));
+}
+
+TEST(StagePolicy, HalfATurnOfAGripperIsNoOtherState) {
+  const Eigen::Quaternionf hand(Eigen::AngleAxisf(0.7F, Eigen::Vector3f(1, 2, 3).normalized()));
+  const Eigen::Quaternionf half(
+      Eigen::AngleAxisf(std::numbers::pi_v<float>, Eigen::Vector3f::UnitZ()));
+  Proprioception here = WithHand(SomeObservation(), hand).proprioception;
+  Proprioception turned = WithHand(SomeObservation(), hand * half).proprioception;
+  std::swap(turned[9], turned[10]);  // each finger is where the other was
+  const auto difference = [&](StateKind kind) {
+    const PolicyState a = StateOf(kind, here);
+    const PolicyState b = StateOf(kind, turned);
+    float most = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
+    return most;
+  };
+  EXPECT_LT(difference(StateKind::kGripper), 1e-5F);
+  EXPECT_GT(difference(StateKind::kHand), 0.1F);
 }
 
 TEST(StagePolicy, RepeatsAnEpisodeAfterReset) {

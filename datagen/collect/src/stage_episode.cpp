@@ -9,6 +9,7 @@
 #include "doorforge/rollout/grasp_from_policy.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/rollout/standing_place.h"
+#include "doorforge/schemas/motion_way.h"
 
 #include "episode_records.h"
 #include "recording_camera.h"
@@ -83,6 +84,8 @@ CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const Identified
   collected.meta = EpisodeMetaToJson(episode);
   collected.meta["stage"] = NameOf(config.stage);
   collected.meta["door"] = DoorRecord(door);
+  const MotionWay way = WayOf(door, config.stage);
+  if (way != MotionWay::kUsual) collected.meta["way"] = NameOf(way);
   collected.meta["poses"] = PosesRecord(episode.scene);
   collected.meta["camera"] = CameraRecord(recorded_scene.camera);
   collected.meta["visible_points"] = camera.Visible(decisions);

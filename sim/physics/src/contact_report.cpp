@@ -35,6 +35,13 @@ void AddSelfContact(const btPersistentManifold& manifold, const RobotBody& robot
             contacts.self_touches);
 }
 
+// Normal and friction on the body that is the manifold's first [N s].
+btVector3 ImpulseOnFirst(const btManifoldPoint& point) {
+  return point.m_normalWorldOnB * point.getAppliedImpulse() +
+         point.m_lateralFrictionDir1 * point.m_appliedImpulseLateral1 +
+         point.m_lateralFrictionDir2 * point.m_appliedImpulseLateral2;
+}
+
 void AddContact(const btPersistentManifold& manifold, const RobotBody& robot, const DoorBody& door,
                 double time_step_s, DoorContacts& contacts) {
   const btCollisionObject* first = manifold.getBody0();
@@ -55,6 +62,9 @@ void AddContact(const btPersistentManifold& manifold, const RobotBody& robot, co
     if (point.getDistance() >= kTouchDistance) continue;
     touches = true;
     const double force = point.getAppliedImpulse() / time_step_s;
+    const btVector3 on_door =
+        ImpulseOnFirst(point) * ((second == manifold.getBody0() ? 1 : -1) / time_step_s);
+    contacts.force_on_door_n += Eigen::Vector3d(on_door.x(), on_door.y(), on_door.z());
     if (pad) {
       ++contacts.pad_points[side];
       contacts.pad_force_n[side] += force;

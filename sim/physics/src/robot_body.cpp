@@ -60,6 +60,9 @@ RobotBody::RobotBody(btMultiBodyDynamicsWorld& world, const Scene& scene, const 
                      SimulatedMasses(robot));
   } else {
     AddArmMotors(start);
+    if (scene.physics.hand_force_n > 0)
+      drive_limits_.emplace(robot, scene.world_from_robot_base, SimulatedMasses(robot),
+                            scene.physics.hand_force_n);
   }
   AddFingers();
   for (int i = 0; i < robot_.joint_count(); ++i) {
@@ -107,6 +110,10 @@ void RobotBody::CommandArm(const RobotCommand& command) {
   for (int i = 0; i < robot_.arm_count(); ++i)
     arm_motors_[static_cast<std::size_t>(i)]->setPositionTarget(command.arm_position[i],
                                                                 kArmPositionGain);
+  if (!drive_limits_) return;
+  const ArmVector limits = drive_limits_->At(Positions());
+  for (int i = 0; i < robot_.arm_count(); ++i)
+    arm_motors_[static_cast<std::size_t>(i)]->setMaxAppliedImpulse(limits[i] * time_step_s_);
 }
 
 void RobotBody::Command(const RobotCommand& command) {

@@ -14,6 +14,7 @@
 #include "doorforge/schemas/scene.h"
 
 #include "bullet_body.h"
+#include "drive_limits.h"
 #include "operational_space.h"
 
 namespace doorforge::internal {
@@ -50,6 +51,7 @@ class RobotBody {
   BulletBody body_;
   std::vector<btMultiBodyJointMotor*> arm_motors_;  // none where torques lead the arm
   std::optional<OperationalSpace> torques_;
+  std::optional<DriveLimits> drive_limits_;  // of the motors, where they are limited further
   std::array<btMultiBodyJointMotor*, 2> finger_motors_{};
 };
 

@@ -155,7 +155,7 @@ void EpisodeCourse::Turn(HandleRule& rule) {
     world_.controller().FollowHand(rule.Follow(world_.Privileged()));
     world_.StepHand();
     const DoorContacts contacts = world_.world().Contacts();
-    state_.log.NoteForce(contacts);
+    state_.log.NoteForce(contacts, physics().time_step_s);
     lost = contacts.AnyPad() ? 0 : lost + 1;
   }
   world_.Watch(EpisodePhase::kUnlock);
@@ -192,6 +192,7 @@ Episode EpisodeCourse::Summary() const {
   episode.simulated_s = world_.state().time_s;
   episode.handle_done = state_.handle_done;
   episode.peak_force_n = state_.log.peak_force_n();
+  episode.peak_net_force_n = state_.log.peak_net_force_n();
   episode.state_sha256 = world_.world().StateHash();
   return episode;
 }

@@ -48,7 +48,7 @@ std::optional<Verdict> Close(EpisodeWorld& world, ContactLog& log, bool needs_bo
     world.StepHand();
     contacts = world.world().Contacts();
     log.NoteSelfContact(contacts);
-    log.NoteForce(contacts);
+    log.NoteForce(contacts, world.scene().physics.time_step_s);
     both = contacts.BothPads() ? both + 1 : 0;
     CentreHand(world, contacts);
   }

@@ -14,9 +14,10 @@ std::array<float, 3> ToArray(const Eigen::Vector3f& v) { return {v.x(), v.y(), v
 
 }  // namespace
 
-void AppendRobotState(const StageNormalisation& normalisation, const Proprioception& proprioception,
+void AppendRobotState(const StageNormalisation& normalisation, const RobotCondition& robot,
                       HeadInputs& inputs) {
-  Append(normalisation.state.Apply(StateOf(normalisation.view.state, proprioception)),
+  const Proprioception& proprioception = robot.proprioception;
+  Append(normalisation.state.Apply(StateOf(normalisation.view.state, proprioception, robot.way)),
          inputs.states);
   Append(normalisation.hand_m.Apply(ToArray(HandPositionOf(proprioception))), inputs.hands);
   Append(normalisation.base_m.Apply(ToArray(BasePositionOf(proprioception))), inputs.bases);

@@ -16,6 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::size_t kWayNumber = 17;  // of the states kHand and kGripper
 constexpr float kResultScale = 0.1F;
 constexpr float kNearScale =
     0.4F;  // the largest of 256 points is several deviations above the mean
@@ -186,8 +187,9 @@ NetworkView ViewFromJson(const Json& json, const std::string& path) {
   if (json.contains("frame"))
     view.frame = NamedKind(json, "frame", {ViewFrame::kHand, ViewFrame::kWorld}, path);
   if (json.contains("state_of"))
-    view.state =
-        NamedKind(json, "state_of", {StateKind::kHand, StateKind::kJoints, StateKind::kNone}, path);
+    view.state = NamedKind(
+        json, "state_of",
+        {StateKind::kHand, StateKind::kJoints, StateKind::kNone, StateKind::kGripper}, path);
   if (json.contains("context_m"))
     view.context_m = static_cast<float>(ValueOf<double>(json, "context_m", path));
   if (json.contains("zoom")) view.zoom = static_cast<float>(ValueOf<double>(json, "zoom", path));
@@ -201,16 +203,46 @@ NetworkView ViewFromJson(const Json& json, const std::string& path) {
 
 }  // namespace
 
-PolicyState StateOf(StateKind kind, const Proprioception& proprioception) {
-  if (kind == StateKind::kJoints) return PolicyStateOf(proprioception);
-  PolicyState state{};
-  if (kind == StateKind::kNone) return state;
+namespace {
+
+void TellHand(const Proprioception& proprioception, PolicyState& state) {
   const Eigen::Matrix3f world_from_hand = HandRotationOf(proprioception).cast<float>();
   const Eigen::Vector2f fingers = FingerOpeningsOf(proprioception);
   for (std::size_t i = 0; i < 6; ++i)
     state[i] = world_from_hand(static_cast<Eigen::Index>(i / 3), static_cast<Eigen::Index>(i % 3));
   for (std::size_t i = 0; i < 2; ++i) state[6 + i] = fingers[static_cast<Eigen::Index>(i)];
+}
+
+void TellGripper(const Proprioception& proprioception, PolicyState& state) {
+  const Eigen::Matrix3f world_from_hand = HandRotationOf(proprioception).cast<float>();
+  const Eigen::Vector3f z = world_from_hand.col(2);
+  const Eigen::Vector3f y = world_from_hand.col(1);
+  const std::array numbers{z.x(),         z.y(),
+                           z.z(),         y.x() * y.x(),
+                           y.y() * y.y(), y.z() * y.z(),
+                           y.x() * y.y(), y.x() * y.z(),
+                           y.y() * y.z(), FingerOpeningsOf(proprioception).mean()};
+  std::ranges::copy(numbers, state.begin());
+}
+
+bool TellsOfTheHand(StateKind kind) {
+  return kind == StateKind::kHand || kind == StateKind::kGripper;
+}
+
+}  // namespace
+
+PolicyState StateOf(StateKind kind, const Proprioception& proprioception, MotionWay way) {
+  if (kind == StateKind::kJoints) return PolicyStateOf(proprioception);
+  PolicyState state{};
+  if (kind == StateKind::kNone) return state;
+  if (kind == StateKind::kHand) TellHand(proprioception, state);
+  if (kind == StateKind::kGripper) TellGripper(proprioception, state);
+  state[kWayNumber] = way == MotionWay::kOther ? 1.0F : 0.0F;
   return state;
+}
+
+bool KnowsBothWays(const StageNormalisation& normalisation) {
+  return TellsOfTheHand(normalisation.view.state) && normalisation.state.mean[kWayNumber] > 0;
 }
 
 CloudWindow WindowOf(const StageNormalisation& normalisation,
@@ -231,9 +263,9 @@ StageNormalisation MeasureNormalisation(std::span<const TrainingSample> samples,
   StageNormalisation normalisation;
   normalisation.view = view;
   if (view.frame == ViewFrame::kWorld) normalisation.cloud_centre_m = MeanPoint(samples);
-  normalisation.state =
-      Measure<18>(samples, Filled<18>(view.state == StateKind::kHand ? 0.005F : 0.02F),
-                  [&](const TrainingSample& s) { return StateOf(view.state, s.proprioception); });
+  normalisation.state = Measure<18>(
+      samples, Filled<18>(TellsOfTheHand(view.state) ? 0.005F : 0.02F),
+      [&](const TrainingSample& s) { return StateOf(view.state, s.proprioception, s.way); });
   normalisation.action = Measure<9>(samples,
                                     {kPosition, kPosition, kPosition, kRotation, kRotation,
                                      kRotation, kRotation, kRotation, kRotation},

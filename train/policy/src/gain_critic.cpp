@@ -32,7 +32,7 @@ double GainCritic::GainOf(const Observation& observation, const Action& action) 
   internal::HeadInputs batch;
   batch.size = 1;
   batch.features = encoder_.Forward(BuildGeometry(observation.cloud.xyz, window)).features;
-  internal::AppendRobotState(normalisation, proprioception, batch);
+  internal::AppendRobotState(normalisation, {proprioception}, batch);
   ActionVector numbers = ToVector(action);
   if (normalisation.view.frame == ViewFrame::kHand)
     numbers = internal::TurnOf(numbers, HandRotationOf(proprioception));

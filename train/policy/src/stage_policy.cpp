@@ -15,6 +15,7 @@
 #include "doorforge/networks/heads.h"
 #include "doorforge/networks/point_encoder.h"
 #include "doorforge/policy/policy_file.h"
+#include "doorforge/policy/trying_policy.h"
 
 namespace doorforge {
 namespace {
@@ -25,7 +26,7 @@ void AppendCopies(const std::vector<float>& values, int copies, std::vector<floa
   for (int i = 0; i < copies; ++i) out.insert(out.end(), values.begin(), values.end());
 }
 
-class StagePolicy : public Policy {
+class StagePolicy : public Policy, public TwoWayPolicy {
  public:
   StagePolicy(StageNetworks networks, const PolicyOptions& options)
       : networks_(std::move(networks)),
@@ -41,11 +42,15 @@ class StagePolicy : public Policy {
   void Reset() override { decision_ = 0; }
 
   Action Act(const Observation& observation) override {
+    return Act(observation, MotionWay::kUsual);
+  }
+
+  Action Act(const Observation& observation, MotionWay way) override {
     const Eigen::Vector3f hand_m = HandPositionOf(observation.proprioception);
     const CloudGeometry geometry =
         BuildGeometry(observation.cloud.xyz,
                       WindowOf(networks_.normalisation, {hand_m.x(), hand_m.y(), hand_m.z()}));
-    HeadInputs batch = Conditions(observation);
+    HeadInputs batch = Conditions({observation.proprioception, way});
     AppendCopies(actor_.Forward(geometry).features, batch.size, batch.features);
     const std::vector<float> actions = actor_head_.Decode(batch, Latents());
     const std::size_t best = critic_ ? Best(geometry, actions, batch) : 0;
@@ -61,11 +66,11 @@ class StagePolicy : public Policy {
     return internal::TargetOf(action, HandRotationOf(proprioception));
   }
 
-  HeadInputs Conditions(const Observation& observation) const {
+  HeadInputs Conditions(const internal::RobotCondition& robot) const {
     HeadInputs batch;
     batch.size = options_.candidates;
     for (int i = 0; i < batch.size; ++i)
-      internal::AppendRobotState(networks_.normalisation, observation.proprioception, batch);
+      internal::AppendRobotState(networks_.normalisation, robot, batch);
     return batch;
   }
 
@@ -106,7 +111,10 @@ class StagePolicy : public Policy {
 std::unique_ptr<Policy> MakePolicy(StageNetworks networks, const PolicyOptions& options) {
   Require(options.candidates >= 1 && options.candidates <= 1000, ErrorCode::kInvalidConfig,
           "policy.candidates: must be 1 to 1000");
-  return std::make_unique<StagePolicy>(std::move(networks), options);
+  const bool tries = KnowsBothWays(networks.normalisation);
+  auto policy = std::make_unique<StagePolicy>(std::move(networks), options);
+  if (!tries) return policy;
+  return std::make_unique<TryingPolicy>(std::move(policy), options.stall);
 }
 
 std::unique_ptr<Policy> LoadPolicy(const std::filesystem::path& folder,

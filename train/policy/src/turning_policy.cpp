@@ -10,7 +10,9 @@
 namespace doorforge {
 
 TurningPolicy::TurningPolicy(std::unique_ptr<Policy> policy, const TurnedClassifier& classifier)
-    : policy_(std::move(policy)), classifier_(classifier) {}
+    : policy_(std::move(policy)),
+      tries_(dynamic_cast<TryingPolicy*>(policy_.get())),
+      classifier_(classifier) {}
 
 void TurningPolicy::Reset() {
   policy_->Reset();
@@ -21,6 +23,8 @@ void TurningPolicy::Reset() {
 
 Action TurningPolicy::Act(const Observation& observation) {
   Action action = policy_->Act(observation);
+  // what was turned the wrong way counts for nothing
+  if (tries_ != nullptr && tries_->changed()) first_.reset();
   first_before_ = first_;
   turned_before_ = turned_;
   if (!first_) first_ = observation.proprioception;
@@ -30,6 +34,7 @@ Action TurningPolicy::Act(const Observation& observation) {
 }
 
 void TurningPolicy::TakeBack() {
+  if (tries_ != nullptr) tries_->TakeBack();
   first_ = first_before_;
   turned_ = turned_before_;
 }

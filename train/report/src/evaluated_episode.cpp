@@ -39,6 +39,7 @@ EvaluatedEpisode RowOf(const Episode& episode, const DoorAsset& door) {
           .simulated_s = episode.simulated_s,
           .handle_done = episode.handle_done,
           .peak_force_n = episode.peak_force_n,
+          .peak_net_force_n = episode.peak_net_force_n,
           .state_sha256 = episode.state_sha256};
 }
 
@@ -65,6 +66,7 @@ nlohmann::ordered_json EvaluatedEpisodeToJson(const EvaluatedEpisode& episode) {
           {"simulated_s", episode.simulated_s},
           {"handle_done", episode.handle_done},
           {"peak_force_n", episode.peak_force_n},
+          {"peak_net_force_n", episode.peak_net_force_n},
           {"state_sha256", episode.state_sha256}};
 }
 
@@ -89,6 +91,9 @@ EvaluatedEpisode EvaluatedEpisodeFromJson(const nlohmann::ordered_json& json,
           .simulated_s = ValueOf<double>(json, "simulated_s", path),
           .handle_done = ValueOf<bool>(json, "handle_done", path),
           .peak_force_n = ValueOf<double>(json, "peak_force_n", path),
+          .peak_net_force_n = json.contains("peak_net_force_n")  // earlier builds had none
+                                  ? ValueOf<double>(json, "peak_net_force_n", path)
+                                  : 0,
           .state_sha256 = ValueOf<std::string>(json, "state_sha256", path)};
 }
 

@@ -60,6 +60,16 @@ Json ByGroup(const std::vector<GroupSummary>& groups, const ValueOfSummary& valu
   return json;
 }
 
+Json ForcesToJson(const std::vector<ForceSuccess>& limits) {
+  Json json = Json::array();
+  for (const ForceSuccess& limit : limits) {
+    Json row = RateToJson(limit.success);
+    row["limit_n"] = limit.limit_n;
+    json.push_back(std::move(row));
+  }
+  return json;
+}
+
 Json CausesToJson(Episodes episodes) {
   Json json = Json::object();
   for (const FailureCause& cause : CausesOf(episodes)) json[cause.name] = cause.episodes;
@@ -71,12 +81,15 @@ void AddSuccess(Episodes episodes, Json& json) {
   json["success"] = ByGroup(groups, [](const auto& s) { return RateToJson(s.opened); });
   json["handle_success"] = ByGroup(groups, [](const auto& s) { return RateToJson(s.handle_done); });
   json["effort"] = ByGroup(groups, [](const auto& s) {
-    return Json{{"median_opening_s", s.median_opening_s},
-                {"median_force_n", s.median_force_n},
-                {"peak_force_n", s.peak_force_n}};
+    return Json{
+        {"median_opening_s", s.median_opening_s}, {"median_force_n", s.median_force_n},
+        {"peak_force_n", s.peak_force_n},         {"median_net_force_n", s.median_net_force_n},
+        {"p99_net_force_n", s.most_net_force_n},  {"peak_net_force_n", s.peak_net_force_n}};
   });
   json["over_seeds"] = ByGroup(groups, [](const auto& s) { return SpreadToJson(s.over_seeds); });
   json["over_angle"] = ByGroup(groups, [](const auto& s) { return AnglesToJson(s.over_angle); });
+  json["within_force"] =
+      ByGroup(groups, [](const auto& s) { return ForcesToJson(s.within_force); });
   json["causes"] = CausesToJson(episodes);
 }
 

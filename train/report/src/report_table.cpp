@@ -44,6 +44,16 @@ std::string EffortLine(const SuccessSummary& summary) {
       summary.peak_force_n);
 }
 
+std::string ForceLine(const SuccessSummary& summary) {
+  std::string line =
+      Format("net force on the door: %.0f N (median), %.0f N (99 %%), %.0f N; opened within",
+             summary.median_net_force_n, summary.most_net_force_n, summary.peak_net_force_n);
+  for (const ForceSuccess& limit : summary.within_force)
+    line += Format(" %.0f N %.1f %%%s", limit.limit_n, 100 * limit.success.rate,
+                   &limit == &summary.within_force.back() ? "\n" : ",");
+  return line;
+}
+
 std::string AngleLine(const SuccessSummary& summary) {
   std::string line = "door angle passed: ";
   for (const AngleSuccess& angle : summary.over_angle) {
@@ -85,7 +95,8 @@ std::string ReportTable(const EvaluationReport& report) {
   for (const EpisodeGroup& group : GroupsOf(report.episodes))
     text += Row(LabelOf(group), OfGroup(report.episodes, group), OfGroup(report.reference, group));
   const SuccessSummary all = Summarise(report.episodes);
-  return text + StagesLine(report.provenance) + EffortLine(all) + AngleLine(all) + Causes(report);
+  return text + StagesLine(report.provenance) + EffortLine(all) + ForceLine(all) + AngleLine(all) +
+         Causes(report);
 }
 
 }  // namespace doorforge

@@ -51,6 +51,28 @@ double MedianOf(std::vector<double> values) {
   return *middle;
 }
 
+// The smallest value that a share of all do not pass; 0 of none.
+double QuantileOf(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  std::ranges::sort(values);
+  const double rank = std::ceil(share * static_cast<double>(values.size()));
+  return values[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+}
+
+void AddNetForce(std::span<const EvaluatedEpisode> episodes, SuccessSummary& summary) {
+  std::vector<double> forces;
+  for (const EvaluatedEpisode& episode : episodes) forces.push_back(episode.peak_net_force_n);
+  summary.median_net_force_n = MedianOf(forces);
+  summary.most_net_force_n = QuantileOf(forces, 0.99);
+  summary.peak_net_force_n = QuantileOf(forces, 1);
+  for (const double limit : kForceLimits) {
+    const auto gently = [&](const EvaluatedEpisode& episode) {
+      return episode.outcome == EpisodeOutcome::kOpened && episode.peak_net_force_n <= limit;
+    };
+    summary.within_force.push_back({limit, RateOf(episodes, gently)});
+  }
+}
+
 }  // namespace
 
 SuccessSummary Summarise(std::span<const EvaluatedEpisode> episodes) {
@@ -69,6 +91,7 @@ SuccessSummary Summarise(std::span<const EvaluatedEpisode> episodes) {
   summary.over_seeds = SpreadOf(episodes);
   summary.median_opening_s = MedianOf(times);
   summary.median_force_n = MedianOf(forces);
+  AddNetForce(episodes, summary);
   for (const double angle : kSuccessAngles) {
     summary.over_angle.push_back(
         {angle, RateOf(episodes, [&](const auto& e) { return e.peak_hinge_rad > angle; })});

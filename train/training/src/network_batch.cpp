@@ -41,7 +41,7 @@ HeadBatch MakeHeadBatch(std::span<const TrainingSample> samples,
   HeadBatch batch;
   batch.size = static_cast<int>(samples.size());
   for (const TrainingSample& sample : samples) {
-    AppendRobotState(normalisation, sample.proprioception, batch);
+    AppendRobotState(normalisation, {sample.proprioception, sample.way}, batch);
     Append(normalisation.action.Apply(sample.action), batch.actions);
     batch.gains.push_back(sample.score_rad);
   }

@@ -36,9 +36,17 @@ std::array<float, 3> ApproachOf(const DatasetReader& reader, std::size_t episode
   return ToArray(-scene.world_from_door.linear().col(0).cast<float>());
 }
 
-// What an episode's clouds are made of; data sets of earlier builds say nothing of it.
-void AddMakeOfClouds(const DatasetReader& reader, std::size_t episode,
-                     std::span<TrainingSample> samples) {
+MotionWay WayIn(const nlohmann::ordered_json& meta, const std::string& path) {
+  const auto word = ValueOf<std::string>(meta, "way", path);
+  const std::optional<MotionWay> way = ValueNamed<MotionWay>(word);
+  if (!way) throw Error(ErrorCode::kFormat, path + ".way: unknown word \"" + word + '"');
+  return *way;
+}
+
+// What an episode's clouds are made of, and which way its motion takes; data sets of earlier builds
+// say nothing of it.
+void AddWhatTheRecordSays(const DatasetReader& reader, std::size_t episode,
+                          std::span<TrainingSample> samples) {
   const std::string path = "episode " + reader.entry(episode).key + ": meta.json";
   const nlohmann::ordered_json meta = reader.Meta(episode);
   for (TrainingSample& sample : samples) {
@@ -46,6 +54,7 @@ void AddMakeOfClouds(const DatasetReader& reader, std::size_t episode,
       sample.cloud_within_m = static_cast<float>(ValueOf<double>(meta, "cloud_within_m", path));
     if (meta.contains("remembered_finer"))
       sample.remembered_finer = ValueOf<int>(meta, "remembered_finer", path);
+    if (meta.contains("way")) sample.way = WayIn(meta, path);
   }
 }
 
@@ -131,7 +140,7 @@ std::vector<TrainingSample> SamplesOf(const DatasetReader& reader, const std::st
                                           std::to_string(kCloudPoints));
     RequireFinite(arrays, reader.entry(i).key);
     AppendEpisode(arrays, samples);
-    AddMakeOfClouds(reader, i, std::span(samples).last(arrays.decisions));
+    AddWhatTheRecordSays(reader, i, std::span(samples).last(arrays.decisions));
     if (FamilyOf(stage) == NetworkFamily::kGrasp) samples.back().approach = ApproachOf(reader, i);
   }
   return samples;

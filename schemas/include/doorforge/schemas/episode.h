@@ -80,11 +80,15 @@ struct Episode {
   bool handle_done = false;  ///< The stages before opening succeeded: held, turned, unlocked.
   /// Greatest sum of the normal forces between robot and door in one step, from the grasp on [N].
   double peak_force_n = 0;
+  /// Greatest sum of all forces of the robot on the door, as a vector, behind a low-pass filter of
+  /// first order at 10 Hz, from the grasp on [N]. The squeeze of the fingers is not in it.
+  double peak_net_force_n = 0;
   std::string state_sha256;  ///< Hash of the final joint state: equal runs have equal hashes.
 };
 
 /// The record in a shard's .meta.json: scene, outcome, peaks, per-decision times. No arrays,
-/// and none of `handle_done` and `peak_force_n`, which are for those who run the episode.
+/// and none of `handle_done`, `peak_force_n` and `peak_net_force_n`, which are for those who run
+/// the episode.
 nlohmann::ordered_json EpisodeMetaToJson(const Episode& episode);
 Episode EpisodeFromMeta(const nlohmann::ordered_json& json, const std::string& path);
 

@@ -70,6 +70,9 @@ struct PhysicsConfig {
   RobotBase base = RobotBase::kSliders;
   ArmController controller = ArmController::kJointMotors;
   OperationalSpaceConfig operational_space = {};
+  /// What the joint motors can press with at the hand [N], beyond what moving the arm takes; 0: as
+  /// much as the joints' efforts give. See DriveLimits.
+  double hand_force_n = 0;
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -87,6 +90,7 @@ struct PhysicsConfig {
     visit("base", self.base);
     visit("controller", self.controller);
     visit("operational_space", self.operational_space);
+    visit("hand_force_n", self.hand_force_n);
   }
 };
 

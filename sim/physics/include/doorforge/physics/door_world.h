@@ -49,6 +49,9 @@ struct DoorContacts {
   double arm_force_n = 0;   ///< Sum of their normal forces.
   std::string arm_touches;  ///< Such as "hand-leaf"; empty if there are none.
   int self_points = 0;      ///< The robot touches itself at so many.
+  /// Sum of all forces of the robot on the door, friction included, in the world. The squeeze of
+  /// two opposed fingers is not in it: its two sides add up to nothing.
+  Eigen::Vector3d force_on_door_n = Eigen::Vector3d::Zero();
   double self_force_n = 0;
   std::string self_touches;  ///< Such as "link2-hand"; empty if there are none.
 

@@ -24,8 +24,14 @@ struct HeadInputs {
   std::vector<float> points;  ///< n x 3, normalised as an action's position.
 };
 
+/// What a robot knows of itself, and the way that its motion is to take.
+struct RobotCondition {
+  const Proprioception& proprioception;
+  MotionWay way = MotionWay::kUsual;
+};
+
 /// Appends a robot's normalised state and the positions of its hand and base.
-void AppendRobotState(const StageNormalisation& normalisation, const Proprioception& proprioception,
+void AppendRobotState(const StageNormalisation& normalisation, const RobotCondition& robot,
                       HeadInputs& inputs);
 
 }  // namespace doorforge::internal

@@ -47,14 +47,21 @@ inline constexpr NamedValue<ViewFrame> kViewFrames[] = {{ViewFrame::kHand, "hand
 constexpr std::span<const NamedValue<ViewFrame>> ValuesOf(ViewFrame) { return kViewFrames; }
 
 /// What the motion networks are told of the robot itself, 18 numbers. kHand: rows 1 and 2 of the
-/// hand's rotation and both finger openings, the rest 0; like the hand's frame it does not depend
-/// on where the door stands. kJoints: nine positions and nine velocities, as UniDoorManip. kNone:
-/// 18 times 0.
-enum class StateKind { kHand, kJoints, kNone };
-inline constexpr NamedValue<StateKind> kStateKinds[] = {
-    {StateKind::kHand, "hand"}, {StateKind::kJoints, "joints"}, {StateKind::kNone, "none"}};
+/// hand's rotation and both finger openings, the way that the motion is to take (0 the usual, 1 the
+/// other), the rest 0; like the hand's frame it does not depend on where the door stands. kJoints:
+/// nine positions and nine velocities, as UniDoorManip. kNone: 18 times 0. kGripper: the hand's z
+/// axis, the six different numbers of y y^T of its y axis (xx, yy, zz, xy, xz, yz), the fingers'
+/// mean opening, the rest as kHand. Half a turn of the hand about its z changes nothing of a
+/// parallel gripper, and nothing of these numbers: which of both ways an arm reaches a handle does
+/// not matter then, and the mirror image of a hand is a hand.
+enum class StateKind { kHand, kJoints, kNone, kGripper };
+inline constexpr NamedValue<StateKind> kStateKinds[] = {{StateKind::kHand, "hand"},
+                                                        {StateKind::kJoints, "joints"},
+                                                        {StateKind::kNone, "none"},
+                                                        {StateKind::kGripper, "gripper"}};
 constexpr std::span<const NamedValue<StateKind>> ValuesOf(StateKind) { return kStateKinds; }
-PolicyState StateOf(StateKind kind, const Proprioception& proprioception);
+PolicyState StateOf(StateKind kind, const Proprioception& proprioception,
+                    MotionWay way = MotionWay::kUsual);
 
 /// How the networks are told of the scene. Default: as UniDoorManip. A grasp has no state.
 struct NetworkView {
@@ -90,6 +97,9 @@ struct StageNormalisation {
 /// @throws Error(kInvalidArgument) if there is no sample.
 StageNormalisation MeasureNormalisation(std::span<const TrainingSample> samples,
                                         const NetworkView& view = {});
+/// Whether the networks have learned both ways that a motion may take: they are told then which one
+/// to take, and whoever uses them has to find out which one is the door's.
+bool KnowsBothWays(const StageNormalisation& normalisation);
 /// Returns that of a cloud that is seen with the hand, or its own point 0, there.
 CloudWindow WindowOf(const StageNormalisation& normalisation,
                      const std::array<float, 3>& hand_or_point_m);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "doorforge/schemas/motion_way.h"
 #include "doorforge/schemas/policy.h"
 
 namespace doorforge {
@@ -31,6 +32,8 @@ struct TrainingSample {
   /// How many times finer than the camera's picture that was from before the robot came, whose
   /// points the cloud holds as well; 0: the cloud is of what was visible at the decision.
   int remembered_finer = 0;
+  /// Which way the stage's motion takes at this door; what is seen need not say it.
+  MotionWay way = MotionWay::kUsual;
 };
 
 }  // namespace doorforge

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "doorforge/networks/stage_networks.h"
+#include "doorforge/policy/trying_policy.h"
 #include "doorforge/schemas/policy.h"
 
 namespace doorforge {
@@ -18,11 +19,13 @@ struct PolicyOptions {
   /// N(0, I); the critic's highest score is taken (the first of equals).
   int candidates = 1;
   std::uint64_t seed = 1;  ///< The draws begin with it anew at every Reset().
+  StallConfig stall = {};  ///< When a policy that knows both ways goes the other one.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
     visit("candidates", self.candidates);
     visit("seed", self.seed);
+    visit("stall", self.stall);
   }
 };
 
@@ -38,7 +41,8 @@ std::unique_ptr<Policy> LoadPolicy(const std::filesystem::path& folder,
                                    const PolicyOptions& options = {},
                                    std::string_view stage = "open");
 
-/// Makes one of networks in memory.
+/// Makes one of networks in memory. One that has learned both ways a motion may take is a
+/// TryingPolicy.
 std::unique_ptr<Policy> MakePolicy(StageNetworks networks, const PolicyOptions& options = {});
 
 }  // namespace doorforge

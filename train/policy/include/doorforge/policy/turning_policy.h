@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "doorforge/policy/stage_policy.h"
+#include "doorforge/policy/trying_policy.h"
 #include "doorforge/policy/turned_classifier.h"
 #include "doorforge/schemas/policy.h"
 #include "doorforge/schemas/stage_switch.h"
@@ -31,6 +32,7 @@ class TurningPolicy : public Policy, public StageSwitch {
 
  private:
   std::unique_ptr<Policy> policy_;
+  TryingPolicy* tries_;  // policy_, where that is one; else null
   TurnedClassifier classifier_;
   std::optional<Proprioception> first_;
   bool turned_ = false;

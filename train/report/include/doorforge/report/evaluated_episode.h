@@ -26,14 +26,15 @@ struct EvaluatedEpisode {
   std::uint64_t seed = 0;
   std::uint64_t episode = 0;  ///< Index among the episodes of this door and seed.
   EpisodeOutcome outcome = EpisodeOutcome::kDiverged;
-  std::string detail;          ///< The numbers that explain the outcome, for people.
-  int opening_actions = 0;     ///< Decisions that the evaluated policy took.
-  double peak_hinge_rad = 0;   ///< Greatest angle of the door.
-  double peak_handle_rad = 0;  ///< Greatest angle of the handle.
-  double simulated_s = 0;      ///< Simulated time of the whole episode.
-  bool handle_done = false;    ///< The handle was held, turned and unlocked.
-  double peak_force_n = 0;     ///< Greatest force between robot and door, see Episode.
-  std::string state_sha256;    ///< Hash of the final joint state: equal runs have equal hashes.
+  std::string detail;           ///< The numbers that explain the outcome, for people.
+  int opening_actions = 0;      ///< Decisions that the evaluated policy took.
+  double peak_hinge_rad = 0;    ///< Greatest angle of the door.
+  double peak_handle_rad = 0;   ///< Greatest angle of the handle.
+  double simulated_s = 0;       ///< Simulated time of the whole episode.
+  bool handle_done = false;     ///< The handle was held, turned and unlocked.
+  double peak_force_n = 0;      ///< Greatest force between robot and door, see Episode.
+  double peak_net_force_n = 0;  ///< Beyond the squeeze of the fingers, see Episode.
+  std::string state_sha256;     ///< Hash of the final joint state: equal runs have equal hashes.
 };
 
 /// Drops clouds and actions, keeps what a report says about an episode on `door`.

@@ -65,6 +65,15 @@ struct AngleSuccess {
 inline constexpr std::array<double, 4> kSuccessAngles = {0.1, 0.2617993877991494,
                                                          0.5235987755982988, 0.7853981633974483};
 
+/// Limits of the net force on a door [N] for which success is told.
+inline constexpr std::array<double, 3> kForceLimits = {60, 100, 150};
+
+/// Success of those episodes that did not pass a force.
+struct ForceSuccess {
+  double limit_n = 0;
+  SuccessRate success;
+};
+
 struct SuccessSummary {
   SuccessRate handle_done;               ///< Handle held, turned and unlocked.
   SuccessRate opened;                    ///< Episodes that ended as EpisodeOutcome::kOpened.
@@ -73,6 +82,11 @@ struct SuccessSummary {
   double median_opening_s = 0;  ///< Simulated time of episodes that opened; 0 where none did.
   double median_force_n = 0;  ///< It is that of the episodes' peaks; 0 where there are no episodes.
   double peak_force_n = 0;    ///< Greatest of them.
+  double median_net_force_n = 0;  ///< The same of EvaluatedEpisode::peak_net_force_n,
+  double most_net_force_n = 0;    ///< which 99 % of the episodes do not pass,
+  double peak_net_force_n = 0;    ///< and no episode.
+  /// Opened without passing a net force, at kForceLimits, in order.
+  std::vector<ForceSuccess> within_force;
   std::array<int, kEpisodeOutcomeCount> outcomes{};  ///< Episodes by EpisodeOutcome.
 };
 

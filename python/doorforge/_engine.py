@@ -11,7 +11,7 @@ import types
 from typing import Optional
 
 # What the extension links beyond the C and C++ libraries of every Debian: soname -> package of Debian 12.
-# tests/python/installed_test.py holds it against the extension itself.
+# tests/python/package_test.py holds it against the extension itself.
 SHARED_LIBRARIES = {
     "libBulletDynamics-float64.so.3.24": "libbullet3.24",
     "libBulletCollision-float64.so.3.24": "libbullet3.24",

@@ -5,13 +5,16 @@
 
     PYTHONPATH=build/release/python python3 scripts/python_bench.py [--data DATA] [--rounds 5]
 
-import: of a new interpreter, less that of `import numpy`. states, clouds: decisions a second of whole episodes, stepped
-from Python and run in C++ (`simulate`), on one thread; with clouds a trained opener acts in both. vector: 16 environments on
-2 threads against 1 thread (needs Gymnasium). loader: decisions a second of a DataLoader against WebDataset's reader on the
-same tars (needs --data, PyTorch and webdataset). Rounds alternate; medians.
+import: of a new interpreter, less that of an empty program. states, clouds: decisions a second of whole episodes, stepped from
+Python and run in C++ (`simulate`), on one thread; with clouds a trained opener acts in both. vector: 16 environments on 2
+threads against 1 thread (needs Gymnasium), whole episodes with their beginnings; also what two idle processors would give, from the
+processor time of each job, handed out as the threads do, and of what they do not share. loader: decisions a second of a DataLoader against WebDataset's reader on the same tars, checksums of ours
+included (needs --data, PyTorch and webdataset). Rounds alternate; medians. Seconds are told twice: by the clock, and of the
+processor, which is what to look at where other programs run.
 """
 import argparse
 import importlib.util
+import os
 import pathlib
 import statistics
 import subprocess
@@ -24,26 +27,39 @@ import numpy as np
 import doorforge
 
 
-def timed(call) -> float:
-    begin = time.perf_counter()
+def processor_s() -> float:
+    """Of this process and of its children that have ended."""
+    times = os.times()
+    return times.user + times.system + times.children_user + times.children_system
+
+
+def timed(call) -> tuple[float, float]:
+    """Seconds by the clock and of the processor."""
+    begin, begin_processor = time.perf_counter(), processor_s()
     call()
-    return time.perf_counter() - begin
+    return time.perf_counter() - begin, processor_s() - begin_processor
 
 
-def compare(name: str, ours, theirs, rounds: int, unit: str, count: int = 1) -> None:
-    pairs = [(timed(ours), timed(theirs)) for _ in range(rounds)]
-    mine, other = (statistics.median(column) for column in zip(*pairs))
-    print(f"{name:10} {count / mine:10.1f} {unit}, compared with {count / other:10.1f}: {other / mine:.2f}", flush=True)
+def medians(rounds: int, *calls) -> list[tuple[float, float]]:
+    """Of each call, which take turns."""
+    runs = [[timed(call) for call in calls] for _ in range(rounds)]
+    return [tuple(statistics.median(column) for column in zip(*of_one)) for of_one in zip(*runs)]
+
+
+def compare(name: str, ours, theirs, rounds: int, count: int) -> None:
+    (wall, processor), (their_wall, their_processor) = medians(rounds, ours, theirs)
+    print(f"{name:18} {count / wall:8.1f} decisions/s, compared with {count / their_wall:8.1f}: {their_wall / wall:.2f}; "
+          f"by the processor {count / processor:8.1f}, {count / their_processor:8.1f}: {their_processor / processor:.2f}",
+          flush=True)
 
 
 def run_import(rounds: int) -> None:
     def start(code: str):
         return lambda: subprocess.run([sys.executable, "-c", code], check=True)
 
-    with_it = statistics.median(timed(start("import doorforge")) for _ in range(2 * rounds))
-    without = statistics.median(timed(start("import numpy")) for _ in range(2 * rounds))
-    bare = statistics.median(timed(start("pass")) for _ in range(2 * rounds))
-    print(f"import     {with_it - bare:.3f} s with numpy, of which numpy {without - bare:.3f} s", flush=True)
+    found = medians(2 * rounds, start("import doorforge"), start("import numpy"), start("pass"))
+    for name, (wall, processor) in zip(("doorforge", "numpy"), found):
+        print(f"import {name:11} {wall - found[2][0]:.3f} s, of the processor {processor - found[2][1]:.3f} s", flush=True)
 
 
 def run_steps(name: str, folder: str, door, opener: str, clouds: list[str], rounds: int) -> None:
@@ -63,23 +79,58 @@ def run_steps(name: str, folder: str, door, opener: str, clouds: list[str], roun
                 stepper.step(policy.act(stepper.observation))
 
     compare(name, from_python, lambda: doorforge.simulate(folder, opener=opener, seed=3, episodes=episodes, threads=1),
-            rounds, "decisions/s", count)
+            rounds, count)
+
+
+class Costs:
+    """Processor seconds of each job that a vector hands to `advance` of the extension, which its threads share."""
+
+    def __init__(self) -> None:
+        self.core, self.seconds, self.makespan = doorforge._engine.core, 0.0, 0.0
+        self.advance = self.core.advance
+
+    def __enter__(self) -> "Costs":
+        self.core.advance = self.one_by_one
+        return self
+
+    def __exit__(self, *unused) -> None:
+        self.core.advance = self.advance
+
+    def one_by_one(self, steppers, jobs, threads) -> None:
+        busy = [0.0, 0.0]  # of two threads, the next job to the one that is free first
+        for stepper, job in zip(steppers, jobs):
+            begin = time.process_time()
+            self.advance([stepper], [job], 1)
+            cost = time.process_time() - begin
+            self.seconds += cost
+            busy[busy.index(min(busy))] += cost
+        self.makespan += max(busy)
 
 
 def run_vector(door, rounds: int) -> None:
-    def steps(threads: int, observation: str):
-        envs = doorforge.VectorEnv([door], 16, threads=threads, observation=observation, control="delta")
-        envs.reset(seed=5)
-        actions = np.zeros((16, 6), np.float32)
-
-        def call() -> None:
-            envs.reset(seed=5)
-            for _ in range(12):
-                envs.step(actions)
-        return call
-
+    steps, count = 24, 16  # long enough for some episodes to end and others to begin
+    actions = np.random.default_rng(3).uniform(-1, 1, (steps, count, 6)).astype(np.float32)
     for observation in ("door_state", "cloud"):
-        compare(f"16, {observation[:5]}", steps(2, observation), steps(1, observation), rounds, "decisions/s", 16 * 12)
+        vectors = [doorforge.VectorEnv([door], count, threads=threads, observation=observation, control="delta")
+                   for threads in (1, 2)]
+
+        def play(envs):
+            return lambda: [envs.step(row) for row in actions]
+
+        runs = []
+        for _ in range(rounds):
+            for envs in vectors:
+                envs.reset(seed=5)
+                runs.append(timed(play(envs)))
+        (one, one_processor), (two, two_processor) = (
+            [statistics.median(column) for column in zip(*runs[i::2])] for i in range(2))
+        vectors[0].reset(seed=5)
+        with Costs() as costs:
+            whole = timed(play(vectors[0]))[1]
+        alone = max(whole - costs.seconds, 0.0)
+        print(f"vector, {observation:10} {steps * count / two:8.1f} decisions/s on 2 threads, {steps * count / one:8.1f} on 1: "
+              f"{one / two:.2f}; processor {two_processor / one_processor:.2f} times as much; not shared "
+              f"{100 * alone / whole:.1f} %, and two idle processors would give {whole / (alone + costs.makespan):.2f}", flush=True)
 
 
 def run_loader(folder: str, rounds: int) -> None:
@@ -89,24 +140,28 @@ def run_loader(folder: str, rounds: int) -> None:
     from doorforge.torch_data import Decisions, ResumableSampler
 
     names = ("cloud", "proprio", "action")
-    data = Decisions(folder, names=names)
+    count = len(Decisions(folder, names=names))
     tars = sorted(str(path) for path in pathlib.Path(folder, "open", "train").glob("*.tar"))
 
-    def ours() -> None:
+    def ours(workers: int) -> None:
+        data = Decisions(folder, names=names)  # anew, so that each epoch compares the checksums
         sampler = ResumableSampler(data, 16, seed=1, drop_last=False)
-        assert sum(len(batch["action"]) for batch in DataLoader(data, batch_sampler=sampler)) == len(data)
+        loader = DataLoader(data, batch_sampler=sampler, num_workers=workers)
+        assert sum(len(batch["action"]) for batch in loader) == count
 
-    def theirs() -> None:
+    def theirs(workers: int) -> None:
         def decisions(source):
             for episode in source:
                 arrays = {name: episode[name + ".npy"] for name in names}
                 for row in range(len(arrays["action"])):
                     yield {name: array[row] for name, array in arrays.items()}
 
-        reader = webdataset.WebDataset(tars, shardshuffle=False, empty_check=False).decode().compose(decisions)
-        assert sum(len(batch["action"]) for batch in DataLoader(reader, batch_size=16)) == len(data)
+        reader = webdataset.WebDataset(tars, shardshuffle=False, empty_check=False).decode().compose(decisions).shuffle(1000)
+        loader = DataLoader(reader, batch_size=16, num_workers=workers)
+        assert sum(len(batch["action"]) for batch in loader) == count
 
-    compare("loader", ours, theirs, rounds, "decisions/s", len(data))
+    for workers in (0, min(2, len(tars))):
+        compare(f"loader, {workers} workers", lambda: ours(workers), lambda: theirs(workers), rounds, count)
 
 
 def main() -> None:

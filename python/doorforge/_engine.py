@@ -3,7 +3,6 @@
 """Loads the extension, and says by name what is missing where it cannot be loaded."""
 from __future__ import annotations
 
-import ctypes
 import importlib
 import os
 import pathlib
@@ -12,7 +11,7 @@ import types
 from typing import Optional
 
 # What the extension links beyond the C and C++ libraries of every Debian: soname -> package of Debian 12.
-# tests/python/installed_test.py holds it against the extension itself.
+# tests/python/package_test.py holds it against the extension itself.
 SHARED_LIBRARIES = {
     "libBulletDynamics-float64.so.3.24": "libbullet3.24",
     "libBulletCollision-float64.so.3.24": "libbullet3.24",
@@ -21,7 +20,6 @@ SHARED_LIBRARIES = {
     "libpng16.so.16": "libpng16-16",
     "libopencv_core.so.406": "libopencv-core406",
     "libopencv_imgproc.so.406": "libopencv-imgproc406",
-    "libopencv_imgcodecs.so.406": "libopencv-imgcodecs406",
     "libyaml-cpp.so.0.7": "libyaml-cpp0.7",
     "libcrypto.so.3": "libssl3",
     "libtinyxml2.so.9": "libtinyxml2-9",
@@ -30,6 +28,8 @@ SHARED_LIBRARIES = {
 
 def missing_packages() -> list[str]:
     """Debian packages whose libraries the extension needs and this system does not have."""
+    import ctypes  # where nothing is missing, nobody waits for it
+
     missing = []
     for soname, package in SHARED_LIBRARIES.items():
         try:

@@ -14,6 +14,7 @@ from .doors import Path
 _core = _engine.require()
 
 PolicyLike = Union[str, "os.PathLike[str]", Callable[[dict[str, np.ndarray]], Any]]
+GrasperLike = Union[str, "os.PathLike[str]", Callable[[dict[str, Any]], Any]]
 
 
 class Report:
@@ -47,7 +48,7 @@ class Report:
 
 
 def evaluate(policy: PolicyLike, doors: Union[Path, Iterable[Path]], *, handler: PolicyLike = "expert",
-             grasper: Path = "expert", observation: Sequence[str] = ("cloud", "proprioception"),
+             grasper: GrasperLike = "expert", observation: Sequence[str] = ("cloud", "proprioception"),
              seeds: Optional[int] = None, seed: Optional[int] = None, per_category: int = 0, threads: int = 0,
              config: Optional[dict[str, Any]] = None, data: Sequence[Path] = (), allow_seen: bool = False,
              out: Optional[Path] = None, overwrite: bool = False) -> Report:
@@ -56,8 +57,11 @@ def evaluate(policy: PolicyLike, doors: Union[Path, Iterable[Path]], *, handler:
     `policy` is called with a dict of the arrays named in `observation` (see Stepper.arrays) at each decision and gives
     nine numbers: how far the hand goes in the world [m], and the first two rows of world_from_hand. If it has a method
     `reset()`, that is called at the beginning of each episode. A name or a folder of a trained policy will do as well,
-    and so for `handler`, who turns the handle. An exception in it, an array of another shape or a number that is not
-    finite ends that episode with the cause "policy_failed"; the evaluation goes on.
+    and so for `handler`, who turns the handle. `grasper` takes hold: it is called once an episode with one look at the
+    closed door, {"cloud": float32 (points, 3) [m, world], "cloud_label": uint8 (points,), 1 on the handle, "approach":
+    float64 (3,), the way into the leaf, "hand_from_tcp": float64 (4, 4), "episode": text}, and gives the contact in the
+    world [m] and the two rows, or None where it sees nothing to take hold of. An exception, an array of another shape or
+    a number that is not finite ends that episode with the cause "policy_failed"; the evaluation goes on.
 
     A callable with `reset()` is taken to remember things: then episodes run one after the other. Others are called from
     several threads, one call at a time. `seeds` scenes of each door are tried, from `seed` on; `config` holds other
@@ -72,10 +76,10 @@ def evaluate(policy: PolicyLike, doors: Union[Path, Iterable[Path]], *, handler:
         config["first_seed"] = seed
     if isinstance(doors, (str, os.PathLike)):
         doors = [doors]
-    if any(hasattr(who, "reset") for who in (policy, handler)):
+    if any(hasattr(who, "reset") for who in (policy, handler, grasper)):
         threads = 1
     found = _core.evaluate({
-        "opener": _word(policy), "handler": _word(handler), "grasper": os.fspath(grasper),
+        "opener": _word(policy), "handler": _word(handler), "grasper": _word(grasper),
         "observation": list(observation), "doors": [os.fspath(door) for door in doors], "per_category": per_category,
         "threads": threads, "config": config, "data": [os.fspath(folder) for folder in data], "allow_seen": allow_seen,
         "out": "" if out is None else os.fspath(out), "overwrite": overwrite})

@@ -319,7 +319,8 @@ class VectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
 
     def _advance(self, jobs: dict[int, Any]) -> None:
         """Carries out the jobs; what was begun and is over before its first decision is begun anew."""
-        order = sorted(jobs)
+        # whole beginnings of episodes first: a long job that comes last leaves the other threads idle
+        order = sorted(jobs, key=lambda i: (not isinstance(jobs[i], _core.Scene), i))
         while order:
             _core.advance([self._players[i].stepper._held for i in order], [jobs[i] for i in order], self._threads)
             again = [i for i in order if isinstance(jobs[i], _core.Scene) and self._players[i].stepper.over]

@@ -38,8 +38,7 @@ class Decisions(Dataset):  # type: ignore[type-arg]
     """The decisions of a stage's split. data[i] is a dict of tensors: "cloud" float32 (points, 3) [m, world],
     "proprio" float32 (32,), "action" float32 (9,), and whatever else `names` picks of the data set's features.
 
-    May be forked and pickled: workers map the shards themselves. `__getitems__` gives a whole batch at once, which
-    DataLoader uses by itself, so that a batch is copied once.
+    May be forked and pickled: workers map the shards themselves.
     """
 
     def __init__(self, folder: Union[str, "os.PathLike[str]"], stage: str = "open", split: str = "train",
@@ -53,9 +52,6 @@ class Decisions(Dataset):  # type: ignore[type-arg]
     def __getitem__(self, index: int) -> dict[str, torch.Tensor]:
         # copies: the arrays are read-only views of the file, tensors are not
         return {name: torch.from_numpy(np.array(row)) for name, row in self.samples[index].items()}
-
-    def __getitems__(self, indices: Sequence[int]) -> list[dict[str, torch.Tensor]]:
-        return [self[index] for index in indices]
 
     def statistics(self, name: str) -> tuple[torch.Tensor, torch.Tensor]:
         """Mean and standard deviation of a feature's components over the train split, float32."""

@@ -40,16 +40,23 @@ class Roles {
                       ": expected the name of a policy, its folder, or something that can be "
                       "called with a dict of arrays, found " +
                       py::str(py::type::of(given)).cast<std::string>());
-    const CallableSettings settings{given, names_, role};
-    registry.Add(MotionPolicyRow{stage, kCallable, [settings](const PolicySettings&) {
-                                   return MakeCallablePolicy(settings);
-                                 }});
+    AddRow(stage, Share({given, names_, role}));
     return kCallable;
   }
 
   PolicyRegistry registry = BuiltInPolicies();
 
  private:
+  void AddRow(Stage stage, const SharedCallable& settings) {
+    if (stage == Stage::kGrasp)
+      registry.Add(GraspPolicyRow{
+          kCallable, [settings](const PolicySettings&) { return MakeCallableGrasp(settings); }});
+    else
+      registry.Add(MotionPolicyRow{stage, kCallable, [settings](const PolicySettings&) {
+                                     return MakeCallablePolicy(settings);
+                                   }});
+  }
+
   std::vector<std::string> names_;
 };
 
@@ -58,7 +65,7 @@ py::dict Evaluate(const py::dict& given) {
   EvaluationRequest request;
   request.policies.opener = roles.Word(Stage::kOpen, given["opener"], "opener");
   request.policies.handler = roles.Word(Stage::kHandle, given["handler"], "handler");
-  request.policies.grasper = given["grasper"].cast<std::string>();
+  request.policies.grasper = roles.Word(Stage::kGrasp, given["grasper"], "grasper");
   request.registry = std::move(roles.registry);
   request.doors = DoorSelectionOf(given["doors"].cast<std::vector<std::string>>(), "test");
   request.doors.per_category = given["per_category"].cast<int>();

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "doorforge/core/error.h"
 #include "doorforge/schemas/fallible.h"
@@ -19,48 +21,20 @@ Action NoAction() {
   return action;
 }
 
-class CallablePolicy : public Policy, public Fallible {
+/// What is called, and why it gave nothing. What somebody's code raises ends the episode, not the
+/// evaluation.
+class Called {
  public:
-  explicit CallablePolicy(const CallableSettings& settings)
-      : settings_(new CallableSettings(settings)) {}
-  ~CallablePolicy() override {
-    const py::gil_scoped_acquire lock;
-    delete settings_;
-  }
-  CallablePolicy(const CallablePolicy&) = delete;
-  CallablePolicy& operator=(const CallablePolicy&) = delete;
+  explicit Called(SharedCallable settings) : settings_(std::move(settings)) {}
 
-  void Reset() override {
-    failure_.clear();
-    const py::gil_scoped_acquire lock;
-    Guarded([&] {
-      if (py::hasattr(settings_->policy, "reset")) settings_->policy.attr("reset")();
-    });
-  }
+  const CallableSettings& settings() const { return *settings_; }
+  const std::string& failure() const { return failure_; }
+  void ForgetFailure() { failure_.clear(); }
 
-  Action Act(const Observation& observation) override {
-    Action action = NoAction();
-    if (!failure_.empty()) return action;
-    const py::gil_scoped_acquire lock;
-    Guarded([&] {
-      action = ActionFrom(settings_->policy(ToPython(observation, settings_->names)),
-                          settings_->name + ": action");
-    });
-    return action;
-  }
-
-  bool UsesPointCloud() const override {
-    const auto& names = settings_->names;
-    return std::any_of(names.begin(), names.end(),
-                       [](const std::string& name) { return name.starts_with("cloud"); });
-  }
-
-  std::string Failure() const override { return failure_; }
-
- private:
-  // what somebody's code raises ends the episode, not the evaluation
+  /// Runs `call` with Python's lock.
   template <class Call>
   void Guarded(Call&& call) {
+    const py::gil_scoped_acquire lock;
     try {
       call();
     } catch (py::error_already_set& error) {
@@ -72,15 +46,89 @@ class CallablePolicy : public Policy, public Fallible {
     }
   }
 
-  CallableSettings* settings_;  // destroyed under the lock alone
+ private:
+  SharedCallable settings_;
   std::string failure_;
+};
+
+void ResetIfItCan(const py::object& policy) {
+  if (py::hasattr(policy, "reset")) policy.attr("reset")();
+}
+
+class CallablePolicy : public Policy, public Fallible {
+ public:
+  explicit CallablePolicy(SharedCallable settings) : called_(std::move(settings)) {}
+
+  void Reset() override {
+    called_.ForgetFailure();
+    called_.Guarded([&] { ResetIfItCan(called_.settings().policy); });
+  }
+
+  Action Act(const Observation& observation) override {
+    Action action = NoAction();
+    if (!called_.failure().empty()) return action;
+    called_.Guarded([&] {
+      const CallableSettings& settings = called_.settings();
+      action = ActionFrom(settings.policy(ToPython(observation, settings.names)),
+                          settings.name + ": action");
+    });
+    return action;
+  }
+
+  bool UsesPointCloud() const override {
+    const auto& names = called_.settings().names;
+    return std::any_of(names.begin(), names.end(),
+                       [](const std::string& name) { return name.starts_with("cloud"); });
+  }
+
+  void ForgetFailure() override { called_.ForgetFailure(); }
+  std::string Failure() const override { return called_.failure(); }
+
+ private:
+  Called called_;
+};
+
+class CallableGrasp : public GraspPolicy, public Fallible {
+ public:
+  explicit CallableGrasp(SharedCallable settings) : called_(std::move(settings)) {}
+
+  std::optional<GraspAction> Choose(const GraspObservation& observation) override {
+    std::optional<GraspAction> chosen;
+    called_.Guarded([&] {
+      const CallableSettings& settings = called_.settings();
+      ResetIfItCan(settings.policy);
+      const py::object answer = settings.policy(ToPython(observation));
+      if (answer.is_none()) return;
+      const Action action = ActionFrom(answer, settings.name + ": grasp");
+      chosen.emplace();
+      chosen->contact_m = action.position_delta_m;
+      chosen->world_from_hand_rotation = action.world_from_hand_rotation;
+    });
+    return chosen;
+  }
+
+  void ForgetFailure() override { called_.ForgetFailure(); }
+  std::string Failure() const override { return called_.failure(); }
+
+ private:
+  Called called_;
 };
 
 }  // namespace
 
-std::unique_ptr<Policy> MakeCallablePolicy(const CallableSettings& settings) {
-  const py::gil_scoped_acquire lock;
-  return std::make_unique<CallablePolicy>(settings);
+SharedCallable Share(CallableSettings settings) {
+  return {new CallableSettings(std::move(settings)), [](const CallableSettings* held) {
+            const py::gil_scoped_acquire lock;
+            delete held;
+          }};
+}
+
+std::unique_ptr<Policy> MakeCallablePolicy(SharedCallable settings) {
+  return std::make_unique<CallablePolicy>(std::move(settings));
+}
+
+std::unique_ptr<GraspPolicy> MakeCallableGrasp(SharedCallable settings) {
+  return std::make_unique<CallableGrasp>(std::move(settings));
 }
 
 }  // namespace doorforge::python

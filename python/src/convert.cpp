@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kActionNumbers = std::tuple_size_v<ActionVector>;
+constexpr std::size_t kActionNumbers = std::tuple_size_v<ActionNumbers>;
 
 std::string ShapeOf(const py::array& array) {
   std::string text = "(";
@@ -121,21 +121,21 @@ py::tuple ToPython(const TriangleMesh& mesh) {
 
 Action ActionFrom(const py::object& value, const std::string& what) {
   if (py::isinstance<Action>(value)) return value.cast<Action>();
-  const auto array = ArrayFrom<float>(value, what);
+  const auto array = ArrayFrom<double>(value, what);
   const bool row = array.ndim() == 2 && array.shape(0) == 1;
   if ((array.ndim() != 1 && !row) || static_cast<std::size_t>(array.size()) != kActionNumbers)
     throw Error(ErrorCode::kInvalidArgument,
                 what + ": shape " + ShapeOf(array) +
                     ", expected (9,): how far the hand goes [m] and two rows of its rotation");
-  ActionVector vector;
-  std::copy_n(array.data(), kActionNumbers, vector.begin());
+  ActionNumbers numbers{};
+  std::copy_n(array.data(), kActionNumbers, numbers.begin());
   for (std::size_t i = 0; i < kActionNumbers; ++i) {
-    if (!std::isfinite(vector[i]))
+    if (!std::isfinite(numbers[i]))
       throw Error(ErrorCode::kInvalidArgument, what + "[" + std::to_string(i) + "] is " +
-                                                   std::to_string(vector[i]) +
+                                                   std::to_string(numbers[i]) +
                                                    ", expected a finite number");
   }
-  return FromVector(vector);
+  return FromNumbers(numbers);
 }
 
 Observation ObservationFrom(const py::dict& values) {
@@ -214,6 +214,18 @@ py::dict ToPython(const Observation& observation, const std::vector<std::string>
       if (name == row.name) dict[row.name] = row.of(observation);
     }
   }
+  return dict;
+}
+
+py::dict ToPython(const GraspObservation& observation) {
+  const LabelledCloud& visible = observation.visible;
+  const auto points = static_cast<py::ssize_t>(visible.label.size());
+  py::dict dict;
+  dict["cloud"] = ArrayOf(visible.xyz.data(), {points, 3});
+  dict["cloud_label"] = ArrayOf(visible.label.data(), {points});
+  dict["approach"] = ToPython(observation.approach);
+  dict["hand_from_tcp"] = ToPython(observation.hand_from_tcp);
+  dict["episode"] = py::str(observation.episode);
   return dict;
 }
 

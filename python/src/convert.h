@@ -21,6 +21,7 @@
 #include "doorforge/core/config_io.h"
 #include "doorforge/core/rigid_transform.h"
 #include "doorforge/core/triangle_mesh.h"
+#include "doorforge/schemas/grasp_policy.h"
 #include "doorforge/schemas/policy.h"
 
 // What Python's values are in C++ and the other way round. Arrays are copied: nothing that Python
@@ -71,6 +72,10 @@ Observation ObservationFrom(const py::dict& values);
 
 /// The dict that policies in Python are called with: those of the names that `names` has.
 py::dict ToPython(const Observation& observation, const std::vector<std::string>& names);
+/// The dict that graspers in Python are called with: "cloud" float32 (points, 3) [m, world],
+/// "cloud_label" uint8 (points,), "approach" float64 (3,), "hand_from_tcp" float64 (4, 4),
+/// "episode" text.
+py::dict ToPython(const GraspObservation& observation);
 /// The names that ToPython() knows. Throws Error(kInvalidArgument), with the names that there are,
 /// if one of `names` is none of them.
 void RequireObservationNames(const std::vector<std::string>& names);

@@ -63,21 +63,60 @@ ActionVector ToVector(const Action& action) {
   return vector;
 }
 
-Action FromVector(const ActionVector& vector) {
-  for (const float number : vector)
-    Require(std::isfinite(number), ErrorCode::kInvalidArgument, "an action must be finite");
-  const Eigen::Matrix<double, 9, 1> v =
-      Eigen::Map<const Eigen::Matrix<float, 9, 1>>(vector.data()).cast<double>();
-  Eigen::Vector3d x = v.segment<3>(3);
-  x = x.norm() > 1e-9 ? x.normalized() : Eigen::Vector3d::UnitX();
-  Eigen::Vector3d y = v.segment<3>(6) - x * x.dot(v.segment<3>(6));
-  y = y.norm() > 1e-9 ? y.normalized() : AnyNormal(x);
+namespace {
+
+using Nine = Eigen::Matrix<double, 9, 1>;
+
+void RequireFinite(const Nine& numbers) {
+  Require(numbers.allFinite(), ErrorCode::kInvalidArgument, "an action must be finite");
+}
+
+Action ActionOf(const Eigen::Vector3d& delta, const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
   Action action;
-  action.position_delta_m = v.head<3>();
+  action.position_delta_m = delta;
   action.world_from_hand_rotation.row(0) = x;
   action.world_from_hand_rotation.row(1) = y;
   action.world_from_hand_rotation.row(2) = x.cross(y);
   return action;
+}
+
+Action Orthonormalised(const Nine& v) {
+  Eigen::Vector3d x = v.segment<3>(3);
+  x = x.norm() > 1e-9 ? x.normalized() : Eigen::Vector3d::UnitX();
+  Eigen::Vector3d y = v.segment<3>(6) - x * x.dot(v.segment<3>(6));
+  y = y.norm() > 1e-9 ? y.normalized() : AnyNormal(x);
+  return ActionOf(v.head<3>(), x, y);
+}
+
+bool IsOrthonormal(const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
+  constexpr double kTolerance = 1e-12;
+  return std::abs(x.norm() - 1) < kTolerance && std::abs(y.norm() - 1) < kTolerance &&
+         std::abs(x.dot(y)) < kTolerance;
+}
+
+}  // namespace
+
+Action FromVector(const ActionVector& vector) {
+  const Nine numbers = Eigen::Map<const Eigen::Matrix<float, 9, 1>>(vector.data()).cast<double>();
+  RequireFinite(numbers);
+  return Orthonormalised(numbers);
+}
+
+ActionNumbers ToNumbers(const Action& action) {
+  ActionNumbers numbers{};
+  Eigen::Map<Nine> nine(numbers.data());
+  nine.segment<3>(0) = action.position_delta_m;
+  nine.segment<3>(3) = action.world_from_hand_rotation.row(0);
+  nine.segment<3>(6) = action.world_from_hand_rotation.row(1);
+  return numbers;
+}
+
+Action FromNumbers(const ActionNumbers& numbers) {
+  const Nine nine = Eigen::Map<const Nine>(numbers.data());
+  RequireFinite(nine);
+  const Eigen::Vector3d x = nine.segment<3>(3);
+  const Eigen::Vector3d y = nine.segment<3>(6);
+  return IsOrthonormal(x, y) ? ActionOf(nine.head<3>(), x, y) : Orthonormalised(nine);
 }
 
 }  // namespace doorforge

@@ -5,39 +5,83 @@
 # The wheel in fresh virtual environments, with programs of others from PyPI; not a part of ./test.sh, which has Debian's
 # packages alone:
 #   tests/python/judges.sh BUILD PYTHON...
-# BUILD is a build folder with the programs; each PYTHON (3.11 or later) gets a wheel built, installed and tried. Options
-# of the build, such as a compiler's launcher, may be given in WHEEL_OPTIONS; JUDGES=full also trains with
-# Stable-Baselines3 and PyTorch, for the first PYTHON.
+# BUILD is a build folder with the programs; each PYTHON (3.11 or later) gets a wheel of the last commit built in a fresh
+# clone, installed and tried: the package's tests, Gymnasium's checker, examples, README's journeys, the notebook, openpi's
+# client and server. For the first PYTHON, JUDGES=full also trains with Stable-Baselines3, and tries the latch in other
+# simulators and the loader against WebDataset (several GB of downloads). Options of the build, such as a compiler's launcher, may be
+# given in WHEEL_OPTIONS.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 build=$(cd "$1" && pwd); shift
-scratch=$(mktemp -d)
+scratch=$(mktemp -d -p "${JUDGES_SCRATCH:-/tmp}")
 trap 'rm -rf "$scratch"' EXIT
-export PATH="$build/bin:$PATH"
-export PYTHONNOUSERSITE=1
+export PATH="$build/bin:$PATH" PYTHONNOUSERSITE=1
+unset PYTHONPATH
+tests="$root/tests/python"
+TIMEFORMAT='%R s by the clock, %U s + %S s of the processor'
 
+# A wheel of the last commit for an interpreter; prints its path.
+build_wheel() {
+  local python=$1 environment=$2
+  # shellcheck disable=SC2086
+  time "$environment/bin/pip" wheel -q "$scratch/clone" --no-deps -w "$scratch/wheels" ${WHEEL_OPTIONS:-} >&2
+  local tag; tag=$("$python" -c 'import sys; print(f"cp{sys.version_info[0]}{sys.version_info[1]}")')
+  ls "$scratch"/wheels/doorforge-*-"$tag"-*.whl
+}
+
+try_wheel() {
+  local environment=$1
+  "$environment/bin/python" "$tests/package_test.py" "$build"
+  "$environment/bin/python" "$tests/environment_test.py"
+  "$environment/bin/python" "$root/docs/examples/callable_policy.py" "$scratch/door"
+  "$environment/bin/python" "$tests/run_notebook.py" "$root/docs/examples/doors.ipynb"
+  "$environment/bin/python" -m mypy --ignore-missing-imports -p doorforge
+}
+
+# openpi's client wants a numpy before 2, which Python 3.13 has no wheels of
+try_openpi() {
+  local python=$1 environment=$2
+  "$python" -m venv "$environment"
+  if ! "$environment/bin/pip" install -q --only-binary :all: openpi-client==0.1.2 openpi-server==0.1.0 \
+      policy-websocket==0.1.0 typing_extensions; then
+    echo "openpi's client cannot be installed for this Python; left out"
+    return
+  fi
+  "$environment/bin/python" "$tests/openpi_judge.py" "$build/bin" "$root/data/policies/opener" "$scratch/door"
+}
+
+# Several GB, once.
+try_heavy_peers() {
+  local environment=$1
+  "$environment/bin/pip" install -q stable-baselines3==2.9.2 torch==2.15.0 webdataset==1.0.2 mujoco==4.0.0 pybullet==3.2.7 \
+    sapien==3.0.3 newton==1.8.0 mujoco-warp==4.0.0 trimesh==5.2.0
+  "$environment/bin/python" "$root/docs/examples/ppo_door.py" --least-gain 0.2
+  "$environment/bin/python" "$tests/readme_test.py" "$build"
+  for latch in effort bolt; do
+    doorforge compose --body interior_flush_01 --handle interior_lever_tube_01 --set "latch=$latch" --out "$scratch/$latch"
+    doorforge export "$scratch/$latch" --to urdf --out "$scratch/exported_$latch"
+  done
+  "$environment/bin/python" -W ignore "$tests/latch_judge.py" "$root/docs/latch-elsewhere.md" "$scratch/effort" \
+    "$scratch"/exported_effort/* --bolt "$scratch/bolt" "$scratch"/exported_bolt/*
+  doorforge datagen open --doors "$scratch/effort" --out "$scratch/data" --episodes 48
+  "$environment/bin/python" "$root/scripts/python_bench.py" --data "$scratch/data"
+}
+
+git clone -q "$root" "$scratch/clone"
+doorforge compose --body interior_flush_01 --handle interior_lever_tube_01 --out "$scratch/door"
+first=yes
 for python in "$@"; do
   echo "== $("$python" --version)"
-  environment="$scratch/$(basename "$(dirname "$(dirname "$python")")")"
+  environment="$scratch/$("$python" -c 'import sys; print("%d.%d" % sys.version_info[:2])')"
   "$python" -m venv "$environment"
-  # shellcheck disable=SC2086
-  "$environment/bin/pip" wheel -q "$root" --no-deps -w "$scratch/wheels" ${WHEEL_OPTIONS:-}
-  tag=$("$python" -c 'import sys; print(f"cp{sys.version_info[0]}{sys.version_info[1]}")')
-  wheel=$(ls "$scratch"/wheels/doorforge-*-"$tag"-*.whl)
+  wheel=$(build_wheel "$python" "$environment")
   du -h "$wheel"
-  "$environment/bin/pip" install -q "$wheel[gymnasium]" mypy
+  [ "$(stat -c %s "$wheel")" -lt 60000000 ]
+  "$environment/bin/pip" install -q "$wheel[gymnasium]" mypy nbclient nbformat ipykernel matplotlib
   cd "$scratch"
-  "$environment/bin/python" "$root/tests/python/package_test.py" "$build"
-  "$environment/bin/python" "$root/tests/python/environment_test.py"
-  # openpi's client wants a numpy before 2, which Python 3.13 has no wheels of
-  if "$python" -m venv "$environment-openpi" && "$environment-openpi/bin/pip" install -q --only-binary :all: openpi-client; then
-    "$environment-openpi/bin/python" "$root/tests/python/openpi_judge.py" "$build/bin" "$root/data/policies/opener"
-  else
-    echo "openpi's client cannot be installed for this Python; left out"
-  fi
-  "$environment/bin/python" -m mypy --ignore-missing-imports -p doorforge || echo "mypy has remarks"
-  if [ "${JUDGES:-}" = full ] && [ "$python" = "$1" ]; then  # several GB of PyTorch
-    "$environment/bin/pip" install -q stable-baselines3 torch
-    "$environment/bin/python" "$root/docs/examples/ppo_door.py" --steps 1024
-  fi
+  try_wheel "$environment"
+  try_openpi "$python" "$environment-openpi"
+  if [ "${JUDGES:-}" = full ] && [ "$first" = yes ]; then try_heavy_peers "$environment"; fi
+  first=no
 done
+echo "all judges passed"

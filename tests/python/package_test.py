@@ -34,6 +34,15 @@ def hold(observation: dict) -> np.ndarray:
     return np.concatenate([np.zeros(3), np.ravel(rows)])
 
 
+def take_hold(look: dict) -> np.ndarray:
+    """A lever from the front: the hand's z into the leaf, fingers above and below (they close along the hand's y)."""
+    handle = look["cloud"][look["cloud_label"] == 1]
+    contact = handle[np.linalg.norm(handle - handle.mean(axis=0), axis=1).argmin()]
+    z, y = look["approach"], np.array([0.0, 0.0, 1.0])
+    world_from_hand = np.stack([np.cross(y, z), y, z], axis=1)
+    return np.concatenate([contact, world_from_hand[0], world_from_hand[1]])
+
+
 class Doors(unittest.TestCase):
     @classmethod
     def setUpClass(cls) -> None:
@@ -284,6 +293,65 @@ class Evaluation(unittest.TestCase):
         self.assertIn("no more ideas", details[1])
         self.assertIn("nan", details[2])
         self.assertIn("(7, 7)", details[3])
+
+    def test_a_grasper_in_python_takes_hold(self) -> None:
+        looks = []
+
+        def noting(look: dict) -> np.ndarray:
+            looks.append(look)
+            return take_hold(look)
+
+        report = doorforge.evaluate("expert", self.folder, grasper=noting, seeds=3, config={"expert_reference": False})
+        self.assertEqual(report.success["overall"]["rate"], 1, report.episodes)
+        self.assertEqual(report.record["provenance"]["grasper_sha256"], "own")
+        cloud, label = looks[0]["cloud"], looks[0]["cloud_label"]
+        self.assertEqual((cloud.dtype, cloud.shape, label.dtype), (np.float32, (len(label), 3), np.uint8))
+        self.assertGreater(np.count_nonzero(label == 1), 10)
+        self.assertAlmostEqual(float(np.linalg.norm(looks[0]["approach"])), 1, places=12)
+        self.assertEqual(looks[0]["hand_from_tcp"].shape, (4, 4))
+
+    def test_a_grasper_that_fails_costs_its_episode_alone(self) -> None:
+        answers = iter([ValueError("no fingers"), np.zeros(7), np.full(9, np.inf), None])
+
+        def fails(look: dict) -> np.ndarray:
+            answer = next(answers, take_hold(look))
+            if isinstance(answer, Exception):
+                raise answer
+            return answer
+
+        report = doorforge.evaluate("expert", self.folder, grasper=fails, seeds=5, threads=1,
+                                    config={"expert_reference": False})
+        details = [row["detail"] for row in report.episodes]
+        self.assertEqual(report.causes["policy_failed"], 3, details)
+        for detail, told in zip(details, ("no fingers", "(7,)", "inf")):
+            self.assertIn(told, detail)
+        self.assertFalse(details[3].startswith("the policy failed"), details)
+        self.assertEqual(report.success["overall"]["rate"], 0.2, details)
+
+    def test_an_episode_that_ends_before_a_policys_turn_is_not_blamed_on_it(self) -> None:
+        answers = iter([take_hold])
+
+        def takes_hold_once(look: dict) -> object:
+            return next(answers, lambda look: None)(look)
+
+        def fails(observation: dict) -> np.ndarray:
+            raise RuntimeError("always")
+
+        report = doorforge.evaluate(fails, self.folder, grasper=takes_hold_once, observation=["proprioception"], seeds=2,
+                                    threads=1, config={"expert_reference": False})
+        self.assertIn("always", report.episodes[0]["detail"])
+        self.assertNotIn("always", report.episodes[1]["detail"])
+
+    def test_numbers_are_not_rounded_on_their_way(self) -> None:
+        door = doorforge.read_door(self.folder)
+        expert = doorforge.load_policy("expert")
+        stepper = doorforge.Stepper(door)
+        stepper.reset(doorforge.sample_scene(door, 3))
+        action = expert.act(stepper.observation)
+        again = doorforge.Action(np.concatenate([action.position_delta_m, action.world_from_hand_rotation[0],
+                                                 action.world_from_hand_rotation[1]]))
+        np.testing.assert_array_equal(again.position_delta_m, action.position_delta_m)
+        np.testing.assert_array_equal(again.world_from_hand_rotation[:2], action.world_from_hand_rotation[:2])
 
     def test_what_cannot_be_evaluated_is_refused(self) -> None:
         with self.assertRaises(doorforge.MissingError):

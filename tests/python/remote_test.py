@@ -123,10 +123,7 @@ class Remote(unittest.TestCase):
             far = self.evaluate("--opener", address, seeds=2)
             asyncio.run(self.talk(address))
         near = self.evaluate("--opener", str(opener), "--allow-seen", seeds=2)
-        for served, own in zip(far["episodes"], near["episodes"], strict=True):
-            # its actions come rounded to float32
-            self.assertEqual((served["outcome"], served["opening_actions"]), (own["outcome"], own["opening_actions"]))
-            self.assertAlmostEqual(served["peak_hinge_rad"], own["peak_hinge_rad"], delta=0.01)
+        self.assertEqual(far["episodes"], near["episodes"])
 
     async def talk(self, address: str) -> None:
         """A client of others: what it does wrong is told in text, and the connection goes on."""
@@ -146,7 +143,7 @@ class Remote(unittest.TestCase):
                 self.assertIn(told, answer)
             await socket.send(self.packed(sound))
             answer = msgpack.unpackb(await socket.recv(), object_hook=policy_peers.unpack_array)
-            self.assertEqual((answer["actions"].shape, answer["actions"].dtype), ((1, 9), np.float32))
+            self.assertEqual((answer["actions"].shape, answer["actions"].dtype), ((1, 9), np.float64))
             self.assertTrue(np.isfinite(answer["actions"]).all())
 
     @staticmethod

@@ -1,8 +1,14 @@
 # SPDX-FileCopyrightText: 2026 The doorforge authors
 # SPDX-License-Identifier: Apache-2.0
 """doorforge.torch_data over a data set that any build must read; PYTHONPATH holds the package."""
+import json
+import os
 import pathlib
 import pickle
+import socket
+import subprocess
+import sys
+import tempfile
 import unittest
 
 import numpy as np
@@ -13,6 +19,24 @@ from doorforge import datasets
 from doorforge.torch_data import Decisions, ResumableSampler
 
 DATA = pathlib.Path(__file__).parents[1] / "golden" / "dataset_v1"
+
+
+def train_together(out: str, stop_after: int = -1) -> list:
+    """What the records of two processes say that train together."""
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    program = pathlib.Path(__file__).with_name("ddp_rank.py")
+    ranks = [subprocess.Popen([sys.executable, "-B", str(program), str(DATA), out, str(stop_after)],
+                              env={**os.environ, "RANK": str(rank), "WORLD_SIZE": "2", "MASTER_ADDR": "127.0.0.1",
+                                   "MASTER_PORT": str(port), "OMP_NUM_THREADS": "1"}) for rank in range(2)]
+    try:
+        assert [rank.wait(300) for rank in ranks] == [0, 0]
+    finally:
+        for rank in ranks:
+            rank.kill()
+            rank.wait()
+    return [json.loads(pathlib.Path(out, f"{rank}.json").read_text()) for rank in range(2)]
 
 
 class Torch(unittest.TestCase):
@@ -68,6 +92,16 @@ class Torch(unittest.TestCase):
             self.assertEqual(len(flat), 96 if drop_last else 103)
             if drop_last:
                 self.assertEqual({len(share) for share in shares}, {8})
+
+    def test_two_processes_with_workers_take_every_sample_once_an_epoch_also_after_a_stop(self) -> None:
+        with tempfile.TemporaryDirectory() as whole, tempfile.TemporaryDirectory() as stopped:
+            wanted = train_together(whole)
+            train_together(stopped, stop_after=11)  # in the second of two epochs of eight steps
+            found = train_together(stopped)
+        for records in (wanted, found):
+            for epoch in range(2):
+                self.assertEqual(sorted(records[0]["taken"][epoch] + records[1]["taken"][epoch]), list(range(len(self.data))))
+        self.assertEqual(found, wanted)  # in the same order, and with the same bits of the weights
 
     def test_epochs_differ_and_are_the_same_everywhere(self) -> None:
         sampler = ResumableSampler(range(10), 10, seed=1)

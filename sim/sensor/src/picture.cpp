@@ -7,7 +7,6 @@
 #include <limits>
 #include <vector>
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "doorforge/core/committed_file.h"
@@ -25,14 +24,22 @@ constexpr int kLineHeight = 16;
 constexpr double kCaptionScale = 0.45;
 constexpr int kGap = 10;
 
-std::string Encode(const cv::Mat& mat) {
-  // fixed compression settings: equal pixels give equal bytes
-  const std::vector<int> settings = {cv::IMWRITE_PNG_COMPRESSION, 6, cv::IMWRITE_PNG_STRATEGY,
-                                     cv::IMWRITE_PNG_STRATEGY_FILTERED};
-  std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(".png", mat, bytes, settings))
-    throw Error(ErrorCode::kIo, "picture: cannot be encoded as PNG");
-  return {bytes.begin(), bytes.end()};
+std::string Encode(const internal::PngPixels& pixels) {
+  std::string bytes = internal::EncodePngPixels(pixels);
+  if (bytes.empty()) throw Error(ErrorCode::kIo, "picture: cannot be encoded as PNG");
+  return bytes;
+}
+
+std::string EncodeGrey(const cv::Mat& mat) {
+  return Encode({mat.data, static_cast<std::size_t>(mat.cols), static_cast<std::size_t>(mat.rows),
+                 1, static_cast<int>(8 * mat.elemSize1())});
+}
+
+void RequirePixels(const Picture& picture) {
+  const std::size_t count =
+      3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
+  const bool valid = picture.width > 0 && picture.height > 0 && picture.rgb.size() == count;
+  Require(valid, ErrorCode::kInvalidArgument, "picture: empty, or its size and pixels disagree");
 }
 
 // Nearest and farthest depth seen up to `limit`.
@@ -146,10 +153,7 @@ cv::Mat DecodeGrey(std::string_view bytes, const std::string& name, const std::v
 }  // namespace
 
 cv::Mat ToMat(const Picture& picture) {
-  const std::size_t count =
-      3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
-  const bool valid = picture.width > 0 && picture.height > 0 && picture.rgb.size() == count;
-  Require(valid, ErrorCode::kInvalidArgument, "picture: empty, or its size and pixels disagree");
+  RequirePixels(picture);
   const cv::Mat rgb(picture.height, picture.width, CV_8UC3,
                     const_cast<std::uint8_t*>(picture.rgb.data()));  // only read from
   cv::Mat bgr;
@@ -165,7 +169,11 @@ Picture FromMat(const cv::Mat& bgr) {
   return picture;
 }
 
-std::string EncodePng(const Picture& picture) { return Encode(ToMat(picture)); }
+std::string EncodePng(const Picture& picture) {
+  RequirePixels(picture);
+  return Encode({picture.rgb.data(), static_cast<std::size_t>(picture.width),
+                 static_cast<std::size_t>(picture.height)});
+}
 
 std::string EncodeDepthPng(const DepthImage& image) {
   Require(image.width > 0 && image.height > 0, ErrorCode::kInvalidArgument,
@@ -177,7 +185,7 @@ std::string EncodeDepthPng(const DepthImage& image) {
     if (rounded <= std::numeric_limits<std::uint16_t>::max())
       pixels[i] = static_cast<std::uint16_t>(rounded);
   }
-  return Encode(millimetres);
+  return EncodeGrey(millimetres);
 }
 
 DepthImage DecodeDepthPng(std::string_view bytes, double metres_per_unit, const std::string& name) {
@@ -208,7 +216,7 @@ std::string EncodeMaskPng(const PixelMask& mask) {
   cv::Mat pixels(mask.height, mask.width, CV_8UC1);
   for (std::size_t i = 0; i < count; ++i)
     pixels.ptr<std::uint8_t>()[i] = mask.set[i] != 0 ? 255 : 0;
-  return Encode(pixels);
+  return EncodeGrey(pixels);
 }
 
 void WritePng(const std::filesystem::path& path, const Picture& picture) {

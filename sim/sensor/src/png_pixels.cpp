@@ -23,6 +23,28 @@ void TakeBytes(png_structp png, png_bytep to, std::size_t count) {
   left.remove_prefix(count);
 }
 
+void AddBytes(png_structp png, png_bytep from, std::size_t count) {
+  auto& to = *static_cast<std::string*>(png_get_io_ptr(png));
+  to.append(reinterpret_cast<const char*>(from), count);
+}
+
+void KeepAll(png_structp) {}
+
+bool WriteRows(png_structp png, png_infop info, const PngPixels& picture, unsigned char** rows) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  png_set_compression_level(png, 6);
+  png_set_compression_strategy(png, 1);  // zlib's Z_FILTERED
+  png_set_IHDR(png, info, static_cast<png_uint_32>(picture.width),
+               static_cast<png_uint_32>(picture.height), picture.bits,
+               picture.channels == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_write_info(png, info);
+  if (picture.bits == 16 && std::endian::native == std::endian::little) png_set_swap(png);
+  png_write_image(png, rows);
+  png_write_end(png, info);
+  return true;
+}
+
 bool ReadRows(png_structp png, png_infop info, unsigned char** rows, std::size_t row_bytes) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_read_info(png, info);
@@ -52,6 +74,24 @@ bool DecodePngPixels(std::string_view bytes, unsigned char* pixels, std::size_t 
   }
   png_destroy_read_struct(&png, &info, nullptr);
   return is_read;
+}
+
+std::string EncodePngPixels(const PngPixels& picture) {
+  const std::size_t row_bytes = picture.width * static_cast<std::size_t>(picture.channels) *
+                                static_cast<std::size_t>(picture.bits / 8);
+  std::vector<unsigned char*> rows;
+  for (std::size_t row = 0; row < picture.height; ++row)
+    rows.push_back(const_cast<unsigned char*>(picture.pixels) + row * row_bytes);  // only read from
+  std::string bytes;
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, Leave, Ignore);
+  png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
+  bool is_written = false;
+  if (info != nullptr) {
+    png_set_write_fn(png, &bytes, AddBytes, KeepAll);
+    is_written = WriteRows(png, info, picture, rows.data());
+  }
+  png_destroy_write_struct(&png, &info);
+  return is_written ? bytes : std::string();
 }
 
 }  // namespace doorforge::internal

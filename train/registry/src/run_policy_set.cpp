@@ -11,18 +11,18 @@
 namespace doorforge {
 namespace {
 
-std::vector<const Fallible*> FallibleOf(const PolicySet& set) {
-  std::vector<const Fallible*> found;
-  for (const Policy* policy : {set.handle.get(), set.open.get()}) {
-    const auto* fallible = dynamic_cast<const Fallible*>(policy);
-    if (fallible != nullptr) found.push_back(fallible);
-  }
+// In the order of their stages, so that the first that failed is the one that is told.
+std::vector<Fallible*> FallibleOf(const PolicySet& set) {
+  std::vector<Fallible*> found = {dynamic_cast<Fallible*>(set.grasp.get()),
+                                  dynamic_cast<Fallible*>(set.handle.get()),
+                                  dynamic_cast<Fallible*>(set.open.get())};
+  std::erase(found, nullptr);
   return found;
 }
 
 // Why a policy of the set had no action in the last episode; empty: all had.
 std::string FailureOf(const PolicySet& set) {
-  for (const Fallible* policy : FallibleOf(set)) {
+  for (Fallible* policy : FallibleOf(set)) {
     if (!policy->Failure().empty()) return policy->Failure();
   }
   return "";
@@ -55,6 +55,7 @@ Episode RunPolicySet(const EpisodePlace& place, const PolicySet& set, Observer* 
   EpisodeRoles roles{.grasp = grasp.get(), .handle = set.handle.get(), .open = set.open.get()};
   if (set.handle_turned != nullptr)
     roles.predicted_turned = [turned = set.handle_turned] { return turned->Turned(); };
+  for (Fallible* policy : FallibleOf(set)) policy->ForgetFailure();
   Episode episode = RunStages(place.scene, place.door, place.robot, roles, observer);
   if (const std::string failure = FailureOf(set); !failure.empty()) {
     episode.outcome = EpisodeOutcome::kDiverged;

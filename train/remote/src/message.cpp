@@ -261,12 +261,25 @@ std::vector<double> NumpyArray::Numbers(const std::string& name) const {
               name + ": dtype \"" + dtype + "\", expected float32 (\"<f4\") or float64 (\"<f8\")");
 }
 
-NumpyArray ArrayOf(const float* values, std::vector<std::int64_t> shape) {
+namespace {
+
+template <class T>
+NumpyArray CopyOf(const char* dtype, const T* values, std::vector<std::int64_t> shape) {
   std::size_t count = 1;
   for (const std::int64_t length : shape) count *= static_cast<std::size_t>(length);
-  NumpyArray array{"<f4", std::move(shape), std::string(count * sizeof(float), '\0')};
+  NumpyArray array{dtype, std::move(shape), std::string(count * sizeof(T), '\0')};
   if (count > 0) std::memcpy(array.bytes.data(), values, array.bytes.size());
   return array;
+}
+
+}  // namespace
+
+NumpyArray ArrayOf(const float* values, std::vector<std::int64_t> shape) {
+  return CopyOf("<f4", values, std::move(shape));
+}
+
+NumpyArray ArrayOf(const double* values, std::vector<std::int64_t> shape) {
+  return CopyOf("<f8", values, std::move(shape));
 }
 
 const Value* Value::Find(const std::string& key) const {

@@ -22,6 +22,7 @@ struct NumpyArray {
 };
 
 NumpyArray ArrayOf(const float* values, std::vector<std::int64_t> shape);
+NumpyArray ArrayOf(const double* values, std::vector<std::int64_t> shape);
 
 /// A value of MessagePack, with arrays as openpi's msgpack_numpy packs them: maps whose keys are
 /// bytes. Keys of maps are texts; those of bytes are taken as texts, others are refused.

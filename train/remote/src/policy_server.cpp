@@ -72,7 +72,8 @@ std::string AnswerTo(const std::string& message, Policy& policy) {
   const auto begin = std::chrono::steady_clock::now();
   const Value request = internal::Unpacked(message);
   if (IsTrue(request.Find("episode_start"))) policy.Reset();
-  const ActionVector action = ToVector(policy.Act(ObservationOf(request, policy.UsesPointCloud())));
+  const ActionNumbers action =
+      ToNumbers(policy.Act(ObservationOf(request, policy.UsesPointCloud())));
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
   Value::Map answer;
   answer["actions"] = {internal::ArrayOf(action.data(), {1, 9})};

@@ -22,7 +22,7 @@ using internal::Link;
 using internal::NumpyArray;
 using internal::Value;
 
-constexpr std::size_t kNumbers = std::tuple_size_v<ActionVector>;
+constexpr std::size_t kNumbers = std::tuple_size_v<ActionNumbers>;
 
 std::string ShapeText(const std::vector<std::int64_t>& shape) {
   std::string text;
@@ -32,7 +32,7 @@ std::string ShapeText(const std::vector<std::int64_t>& shape) {
 }
 
 /// The rows of an answer, each nine finite numbers.
-std::vector<ActionVector> ActionsOf(const Value& answer) {
+std::vector<Action> ActionsOf(const Value& answer) {
   const Value* found = answer.Find("actions");
   if (found == nullptr)
     throw Error(ErrorCode::kFormat,
@@ -48,12 +48,16 @@ std::vector<ActionVector> ActionsOf(const Value& answer) {
     throw Error(ErrorCode::kFormat,
                 "actions: shape " + ShapeText(shape) + ", expected (n, 9) or (9,)");
   const std::vector<double> numbers = array->Numbers("actions");
-  std::vector<ActionVector> actions(numbers.size() / kNumbers);
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     if (!std::isfinite(numbers[i]))
       throw Error(ErrorCode::kFormat, "actions: number " + std::to_string(i) + " is " +
                                           std::to_string(numbers[i]) + ", expected a finite one");
-    actions[i / kNumbers][i % kNumbers] = static_cast<float>(numbers[i]);
+  }
+  std::vector<Action> actions;
+  for (std::size_t i = 0; i < numbers.size(); i += kNumbers) {
+    ActionNumbers row{};
+    std::copy_n(numbers.begin() + static_cast<std::ptrdiff_t>(i), kNumbers, row.begin());
+    actions.push_back(FromNumbers(row));
   }
   return actions;
 }
@@ -73,7 +77,7 @@ class RemotePolicy : public Policy, public Fallible {
     try {
       if (!failure_.empty()) return NoAction();
       if (planned_.empty()) Ask(observation);
-      const Action action = FromVector(planned_.front());
+      const Action action = planned_.front();
       planned_.pop_front();
       return action;
     } catch (const Error& error) {
@@ -84,6 +88,7 @@ class RemotePolicy : public Policy, public Fallible {
     }
   }
 
+  void ForgetFailure() override { failure_.clear(); }
   std::string Failure() const override { return failure_; }
 
  private:
@@ -115,14 +120,14 @@ class RemotePolicy : public Policy, public Fallible {
     }
     has_answered_ = true;
     begins_ = false;
-    const std::vector<ActionVector> actions = ActionsOf(internal::Unpacked(answer));
+    const std::vector<Action> actions = ActionsOf(internal::Unpacked(answer));
     const auto count = std::min(actions.size(), static_cast<std::size_t>(settings_.chunk));
     planned_.assign(actions.begin(), actions.begin() + static_cast<std::ptrdiff_t>(count));
   }
 
   std::unique_ptr<Link> link_;
   RemotePolicySettings settings_;
-  std::deque<ActionVector> planned_;
+  std::deque<Action> planned_;
   bool begins_ = true;
   bool has_answered_ = false;  // since it was last asked in vain
   std::string failure_;

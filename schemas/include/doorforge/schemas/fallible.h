@@ -14,7 +14,10 @@ inline constexpr const char* kPolicyFailed = "the policy failed: ";
 class Fallible {
  public:
   virtual ~Fallible() = default;
-  /// Why there was no action in the episode that Reset() began; empty: there was one each time.
+  /// Forgets why there was no action. RunPolicySet() calls it before each episode, also before one
+  /// that ends before it is this policy's turn.
+  virtual void ForgetFailure() = 0;
+  /// Why there was no action since ForgetFailure(); empty: there was one each time.
   virtual std::string Failure() const = 0;
 };
 

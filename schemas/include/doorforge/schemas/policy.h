@@ -61,6 +61,13 @@ ActionVector ToVector(const Action& action);
 /// throw Error(kInvalidArgument).
 Action FromVector(const ActionVector& vector);
 
+/// The same numbers without rounding to float.
+using ActionNumbers = std::array<double, 9>;
+ActionNumbers ToNumbers(const Action& action);
+/// As FromVector(), but rows that are orthonormal to 1e-12 stay as they are: ToNumbers() of an
+/// action that FromVector() or FromNumbers() gave comes back with the same bits.
+Action FromNumbers(const ActionNumbers& numbers);
+
 /// Experts and trained networks alike. One instance serves one episode at a time.
 class Policy {
  public:

@@ -46,7 +46,7 @@ std::unique_ptr<CameraObserver> CameraOf(const EpisodePlace& place,
 /// @param observer Gives the clouds of those who open and turn; may be null.
 Episode RunPolicySet(const EpisodePlace& place, const PolicySet& set, Observer* observer);
 
-/// Whether the set's opener or handler is Fallible: nobody knows whether it acts alike twice.
+/// Whether one of the set's policies is Fallible: nobody knows whether it acts alike twice.
 bool IsFallible(const PolicySet& set);
 
 /// Whether the set's opener or handler looks at the cloud, which an observer must give then.

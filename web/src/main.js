@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+
+import { Content } from './content.js';
+import { RecordView } from './record_view.js';
+import { h } from './dom.js';
+
+// Several records: a list to choose from.
+const chooser = (records, view) => {
+  if (records.length === 1) return null;
+  const select = h('select', { id: 'record', onchange: () => view.load(records[Number(select.value)]) }, records.map(({ id }, i) => h('option', { value: i }, id)));
+  return h('div', { class: 'chooser' }, h('label', { for: 'record' }, 'Shown'), select);
+};
+
+const showRecords = (content) => {
+  const { records } = content.document;
+  const view = new RecordView(content);
+  document.body.append(h('main', {}, chooser(records, view), view.element));
+  view.start();
+  view.load(records[0]);
+  return { view, records };
+};
+
+const start = async () => {
+  const content = await Content.fromPage();
+  const shown = showRecords(content);
+  // what programs that drive the page may use
+  window.doorforge = { ...shown, document: content.document };
+  await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+  document.documentElement.dataset.ready = Math.round(performance.now());
+};
+
+start().catch((error) => {
+  document.body.append(h('p', { class: 'fault', role: 'alert' }, `This page cannot be shown: ${error.message}`));
+  document.documentElement.dataset.failed = error.message;
+  throw error;
+});

@@ -25,7 +25,10 @@ export class Content {
   }
 
   static async fromPage() {
-    return new Content(await inflated(unpackBase64(document.getElementById('content').textContent)));
+    const element = document.getElementById('content');
+    const text = element.textContent;
+    element.remove(); // megabytes of text that nobody needs any longer
+    return new Content(await inflated(unpackBase64(text)));
   }
 
   static async fromBytes(bytes) {

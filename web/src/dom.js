@@ -18,13 +18,14 @@ export const degrees = (radians) => (radians * 180) / Math.PI;
 /** A number for people, without needless digits. */
 export const number = (value, digits = 3) => String(Number(value.toPrecision(digits)));
 
-/** A button that copies a text and says so. */
+/** A button that copies its `text` and says so. */
 export const copyButton = (text, what) => {
   const button = h('button', { type: 'button', class: 'small', 'aria-label': `copy ${what}`, onclick: async () => {
-    await copy(text);
+    await copy(button.text);
     button.textContent = 'copied';
     setTimeout(() => (button.textContent = 'copy'), 1500);
   } }, 'copy');
+  button.text = text;
   return button;
 };
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 import { Content } from './content.js';
+import { Gallery } from './gallery.js';
 import { RecordView } from './record_view.js';
 import { h } from './dom.js';
 
@@ -21,9 +22,18 @@ const showRecords = (content) => {
   return { view, records };
 };
 
+const showGallery = (content) => {
+  const gallery = new Gallery(content);
+  document.body.append(h('main', {}, gallery.element));
+  gallery.start();
+  return { gallery };
+};
+
+const SHOW = { records: showRecords, gallery: showGallery };
+
 const start = async () => {
   const content = await Content.fromPage();
-  const shown = showRecords(content);
+  const shown = SHOW[content.document.kind](content);
   // what programs that drive the page may use
   window.doorforge = { ...shown, document: content.document };
   await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));

@@ -76,8 +76,8 @@ export class Model {
     const group = new Group();
     if (piece.place) placed(group, matrix4(matrixOf(piece.place)));
     const shown = { visual: new Group(), hulls: new Group() };
-    shown.visual.add(...visual);
-    shown.hulls.add(...hulls);
+    for (const mesh of visual) shown.visual.add(mesh);
+    for (const mesh of hulls) shown.hulls.add(mesh);
     group.add(shown.visual, shown.hulls);
     this.links[link].add(group);
     const entry = { name: piece.name, link, group, ...shown };

@@ -110,7 +110,7 @@ export class RecordView {
         h('h1', {}, record.id), h('p', { class: 'soft' }, this.subtitle(), ' ', copyButton(record.id, 'id'))),
       ...(record.faults ?? []).map((fault) => h('p', { class: 'fault', role: 'alert' }, fault)),
       h('section', {}, h('h2', {}, 'Joints'), ...this.sliders, this.unlockNote()),
-      this.findings(), this.facts());
+      ...[this.findings(), this.facts()].filter(Boolean));
   }
 
   subtitle() {

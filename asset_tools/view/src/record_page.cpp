@@ -37,14 +37,15 @@ struct Shown {
 
 Shown ShowDoor(const fs::path& folder, const RobotModel& robot, internal::PageContent& content) {
   auto [door, faults] = internal::ReadDoorForView(folder);
-  Shown shown{internal::DoorForView(door, content), std::move(faults)};
+  Shown shown{internal::DoorForView(door, internal::AllMeshes(content), content),
+              std::move(faults)};
   shown.record["gripper"] = internal::GripperForView(robot, door.grasp_half_extent_m, content);
   return shown;
 }
 
 Shown ShowPart(const fs::path& folder, const RobotModel& robot, internal::PageContent& content) {
   auto [part, faults] = internal::ReadPartForView(folder);
-  Shown shown{internal::PartForView(part, content), std::move(faults)};
+  Shown shown{internal::PartForView(part, internal::AllMeshes(content)), std::move(faults)};
   if (part.role == PartRole::kHandle)
     shown.record["gripper"] = internal::GripperForView(robot, part.grasp_half_extent_m, content);
   return shown;
@@ -58,14 +59,15 @@ std::string TitleOf(const Json& records) {
 
 }  // namespace
 
-RecordPage MakeRecordPage(std::span<const fs::path> folders, const RecordPageConfig& config) {
+ViewPage MakeRecordPage(std::span<const fs::path> folders, const RecordPageConfig& config) {
   const RobotModel robot = LoadMobileFranka();
   const std::vector<ValidationReport> reports = Validated(folders, config.threads);
   internal::PageContent content;
   content.document["kind"] = "records";
   content.document["version"] = CodeVersion();
   Json records = Json::array();
-  RecordPage page;
+  ViewPage page;
+  page.shown = folders.size();
   for (std::size_t i = 0; i < folders.size(); ++i) {
     const bool is_door = fs::exists(folders[i] / "door.json");
     Shown shown =

@@ -90,25 +90,18 @@ Json VisualForView(const VisualMesh& visual, PageContent& content) {
   return surfaces;
 }
 
-Json GeometryForView(const DoorGeometry& geometry, PageContent& content) {
-  Json hulls = Json::array();
-  for (const TriangleMesh& hull : geometry.hulls) hulls.push_back(content.AddMesh(hull));
-  Json shown = {{"name", geometry.name},
-                {"color", ColorJson(geometry.color_rgba)},
-                {"mesh", content.AddMesh(geometry.mesh)},
-                {"hulls", std::move(hulls)}};
-  if (!geometry.visual.empty()) shown["visual"] = VisualForView(geometry.visual, content);
-  return shown;
-}
-
-Json LinkForView(const DoorLink& link, PageContent& content) {
-  Json geometry = Json::array();
-  for (const DoorGeometry& piece : link.geometry)
-    geometry.push_back(GeometryForView(piece, content));
+Json LinkForView(const DoorLink& link, std::size_t number, const MeshesForView& meshes) {
+  Json pieces = Json::array();
+  for (std::size_t i = 0; i < link.geometry.size(); ++i) {
+    const DoorGeometry& geometry = link.geometry[i];
+    Json piece = {{"name", geometry.name}, {"color", ColorJson(geometry.color_rgba)}};
+    piece.update(meshes(geometry, number, i));
+    pieces.push_back(std::move(piece));
+  }
   return {{"name", link.name},
           {"mass_kg", link.mass.mass_kg},
           {"center_of_mass_m", Vector3ToJson(link.mass.center_of_mass_m)},
-          {"geometry", std::move(geometry)}};
+          {"geometry", std::move(pieces)}};
 }
 
 Json JointForView(const DoorJoint& joint) {
@@ -210,9 +203,20 @@ std::vector<std::string> PlacesOf(const std::string& where, std::span<const std:
   return places;
 }
 
-Json DoorForView(const DoorAsset& door, PageContent& content) {
+MeshesForView AllMeshes(PageContent& content) {
+  return [&content](const DoorGeometry& geometry, std::size_t, std::size_t) {
+    Json hulls = Json::array();
+    for (const TriangleMesh& hull : geometry.hulls) hulls.push_back(content.AddMesh(hull));
+    Json shown = {{"mesh", content.AddMesh(geometry.mesh)}, {"hulls", std::move(hulls)}};
+    if (!geometry.visual.empty()) shown["visual"] = VisualForView(geometry.visual, content);
+    return shown;
+  };
+}
+
+Json DoorForView(const DoorAsset& door, const MeshesForView& meshes, PageContent& content) {
   Json links = Json::array();
-  for (const DoorLink& link : door.links) links.push_back(LinkForView(link, content));
+  for (std::size_t i = 0; i < door.links.size(); ++i)
+    links.push_back(LinkForView(door.links[i], i, meshes));
   return {{"kind", "door"},
           {"id", door.id},
           {"category", NameOf(door.category)},
@@ -233,7 +237,7 @@ Json DoorForView(const DoorAsset& door, PageContent& content) {
             {"half_extent_m", Vector3ToJson(door.grasp_half_extent_m)}}}};
 }
 
-Json PartForView(const Part& part, PageContent& content) {
+Json PartForView(const Part& part, const MeshesForView& meshes) {
   const bool is_body = part.role == PartRole::kBody;
   const Eigen::Vector3d& origin = part.joint.origin_m;
   DoorJoint joint;
@@ -253,7 +257,7 @@ Json PartForView(const Part& part, PageContent& content) {
                 {"mechanism", NameOf(part.mechanism)},
                 {"license", part.license},
                 {"source", part.source},
-                {"links", {LinkForView(fixed, content), LinkForView(moving, content)}},
+                {"links", {LinkForView(fixed, 0, meshes), LinkForView(moving, 1, meshes)}},
                 {"joints", {JointForView(joint)}},
                 {"latch", LatchForView({})},
                 {"bolt", nullptr}};

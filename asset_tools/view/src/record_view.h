@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,11 +33,20 @@ ReadRecord<Part> ReadPartForView(const std::filesystem::path& folder);
 /// empty where it is about the record as a whole.
 std::vector<std::string> PlacesOf(const std::string& where, std::span<const std::string> names);
 
+/// Says of a geometry, given the numbers of its link and its place there, what a page holds of its
+/// meshes: "mesh", and where they are there "hulls", "visual" and "place" (link_from_mesh).
+using MeshesForView = std::function<PageContent::Json(const DoorGeometry& geometry,
+                                                      std::size_t link, std::size_t index)>;
+
+/// Everything: closed mesh, convex pieces, what its author drew.
+MeshesForView AllMeshes(PageContent& content);
+
 /// What a page shows of a door: identity, links with their meshes, joints, latch, bolt, grasp.
-PageContent::Json DoorForView(const DoorAsset& door, PageContent& content);
+PageContent::Json DoorForView(const DoorAsset& door, const MeshesForView& meshes,
+                              PageContent& content);
 
 /// The same of a part: its fixed piece is link 0, the one that turns link 1. A part has no latch.
-PageContent::Json PartForView(const Part& part, PageContent& content);
+PageContent::Json PartForView(const Part& part, const MeshesForView& meshes);
 
 /// Adds "findings" to what DoorForView() or PartForView() gave.
 void AddFindings(std::span<const Finding> findings, PageContent::Json& shown);

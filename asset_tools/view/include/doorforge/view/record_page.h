@@ -4,20 +4,14 @@
 
 #include <filesystem>
 #include <span>
-#include <string>
-#include <vector>
+
+#include "doorforge/view/view_page.h"
 
 namespace doorforge {
 
 /// How doors and parts are shown.
 struct RecordPageConfig {
   int threads = 0;  ///< 0: all processors.
-};
-
-/// A page of doors and parts in 3D, and what it could not show of them.
-struct RecordPage {
-  std::string html;                 ///< It needs no other file and makes no request.
-  std::vector<std::string> faults;  ///< Messages of damaged or missing meshes; the page has them.
 };
 
 /// Shows the doors and parts in the folders, of which there is at least one: all that their records
@@ -27,7 +21,7 @@ struct RecordPage {
 ///
 /// @throws Error as ReadDoor() and ReadPart() where a record itself cannot be read; Error(kMissing)
 ///     where the viewer is not among the data.
-RecordPage MakeRecordPage(std::span<const std::filesystem::path> folders,
-                          const RecordPageConfig& config = {});
+ViewPage MakeRecordPage(std::span<const std::filesystem::path> folders,
+                        const RecordPageConfig& config = {});
 
 }  // namespace doorforge

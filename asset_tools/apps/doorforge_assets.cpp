@@ -16,6 +16,9 @@ int main(int argc, char** argv) {
       {"preview", RunPreviewVerb},
 #endif
       {"repair", RunRepairVerb},   {"validate", RunValidateVerb},
+#ifdef DOORFORGE_WITH_VIEW
+      {"view", RunViewVerb},
+#endif
   };
   return RunVerbs(kVerbs, argc, argv);
 }

@@ -12,5 +12,6 @@ int RunImportVerb(int argc, char** argv);    ///< `doorforge import SRC...`
 int RunPreviewVerb(int argc, char** argv);   ///< `doorforge preview PATH...`
 int RunRepairVerb(int argc, char** argv);    ///< `doorforge repair IN OUT`
 int RunValidateVerb(int argc, char** argv);  ///< `doorforge validate PATH...`
+int RunViewVerb(int argc, char** argv);      ///< `doorforge view PATH...`
 
 }  // namespace doorforge

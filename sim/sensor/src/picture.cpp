@@ -175,6 +175,15 @@ std::string EncodePng(const Picture& picture) {
                  static_cast<std::size_t>(picture.height)});
 }
 
+std::string EncodeJpeg(const Picture& picture, int quality) {
+  Require(quality >= 1 && quality <= 100, ErrorCode::kInvalidArgument,
+          "picture: the quality of a JPEG must lie in 1..100");
+  std::vector<std::uint8_t> bytes;
+  if (!cv::imencode(".jpg", ToMat(picture), bytes, {cv::IMWRITE_JPEG_QUALITY, quality}))
+    throw Error(ErrorCode::kIo, "picture: cannot be encoded as JPEG");
+  return {bytes.begin(), bytes.end()};
+}
+
 std::string EncodeDepthPng(const DepthImage& image) {
   Require(image.width > 0 && image.height > 0, ErrorCode::kInvalidArgument,
           "depth picture: the image is empty");

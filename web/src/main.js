@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+
+import { Content } from './content.js';
+import { Gallery } from './gallery.js';
+import { RecordView } from './record_view.js';
+import { h } from './dom.js';
+
+// Several records: a list to choose from.
+const chooser = (records, view) => {
+  if (records.length === 1) return null;
+  const select = h('select', { id: 'record', onchange: () => view.load(records[Number(select.value)]) }, records.map(({ id }, i) => h('option', { value: i }, id)));
+  return h('div', { class: 'chooser' }, h('label', { for: 'record' }, 'Shown'), select);
+};
+
+const showRecords = (content) => {
+  const { records } = content.document;
+  const view = new RecordView(content);
+  document.body.append(h('main', {}, chooser(records, view), view.element));
+  view.start();
+  view.load(records[0]);
+  return { view, records };
+};
+
+const showGallery = (content) => {
+  const gallery = new Gallery(content);
+  document.body.append(h('main', {}, gallery.element));
+  gallery.start();
+  return { gallery };
+};
+
+const SHOW = { records: showRecords, gallery: showGallery };
+
+const start = async () => {
+  const content = await Content.fromPage();
+  const shown = SHOW[content.document.kind](content);
+  // what programs that drive the page may use
+  window.doorforge = { ...shown, document: content.document };
+  await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+  document.documentElement.dataset.ready = Math.round(performance.now());
+};
+
+start().catch((error) => {
+  document.body.append(h('p', { class: 'fault', role: 'alert' }, `This page cannot be shown: ${error.message}`));
+  document.documentElement.dataset.failed = error.message;
+  throw error;
+});

@@ -149,12 +149,13 @@ void CheckTriangles(const MeshMeasure& mesh, const SourcePlace& place, const std
   };
   count("GEO009", topology.boundary_edges, "boundary edges");
   count("GEO017", topology.non_manifold_edges, "non-manifold edges");
-  count("GEO010", topology.inconsistent_edges, "inconsistent edges");
+  // where sheets were drawn from both sides, which of a pair was kept says nothing
+  if (mesh.repeated == 0) count("GEO010", topology.inconsistent_edges, "inconsistent edges");
   count("GEO011", topology.degenerate_triangles, "degenerate triangles");
   count("GEO012", static_cast<long>(mesh.repeated), "repeated triangles");
   const bool closed =
       topology.boundary_edges + topology.non_manifold_edges + topology.inconsistent_edges == 0;
-  if (closed && topology.volume_m3 < 0) {
+  if (closed && mesh.repeated == 0 && topology.volume_m3 < 0) {
     Measured measured(topology.volume_m3, "m3");
     measured.text = name + measured.text;
     faults.Add("GEO013", place, measured);

@@ -12,7 +12,6 @@ namespace {
 
 constexpr Severity kBad = Severity::kError;
 constexpr Severity kDoubtful = Severity::kWarning;
-constexpr Severity kNote = Severity::kInfo;
 
 constexpr ValidationRule kForeignRules[] = {
     {"FIL001", kBad, "The file can be read", 0, "a regular file that may be opened",
@@ -161,9 +160,8 @@ constexpr ValidationRule kForeignRules[] = {
 
     {"EXT001", kBad, "urdfdom, which ROS uses, takes the file", 0, "a model", "see its words"},
     {"EXT002", kBad, "MuJoCo takes the file", 0, "a model", "see its words"},
-    {"EXT003", kBad, "assimp takes the file", 0, "a scene with triangles", "see its words"},
-    {"EXT004", kNote, "Others could be asked", 0, "programs that are installed",
-     "install what is named for a second opinion"},
+    {"EXT003", kBad, "assimp, or the importer of OBJ, STL and PLY, takes the file", 0,
+     "a scene with triangles", "see its words"},
 };
 
 }  // namespace

@@ -90,7 +90,8 @@ std::size_t DropRepeated(TriangleMesh& mesh) {
 }
 
 bool IsInside(const fs::path& path, const fs::path& root) {
-  const fs::path relative = path.lexically_relative(root);
+  const fs::path plain = root.has_filename() ? root : root.parent_path();  // "/a/b/" is "/a/b"
+  const fs::path relative = path.lexically_relative(plain);
   return !relative.empty() && *relative.begin() != "..";
 }
 
@@ -102,15 +103,16 @@ std::string SchemeOf(const std::string& name) {
   return drive ? "a drive" : "";
 }
 
-// The folder `package` at or above `folder`, or beside one of these, not outside of the root.
+// The folder `package` that the file lies in, or one beside a folder above it inside of the root.
 std::optional<fs::path> PackageAbove(const fs::path& folder, const fs::path& root,
                                      const std::string& package) {
   std::error_code error;
-  for (fs::path at = folder;; at = at.parent_path()) {
+  for (fs::path at = folder; at.has_relative_path(); at = at.parent_path()) {
     if (at.filename() == package) return at;
-    if (fs::is_directory(at / package, error)) return at / package;
-    if (at == root || !at.has_relative_path()) return std::nullopt;
+    if (IsInside(at, root) && !package.empty() && fs::is_directory(at / package, error))
+      return at / package;
   }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -130,7 +132,12 @@ TriangleMesh TrianglesOf(const fs::path& file, const fs::path& root,
   const std::string ending = EndingOf(file);
   const bool ours = ending == ".obj" || ending == ".stl" || ending == ".ply" || ending == ".off" ||
                     ending == ".glb";
-  if (!ours) return MergedPieces(ImportMesh(file, {.files_below = root}));
+  if (!ours) {
+    ImportedMesh mesh = ImportMesh(file, {.files_below = root});
+    // they repeat others, which is what is asked
+    for (ImportedPiece& piece : mesh.other_sides) mesh.pieces.push_back(std::move(piece));
+    return MergedPieces(mesh);
+  }
   const std::string bytes = ReadFile(file, kMostMeshBytes);
   if (bytes.empty()) throw RawMeshFault(0, "the file is empty");
   if (ending == ".obj") return ReadRawObj(bytes, file.string(), files);
@@ -219,7 +226,7 @@ std::shared_ptr<const MeshMeasure> MeshFiles::Measure(const std::string& name,
   return nullptr;
 }
 
-fs::path RootAbove(const fs::path& file) {
+fs::path RootAbove(const fs::path& file, const fs::path& searched) {
   std::error_code error;
   const fs::path folder = fs::absolute(file, error).lexically_normal().parent_path();
   for (fs::path at = folder; at.has_relative_path(); at = at.parent_path()) {
@@ -227,7 +234,8 @@ fs::path RootAbove(const fs::path& file) {
       if (fs::exists(at / mark, error)) return at;
     }
   }
-  return folder;
+  const fs::path wide = fs::absolute(searched, error).lexically_normal();
+  return !searched.empty() && IsInside(folder, wide) ? wide : folder;
 }
 
 }  // namespace doorforge::internal

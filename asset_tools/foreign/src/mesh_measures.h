@@ -67,8 +67,10 @@ class MeshFiles {
   MeshMemory& memory_;
 };
 
-/// The nearest folder above with package.xml, model.config or .git, else the file's own.
-std::filesystem::path RootAbove(const std::filesystem::path& file);
+/// The nearest folder above with package.xml, model.config or .git, else the folder that was
+/// searched, if the file lies in it, else the file's own.
+std::filesystem::path RootAbove(const std::filesystem::path& file,
+                                const std::filesystem::path& searched);
 
 /// The triangles of a file that is read here (OBJ, STL, PLY, OFF, GLB), or by doorforge-read-mesh.
 /// Throws RawMeshFault or Error.

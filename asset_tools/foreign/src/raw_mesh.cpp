@@ -27,6 +27,24 @@ int ObjVertex(WordLines& lines, std::string_view word, std::size_t vertices) {
   return static_cast<int>(found);
 }
 
+// Names may hold blanks, and a line may have several: each ends with .mtl, or all is one.
+std::vector<std::string> LibraryNames(std::string_view rest) {
+  std::vector<std::string> names;
+  constexpr std::string_view kEnding = ".mtl";
+  while (!rest.empty()) {
+    rest.remove_prefix(std::min(rest.find_first_not_of(kGaps), rest.size()));
+    const std::size_t at = rest.find(".mtl ");
+    const std::size_t size = at == std::string_view::npos ? rest.size() : at + kEnding.size();
+    const std::size_t last = rest.substr(0, size).find_last_not_of(kGaps);
+    std::string name(rest.substr(0, last == std::string_view::npos ? 0 : last + 1));
+    for (std::size_t i = name.find("\\ "); i != std::string::npos; i = name.find("\\ ", i))
+      name.erase(i, 1);
+    if (!name.empty()) names.push_back(std::move(name));
+    rest.remove_prefix(size);
+  }
+  return names;
+}
+
 void ReadVertex(WordLines& lines, TriangleMesh& mesh) {
   Eigen::Vector3d position;
   for (int k = 0; k < 3; ++k) position[k] = lines.Number();
@@ -104,8 +122,9 @@ TriangleMesh ReadRawObj(std::string_view bytes, const std::string& file,
     const std::string_view kind = lines.Word();
     if (kind == "v") ReadVertex(lines, mesh);
     if (kind == "mtllib") {
-      if (const std::string name(lines.Word()); !name.empty() && files.size() < 64)
-        files.push_back({name, {file, lines.line(), 0, "mtllib"}, true});
+      for (const std::string& name : LibraryNames(lines.Rest())) {
+        if (files.size() < 64) files.push_back({name, {file, lines.line(), 0, "mtllib"}, true});
+      }
     }
     if (kind != "f") continue;
     corners.clear();
@@ -121,13 +140,17 @@ TriangleMesh ReadRawOff(std::string_view bytes) {
   TriangleMesh mesh;
   WordLines lines(bytes);
   if (!lines.Next()) lines.Fail("the file is empty");
-  std::string_view word = lines.Word();
-  if (!word.ends_with("OFF")) lines.Fail("the first word is not OFF");
-  const bool counts_follow = word != "OFF" && word != "COFF" && word != "NOFF" && word != "CNOFF";
-  if (counts_follow) lines.Fail("\"" + std::string(word.substr(0, 20)) + "\" is not read here");
-  WordLines counts = lines;
-  if (counts.Word().empty() && !lines.Next()) lines.Fail("no counts");
-  const long vertices = lines.Integer();
+  const std::string_view word = lines.Word();
+  const std::size_t mark = word.find("OFF");
+  if (mark == std::string_view::npos) lines.Fail("the first word is not OFF");
+  // the counts may follow on the same line, even without a blank
+  std::string_view first = word.substr(mark + 3);
+  if (first.empty()) first = lines.Word();
+  if (first.empty() && lines.Next()) first = lines.Word();
+  long vertices = 0;
+  const auto [end, error] = std::from_chars(first.data(), first.data() + first.size(), vertices);
+  if (error != std::errc{} || end != first.data() + first.size())
+    lines.Fail("\"" + std::string(first.substr(0, 20)) + "\" is no count of vertices");
   const long faces = lines.Integer();
   const long most = static_cast<long>(bytes.size());
   if (vertices < 0 || faces < 0 || vertices > most || faces > most)

@@ -40,6 +40,7 @@ class WordLines {
   bool Next();
   /// The next word of the line; empty at its end.
   std::string_view Word();
+  std::string_view Rest() const { return rest_; }  ///< Of the line.
   double Number();
   long Integer();
   int line() const { return line_; }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <deque>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <set>
@@ -499,8 +500,7 @@ class MjcfReader {
       inertial.inertia_place = source.At(element, "diaginertia");
     }
     const auto mass = source.RequiredNumber(element, "mass");
-    if (!mass) return std::nullopt;
-    inertial.mass_kg = *mass;
+    inertial.mass_kg = mass.value_or(std::numeric_limits<double>::quiet_NaN());
     return inertial;
   }
 

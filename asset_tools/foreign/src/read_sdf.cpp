@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -208,8 +209,9 @@ class SdfReader {
       const Eigen::Matrix3d rotation = link_from_center.linear();
       inertial.inertia_kg_m2 = rotation * matrix * rotation.transpose();
     }
-    if (mass != nullptr && !value) return std::nullopt;
-    inertial.mass_kg = value.value_or(1);  // what the format says
+    // 1 is what the format says; what cannot be read is told already
+    inertial.mass_kg =
+        value.value_or(mass == nullptr ? 1 : std::numeric_limits<double>::quiet_NaN());
     return inertial;
   }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
+#include <limits>
 #include <set>
 
 #include "readers.h"
@@ -164,9 +165,9 @@ class UrdfReader {
         inertial.inertia_kg_m2 =
             link_from_center.linear() * *matrix * link_from_center.linear().transpose();
     }
-    if (!value) return std::nullopt;
-    inertial.mass_kg = *value;
-    inertial.mass_place = source_.At(*mass, "value");
+    // what cannot be read is told already, and is no number that a rule judges
+    inertial.mass_kg = value.value_or(std::numeric_limits<double>::quiet_NaN());
+    inertial.mass_place = mass == nullptr ? inertial.place : source_.At(*mass, "value");
     return inertial;
   }
 
@@ -290,10 +291,12 @@ class UrdfReader {
     if (limit->Attribute("upper") == nullptr) joint.limit->upper = 0;
     const bool moves =
         joint.type == ForeignJointType::kRevolute || joint.type == ForeignJointType::kPrismatic;
+    std::string missing;
     for (const char* wanted : {"effort", "velocity"}) {
-      if (moves && limit->Attribute(wanted) == nullptr)
-        source_.faults().Add("JNT006", source_.At(*limit), std::string("no ") + wanted);
+      if (limit->Attribute(wanted) == nullptr)
+        missing += (missing.empty() ? "no " : ", no ") + std::string(wanted);
     }
+    if (moves && !missing.empty()) source_.faults().Add("JNT006", source_.At(*limit), missing);
   }
 
   void ReadDynamics(const XmlElement& element, ForeignJoint& joint) {

@@ -73,12 +73,15 @@ std::string LowerEndingOf(const fs::path& path) {
 /// One file's check, from its bytes to its report.
 class FileCheck {
  public:
-  FileCheck(const fs::path& file, const ForeignChecks& checks, MeshMemory& memory)
-      : file_(file), name_(file.string()), checks_(checks), memory_(memory) {}
+  FileCheck(const fs::path& file, const fs::path& searched, const ForeignChecks& checks,
+            MeshMemory& memory)
+      : file_(file), name_(file.string()), checks_(checks), memory_(memory) {
+    root_ = checks_.root.empty() ? RootAbove(file_, searched)
+                                 : fs::absolute(checks_.root).lexically_normal();
+  }
 
   ValidationReport Run() {
     const std::string ending = LowerEndingOf(file_);
-    root_ = checks_.root.empty() ? RootAbove(file_) : fs::absolute(checks_.root).lexically_normal();
     if (const std::string problem = FileProblem(); !problem.empty()) {
       faults_.Add("FIL001", Whole(), problem);
     } else if (ending == ".glb" || ending == ".gltf") {
@@ -150,6 +153,10 @@ class FileCheck {
     const auto document = ForeignXml(*text, name_, faults_);
     if (!document) return Ask();
     const XmlElement& root = *document->root;
+    if (root.name == "mujocoinclude") {
+      kind_ = "mjcf";
+      return notes_.push_back("a fragment, which is judged with the files that include it");
+    }
     const std::array<std::pair<const char*, const char*>, 3> kinds = {
         {{"robot", "urdf"}, {"mujoco", "mjcf"}, {"sdf", "sdf"}}};
     const auto known = std::find_if(kinds.begin(), kinds.end(),
@@ -232,9 +239,13 @@ class FileCheck {
     }
   }
 
+  // What doorforge's own readers import they are asked for in their process, too.
   void AskAssimp() {
-    if (!Asks("assimp")) return notes_.push_back("assimp was not asked");
-    SecondOpinion opinion{Opinion::kTakes, "assimp", {}};
+    const std::string ending = LowerEndingOf(file_);
+    const bool own = ending == ".obj" || ending == ".stl" || ending == ".ply";
+    const std::string name = own ? "`doorforge import`" : "assimp";
+    if (!Asks("assimp")) return notes_.push_back(name + " was not asked");
+    SecondOpinion opinion{Opinion::kTakes, name, {}};
     try {
       ImportMesh(file_, {.files_below = root_});
     } catch (const Error& error) {
@@ -311,9 +322,10 @@ ForeignValidator::ForeignValidator(ForeignChecks checks)
     : checks_(std::move(checks)), memory_(std::make_unique<Memory>()) {}
 ForeignValidator::~ForeignValidator() = default;
 
-ValidationReport ForeignValidator::Validate(const std::filesystem::path& file) const {
+ValidationReport ForeignValidator::Validate(const std::filesystem::path& file,
+                                            const std::filesystem::path& searched) const {
   const WorkBudget budget(file.string());
-  internal::FileCheck check(file, checks_, memory_->meshes);
+  internal::FileCheck check(file, searched, checks_, memory_->meshes);
   try {
     return check.Run();
   } catch (const std::exception&) {
@@ -329,8 +341,12 @@ bool BeginsWithRoot(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
   begin.resize(static_cast<std::size_t>(stream.gcount()));
-  return begin.find("<mujoco") != std::string::npos || begin.find("<robot") != std::string::npos ||
-         begin.find("<sdf") != std::string::npos;
+  const auto has = [&](std::string_view tag) {
+    const std::size_t at = begin.find(tag);
+    return at != std::string::npos && at + tag.size() < begin.size() &&
+           std::string_view(" \t\r\n>/").find(begin[at + tag.size()]) != std::string_view::npos;
+  };
+  return has("<mujoco") || has("<robot") || has("<sdf");
 }
 
 enum class FileKind { kOther, kObject, kMesh };

@@ -34,8 +34,8 @@ std::string CountsOf(std::size_t errors, std::size_t warnings) {
 /// What lies at the paths.
 struct Found {
   RecordsFound records;
-  std::vector<fs::path> files;
-  std::vector<std::string> passed_over;  // messages
+  std::vector<std::pair<fs::path, fs::path>> files;  // with the folder that was searched
+  std::vector<std::string> passed_over;              // messages
 };
 
 bool IsBelow(const fs::path& path, const fs::path& folder) {
@@ -50,7 +50,8 @@ bool IsExcluded(const fs::path& path, const ValidationSettings& settings) {
 
 void AddFiles(const fs::path& path, const ValidationSettings& settings, Found& found) {
   for (const fs::path& file : FindForeignFiles(path)) {
-    if (!IsExcluded(file, settings)) found.files.push_back(file);
+    if (!IsExcluded(file, settings))
+      found.files.emplace_back(file, fs::is_directory(path) ? path : fs::path());
   }
 }
 
@@ -104,16 +105,17 @@ Found FindAll(const ValidationRequest& request) {
   return found;
 }
 
-std::vector<std::optional<ValidationReport>> CheckFiles(const ValidationRequest& request,
-                                                        const std::vector<fs::path>& files) {
+std::vector<std::optional<ValidationReport>> CheckFiles(
+    const ValidationRequest& request, const std::vector<std::pair<fs::path, fs::path>>& files) {
   std::vector<std::optional<ValidationReport>> reports(files.size());
   if (files.empty()) return reports;
   const ForeignValidator validator(ChecksOf(request.settings));
   Progress progress("validating", files.size());
   ParallelFor(files.size(), request.checks.threads, [&](std::size_t i) {
     if (StopRequested() != 0) return;
-    const WorkBudget budget(files[i].string(), request.checks.max_seconds);
-    reports[i] = validator.Validate(files[i]);
+    const auto& [file, searched] = files[i];
+    const WorkBudget budget(file.string(), request.checks.max_seconds);
+    reports[i] = validator.Validate(file, searched);
     progress.Advance();
   });
   return reports;
@@ -126,7 +128,8 @@ class Run {
       : request_(request), found_(FindAll(request)) {
     Baseline known;
     if (!request.settings.baseline.empty()) known = Baseline(request.settings.baseline);
-    checked_ = ValidateFolders(validator, found_.records.folders, request.checks);
+    if (!found_.records.folders.empty() || found_.files.empty())
+      checked_ = ValidateFolders(validator, found_.records.folders, request.checks);
     auto files = CheckFiles(request, found_.files);
     for (CheckedFolder& folder : checked_) {
       if (folder.report) Take(*folder.report, known);

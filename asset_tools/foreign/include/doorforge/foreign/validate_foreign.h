@@ -15,7 +15,7 @@ namespace doorforge {
 /// How files from outside are checked.
 struct ForeignChecks {
   /// Nothing outside is opened; empty: the nearest folder above a file with package.xml,
-  /// model.config or .git, else the file's own.
+  /// model.config or .git, else the folder in which the file was found, else its own.
   std::filesystem::path root = {};
   /// What package://NAME/ and model://NAME/ stand for, beside folders of that name above the file.
   std::map<std::string, std::filesystem::path> packages = {};
@@ -41,7 +41,9 @@ class ForeignValidator {
 
   /// The report's `folder` is the file's path; its `kind` is "urdf", "mjcf", "sdf", "usda", "gltf",
   /// "mesh" or "unknown".
-  ValidationReport Validate(const std::filesystem::path& file) const;
+  /// `searched` is the folder in which the file was found; it may be empty.
+  ValidationReport Validate(const std::filesystem::path& file,
+                            const std::filesystem::path& searched = {}) const;
 
  private:
   struct Memory;

@@ -5,16 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <new>
 
-#include <sys/prctl.h>
-#include <sys/resource.h>
-#include <unistd.h>
-
+#include "doorforge/core/confined_child.h"
 #include "doorforge/core/error.h"
 
 #include "confine.h"
@@ -24,41 +19,12 @@
 namespace doorforge {
 namespace {
 
-constexpr rlim_t kOpenFiles = 64;  // a mesh, its materials and buffers, one after the other
-
 bool memory_lacked = false;
 
 // The lack is noted, since a library may take the exception for a fault of the file and go on.
 void NoteLackOfMemory() {
   memory_lacked = true;
   throw std::bad_alloc();
-}
-
-// What the user allows already is never raised, which would be refused.
-void Limit(int resource, rlim_t soft, rlim_t hard) {
-  rlimit limit{};
-  ::getrlimit(static_cast<__rlimit_resource>(resource), &limit);
-  limit.rlim_max = std::min(limit.rlim_max, hard);
-  limit.rlim_cur = std::min(limit.rlim_max, soft);
-  ::setrlimit(static_cast<__rlimit_resource>(resource), &limit);
-}
-
-// Ends with the program that waits for the result: without it nobody would, and a file that is a
-// pipe may never end. Where it is gone already, so is the parent.
-void EndWith(pid_t parent) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(3);
-}
-
-// What a file that takes over this process could use is given up before the file is opened.
-// Descriptors and environment were left behind by ImportMesh().
-void GiveUpRights() {
-  ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-#if !defined(__SANITIZE_ADDRESS__)  // its search for leaks looks at the process from outside
-  ::prctl(PR_SET_DUMPABLE, 0);
-#endif
-  Limit(RLIMIT_NOFILE, kOpenFiles, kOpenFiles);
-  Limit(RLIMIT_NPROC, 0, 0);  // reading starts neither threads nor programs
 }
 
 // Files below the folder of the mesh, or what the caller names in its place, are all that a mesh's
@@ -70,16 +36,6 @@ void Confine([[maybe_unused]] const std::filesystem::path& path,
   const std::array readable{path, folder, limits.files_below};
   internal::ConfineToReading(readable);
 #endif
-}
-
-void LimitProcess([[maybe_unused]] std::uint64_t memory_bytes, std::uint64_t seconds) {
-#if !defined(__SANITIZE_ADDRESS__)  // its shadow memory alone takes terabytes of address space
-  Limit(RLIMIT_AS, memory_bytes, memory_bytes);
-#endif
-  std::set_new_handler(NoteLackOfMemory);
-  Limit(RLIMIT_CPU, seconds, seconds + 1);
-  Limit(RLIMIT_CORE, 0, 0);
-  Limit(RLIMIT_FSIZE, 0, 0);
 }
 
 ImportedMesh Read(const std::filesystem::path& path, const MeshImportLimits& limits) {
@@ -115,16 +71,6 @@ std::string MessageFor(const std::filesystem::path& path, const MeshImportLimits
   }
 }
 
-bool Send(std::string_view message) {
-  while (!message.empty()) {
-    const ssize_t written = ::write(3, message.data(), message.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return false;
-    message.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
-}
-
 }  // namespace
 
 int ReadMeshForParent(std::span<char* const> arguments) {
@@ -139,11 +85,10 @@ int ReadMeshForParent(std::span<char* const> arguments) {
   limits.memory_bytes = number(4);
   limits.max_picture_bytes = number(6);
   limits.files_below = arguments[7];
-  EndWith(static_cast<pid_t>(std::strtol(arguments[8], nullptr, 10)));
-  GiveUpRights();
-  LimitProcess(limits.memory_bytes, number(5));
+  ConfineProcess({limits.memory_bytes, number(5), std::atoi(arguments[8])});
+  std::set_new_handler(NoteLackOfMemory);
   Confine(arguments[1], limits);
-  if (!Send(MessageFor(arguments[1], limits))) return 3;
+  if (!SendAnswer(MessageFor(arguments[1], limits))) return 3;
   return memory_lacked ? kExitMemoryLacked : 0;
 }
 

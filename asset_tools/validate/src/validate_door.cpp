@@ -220,9 +220,9 @@ bool Counts(const Finding& finding, ValidationProfile profile) {
   return family != "COL" && family != "MEC" && family != "HND";
 }
 
-ValidationReport Report(const fs::path& folder, const Findings& findings,
+ValidationReport Report(const fs::path& folder, const char* kind, const Findings& findings,
                         ValidationProfile profile) {
-  ValidationReport report{folder, {}};
+  ValidationReport report{.folder = folder, .findings = {}, .kind = kind};
   for (const ValidationRule& rule : ValidationRules()) {
     for (const Finding& finding : findings) {
       if (finding.code != rule.code || !Counts(finding, profile)) continue;
@@ -373,14 +373,14 @@ ValidationReport DoorValidator::Door(const fs::path& folder) const {
   RequireRecord(folder / "door.json");
   const Findings findings = Contained(
       folder, "door.json", [&] { return DoorFindings(folder, opening_check_, *memory_); });
-  return Report(folder, findings, profile_);
+  return Report(folder, "door", findings, profile_);
 }
 
 ValidationReport DoorValidator::Part(const fs::path& folder) const {
   RequireRecord(folder / "part.json");
   const Findings findings =
       Contained(folder, "part.json", [&] { return PartFindings(folder, *memory_); });
-  return Report(folder, findings, profile_);
+  return Report(folder, "part", findings, profile_);
 }
 
 ValidationReport DoorValidator::Validate(const fs::path& folder) const {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -42,6 +43,17 @@ std::span<const ValidationRule> ValidationRules();
 /// A rule's `allowed` with its limit in place.
 std::string AllowedText(const ValidationRule& rule);
 
+/// Where a finding about a file from outside lies, and its measure as numbers.
+struct FindingPlace {
+  std::string file;
+  int line = 0;         ///< From 1; 0 where the format has no lines.
+  int column = 0;       ///< From 1, in bytes; 0 likewise.
+  std::string element;  ///< XPath, prim path or JSON pointer.
+  std::optional<double> value;
+  std::optional<double> limit;
+  std::string unit;
+};
+
 /// One place where a rule is broken.
 struct Finding {
   std::string code;
@@ -51,6 +63,7 @@ struct Finding {
   std::string allowed;
   std::string fix;
   bool fixable = false;
+  FindingPlace place = {};  ///< Empty where `where` says all.
 };
 
 /// A finding of a rule: severity, allowed and fix are the rule's. For the checks that a program
@@ -74,6 +87,8 @@ struct ValidationReport {
   std::vector<Finding> findings;  ///< By family in the order of ValidationRules(), then by place.
   int errors = 0;
   int warnings = 0;
+  std::string kind = {};                ///< "door", "part", or the format of a file from outside.
+  std::vector<std::string> notes = {};  ///< What was assumed and what was not asked.
 };
 
 /// Checks folders written by WriteDoorFolder(), WriteSharedDoors() or WritePart(), or changed by

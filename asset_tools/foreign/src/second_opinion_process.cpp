@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/foreign/second_opinion_process.h"
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <string>
+#include <string_view>
+
+#include <dlfcn.h>
+#include <unistd.h>
+
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/confined_child.h"
+
+#ifdef DOORFORGE_WITH_URDFDOM
+#include <console_bridge/console.h>
+#include <urdf_model/model.h>
+#include <urdf_parser/urdf_parser.h>
+#endif
+
+namespace doorforge::internal {
+namespace {
+
+std::string Answer(const char* verdict, const std::string& program, const std::string& words) {
+  return std::string(verdict) + '\n' + program + '\n' + words;
+}
+
+#ifdef DOORFORGE_WITH_URDFDOM
+/// Keeps what the library would print.
+class KeptLog : public console_bridge::OutputHandler {
+ public:
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) errors_ += text + '\n';
+  }
+  const std::string& errors() const { return errors_; }
+
+ private:
+  std::string errors_;
+};
+
+std::string OpinionOfUrdfdom(const std::string& file) {
+  KeptLog log;
+  console_bridge::useOutputHandler(&log);
+  const auto model = urdf::parseURDF(ReadFile(file, 16ULL << 20U));
+  const std::string errors = log.errors();
+  console_bridge::restorePreviousOutputHandler();
+  const std::string name = std::string("urdfdom ") + DOORFORGE_WITH_URDFDOM;
+  return model ? Answer("ok", name, "") : Answer("no", name, errors.empty() ? "no model" : errors);
+}
+#else
+std::string OpinionOfUrdfdom(const std::string&) {
+  return Answer("absent", "urdfdom", "this build is without it");
+}
+#endif
+
+std::string mujoco_name = "MuJoCo";
+
+// Where MuJoCo would end the process and write a log.
+void AnswerMujocoError(const char* words) {
+  SendAnswer(Answer("no", mujoco_name, words));
+  ::_exit(0);
+}
+void IgnoreMujocoWarning(const char*) {}
+
+template <class T>
+T Symbol(void* library, const char* name) {
+  return reinterpret_cast<T>(::dlsym(library, name));
+}
+
+std::string OpinionOfMujoco(void* library, const std::string& file) {
+  // mujoco.h: mjModel* mj_loadXML(const char*, const mjVFS*, char*, int); both types stay opaque
+  using Load = void* (*)(const char*, const void*, char*, int);
+  using Version = const char* (*)();
+  const auto load = Symbol<Load>(library, "mj_loadXML");
+  const auto version = Symbol<Version>(library, "mj_versionString");
+  if (load == nullptr) return Answer("absent", "MuJoCo", "its library lacks mj_loadXML");
+  if (version != nullptr) mujoco_name += std::string(" ") + version();
+  using Handler = void (*)(const char*);
+  if (auto* error = Symbol<Handler*>(library, "mju_user_error")) *error = AnswerMujocoError;
+  if (auto* warning = Symbol<Handler*>(library, "mju_user_warning")) *warning = IgnoreMujocoWarning;
+  std::array<char, 1024> words{};
+  const void* model = load(file.c_str(), nullptr, words.data(), static_cast<int>(words.size()));
+  return model != nullptr ? Answer("ok", mujoco_name, "") : Answer("no", mujoco_name, words.data());
+}
+
+void* OpenMujoco(const char* named) {
+  if (named != nullptr) return ::dlopen(named, RTLD_NOW | RTLD_LOCAL);
+  for (const char* name : {"libmujoco.so", "libmujoco.so.2.2.2"}) {
+    if (void* library = ::dlopen(name, RTLD_NOW | RTLD_LOCAL)) return library;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+int GiveOpinion(std::span<char* const> arguments) {
+  if (arguments.size() < 4) {
+    std::fprintf(stderr, "doorforge-second-opinion is started by the other doorforge programs\n");
+    return 2;
+  }
+  const std::string_view program = arguments[1];
+  const bool mujoco = program == "mujoco";
+  // libraries are opened before the process gives up what it can do
+  void* library = mujoco ? OpenMujoco(arguments.size() > 4 ? arguments[4] : nullptr) : nullptr;
+  ConfineProcess({.seconds = 30, .parent = std::atoi(arguments[3]), .threads = mujoco});
+  std::string answer;
+  try {
+    if (!mujoco)
+      answer = OpinionOfUrdfdom(arguments[2]);
+    else if (library == nullptr)
+      answer = Answer("absent", "MuJoCo", "it is not installed");
+    else
+      answer = OpinionOfMujoco(library, arguments[2]);
+  } catch (const std::exception& error) {
+    answer = Answer("no", std::string(program), error.what());
+  }
+  if (!SendAnswer(answer)) return 3;
+  // some libraries crash where they are unloaded
+  ::_exit(0);
+}
+
+}  // namespace doorforge::internal

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Loads exported doors in a physics engine and measures what holds them and what lets them go.
 
-  judge.py CLIENT --probe              prints {"version": ..., "formats": [...]}
+  judge.py CLIENT --probe OUT.json     writes {"version": ..., "formats": {...}}, or {"missing": why}
   judge.py CLIENT JOBS.json OUT.json   JOBS is a list of jobs, OUT gets a result for each, after each
 
 `doorforge conformance` starts it. A client is the module client_CLIENT.py beside this file: VERSION, FORMATS (format ->
@@ -16,6 +16,7 @@ what the loader does beyond loading, for the report) and load(path, format, job)
 import importlib
 import json
 import os
+import signal
 import sys
 import time
 import traceback
@@ -23,6 +24,7 @@ import traceback
 STEP_S = 0.001
 HELD_N = 75.0      # at the handle's distance from the hinge
 PULL_N = 50.0
+SECONDS = 600      # for one door; after that the process is ended
 OPEN_RAD = 0.7853981633974483
 GIVES_RAD = 0.0087  # half a degree beyond where the latch held it: the door has given way
 
@@ -125,20 +127,36 @@ def measure(client, job):
     return result
 
 
+def write(path, record):
+    """The file is there as a whole or not at all."""
+    with open(path + ".part", "w", encoding="utf-8") as file:
+        json.dump(record, file)
+    os.replace(path + ".part", path)
+
+
+def probe(name):
+    try:
+        client = importlib.import_module("client_" + name)
+    except ImportError as missing:
+        return {"missing": f"{missing}".splitlines()[0]}
+    return {"version": client.VERSION, "formats": client.FORMATS}
+
+
 def main():
+    os.dup2(2, 1)  # engines print as they load; what is on standard output belongs to doorforge
     sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-    client = importlib.import_module("client_" + sys.argv[1])
     if sys.argv[2] == "--probe":
-        print(json.dumps({"version": client.VERSION, "formats": client.FORMATS}))
+        write(sys.argv[3], probe(sys.argv[1]))
         return 0
+    client = importlib.import_module("client_" + sys.argv[1])
     with open(sys.argv[2], encoding="utf-8") as file:
         jobs = json.load(file)
     results = []
     for job in jobs:
+        signal.alarm(SECONDS)
         results.append(measure(client, job))
-        with open(sys.argv[3] + ".part", "w", encoding="utf-8") as file:
-            json.dump({"version": client.VERSION, "formats": client.FORMATS, "results": results}, file)
-        os.replace(sys.argv[3] + ".part", sys.argv[3])
+        signal.alarm(0)
+        write(sys.argv[3], {"version": client.VERSION, "formats": client.FORMATS, "results": results})
     return 0
 
 

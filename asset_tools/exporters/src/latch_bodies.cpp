@@ -15,6 +15,7 @@ namespace doorforge::internal {
 namespace {
 
 constexpr double kAround = 0.003;   // [m] of free space around bolt and strike in the mortise
+constexpr double kInFront = 0.08;   // [m] of the strike, on the way of the opening leaf
 constexpr double kGravity = 9.81;   // [m/s2]
 constexpr double kSpareHold = 1.5;  // of the torque that holds the handle's weight
 
@@ -84,6 +85,9 @@ PlacedBox MortiseOf(const Bolt& bolt, const DoorAsset& door) {
       Eigen::Vector3d(mortise.bounds.min() - Eigen::Vector3d(0, bolt.travel_m, 0)));
   mortise.bounds.extend(
       Bounds(bolt.strike_hull, mortise.frame_from_box.inverse() * bolt.base_from_strike));
+  // what stands out in front of the strike would meet a bolt that passes it
+  mortise.bounds.extend(
+      Eigen::Vector3d(mortise.bounds.max() + Eigen::Vector3d(kInFront, 0, 0)));
   const Eigen::Vector3d around = Eigen::Vector3d::Constant(kAround);
   return {mortise.frame_from_box, {mortise.bounds.min() - around, mortise.bounds.max() + around}};
 }

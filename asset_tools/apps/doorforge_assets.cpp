@@ -10,12 +10,16 @@
 int main(int argc, char** argv) {
   using namespace doorforge;  // NOLINT
   constexpr Verb kVerbs[] = {
-      {"catalog", RunCatalogVerb}, {"compose", RunComposeVerb},
-      {"export", RunExportVerb},   {"import", RunImportVerb},
+      {"catalog", RunCatalogVerb},
+      {"compose", RunComposeVerb},
+      {"conformance", RunConformanceVerb},
+      {"export", RunExportVerb},
+      {"import", RunImportVerb},
 #ifdef DOORFORGE_WITH_PREVIEW
       {"preview", RunPreviewVerb},
 #endif
-      {"repair", RunRepairVerb},   {"validate", RunValidateVerb},
+      {"repair", RunRepairVerb},
+      {"validate", RunValidateVerb},
 #ifdef DOORFORGE_WITH_VIEW
       {"view", RunViewVerb},
 #endif

@@ -25,6 +25,7 @@ struct ExportOptions {
   std::vector<std::string> paths;
   std::vector<std::string> formats;
   std::string out;
+  std::string latch = "bolt";
   int threads = 0;
   bool overwrite = false;
   bool json = false;
@@ -40,6 +41,8 @@ ExportOptions ParseExport(int argc, char** argv) {
       ->required()
       ->check(CLI::IsMember(DoorFormatNames()));
   app.add_option("--out", options.out, "each door goes to OUT/<id>")->required();
+  app.add_option("--latch", options.latch, "bolt: bodies that hold; data: the law's numbers alone")
+      ->check(CLI::IsMember({"bolt", "data"}));
   AddThreads(app, options.threads, "0: all processors; no byte depends on it");
   AddOverwrite(app, options.overwrite, "replace what is there already");
   AddJson(app, options.json);
@@ -83,6 +86,7 @@ int RunExportVerb(int argc, char** argv) {
   const ExportOptions options = ParseExport(argc, argv);
   ExportRun run{.out = options.out,
                 .formats = {},
+                .settings = {*ValueNamed<LatchExport>(options.latch)},
                 .existing = options.overwrite ? Existing::kReplace : Existing::kRefuse,
                 .threads = options.threads};
   for (const std::string& name : options.formats) run.formats.push_back(*DoorFormatNamed(name));

@@ -46,6 +46,8 @@ constexpr std::array kVerbs = {
     FrontVerb{"validate", "doorforge-assets", "every fault of parts and doors, with its measure"},
     FrontVerb{"export", "doorforge-assets",
               "doors for other simulators: MJCF, SDF, GLB, USDA, URDF"},
+    FrontVerb{"conformance", "doorforge-assets",
+              "do exports hold and open in other physics engines"},
     FrontVerb{"preview", "doorforge-assets", "pictures of parts and doors"},
     FrontVerb{"view", "doorforge-assets", "doors and parts in 3D, on a page that needs no network"},
     FrontVerb{"simulate", "doorforge-simulate", "the rule-based expert on doors, with film strips"},

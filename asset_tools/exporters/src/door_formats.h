@@ -10,11 +10,16 @@ namespace doorforge::internal {
 
 // What writes each format into a folder. A new one is declared here, has its row below and is named
 // in CMakeLists.txt.
-void WriteUrdf(const DoorAsset& door, const std::filesystem::path& folder);
-void WriteMjcf(const DoorAsset& door, const std::filesystem::path& folder);
-void WriteSdf(const DoorAsset& door, const std::filesystem::path& folder);
-void WriteGlb(const DoorAsset& door, const std::filesystem::path& folder);
-void WriteUsda(const DoorAsset& door, const std::filesystem::path& folder);
+void WriteUrdf(const DoorAsset& door, const ExportSettings& settings,
+               const std::filesystem::path& folder);
+void WriteMjcf(const DoorAsset& door, const ExportSettings& settings,
+               const std::filesystem::path& folder);
+void WriteSdf(const DoorAsset& door, const ExportSettings& settings,
+              const std::filesystem::path& folder);
+void WriteGlb(const DoorAsset& door, const ExportSettings& settings,
+              const std::filesystem::path& folder);
+void WriteUsda(const DoorAsset& door, const ExportSettings& settings,
+               const std::filesystem::path& folder);
 
 /// The formats: name, whether the files name meshes, and what writes them.
 inline constexpr DoorFormat kDoorFormats[] = {{"urdf", true, WriteUrdf},

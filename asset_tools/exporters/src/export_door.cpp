@@ -8,6 +8,7 @@
 #include "doorforge/core/json_file.h"
 
 #include "door_formats.h"
+#include "latch_bodies.h"
 
 namespace doorforge {
 namespace {
@@ -32,20 +33,26 @@ const DoorFormat* DoorFormatNamed(std::string_view name) {
 }
 
 void WriteExportedDoor(const DoorAsset& door, std::span<const DoorFormat> formats,
-                       const fs::path& folder, Existing existing) {
+                       const fs::path& folder, Existing existing, const ExportSettings& settings) {
   StagedFolder staged(folder, kExportFolder, existing);
   if (std::any_of(formats.begin(), formats.end(),
-                  [](const DoorFormat& format) { return format.names_meshes; }))
+                  [](const DoorFormat& format) { return format.names_meshes; })) {
     WriteMeshFiles(door, staged.path());
+    if (settings.latch == LatchExport::kBolt) {
+      if (const auto latch = internal::LatchBodiesOf(door))
+        internal::WriteLatchMeshes(*latch, staged.path());
+    }
+  }
   nlohmann::ordered_json names = nlohmann::ordered_json::array();
   for (const DoorFormat& format : formats) {
-    format.write(door, staged.path());
+    format.write(door, settings, staged.path());
     names.push_back(format.name);
   }
   WriteJsonFile(staged.path() / kExportFolder.record, {{"schema", kExportFolder.schema},
                                                        {"schema_version", 1},
                                                        {"door", door.id},
                                                        {"door_sha256", ContentHash(door)},
+                                                       {"latch", NameOf(settings.latch)},
                                                        {"formats", names}});
   staged.Commit();
 }

@@ -268,7 +268,8 @@ std::string ToGlb(const DoorAsset& door) { return GlbWriter(door).Write(); }
 
 namespace internal {
 
-void WriteGlb(const DoorAsset& door, const std::filesystem::path& folder) {
+void WriteGlb(const DoorAsset& door, const ExportSettings& /*settings*/,
+              const std::filesystem::path& folder) {
   CommitFile(folder / "model.glb", ToGlb(door));
 }
 

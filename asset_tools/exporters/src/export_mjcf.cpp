@@ -8,6 +8,7 @@
 
 #include "door_formats.h"
 #include "export_text.h"
+#include "latch_words.h"
 
 namespace doorforge {
 namespace {
@@ -193,33 +194,55 @@ void AddCoupling(const Bolt& bolt, XmlElement& root) {
   }
 }
 
-void AddLatchNumbers(const DoorAsset& door, XmlElement& root) {
+void AddCustom(const char* kind, const std::string& name, const std::string& data,
+               XmlElement& custom) {
+  XmlElement& element = AddElement(custom, kind);
+  SetAttribute(element, "name", name);
+  SetAttribute(element, "data", data);
+}
+
+// Numbers as MuJoCo reads them, and the words that make the door what it is.
+void AddLatchWords(const DoorAsset& door, XmlElement& root) {
   XmlElement& custom = AddElement(root, "custom");
-  const auto number = [&](const char* name, double value) {
-    XmlElement& element = AddElement(custom, "numeric");
-    SetAttribute(element, "name", name);
-    SetAttribute(element, "data", Decimal(value));
-  };
-  number("latch_unlock_angle_rad", door.latch.unlock_angle_rad);
-  number("latch_handle_done_angle_rad", door.latch.handle_done_angle_rad);
-  number("latch_lock_effort_nm", door.latch.lock_effort_nm);
-  XmlElement& type = AddElement(custom, "text");
-  SetAttribute(type, "name", "latch_type");
-  SetAttribute(type, "data", std::string(NameOf(door.latch.type)));
+  const auto words = internal::LatchWords(door);
+  for (const auto& [name, text] : words) {
+    const bool number = text.find_first_not_of("0123456789.e+-") == std::string::npos;
+    if (number) AddCustom("numeric", "latch_" + name, text, custom);
+  }
+  for (const auto& [name, text] : words) {
+    const bool number = text.find_first_not_of("0123456789.e+-") == std::string::npos;
+    if (!number) AddCustom("text", "latch_" + name, text, custom);
+  }
+  for (const auto& [name, text] : internal::DoorWords(door)) {
+    if (!text.empty())
+      AddCustom("text", "door_" + name, text, custom);  // MuJoCo takes no empty one
+  }
+}
+
+void AddGraspSite(const DoorAsset& door, XmlElement& handle) {
+  XmlElement& site = AddElement(handle, "site");
+  SetAttribute(site, "name", "grasp");
+  SetAttribute(site, "pos", Decimals(door.handle_from_grasp.translation()));
+  SetAttribute(site, "quat", Quaternion(door.handle_from_grasp.linear()));
+  if ((door.grasp_half_extent_m.array() <= 0).any()) return;  // a size must be positive
+  SetAttribute(site, "type", "box");
+  SetAttribute(site, "size", Decimals(door.grasp_half_extent_m));
+  SetAttribute(site, "group", "4");
 }
 
 }  // namespace
 
-std::string ToMjcf(const DoorAsset& door) {
+std::string ToMjcf(const DoorAsset& door, const ExportSettings& settings) {
   XmlElement root{.name = "mujoco"};
   SetAttribute(root, "model", door.id);
   XmlElement& compiler = AddElement(root, "compiler");
   SetAttribute(compiler, "angle", "radian");
   SetAttribute(compiler, "inertiafromgeom", "false");
-  AddLatchNumbers(door, root);
+  AddLatchWords(door, root);
   AddDefaults(root);
   std::optional<Bolt> bolt;
-  if (door.latch.type != LatchType::kNone && internal::Turns(door.handle_joint))
+  if (settings.latch == LatchExport::kBolt && door.latch.type != LatchType::kNone &&
+      internal::Turns(door.handle_joint))
     bolt = BoltOf(door);
   AddAssets(door, bolt, root);
   XmlElement& base =
@@ -232,6 +255,7 @@ std::string ToMjcf(const DoorAsset& door) {
       AddBody(door.links[kHandleLink], door.handle_joint.parent_from_child_at_zero, leaf);
   AddJoint(door.handle_joint, door.latch.handle_spring_nm_per_rad, handle);
   AddGeoms(door.links[kHandleLink], handle);
+  AddGraspSite(door, handle);
   AddContacts(door, bolt, root);
   if (bolt) {
     AddBoltBody(*bolt, leaf);
@@ -243,8 +267,9 @@ std::string ToMjcf(const DoorAsset& door) {
 
 namespace internal {
 
-void WriteMjcf(const DoorAsset& door, const std::filesystem::path& folder) {
-  CommitFile(folder / "model.xml", ToMjcf(door));
+void WriteMjcf(const DoorAsset& door, const ExportSettings& settings,
+               const std::filesystem::path& folder) {
+  CommitFile(folder / "model.xml", ToMjcf(door, settings));
 }
 
 }  // namespace internal

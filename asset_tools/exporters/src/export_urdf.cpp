@@ -4,8 +4,6 @@
 
 #include "doorforge/core/committed_file.h"
 
-#include "door_formats.h"
-
 namespace doorforge {
 namespace {
 
@@ -73,11 +71,4 @@ void WriteDoorFolder(const DoorAsset& door, const std::filesystem::path& folder,
   staged.Commit();
 }
 
-namespace internal {
-
-void WriteUrdf(const DoorAsset& door, const std::filesystem::path& folder) {
-  CommitFile(folder / "model.urdf", ToUrdf(ToUrdfModel(door)));
-}
-
-}  // namespace internal
 }  // namespace doorforge

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cctype>
 #include <numbers>
+#include <optional>
 
 #include <Eigen/Eigenvalues>
 
@@ -10,6 +11,8 @@
 
 #include "door_formats.h"
 #include "export_text.h"
+#include "latch_bodies.h"
+#include "latch_words.h"
 
 namespace doorforge {
 namespace {
@@ -184,6 +187,19 @@ void AddVisual(const VisualMesh& mesh, const std::string& path, UsdaText& usda) 
   }
 }
 
+// `material` is the path of what the shape is made of, or empty.
+void AddCollision(const std::string& name, const TriangleMesh& hull, const std::string& material,
+                  UsdaText& usda) {
+  usda.Open("def Mesh \"" + Identifier(name) + "_collision\"",
+            std::string("\"PhysicsCollisionAPI\", \"PhysicsMeshCollisionAPI\"") +
+                (material.empty() ? "" : ", \"MaterialBindingAPI\""));
+  if (!material.empty()) usda.Line("rel material:binding:physics = <" + material + ">");
+  AddMesh(hull.vertices, hull.triangles, usda);
+  usda.Line("uniform token physics:approximation = \"convexHull\"");
+  usda.Line("uniform token purpose = \"guide\"");
+  usda.Close();
+}
+
 void AddGeometry(const DoorGeometry& geometry, const std::string& link_path, UsdaText& usda) {
   const std::string name = Identifier(geometry.name);
   usda.Open("def Mesh \"" + name + "\"");
@@ -195,13 +211,12 @@ void AddGeometry(const DoorGeometry& geometry, const std::string& link_path, Usd
     AddVisual(geometry.visual, link_path + "/" + name, usda);
   }
   usda.Close();
-  for (std::size_t i = 0; i < geometry.hulls.size(); ++i) {
-    usda.Open("def Mesh \"" + name + "_" + std::to_string(i) + "_collision\"",
-              "\"PhysicsCollisionAPI\", \"PhysicsMeshCollisionAPI\"");
-    AddMesh(geometry.hulls[i].vertices, geometry.hulls[i].triangles, usda);
-    usda.Line("uniform token physics:approximation = \"convexHull\"");
-    usda.Line("uniform token purpose = \"guide\"");
-    usda.Close();
+}
+
+void AddCollisions(const DoorLink& link, UsdaText& usda) {
+  for (const DoorGeometry& geometry : link.geometry) {
+    for (std::size_t i = 0; i < geometry.hulls.size(); ++i)
+      AddCollision(geometry.name + "_" + std::to_string(i), geometry.hulls[i], {}, usda);
   }
 }
 
@@ -215,15 +230,43 @@ void AddMass(const MassProperties& mass, UsdaText& usda) {
   usda.Line("quatf physics:principalAxes = " + Quaternion(Eigen::Quaterniond(axes)));
 }
 
-void AddLink(const DoorLink& link, const RigidTransform& door_from_link, const std::string& path,
-             UsdaText& usda) {
-  usda.Open("def Xform \"" + Identifier(link.name) + "\"",
-            "\"PhysicsRigidBodyAPI\", \"PhysicsMassAPI\"");
-  AddMass(link.mass, usda);
-  usda.Line("double3 xformOp:translate = " + Tuple(door_from_link.translation()));
-  usda.Line("quatd xformOp:orient = " + Quaternion(Eigen::Quaterniond(door_from_link.linear())));
+void AddPose(const RigidTransform& parent_from_prim, UsdaText& usda) {
+  usda.Line("double3 xformOp:translate = " + Tuple(parent_from_prim.translation()));
+  usda.Line("quatd xformOp:orient = " + Quaternion(Eigen::Quaterniond(parent_from_prim.linear())));
   usda.Line("uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:orient\"]");
-  for (const DoorGeometry& geometry : link.geometry) AddGeometry(geometry, path, usda);
+}
+
+// Links that do not touch each other, as they overlap at hinge, rose and bolt.
+void AddFilter(const std::vector<std::string>& links, UsdaText& usda) {
+  List paths;
+  for (const std::string& link : links) paths.Add("<" + link + ">");
+  usda.Line("rel physics:filteredPairs = " + paths.InBrackets());
+}
+
+/// A link and where it stands in the layer.
+struct Placed {
+  std::string path;
+  RigidTransform door_from_link;
+  std::vector<std::string> untouched;  ///< Paths of links that it does not touch.
+};
+
+// Leaves the prim open for what it carries.
+void OpenLink(const MassProperties& mass, const Placed& placed, UsdaText& usda) {
+  const std::string name = placed.path.substr(placed.path.rfind('/') + 1);
+  std::string schemas = "\"PhysicsRigidBodyAPI\", \"PhysicsMassAPI\"";
+  if (!placed.untouched.empty()) schemas += ", \"PhysicsFilteredPairsAPI\"";
+  schemas += ", \"SemanticsLabelsAPI:class\"";
+  usda.Open("def Xform \"" + name + "\"", schemas);
+  AddMass(mass, usda);
+  if (!placed.untouched.empty()) AddFilter(placed.untouched, usda);
+  usda.Line("token[] semantics:labels:class = [\"" + name + "\"]");
+  AddPose(placed.door_from_link, usda);
+}
+
+void AddGrasp(const DoorAsset& door, UsdaText& usda) {
+  usda.Open("def Xform \"grasp\"");
+  AddPose(door.handle_from_grasp, usda);
+  usda.Line("custom double3 doorforge:halfExtentM = " + Tuple(door.grasp_half_extent_m));
   usda.Close();
 }
 
@@ -265,14 +308,85 @@ void AddJoint(const Connection& connection, UsdaText& usda) {
   usda.Close();
 }
 
-void AddLatch(const DoorAsset& door, UsdaText& usda) {
-  usda.Line("custom string doorforge:latch:type = \"" + std::string(NameOf(door.latch.type)) +
-            "\"");
-  usda.Line("custom double doorforge:latch:unlockAngleRad = " +
-            Decimal(door.latch.unlock_angle_rad));
-  usda.Line("custom double doorforge:latch:handleDoneAngleRad = " +
-            Decimal(door.latch.handle_done_angle_rad));
-  usda.Line("custom double doorforge:latch:lockEffortNm = " + Decimal(door.latch.lock_effort_nm));
+// unlock_angle_rad is unlockAngleRad here.
+std::string CamelCase(const std::string& words) {
+  std::string name;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == '_' && i + 1 < words.size())
+      name += static_cast<char>(std::toupper(static_cast<unsigned char>(words[++i])));
+    else
+      name += words[i];
+  }
+  return name;
+}
+
+void AddWord(const std::string& space, const std::string& name, const std::string& text,
+             UsdaText& usda) {
+  const std::string attribute = "doorforge:" + space + CamelCase(name) + " = ";
+  const bool number =
+      !text.empty() && text.find_first_not_of("0123456789.e+-") == std::string::npos;
+  if (number)
+    usda.Line("custom double " + attribute + text);
+  else if (text == "true" || text == "false")
+    usda.Line("custom bool " + attribute + text);
+  else
+    usda.Line("custom string " + attribute + "\"" + text + "\"");
+}
+
+void AddWords(const DoorAsset& door, UsdaText& usda) {
+  for (const auto& [name, text] : internal::LatchWords(door)) AddWord("latch:", name, text, usda);
+  for (const auto& [name, text] : internal::DoorWords(door)) {
+    if (name != "id") AddWord("", name, text, usda);  // which is the prim's name
+  }
+}
+
+void AddBoltJoint(const Bolt& bolt, const std::array<std::string, 3>& paths,
+                  const std::string& leader, UsdaText& usda) {
+  usda.Open("def PhysicsPrismaticJoint \"bolt_joint\"",
+            "\"NewtonMimicAPI\", \"PhysxMimicJointAPI:rotX\"");
+  usda.Line("rel physics:body0 = <" + paths[0] + ">");
+  usda.Line("rel physics:body1 = <" + paths[1] + ">");
+  const Eigen::Quaterniond turn =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY());
+  usda.Line("point3f physics:localPos0 = " + Tuple(bolt.leaf_from_bolt.translation()));
+  usda.Line("quatf physics:localRot0 = " +
+            Quaternion(Eigen::Quaterniond(bolt.leaf_from_bolt.linear()) * turn));
+  usda.Line("point3f physics:localPos1 = (0, 0, 0)");
+  usda.Line("quatf physics:localRot1 = " + Quaternion(turn));
+  usda.Line("uniform token physics:axis = \"X\"");
+  usda.Line("float physics:lowerLimit = " + Decimal(-bolt.travel_m));
+  usda.Line("float physics:upperLimit = 0");
+  // position = coefficient * leader, in metres and radians
+  usda.Line("rel newton:mimicJoint = <" + leader + ">");
+  usda.Line("float newton:mimicCoef0 = 0");
+  usda.Line("float newton:mimicCoef1 = " + Decimal(-bolt.travel_m_per_rad));
+  // position + gearing * leader = 0
+  usda.Line("rel physxMimicJoint:rotX:referenceJoint = <" + leader + ">");
+  usda.Line("uniform token physxMimicJoint:rotX:referenceJointAxis = \"rotX\"");
+  usda.Line("float physxMimicJoint:rotX:gearing = " + Decimal(bolt.travel_m_per_rad));
+  usda.Line("float physxMimicJoint:rotX:offset = 0");
+  usda.Close();
+}
+
+// Greased steel, as hard as the engine bears: at Newton's usual stiffness a door of 75 N would push
+// its bolt through the strike.
+void AddSteel(const Bolt& bolt, UsdaText& usda) {
+  usda.Open("def Material \"latch_steel\"", "\"PhysicsMaterialAPI\", \"NewtonMaterialAPI\"");
+  usda.Line("float physics:staticFriction = " + Decimal(bolt.friction));
+  usda.Line("float physics:dynamicFriction = " + Decimal(bolt.friction));
+  usda.Line("float newton:contactStiffness = 1000000");
+  usda.Line("float newton:contactDamping = 2000");
+  usda.Close();
+}
+
+void AddBoltLink(const Bolt& bolt, const Placed& placed, const std::string& steel, UsdaText& usda) {
+  OpenLink(internal::BoltMass(bolt), placed, usda);
+  usda.Open("def Mesh \"bolt_visual\"");
+  AddMesh(bolt.bolt_hull.vertices, bolt.bolt_hull.triangles, usda);
+  usda.Line("color3f[] primvars:displayColor = [(0.75, 0.75, 0.78)]");
+  usda.Close();
+  AddCollision("bolt", bolt.bolt_hull, steel, usda);
+  usda.Close();
 }
 
 void AddAnchor(const std::string& base, UsdaText& usda) {
@@ -283,7 +397,9 @@ void AddAnchor(const std::string& base, UsdaText& usda) {
 
 }  // namespace
 
-std::string ToUsda(const DoorAsset& door) {
+std::string ToUsda(const DoorAsset& door, const ExportSettings& settings) {
+  std::optional<internal::LatchBodies> latch;
+  if (settings.latch == LatchExport::kBolt) latch = internal::LatchBodiesOf(door);
   UsdaText usda;
   const std::string name = Identifier(door.id);
   usda.Line("#usda 1.0");
@@ -294,20 +410,50 @@ std::string ToUsda(const DoorAsset& door) {
   usda.Line("    upAxis = \"Z\"");
   usda.Line(")");
   usda.Line("");
-  usda.Open("def Xform \"" + name + "\"", "\"PhysicsArticulationRootAPI\"");
-  AddLatch(door, usda);
+  usda.Open("def Xform \"" + name + "\"",
+            "\"PhysicsArticulationRootAPI\", \"PhysxArticulationAPI\", "
+            "\"SemanticsLabelsAPI:class\"");
+  usda.Line("token[] semantics:labels:class = [\"door\"]");
+  // what holds the door is a contact of two of its links
+  if (latch) usda.Line("bool physxArticulation:enabledSelfCollisions = 1");
+  AddWords(door, usda);
   const std::array<RigidTransform, 3> poses = DoorFromLinks(door, 0, 0);
   std::array<std::string, 3> paths;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
+  for (std::size_t i = 0; i < poses.size(); ++i)
     paths[i] = "/" + name + "/" + Identifier(door.links[i].name);
-    AddLink(door.links[i], poses[i], paths[i], usda);
+  const std::string bolt_path = "/" + name + "/" + internal::kBoltLink;
+  const std::string steel = "/" + name + "/latch_steel";
+  if (latch) AddSteel(latch->bolt, usda);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const DoorLink& link = door.links[i];
+    Placed placed{paths[i], poses[i], {}};
+    for (std::size_t k = 0; latch && k < i; ++k) placed.untouched.push_back(paths[k]);
+    OpenLink(link.mass, placed, usda);
+    for (const DoorGeometry& geometry : link.geometry) AddGeometry(geometry, paths[i], usda);
+    if (latch && i == kBaseLink)
+      for (const internal::FramePiece& piece : latch->frame)
+        AddCollision(piece.name, piece.hull,
+                     piece.file == internal::kStrikeMeshPath ? steel : std::string(), usda);
+    else
+      AddCollisions(link, usda);
+    if (i == kHandleLink) AddGrasp(door, usda);
+    usda.Close();
   }
+  if (latch)
+    AddBoltLink(latch->bolt,
+                {bolt_path,
+                 poses[kLeafLink] * latch->bolt.leaf_from_bolt,
+                 {paths[kLeafLink], paths[kHandleLink]}},
+                steel, usda);
   AddAnchor(paths[kBaseLink], usda);
   AddJoint({door.hinge, paths[kBaseLink], paths[kLeafLink], door.latch.hinge_spring_nm_per_rad},
            usda);
   AddJoint({door.handle_joint, paths[kLeafLink], paths[kHandleLink],
             door.latch.handle_spring_nm_per_rad},
            usda);
+  if (latch)
+    AddBoltJoint(latch->bolt, {paths[kLeafLink], bolt_path, {}},
+                 "/" + name + "/" + Identifier(door.handle_joint.name), usda);
   usda.Close();
   return usda.text();
 }
@@ -327,8 +473,9 @@ void WriteTextures(const DoorAsset& door, const std::filesystem::path& folder) {
 
 }  // namespace
 
-void WriteUsda(const DoorAsset& door, const std::filesystem::path& folder) {
-  CommitFile(folder / "model.usda", ToUsda(door));
+void WriteUsda(const DoorAsset& door, const ExportSettings& settings,
+               const std::filesystem::path& folder) {
+  CommitFile(folder / "model.usda", ToUsda(door, settings));
   WriteTextures(door, folder);
 }
 

@@ -18,6 +18,7 @@ namespace doorforge {
 struct ExportRun {
   std::filesystem::path out;  ///< Each door goes to OUT/<id>.
   std::vector<DoorFormat> formats;
+  ExportSettings settings = {};
   Existing existing = Existing::kRefuse;
   int threads = 0;  ///< 0: all processors; no byte depends on it.
 };

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "doorforge/cli/answer.h"
+#include "doorforge/cli/command_line.h"
+#include "doorforge/conformance/conformance.h"
+#include "doorforge/core/error.h"
+#include "doorforge/schemas/find_doors.h"
+
+#include "verbs.h"
+
+namespace doorforge {
+namespace {
+
+struct ConformanceOptions {
+  std::vector<std::string> paths;
+  ConformanceRun run;
+  std::string out;
+  std::string latch = "bolt";
+  std::string format = "text";
+};
+
+ConformanceOptions ParseConformance(int argc, char** argv) {
+  ConformanceOptions options;
+  options.run.clients = ConformanceClientNames();
+  CLI::App app("Exports doors and has physics engines hold and open them.",
+               "doorforge conformance");
+  app.add_option("DOOR", options.paths, "folders of doors, or folders that hold some")->required();
+  app.add_option("--clients", options.run.clients, "several with commas; all if left out")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(ConformanceClientNames()));
+  app.add_option("--exports", options.run.formats, "formats to judge; all that a client reads")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember({"urdf", "mjcf", "sdf", "usda"}));
+  app.add_option("--python", options.run.python, "interpreter that has the engines (python3)");
+  app.add_option("--latch", options.latch, "as of `doorforge export`")
+      ->check(CLI::IsMember({"bolt", "data"}));
+  app.add_option("--out", options.out, "folder that holds the exports afterwards")->required();
+  app.add_option("--format", options.format, "of the table")
+      ->check(CLI::IsMember({"text", "json", "html", "markdown"}));
+  app.footer(
+      "example:\n"
+      "  doorforge conformance doors/mine --clients mujoco,pybullet --python venv/bin/python --out "
+      "judged");
+  ParseVerb(app, argc, argv);
+  options.run.out = options.out;
+  options.run.settings = {*ValueNamed<LatchExport>(options.latch)};
+  return options;
+}
+
+}  // namespace
+
+int RunConformanceVerb(int argc, char** argv) {
+  const ConformanceOptions options = ParseConformance(argc, argv);
+  const auto found = FindDoors({options.paths.begin(), options.paths.end()});
+  const std::vector<std::filesystem::path> doors(found.begin(), found.end());
+  const ConformanceReport report = RunConformance(doors, options.run);
+  if (options.format == "json")
+    PrintJson(ToJson(report));
+  else
+    std::fputs((options.format == "html"       ? ToHtml(report)
+                : options.format == "markdown" ? ToMarkdown(report)
+                                               : ToText(report))
+                   .c_str(),
+               stdout);
+  if (report.rows.empty()) return ExitCodeOf(ErrorCode::kMissing);
+  return ExitCodeOfBatch(static_cast<std::size_t>(std::count_if(
+      report.rows.begin(), report.rows.end(),
+      [](const ConformanceRow& row) { return !(row.loads && row.held() && row.opened()); })));
+}
+
+}  // namespace doorforge

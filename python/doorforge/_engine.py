@@ -17,6 +17,7 @@ SHARED_LIBRARIES = {
     "libBulletCollision-float64.so.3.24": "libbullet3.24",
     "libLinearMath-float64.so.3.24": "libbullet3.24",
     "libembree3.so.3": "libembree3-3",
+    "libjpeg.so.62": "libjpeg62-turbo",
     "libpng16.so.16": "libpng16-16",
     "libopencv_core.so.406": "libopencv-core406",
     "libopencv_imgproc.so.406": "libopencv-imgproc406",

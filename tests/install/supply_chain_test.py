@@ -27,6 +27,7 @@ WORDS = {
     "GPL-2.0-or-later": r"GPL-2\+|GPL-2",
     "LGPL-2.1-only": r"LGPL-2\.1",
     "libpng-2.0": r"(?i)libpng",
+    "IJG": r"(?i)Independent JPEG Group|IJG",
     "MIT": r"(?i)X11|Expat|MIT|Permission is hereby granted, free of charge",
 }
 

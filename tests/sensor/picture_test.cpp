@@ -3,12 +3,14 @@
 #include "doorforge/sensor/picture.h"
 
 #include <array>
+#include <cstdio>  // jpeglib.h needs it before
 #include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <sstream>
 
 #include <gtest/gtest.h>
+#include <jpeglib.h>
 
 #include "doorforge/core/error.h"
 
@@ -167,6 +169,53 @@ TEST(MaskPng, ComesBackAsItWasWrittenAndAlsoFromSixteenBits) {
   constexpr float kNone = std::numeric_limits<float>::infinity();
   const DepthImage depth{3, 2, {0.3F, kNone, kNone, 0.001F, 60, kNone}, {}, {}};
   EXPECT_EQ(DecodeMaskPng(EncodeDepthPng(depth), "mask").set, mask.set);
+}
+
+// Height and width as the frame's header says (ITU-T T.81, B.2.2), found from marker to marker.
+std::array<int, 2> FrameSizeOf(const std::string& jpeg) {
+  const auto number = [&](std::size_t at) {
+    return 256 * static_cast<unsigned char>(jpeg.at(at)) +
+           static_cast<unsigned char>(jpeg.at(at + 1));
+  };
+  std::size_t at = 2;
+  while (jpeg.at(at + 1) != '\xc0') at += 2 + static_cast<std::size_t>(number(at + 2));
+  return {number(at + 5), number(at + 7)};
+}
+
+double MeanError(const std::string& jpeg, const Picture& picture) {
+  jpeg_error_mgr errors{};
+  jpeg_decompress_struct codec{};
+  codec.err = ::jpeg_std_error(&errors);
+  ::jpeg_create_decompress(&codec);
+  ::jpeg_mem_src(&codec, reinterpret_cast<const unsigned char*>(jpeg.data()), jpeg.size());
+  ::jpeg_read_header(&codec, TRUE);
+  ::jpeg_start_decompress(&codec);
+  std::vector<unsigned char> row(picture.rgb.size() / static_cast<std::size_t>(picture.height));
+  double sum = 0;
+  for (std::size_t y = 0; y < static_cast<std::size_t>(picture.height); ++y) {
+    JSAMPROW rows[1] = {row.data()};
+    ::jpeg_read_scanlines(&codec, rows, 1);
+    for (std::size_t i = 0; i < row.size(); ++i)
+      sum += std::abs(row[i] - picture.rgb[y * row.size() + i]);
+  }
+  ::jpeg_finish_decompress(&codec);
+  ::jpeg_destroy_decompress(&codec);
+  return sum / static_cast<double>(picture.rgb.size());
+}
+
+TEST(Jpeg, HoldsThePictureAsWellAsItsQualitySays) {
+  const Picture picture = Gradient(150, 70);
+  const std::string fine = EncodeJpeg(picture, 95);
+  const std::string coarse = EncodeJpeg(picture, 20);
+  EXPECT_TRUE(fine.starts_with("\xff\xd8\xff"));
+  EXPECT_TRUE(fine.ends_with("\xff\xd9"));
+  EXPECT_EQ(FrameSizeOf(fine), (std::array{70, 150}));
+  EXPECT_LT(MeanError(fine, picture), 2);
+  EXPECT_GT(MeanError(coarse, picture), MeanError(fine, picture));
+  EXPECT_LT(coarse.size(), fine.size());
+  EXPECT_EQ(fine, EncodeJpeg(picture, 95));
+  EXPECT_THROW(EncodeJpeg(picture, 0), Error);
+  EXPECT_THROW(EncodeJpeg({2, 2, {1}}, 80), Error);
 }
 
 TEST(DepthPng, ADamagedOneIsRefusedAndNoLibrarySpeaks) {

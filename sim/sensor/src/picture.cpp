@@ -13,6 +13,7 @@
 #include "doorforge/core/error.h"
 
 #include "caption_lines.h"
+#include "jpeg_pixels.h"
 #include "picture_mat.h"
 #include "png_pixels.h"
 
@@ -178,10 +179,13 @@ std::string EncodePng(const Picture& picture) {
 std::string EncodeJpeg(const Picture& picture, int quality) {
   Require(quality >= 1 && quality <= 100, ErrorCode::kInvalidArgument,
           "picture: the quality of a JPEG must lie in 1..100");
-  std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(".jpg", ToMat(picture), bytes, {cv::IMWRITE_JPEG_QUALITY, quality}))
-    throw Error(ErrorCode::kIo, "picture: cannot be encoded as JPEG");
-  return {bytes.begin(), bytes.end()};
+  RequirePixels(picture);
+  std::string bytes =
+      internal::EncodeJpegPixels({picture.rgb.data(), static_cast<std::size_t>(picture.width),
+                                  static_cast<std::size_t>(picture.height)},
+                                 quality);
+  if (bytes.empty()) throw Error(ErrorCode::kIo, "picture: cannot be encoded as JPEG");
+  return bytes;
 }
 
 std::string EncodeDepthPng(const DepthImage& image) {

@@ -16,6 +16,7 @@ set(DOORFORGE_ALLOWED_authoring core schemas mesh catalogue importers exporters 
 set(DOORFORGE_ALLOWED_openable core schemas mesh validate physics rollout)
 set(DOORFORGE_ALLOWED_preview core schemas sensor)
 set(DOORFORGE_ALLOWED_view core schemas validate physics sensor rollout)
+set(DOORFORGE_ALLOWED_composer core schemas catalogue compose authoring exporters validate view)
 set(DOORFORGE_ALLOWED_physics core schemas)
 set(DOORFORGE_ALLOWED_robot_meshes core schemas mesh physics)
 set(DOORFORGE_ALLOWED_sensor core schemas)

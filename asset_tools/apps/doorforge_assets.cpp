@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
 #endif
       {"repair", RunRepairVerb},   {"validate", RunValidateVerb},
 #ifdef DOORFORGE_WITH_VIEW
-      {"view", RunViewVerb},
+      {"serve", RunServeVerb},     {"view", RunViewVerb},
 #endif
   };
   return RunVerbs(kVerbs, argc, argv);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
 
+import { ComposerView } from './composer.js';
 import { Content } from './content.js';
 import { EpisodeView } from './episode_view.js';
 import { Gallery } from './gallery.js';
@@ -39,7 +40,14 @@ const showEpisodes = (content) => {
   return { view, episodes };
 };
 
-const SHOW = { records: showRecords, gallery: showGallery, episodes: showEpisodes };
+const showComposer = (content) => {
+  const composer = new ComposerView(content);
+  document.body.append(h('main', {}, composer.element));
+  composer.start();
+  return { composer, view: composer.view };
+};
+
+const SHOW = { records: showRecords, gallery: showGallery, episodes: showEpisodes, composer: showComposer };
 
 const start = async () => {
   const content = await Content.fromPage();

@@ -43,6 +43,13 @@ export class RecordView {
         h('button', { type: 'button', onclick: () => this.play() }, 'Play')));
   }
 
+  /** Takes its meshes from another content from now on. */
+  use(content) {
+    this.content = content;
+    this.shapes.dispose();
+    this.shapes = new Shapes(content);
+  }
+
   load(record) {
     this.stop();
     if (this.model) this.stage.scene.remove(this.model.root);

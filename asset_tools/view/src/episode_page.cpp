@@ -15,48 +15,19 @@
 #include "doorforge/schemas/door_set.h"
 #include "doorforge/schemas/episode_arrays.h"
 
+#include "episode_writer.h"
 #include "expert_film.h"
 #include "html_page.h"
-#include "record_view.h"
 
 namespace doorforge {
 namespace {
 
 namespace fs = std::filesystem;
+using internal::EpisodeWriter;
 using internal::Film;
 using internal::FilmFrame;
 using internal::PageContent;
 using Json = PageContent::Json;
-
-/// Collects the episodes of a page; a door of several is there once.
-class EpisodeWriter {
- public:
-  EpisodeWriter(const RobotModel& robot, int points) : points_(points) {
-    content_.document["kind"] = "episodes";
-    content_.document["version"] = CodeVersion();
-    content_.document["robot"] = internal::RobotForView(robot, content_);
-    content_.document["records"] = Json::array();
-    content_.document["episodes"] = Json::array();
-  }
-
-  void Add(const DoorAsset& door, const std::string& door_key, const Film& film) {
-    Json& records = content_.document["records"];
-    const auto [entry, is_new] = door_numbers_.try_emplace(door_key, records.size());
-    if (is_new)
-      records.push_back(internal::DoorForView(door, internal::AllMeshes(content_), content_));
-    Json shown = internal::FilmForView(film, points_, content_);
-    shown["record"] = entry->second;
-    content_.document["episodes"].push_back(std::move(shown));
-  }
-
-  std::size_t size() const { return content_.document["episodes"].size(); }
-  std::string Page(const std::string& title) const { return internal::HtmlPage(title, content_); }
-
- private:
-  int points_;
-  PageContent content_;
-  std::map<std::string, std::size_t> door_numbers_;
-};
 
 struct Stored {
   Film film;
@@ -219,7 +190,8 @@ ViewPage MakeDatasetPage(const DatasetEpisodes& chosen) {
                                          ? chosen.dataset.string() + ": no such episode"
                                          : page.faults.front());
   page.shown = writer.size();
-  page.html = writer.Page("Episodes of " + chosen.dataset.filename().string() + " - doorforge");
+  page.html = internal::HtmlPage(
+      "Episodes of " + chosen.dataset.filename().string() + " - doorforge", writer.content());
   return page;
 }
 
@@ -253,7 +225,7 @@ ViewPage MakeExpertPage(std::span<const fs::path> doors, const ExpertEpisodes& c
     throw Error(ErrorCode::kInvalidArgument,
                 page.faults.empty() ? "view: no door to open" : page.faults.front());
   page.shown = writer.size();
-  page.html = writer.Page("The expert opens doors - doorforge");
+  page.html = internal::HtmlPage("The expert opens doors - doorforge", writer.content());
   return page;
 }
 

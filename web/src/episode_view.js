@@ -24,7 +24,7 @@ export class EpisodeView {
     this.play = h('button', { type: 'button', onclick: () => this.toggle() }, 'Play');
     this.time = h('output', { for: 'time' });
     this.slider = h('input', { type: 'range', id: 'time', step: 'any', min: 0, oninput: () => this.pause() || this.show(Number(this.slider.value)), onkeydown: (event) => this.key(event) });
-    this.panel = h('div', { class: 'panel' });
+    this.panel = h('div', { class: 'panel', tabindex: 0, role: 'region', 'aria-label': 'facts' });
     const scrubber = h('div', { class: 'scrubber' }, this.play, h('label', { for: 'time' }, 'Time'), this.slider, this.time);
     this.tools = h('div', { class: 'tools', role: 'toolbar', 'aria-label': 'what is drawn' });
     this.element = h('div', { class: 'record' }, h('section', { class: 'stage', 'aria-label': 'the episode in 3D' }, h('div', { class: 'canvas' }, this.canvas, this.chip), scrubber, this.tools), this.panel);

@@ -21,7 +21,7 @@ export class RecordView {
     this.picked = h('p', { class: 'picked', role: 'status' });
     this.holder = h('div', { class: 'canvas' }, this.canvas, this.chip, this.picked);
     this.tools = h('div', { class: 'tools', role: 'toolbar', 'aria-label': 'what is drawn' });
-    this.panel = h('div', { class: 'panel' });
+    this.panel = h('div', { class: 'panel', tabindex: 0, role: 'region', 'aria-label': 'facts' });
     this.element = h('div', { class: 'record' }, h('section', { class: 'stage', 'aria-label': 'the door in 3D' }, this.holder, this.tools), this.panel);
   }
 

@@ -206,10 +206,14 @@ class RecordPage(PageTest):
         shutil.copytree(self.folder / "effort", self.folder / "damaged")
         (self.folder / "damaged/meshes/visual/grip.obj").unlink()
         (self.folder / "damaged/meshes/visual/rose.obj").write_text("v 1 2 nonsense\n")
+        leaf = self.folder / "damaged/meshes/visual/leaf.obj"
+        first, _, rest = leaf.read_text().partition("\n")
+        leaf.write_text("v 0.5 0.5 0.5\n" + rest)
         self.open("damaged", code=1)
         faults = self.browser.js("[...document.querySelectorAll('.fault')].map((e) => e.textContent)")
-        self.assertEqual(len(faults), 2)
+        self.assertEqual(len(faults), 3)
         self.assertTrue(any("grip.obj" in fault for fault in faults) and any("rose.obj" in fault for fault in faults))
+        self.assertTrue(any("leaf.obj: is not the mesh" in fault for fault in faults))
         self.assertIn("MSH001", self.browser.js("[...document.querySelectorAll('.finding')].map((e) => e.dataset.code)"))
         self.assertAlmostEqual(self.browser.js("(doorforge.view.turnHandle(0.7), doorforge.view.moveHinge(0.5), doorforge.view.latch.hinge)"), 0.5)
 

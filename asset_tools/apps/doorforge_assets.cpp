@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
       {"repair", RunRepairVerb},
       {"validate", RunValidateVerb},
 #ifdef DOORFORGE_WITH_VIEW
-      {"view", RunViewVerb},
+      {"serve", RunServeVerb},     {"view", RunViewVerb},
 #endif
   };
   return RunVerbs(kVerbs, argc, argv);

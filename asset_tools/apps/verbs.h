@@ -12,6 +12,7 @@ int RunExportVerb(int argc, char** argv);       ///< `doorforge export DOOR...`
 int RunImportVerb(int argc, char** argv);       ///< `doorforge import SRC...`
 int RunPreviewVerb(int argc, char** argv);      ///< `doorforge preview PATH...`
 int RunRepairVerb(int argc, char** argv);       ///< `doorforge repair IN OUT`
+int RunServeVerb(int argc, char** argv);        ///< `doorforge serve`
 int RunValidateVerb(int argc, char** argv);     ///< `doorforge validate PATH...`
 int RunViewVerb(int argc, char** argv);         ///< `doorforge view PATH...`
 

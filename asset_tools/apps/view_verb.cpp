@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -9,9 +10,11 @@
 
 #include "doorforge/cli/command_line.h"
 #include "doorforge/core/committed_file.h"
+#include "doorforge/core/error.h"
 #include "doorforge/core/output_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/validate/validate_door.h"
+#include "doorforge/view/episode_page.h"
 #include "doorforge/view/gallery_page.h"
 #include "doorforge/view/record_page.h"
 
@@ -29,17 +32,38 @@ struct ViewOptions {
   std::string out;
   int threads = 0;
   bool gallery = false;
+  bool episode = false;
+  std::vector<std::string> doors;  // of a data set
+  std::string stage;               // of it
+  std::string key;                 // the same
+  std::uint64_t seed = 1;
+  int episodes = 12;
+  int points = 1024;
   bool open = false;
   bool overwrite = false;
 };
 
 ViewOptions ParseView(int argc, char** argv) {
   ViewOptions options;
-  CLI::App app("Doors and parts in 3D, on one page that needs no network.", "doorforge view");
+  CLI::App app("Doors, parts and episodes in 3D, on one page that needs no network.",
+               "doorforge view");
   app.add_option("PATH,--door", options.paths,
-                 "folders of doors or parts, or folders that hold some")
+                 "folders of doors or parts, or folders that hold some; one data set")
       ->required();
   app.add_option("--out", options.out, "HTML file")->required();
+  auto* episode = app.add_flag("--episode", options.episode, "the expert opening each door");
+  app.add_option("--seed", options.seed, "of the scene, with --episode")->needs(episode);
+  auto* doors = app.add_option("--doors", options.doors, "of a data set: folders with its doors");
+  app.add_option("--stage", options.stage, "of a data set: only episodes of this stage")
+      ->needs(doors)
+      ->check(CLI::IsMember({"open", "handle", "grasp"}));
+  app.add_option("--key", options.key, "of a data set: one episode, such as ep000012")
+      ->needs(doors);
+  app.add_option("--episodes", options.episodes, "of a data set: at most so many")
+      ->needs(doors)
+      ->check(CLI::Range(1, 1000));
+  app.add_option("--points", options.points, "of each cloud of an episode; 0: none")
+      ->check(CLI::Range(0, 65536));
   AddThreads(app, options.threads);
   app.add_flag("--gallery", options.gallery,
                "pictures to browse, with filters; without it for more than 40 doors and parts");
@@ -49,9 +73,35 @@ ViewOptions ParseView(int argc, char** argv) {
       "examples:\n"
       "  doorforge view doors/mine --out mine.html --open\n"
       "  doorforge view parts/interior_lever_tube_01 --out lever.html\n"
-      "  doorforge view doors --gallery --out doors.html");
+      "  doorforge view doors --gallery --out doors.html\n"
+      "  doorforge view data --doors doors --out episodes.html");
   ParseVerb(app, argc, argv);
   return options;
+}
+
+ViewPage PageOf(const ViewOptions& options) {
+  if (!options.doors.empty()) {
+    const std::vector<fs::path> doors(options.doors.begin(), options.doors.end());
+    if (options.paths.size() > 1)
+      throw Error(ErrorCode::kInvalidArgument, "--doors: goes with one data set");
+    return MakeDatasetPage({.dataset = options.paths[0],
+                            .doors = doors,
+                            .stage = options.stage,
+                            .key = options.key,
+                            .most = options.episodes,
+                            .points = options.points,
+                            .threads = options.threads});
+  }
+  std::vector<fs::path> folders;
+  for (const std::string& path : options.paths) {
+    for (fs::path& folder : FindRecords(path)) folders.push_back(std::move(folder));
+  }
+  if (options.episode)
+    return MakeExpertPage(
+        folders, {.seed = options.seed, .points = options.points, .threads = options.threads});
+  if (options.gallery || folders.size() > kMostInOneList)
+    return MakeGalleryPage(folders, {.threads = options.threads});
+  return MakeRecordPage(folders, {.threads = options.threads});
 }
 
 }  // namespace
@@ -59,13 +109,7 @@ ViewOptions ParseView(int argc, char** argv) {
 int RunViewVerb(int argc, char** argv) {
   const ViewOptions options = ParseView(argc, argv);
   RequireNoFile(options.out, options.overwrite);
-  std::vector<fs::path> folders;
-  for (const std::string& path : options.paths) {
-    for (fs::path& folder : FindRecords(path)) folders.push_back(std::move(folder));
-  }
-  const ViewPage page = options.gallery || folders.size() > kMostInOneList
-                            ? MakeGalleryPage(folders, {.threads = options.threads})
-                            : MakeRecordPage(folders, {.threads = options.threads});
+  const ViewPage page = PageOf(options);
   CommitFile(options.out, page.html);
   for (const std::string& fault : page.faults)
     std::fprintf(stderr, "doorforge: %s\n", fault.c_str());

@@ -50,6 +50,7 @@ constexpr std::array kVerbs = {
               "do exports hold and open in other physics engines"},
     FrontVerb{"preview", "doorforge-assets", "pictures of parts and doors"},
     FrontVerb{"view", "doorforge-assets", "doors and parts in 3D, on a page that needs no network"},
+    FrontVerb{"serve", "doorforge-assets", "compose doors in the browser, on this machine alone"},
     FrontVerb{"simulate", "doorforge-simulate", "the rule-based expert on doors, with film strips"},
     FrontVerb{"datagen", "doorforge-datagen", "collect a stage's dataset shards"},
     FrontVerb{"dataset", "doorforge-datagen", "verify and describe datasets"},

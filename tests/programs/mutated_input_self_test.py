@@ -303,7 +303,7 @@ class Targets(unittest.TestCase):
         self.assertEqual(
             verbs, {
                 "validate", "export", "preview", "simulate", "eval", "datagen", "compose", "catalog", "train", "import",
-                "pipeline", "dataset", "act", "repair"
+                "pipeline", "dataset", "act", "repair", "view"
             })
 
 

@@ -7,44 +7,14 @@ import json
 import pathlib
 import shutil
 import unittest
-import xml.etree.ElementTree
 
 import numpy as np
 
+from kinematics import poses_of_urdf, turned
 from pages import PageTest, run
 
 MOST_BYTES, MOST_MS = 1_500_000, 1_000
 UNLOCK = np.radians(29.25)  # of the lever of the test
-
-
-def turned(axis: np.ndarray, angle: float) -> np.ndarray:
-    """The matrix exponential of the axis' cross product, by its series: no formula of the page."""
-    x, y, z = axis / np.linalg.norm(axis) * angle
-    skew, term, total = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]]), np.eye(3), np.eye(3)
-    for k in range(1, 40):
-        term = term @ skew / k
-        total = total + term
-    return total
-
-
-def numbers(text: str | None) -> np.ndarray:
-    return np.array([float(word) for word in (text or "0 0 0").split()])
-
-
-def poses_of_urdf(path: pathlib.Path, angles: dict[str, float]) -> dict[str, np.ndarray]:
-    robot = xml.etree.ElementTree.parse(path).getroot()
-    poses = {"base": np.eye(4)}
-    for joint in robot.findall("joint"):  # parents come first
-        origin = joint.find("origin")
-        step = np.eye(4)
-        if origin is not None:
-            roll, pitch, yaw = numbers(origin.get("rpy"))
-            step[:3, :3] = turned(np.array([0, 0, 1.0]), yaw) @ turned(np.array([0, 1.0, 0]), pitch) @ turned(np.array([1.0, 0, 0]), roll)
-            step[:3, 3] = numbers(origin.get("xyz"))
-        if joint.get("type") != "fixed":
-            step[:3, :3] = step[:3, :3] @ turned(numbers(joint.find("axis").get("xyz")), angles[joint.get("name")])
-        poses[joint.find("child").get("link")] = poses[joint.find("parent").get("link")] @ step
-    return poses
 
 
 class RecordPage(PageTest):
@@ -236,10 +206,14 @@ class RecordPage(PageTest):
         shutil.copytree(self.folder / "effort", self.folder / "damaged")
         (self.folder / "damaged/meshes/visual/grip.obj").unlink()
         (self.folder / "damaged/meshes/visual/rose.obj").write_text("v 1 2 nonsense\n")
+        leaf = self.folder / "damaged/meshes/visual/leaf.obj"
+        first, _, rest = leaf.read_text().partition("\n")
+        leaf.write_text("v 0.5 0.5 0.5\n" + rest)
         self.open("damaged", code=1)
         faults = self.browser.js("[...document.querySelectorAll('.fault')].map((e) => e.textContent)")
-        self.assertEqual(len(faults), 2)
+        self.assertEqual(len(faults), 3)
         self.assertTrue(any("grip.obj" in fault for fault in faults) and any("rose.obj" in fault for fault in faults))
+        self.assertTrue(any("leaf.obj: is not the mesh" in fault for fault in faults))
         self.assertIn("MSH001", self.browser.js("[...document.querySelectorAll('.finding')].map((e) => e.dataset.code)"))
         self.assertAlmostEqual(self.browser.js("(doorforge.view.turnHandle(0.7), doorforge.view.moveHinge(0.5), doorforge.view.latch.hinge)"), 0.5)
 

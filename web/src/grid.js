@@ -58,6 +58,11 @@ export class Grid {
     }
   }
 
+  /** Fills the cards in view again. */
+  refresh() {
+    for (const card of this.cards) if (card.place >= 0) card.fill(card.item);
+  }
+
   newCard() {
     const card = { place: -1, ...this.makeCard() };
     this.cards.push(card);

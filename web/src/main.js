@@ -1,15 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
 
+import { ComposerView } from './composer.js';
 import { Content } from './content.js';
+import { EpisodeView } from './episode_view.js';
 import { Gallery } from './gallery.js';
 import { RecordView } from './record_view.js';
 import { h } from './dom.js';
 
 // Several records: a list to choose from.
-const chooser = (records, view) => {
+const chooser = (records, view, name = ({ id }) => id) => {
   if (records.length === 1) return null;
-  const select = h('select', { id: 'record', onchange: () => view.load(records[Number(select.value)]) }, records.map(({ id }, i) => h('option', { value: i }, id)));
+  const select = h('select', { id: 'record', onchange: () => view.load(records[Number(select.value)]) }, records.map((record, i) => h('option', { value: i }, name(record))));
   return h('div', { class: 'chooser' }, h('label', { for: 'record' }, 'Shown'), select);
 };
 
@@ -29,7 +31,23 @@ const showGallery = (content) => {
   return { gallery };
 };
 
-const SHOW = { records: showRecords, gallery: showGallery };
+const showEpisodes = (content) => {
+  const { episodes } = content.document;
+  const view = new EpisodeView(content);
+  document.body.append(h('main', {}, chooser(episodes, view, ({ title }) => title), view.element));
+  view.start();
+  view.load(episodes[0]);
+  return { view, episodes };
+};
+
+const showComposer = (content) => {
+  const composer = new ComposerView(content);
+  document.body.append(h('main', {}, composer.element));
+  composer.start();
+  return { composer, view: composer.view };
+};
+
+const SHOW = { records: showRecords, gallery: showGallery, episodes: showEpisodes, composer: showComposer };
 
 const start = async () => {
   const content = await Content.fromPage();

@@ -47,6 +47,10 @@ export class Shapes {
     this.made = new Map();
   }
 
+  dispose() {
+    for (const geometry of this.made.values()) geometry.dispose();
+  }
+
   geometry(place) {
     if (!this.made.has(place)) this.made.set(place, geometryOf(this.content.mesh(place)));
     return this.made.get(place);

@@ -21,7 +21,7 @@ export class RecordView {
     this.picked = h('p', { class: 'picked', role: 'status' });
     this.holder = h('div', { class: 'canvas' }, this.canvas, this.chip, this.picked);
     this.tools = h('div', { class: 'tools', role: 'toolbar', 'aria-label': 'what is drawn' });
-    this.panel = h('div', { class: 'panel' });
+    this.panel = h('div', { class: 'panel', tabindex: 0, role: 'region', 'aria-label': 'facts' });
     this.element = h('div', { class: 'record' }, h('section', { class: 'stage', 'aria-label': 'the door in 3D' }, this.holder, this.tools), this.panel);
   }
 
@@ -41,6 +41,13 @@ export class RecordView {
         h('button', { type: 'button', onclick: () => this.frameAll() }, 'All'),
         h('button', { type: 'button', onclick: () => this.frameHandle() }, 'Handle'),
         h('button', { type: 'button', onclick: () => this.play() }, 'Play')));
+  }
+
+  /** Takes its meshes from another content from now on. */
+  use(content) {
+    this.content = content;
+    this.shapes.dispose();
+    this.shapes = new Shapes(content);
   }
 
   load(record) {

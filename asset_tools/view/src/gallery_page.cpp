@@ -13,13 +13,12 @@
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
 #include "doorforge/physics/robot_model.h"
-#include "doorforge/sensor/picture.h"
-#include "doorforge/sensor/scene_picture.h"
 
 #include "html_page.h"
 #include "record_view.h"
 #include "robot_view.h"
 #include "shared_meshes.h"
+#include "thumbnail.h"
 
 namespace doorforge {
 namespace {
@@ -28,6 +27,7 @@ namespace fs = std::filesystem;
 using internal::DoorOfShared;
 using internal::FiledMesh;
 using internal::PageContent;
+using internal::Subject;
 using Json = PageContent::Json;
 
 constexpr std::size_t kAtOnce = 256;  // records in memory
@@ -36,13 +36,6 @@ struct Record {
   std::optional<DoorOfShared> door;
   std::optional<Part> part;
   std::string fault;
-};
-
-// What is drawn in one thumbnail: doors of one body have one for it.
-struct Subject {
-  std::string key;
-  std::vector<VisibleMesh> meshes;
-  bool stands = true;  // on the floor
 };
 
 Record ReadRecord(const fs::path& folder, internal::SharedMeshes& meshes) {
@@ -76,23 +69,6 @@ Subject SubjectOf(const DoorOfShared& read, bool handle) {
   return subject;
 }
 
-Subject SubjectOf(const Part& part) {
-  Subject subject{part.id, {}, part.role == PartRole::kBody};
-  for (const PartPiece& piece : part.pieces)
-    subject.meshes.push_back({piece.mesh, 0, PointLabel::kOther, piece.color_rgba.head<3>()});
-  return subject;
-}
-
-std::string DrawSubject(const Subject& subject, int width) {
-  SceneGeometry scene(subject.meshes);
-  ViewConfig view;
-  view.width = width;
-  view.height = width * 3 / 4;
-  ScenePictureConfig shading;
-  shading.floor = subject.stands;
-  return EncodeJpeg(RenderPicture(scene, FramingCamera(scene, view), shading));
-}
-
 /// Collects what a page says of the records, in their order.
 class GalleryWriter {
  public:
@@ -108,8 +84,9 @@ class GalleryWriter {
   // The thumbnails of the subjects that were met since the last call.
   void DrawNew() {
     std::vector<std::string> drawn(new_.size());
-    ParallelFor(new_.size(), config_.threads,
-                [&](std::size_t i) { drawn[i] = DrawSubject(new_[i], config_.thumbnail_px); });
+    ParallelFor(new_.size(), config_.threads, [&](std::size_t i) {
+      drawn[i] = internal::DrawSubject(new_[i], config_.thumbnail_px);
+    });
     for (const std::string& picture : drawn) thumbnails_.push_back(content_.AddBytes(picture));
     new_.clear();
   }
@@ -158,7 +135,7 @@ class GalleryWriter {
     if (part.role == PartRole::kHandle) record["gripper"] = GripperOf(part.grasp_half_extent_m);
     Eigen::AlignedBox3d bounds;
     for (const PartPiece& piece : part.pieces) bounds.extend(BoundsOf(piece.mesh));
-    const Json pictures = {ThumbnailOf(SubjectOf(part))};
+    const Json pictures = {ThumbnailOf(internal::SubjectOf(part))};
     AddItem(std::string(NameOf(part.role)), bounds, pictures, std::move(record));
   }
 

@@ -14,7 +14,7 @@ constexpr std::string_view kBefore = R"html(<!doctype html>
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:{more}">
 <title>{title}</title>
 <link rel="icon" href="data:,">
 <style>)html";
@@ -29,15 +29,22 @@ std::string DataOf(const char* file) {
   return ReadFile(DataFolder() / "view" / file, std::uint64_t{16} << 20);
 }
 
+// `more` ends the list of where pictures may come from, and may begin other lists.
+std::string PageWith(const std::string& title, const std::string& more,
+                     const PageContent& content) {
+  return page::Fill(kBefore, {{"title", page::Escape(title)}, {"more", more}}) +
+         DataOf("viewer.css") + std::string(kBody) + Base64(content.Packed()) +
+         "</script>\n<script>" + DataOf("viewer.js") + "</script>\n</body>\n</html>\n";
+}
+
 }  // namespace
 
-std::string ViewerScript() { return DataOf("viewer.js"); }
-std::string ViewerStyle() { return DataOf("viewer.css"); }
-
 std::string HtmlPage(const std::string& title, const PageContent& content) {
-  return page::Fill(kBefore, {{"title", page::Escape(title)}}) + ViewerStyle() +
-         std::string(kBody) + Base64(content.Packed()) + "</script>\n<script>" + ViewerScript() +
-         "</script>\n</body>\n</html>\n";
+  return PageWith(title, "", content);
+}
+
+std::string ServedHtmlPage(const std::string& title, const PageContent& content) {
+  return PageWith(title, " 'self'; connect-src 'self'", content);
 }
 
 }  // namespace doorforge::internal

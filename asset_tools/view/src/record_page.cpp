@@ -11,7 +11,7 @@
 
 #include "html_page.h"
 #include "record_view.h"
-#include "robot_view.h"
+#include "show_record.h"
 
 namespace doorforge {
 namespace {
@@ -28,27 +28,6 @@ std::vector<ValidationReport> Validated(std::span<const fs::path> folders, int t
     progress.Advance();
   });
   return reports;
-}
-
-struct Shown {
-  Json record;
-  std::vector<std::string> faults;
-};
-
-Shown ShowDoor(const fs::path& folder, const RobotModel& robot, internal::PageContent& content) {
-  auto [door, faults] = internal::ReadDoorForView(folder);
-  Shown shown{internal::DoorForView(door, internal::AllMeshes(content), content),
-              std::move(faults)};
-  shown.record["gripper"] = internal::GripperForView(robot, door.grasp_half_extent_m, content);
-  return shown;
-}
-
-Shown ShowPart(const fs::path& folder, const RobotModel& robot, internal::PageContent& content) {
-  auto [part, faults] = internal::ReadPartForView(folder);
-  Shown shown{internal::PartForView(part, internal::AllMeshes(content)), std::move(faults)};
-  if (part.role == PartRole::kHandle)
-    shown.record["gripper"] = internal::GripperForView(robot, part.grasp_half_extent_m, content);
-  return shown;
 }
 
 std::string TitleOf(const Json& records) {
@@ -69,10 +48,7 @@ ViewPage MakeRecordPage(std::span<const fs::path> folders, const RecordPageConfi
   ViewPage page;
   page.shown = folders.size();
   for (std::size_t i = 0; i < folders.size(); ++i) {
-    const bool is_door = fs::exists(folders[i] / "door.json");
-    Shown shown =
-        is_door ? ShowDoor(folders[i], robot, content) : ShowPart(folders[i], robot, content);
-    shown.record["faults"] = shown.faults;
+    internal::ShownRecord shown = internal::ShowRecord(folders[i], robot, content);
     internal::AddFindings(reports[i].findings, shown.record);
     page.faults.insert(page.faults.end(), shown.faults.begin(), shown.faults.end());
     records.push_back(std::move(shown.record));

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/hash.h"
 #include "doorforge/core/inside_folder.h"
 #include "doorforge/core/mesh_transform.h"
 #include "doorforge/schemas/bolt.h"
@@ -24,12 +25,21 @@ bool NamesPool(const std::string& relative) {
   return relative.starts_with(std::string(kMeshPoolPath) + "/");
 }
 
+// A file that says something else than what the record was written with is shown, and said.
+TriangleMesh ReadOwn(const fs::path& file, const std::string& sha256,
+                     std::vector<std::string>& faults) {
+  TriangleMesh mesh = ReadObj(file);
+  if (Sha256Hex(ToObj(mesh)) != sha256)
+    faults.push_back(file.string() + ": is not the mesh that the record was written with");
+  return mesh;
+}
+
 MeshReader ReaderOf(const fs::path& folder, const std::string& record,
                     std::vector<std::string>& faults) {
   return [&faults, folder, record](const std::string& relative, const std::string& sha256) {
     try {
       return NamesPool(relative) ? MeshPool(folder, record).ReadMesh(sha256)
-                                 : ReadObj(FileInside(folder, relative, record));
+                                 : ReadOwn(FileInside(folder, relative, record), sha256, faults);
     } catch (const Error& error) {
       faults.emplace_back(error.what());
       return TriangleMesh{};

@@ -5,6 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "doorforge/core/error.h"
+#include "doorforge/core/hash.h"
 #include "doorforge/core/inside_folder.h"
 #include "doorforge/schemas/mesh_pool.h"
 
@@ -35,6 +37,9 @@ std::shared_ptr<const TriangleMesh> SharedMeshes::Take(const fs::path& folder,
   auto read =
       std::make_shared<const TriangleMesh>(pooled ? MeshPool(folder, record).ReadMesh(sha256)
                                                   : ReadObj(FileInside(folder, relative, record)));
+  if (!pooled && Sha256Hex(ToObj(*read)) != sha256)
+    throw Error(ErrorCode::kFormat,
+                record + ": " + relative + ": is not the mesh that the record was written with");
   const std::lock_guard lock(mutex_);
   return known_.try_emplace(sha256, std::move(read)).first->second;
 }

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/composer/serve.h"
+
+#include <chrono>
+#include <thread>
+
+#include <httplib.h>
+
+#include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
+#include "doorforge/core/program.h"
+
+namespace doorforge {
+namespace {
+
+constexpr std::size_t kMostBytes = std::size_t{64} << 10;  // of a request
+constexpr auto kLook = std::chrono::milliseconds(50);      // how often a stop is looked for
+
+void Refuse(httplib::Response& response, int status, const std::string& message) {
+  response.status = status;
+  response.set_content(JsonText({{"error", message}}), "application/json");
+}
+
+int StatusOf(const Error& error) {
+  if (error.code() == ErrorCode::kMissing) return 404;
+  return error.code() == ErrorCode::kIo ? 500 : 400;
+}
+
+/// Only pages that this server gave, on this machine, may ask.
+class Doorkeeper {
+ public:
+  explicit Doorkeeper(int port)
+      : hosts_{"127.0.0.1:" + std::to_string(port), "localhost:" + std::to_string(port)} {}
+
+  bool LetsIn(const httplib::Request& request) const {
+    const std::string host = request.get_header_value("Host");
+    if (host != hosts_[0] && host != hosts_[1]) return false;
+    const std::string site = request.get_header_value("Sec-Fetch-Site");
+    if (!site.empty() && site != "same-origin" && site != "none") return false;
+    return !request.has_header("Origin") || request.get_header_value("Origin") == "http://" + host;
+  }
+
+ private:
+  std::array<std::string, 2> hosts_;
+};
+
+// Answers with what `make` gives, or with why it cannot.
+template <class Make>
+void Answer(httplib::Response& response, const char* type, Make&& make) {
+  try {
+    response.set_content(make(), type);
+  } catch (const Error& error) {
+    Refuse(response, StatusOf(error), error.what());
+  } catch (const std::exception& error) {
+    Refuse(response, 500, error.what());
+  }
+}
+
+void AddAnswers(httplib::Server& server, Composer& composer) {
+  server.Get("/", [&](const httplib::Request&, httplib::Response& response) {
+    Answer(response, "text/html; charset=utf-8", [&] { return composer.Page(); });
+  });
+  server.Get(R"(/thumbnail/([A-Za-z0-9_.\-]+))", [&](const httplib::Request& request,
+                                                     httplib::Response& response) {
+    Answer(response, "image/jpeg", [&] { return composer.Thumbnail(request.matches[1]); });
+  });
+  server.Post("/compose", [&](const httplib::Request& request, httplib::Response& response) {
+    Answer(response, "application/octet-stream", [&] { return composer.Compose(request.body); });
+  });
+  server.Post("/open", [&](const httplib::Request& request, httplib::Response& response) {
+    Answer(response, "application/octet-stream", [&] { return composer.Open(request.body); });
+  });
+  server.Post("/download", [&](const httplib::Request& request, httplib::Response& response) {
+    Answer(response, "application/zip",
+           [&] { return composer.Download(request.body, request.get_param_value("format")); });
+  });
+}
+
+void Guard(httplib::Server& server, int port) {
+  server.set_payload_max_length(kMostBytes);
+  server.set_default_headers({{"X-Content-Type-Options", "nosniff"},
+                              {"Cache-Control", "no-store"},
+                              {"Cross-Origin-Resource-Policy", "same-origin"}});
+  server.set_pre_routing_handler(
+      [keeper = Doorkeeper(port)](const httplib::Request& request, httplib::Response& response) {
+        if (!keeper.LetsIn(request)) {
+          Refuse(response, 403, "only pages of this server on this machine may ask");
+          return httplib::Server::HandlerResponse::Handled;
+        }
+        if (request.method == "POST" &&
+            request.get_header_value("Content-Type") != "application/json") {
+          Refuse(response, 415, "a request is application/json");
+          return httplib::Server::HandlerResponse::Handled;
+        }
+        return httplib::Server::HandlerResponse::Unhandled;
+      });
+}
+
+}  // namespace
+
+void ServeComposer(Composer& composer, int port,
+                   const std::function<void(const std::string&)>& ready) {
+  httplib::Server server;
+  const int bound = port == 0 ? server.bind_to_any_port("127.0.0.1")
+                              : (server.bind_to_port("127.0.0.1", port) ? port : -1);
+  if (bound < 0)
+    throw Error(ErrorCode::kIo, "port " + std::to_string(port) +
+                                    " is taken; give another one with --port, or 0 for any");
+  Guard(server, bound);
+  AddAnswers(server, composer);
+  std::thread listener([&] { server.listen_after_bind(); });
+  while (!server.is_running()) std::this_thread::sleep_for(kLook);
+  ready("http://127.0.0.1:" + std::to_string(bound) + "/");
+  while (StopRequested() == 0) std::this_thread::sleep_for(kLook);
+  server.stop();
+  listener.join();
+}
+
+}  // namespace doorforge

@@ -1,0 +1,232 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/view/episode_page.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
+#include "doorforge/core/parallel_for.h"
+#include "doorforge/core/program.h"
+#include "doorforge/core/progress.h"
+#include "doorforge/schemas/dataset.h"
+#include "doorforge/schemas/door_set.h"
+#include "doorforge/schemas/episode_arrays.h"
+
+#include "episode_writer.h"
+#include "expert_film.h"
+#include "html_page.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+using internal::EpisodeWriter;
+using internal::Film;
+using internal::FilmFrame;
+using internal::PageContent;
+using Json = PageContent::Json;
+
+struct Stored {
+  Film film;
+  std::string door_id;
+  std::string door_sha256;
+};
+
+Scene SceneOf(const Json& meta, const std::string& where) {
+  return SceneFromJson(MemberOf(meta, "scene", where), where + ".scene");
+}
+
+// What was hidden at a decision, where it is recorded.
+std::string HiddenText(const Json& meta) {
+  const auto hidden = meta.find("hidden");
+  if (hidden == meta.end() || !hidden->is_object()) return {};
+  std::string text;
+  for (const auto& [name, shares] : hidden->items()) {
+    if (!shares.is_array()) continue;
+    double most = 0;
+    for (const Json& share : shares)
+      most = std::max(most, share.is_number() ? share.get<double>() : 0);
+    std::string words = name;
+    std::ranges::replace(words, '_', ' ');
+    text += (text.empty() ? "" : ", ") + words + " up to " +
+            std::to_string(static_cast<int>(std::lround(100 * most))) + " %";
+  }
+  return text;
+}
+
+FilmFrame FrameOf(const EpisodeArrays& arrays, std::size_t t, const Scene& scene,
+                  const RobotModel& robot) {
+  const std::span<const double> state = arrays.state.subspan(t * std::tuple_size_v<JointState>);
+  FilmFrame frame;
+  frame.hinge_rad = state[kStateHinge];
+  frame.handle_rad = state[kStateHandle];
+  frame.bolt_m = state[kStateBolt];
+  JointVector position(kRobotJointCount);
+  for (int i = 0; i < kRobotJointCount; ++i) position[i] = state[static_cast<std::size_t>(i)];
+  const RobotPose pose = robot.PoseAt(position, scene.world_from_robot_base);
+  frame.hand_m = pose.world_from_hand.translation();
+  const std::span<const float> action = arrays.action.subspan(9 * t, 3);
+  frame.asked_m = Eigen::Vector3d(action[0], action[1], action[2]) + frame.hand_m;
+  const std::size_t points = arrays.points;
+  const auto cloud = arrays.cloud.subspan(3 * points * t, 3 * points);
+  const auto label = arrays.label.subspan(points * t, points);
+  frame.cloud = {{cloud.begin(), cloud.end()}, {label.begin(), label.end()}};
+  frame.poses = internal::PosesOf({}, pose);
+  return frame;
+}
+
+// The door's poses are filled in when its joints are known.
+Stored ReadStored(const ShardReader& shard, std::size_t episode, const RobotModel& robot) {
+  const Json meta = ReadEpisodeMeta(shard, episode);
+  const std::string where = shard.Describe(episode, "meta.json");
+  const Scene scene = SceneOf(meta, where);
+  const EpisodeArrays arrays = ViewEpisode(shard, episode);
+  if (arrays.state.empty())
+    throw Error(ErrorCode::kFormat,
+                shard.Describe(episode, "state.npy") +
+                    ": the episode has no states, as builds of before wrote it");
+  if (!scene.robot.name.empty())
+    throw Error(ErrorCode::kInvalidArgument, where + ": the robot is " + scene.robot.name +
+                                                 "; pages have the built-in one alone");
+  const std::string& key = shard.index().episodes[episode].key;
+  const std::string stage = shard.index().header.stage;
+  const std::string outcome = ValueOf<std::string>(meta, "outcome", where);
+  Stored stored{{.title = stage + " " + key + ", " + scene.door_id,
+                 .opened = outcome == "opened",
+                 .facts = {{"Episode", key + " of " + stage + "/" + shard.index().header.split},
+                           {"Door", scene.door_id},
+                           {"Outcome", outcome},
+                           {"Detail", ValueOf<std::string>(meta, "detail", where)},
+                           {"Seed, number",
+                            std::to_string(scene.seed) + ", " + std::to_string(scene.episode)}},
+                 .frames = {}},
+                scene.door_id,
+                scene.door_sha256};
+  if (const std::string hidden = HiddenText(meta); !hidden.empty())
+    stored.film.facts.emplace_back("Hidden", hidden);
+  const Json& times = MemberOf(meta, "decision_time_s", where);
+  for (std::size_t t = 0; t < arrays.decisions; ++t) {
+    stored.film.frames.push_back(FrameOf(arrays, t, scene, robot));
+    FilmFrame& frame = stored.film.frames.back();
+    frame.phase = stage;
+    frame.time_s = t < times.size() && times[t].is_number() ? times[t].get<double>() : 0;
+    if (stage == "grasp")
+      frame.asked_m = *frame.asked_m - frame.hand_m;  // the contact point itself
+    frame.poses[kBaseLink] = scene.world_from_door;
+  }
+  shard.RequireWhole();
+  return stored;
+}
+
+void PoseDoor(const DoorAsset& door, Film& film) {
+  for (FilmFrame& frame : film.frames) {
+    const RigidTransform world_from_door = frame.poses[kBaseLink];
+    const auto links = DoorFromLinks(door, frame.hinge_rad, frame.handle_rad);
+    for (std::size_t i = 0; i < links.size(); ++i) frame.poses[i] = world_from_door * links[i];
+  }
+}
+
+std::vector<fs::path> ShardsOf(const DatasetEpisodes& chosen) {
+  std::vector<fs::path> shards;
+  for (const DatasetPart& part : ReadDataset(chosen.dataset).parts) {
+    if (!chosen.stage.empty() && part.stage != chosen.stage) continue;
+    for (std::uint64_t i = 0; i < part.shards; ++i)
+      shards.push_back(chosen.dataset / part.stage / part.split /
+                       (ShardStem(static_cast<int>(i)) + ".index.json"));
+  }
+  return shards;
+}
+
+std::vector<Stored> ReadEpisodes(const DatasetEpisodes& chosen, const RobotModel& robot,
+                                 std::vector<std::string>& faults) {
+  std::vector<Stored> episodes;
+  for (const fs::path& path : ShardsOf(chosen)) {
+    const ShardReader shard(path);
+    for (std::size_t i = 0; i < shard.index().episodes.size(); ++i) {
+      if (episodes.size() >= static_cast<std::size_t>(chosen.most)) return episodes;
+      if (!chosen.key.empty() && shard.index().episodes[i].key != chosen.key) continue;
+      try {
+        episodes.push_back(ReadStored(shard, i, robot));
+      } catch (const Error& error) {
+        if (error.code() != ErrorCode::kInvalidArgument) throw;
+        faults.emplace_back(error.what());
+      }
+    }
+  }
+  return episodes;
+}
+
+}  // namespace
+
+ViewPage MakeDatasetPage(const DatasetEpisodes& chosen) {
+  Require(chosen.most >= 1 && chosen.points >= 0, ErrorCode::kInvalidArgument,
+          "view: at least one episode, and no negative number of points");
+  const RobotModel robot = LoadMobileFranka();
+  ViewPage page;
+  std::vector<Stored> episodes = ReadEpisodes(chosen, robot, page.faults);
+  const DoorSet set =
+      FindDoorSet({.folders = {chosen.doors.begin(), chosen.doors.end()}}, chosen.threads);
+  DoorCache cache(set.doors);
+  EpisodeWriter writer(robot, chosen.points);
+  for (Stored& episode : episodes) {
+    const auto found = std::ranges::find_if(set.doors, [&](const FoundDoor& door) {
+      return door.identity.sha256 == episode.door_sha256;
+    });
+    if (found == set.doors.end()) {
+      page.faults.push_back(
+          episode.film.title +
+          ": its door is not in the folders given with --doors, or has changed since");
+      continue;
+    }
+    const IdentifiedDoor door = cache.Take(static_cast<std::size_t>(found - set.doors.begin()));
+    PoseDoor(*door, episode.film);
+    writer.Add(*door, episode.door_sha256, episode.film);
+  }
+  if (writer.size() == 0)
+    throw Error(ErrorCode::kMissing, page.faults.empty()
+                                         ? chosen.dataset.string() + ": no such episode"
+                                         : page.faults.front());
+  page.shown = writer.size();
+  page.html = internal::HtmlPage(
+      "Episodes of " + chosen.dataset.filename().string() + " - doorforge", writer.content());
+  return page;
+}
+
+ViewPage MakeExpertPage(std::span<const fs::path> doors, const ExpertEpisodes& config) {
+  const RobotModel robot = LoadMobileFranka();
+  struct Made {
+    DoorAsset door;
+    Film film;
+    std::string fault;
+  };
+  std::vector<Made> made(doors.size());
+  Progress progress("opening", doors.size());
+  ParallelFor(doors.size(), config.threads, [&](std::size_t i) {
+    try {
+      made[i].door = ReadDoor(doors[i]);
+      made[i].film = internal::FilmOfExpert(made[i].door, robot, config.seed, config.points > 0);
+    } catch (const Error& error) {
+      made[i].fault = error.what();
+    }
+    progress.Advance();
+  });
+  EpisodeWriter writer(robot, config.points);
+  ViewPage page;
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    if (made[i].fault.empty())
+      writer.Add(made[i].door, doors[i].string(), made[i].film);
+    else
+      page.faults.push_back(made[i].fault);
+  }
+  if (writer.size() == 0)
+    throw Error(ErrorCode::kInvalidArgument,
+                page.faults.empty() ? "view: no door to open" : page.faults.front());
+  page.shown = writer.size();
+  page.html = internal::HtmlPage("The expert opens doors - doorforge", writer.content());
+  return page;
+}
+
+}  // namespace doorforge

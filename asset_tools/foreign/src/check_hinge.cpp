@@ -8,7 +8,7 @@
 
 #include "doorforge/foreign/foreign_rules.h"
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 namespace {
 
 using Box = Eigen::AlignedBox3d;
@@ -217,4 +217,4 @@ void CheckHinge(const HingeQuestion& question, FaultList& faults, std::vector<st
   DoorOfLinks(question, faults, notes).Check();
 }
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

@@ -7,7 +7,7 @@
 
 #include "checks.h"
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 
 struct HingeQuestion {
   const ArticulatedObject& object;
@@ -22,4 +22,4 @@ struct HingeQuestion {
 /// the boxes about the shapes. What was taken for them, or why none was, becomes a note.
 void CheckHinge(const HingeQuestion& question, FaultList& faults, std::vector<std::string>& notes);
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

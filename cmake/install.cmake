@@ -56,7 +56,8 @@ function(doorforge_describe_commands)
 endfunction()
 
 function(doorforge_install_files)
-  install(DIRECTORY data/ DESTINATION ${DOORFORGE_DATADIR} COMPONENT programs)
+  # a link to what the next line installs, for the build tree
+  install(DIRECTORY data/ DESTINATION ${DOORFORGE_DATADIR} COMPONENT programs PATTERN schemas EXCLUDE)
   install(DIRECTORY schemas/json/ DESTINATION ${DOORFORGE_DATADIR}/schemas COMPONENT programs)
   install(DIRECTORY python/ DESTINATION ${DOORFORGE_PYTHONDIR} COMPONENT programs
           FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN "py.typed" PATTERN src EXCLUDE)

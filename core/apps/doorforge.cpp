@@ -43,7 +43,8 @@ constexpr std::array kVerbs = {
     FrontVerb{"repair", "doorforge-assets", "any mesh -> a closed mesh with a measured report"},
     FrontVerb{"compose", "doorforge-assets",
               "a body and a handle -> a door (door.json, URDF, meshes)"},
-    FrontVerb{"validate", "doorforge-assets", "every fault of parts and doors, with its measure"},
+    FrontVerb{"validate", "doorforge-assets",
+              "every fault of doors and of anybody's URDF, MJCF, SDF, USDA, glTF and meshes"},
     FrontVerb{"export", "doorforge-assets",
               "doors for other simulators: MJCF, SDF, GLB, USDA, URDF"},
     FrontVerb{"conformance", "doorforge-assets",
@@ -60,6 +61,7 @@ constexpr std::array kVerbs = {
     FrontVerb{"act", "doorforge-act", "a real depth picture -> the hand's next pose"},
     FrontVerb{"serve-policy", "doorforge-serve-policy", "a policy for robot stacks, by WebSocket"},
     FrontVerb{"sight", "doorforge-sight", "a simulated door as the pictures that act reads"},
+    FrontVerb{"schema", "", "JSON Schemas of records and settings"},
     FrontVerb{"doctor", "doorforge-train", "what is installed, and what to do about it"},
 };
 
@@ -125,6 +127,7 @@ int Run(int argc, char** argv) {
   }
   const FrontVerb& verb = FindVerb(name);
   if (name == "quickstart") return RunQuickstartVerb(argc - 1, argv + 1);
+  if (name == "schema") return RunSchemaVerb(argc - 1, argv + 1);
   if (name == "pipeline") return RunPipelineVerb(argc - 1, argv + 1);
   const std::string program = (ProgramFolder() / verb.program).string();
   ::execv(program.c_str(), argv);

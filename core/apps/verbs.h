@@ -7,5 +7,6 @@ namespace doorforge {
 /// The verbs that the front program runs itself. argv[0] is the verb, the result the exit code.
 int RunPipelineVerb(int argc, char** argv);    ///< `doorforge pipeline PRESET`
 int RunQuickstartVerb(int argc, char** argv);  ///< `doorforge quickstart`
+int RunSchemaVerb(int argc, char** argv);      ///< `doorforge schema NAME`
 
 }  // namespace doorforge

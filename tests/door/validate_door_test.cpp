@@ -18,6 +18,7 @@
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/exporters/export_urdf.h"
+#include "doorforge/foreign/foreign_rules.h"
 #include "doorforge/mesh/work_budget.h"
 #include "doorforge/schemas/mesh_file.h"
 #include "doorforge/schemas/part.h"
@@ -244,7 +245,7 @@ TEST(ValidationRules, AreListedInTheDocumentation) {
     if (line.starts_with("| `")) listed.insert(line);
   }
   std::set<std::string> expected;
-  for (const ValidationRule& rule : ValidationRules()) {
+  for (const ValidationRule& rule : AllRules()) {
     char limit[32];
     std::snprintf(limit, sizeof limit, "%.4g", rule.limit);
     std::string allowed(rule.allowed);

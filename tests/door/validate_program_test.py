@@ -84,14 +84,15 @@ class Validate(ProgramTest):
     def test_it_says_when_it_checked_nothing(self):
         empty = self.folder / "empty"
         empty.mkdir()
-        (self.folder / "gate.urdf").write_text("<robot/>")
-        for path in (empty, self.folder / "gate.urdf", self.folder / "none"):
+        (self.folder / "gate.xyz").write_text("<robot/>")
+        for path in (empty, self.folder / "none"):
             result = run("validate", path)
             self.assert_refused(result, 3)
             self.assertIn("nothing checked", result.stdout)
             self.assertNotIn("0 errors", result.stdout)
             self.assertIn("doorforge compose", result.stderr)
-        self.assertIn("not a folder", run("validate", self.folder / "gate.urdf").stderr)
+        self.assertIn("no such file", run("validate", self.folder / "none.urdf").stderr)
+        self.assertIn("FIL011", run("validate", self.folder / "gate.xyz").stdout)
         self.assertIn("no such folder", run("validate", self.folder / "none").stderr)
         report = run("validate", empty, "--json")
         self.assert_refused(report, 3)

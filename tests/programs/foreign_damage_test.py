@@ -92,7 +92,7 @@ REPLACED = [
     ("urdf", "meshes/box.obj", "meshes/broken.obj", "GEO005"),
     ("urdf", 'scale="0.04 1 2"', 'scale="0 1 2"', "GEO006"),
     ("urdf", 'scale="0.04 1 2"', 'scale="-0.04 1 2"', "GEO007"),
-    ("urdf", 'scale="0.04 1 2"', 'scale="40 1000 2000"', "GEO008", None, None, {"INR007", "HND002"}),
+    ("urdf", 'scale="0.04 1 2"', 'scale="40 1000 2000"', "GEO008", None, None, {"INR007"}),
     ("urdf", "meshes/box.stl", "meshes/open.obj", "GEO009"),
     ("urdf", "meshes/box.stl", "meshes/turned.obj", "GEO010"),
     ("urdf", "meshes/box.stl", "meshes/inside_out.obj", "GEO013"),
@@ -102,9 +102,12 @@ REPLACED = [
     ("urdf", 'lower="0" upper="1.5"', 'lower="0.5" upper="1.5"', "MEC002"),
     ("urdf", 'upper="1.5"', 'upper="0.5"', "MEC003"),
     ("urdf", '<origin xyz="0.05 0.9 0"/>', '<origin xyz="0.05 1.9 0"/>', "HND003", '<link name="lever">'),
-    ("urdf", '<origin xyz="0.05 0.9 0"/>', '<origin xyz="0 0.9 0"/>', "HND002", '<link name="lever">',
-     ('<box size="0.06 0.12 0.02"/></geometry></visual>\n    <collision><geometry><sphere radius="0.03"/>',
-      '<box size="0.03 0.12 0.02"/></geometry></visual>\n    <collision><geometry><sphere radius="0.01"/>')),
+    ("urdf", '<origin xyz="0.05 0.9 0"/>', '<origin xyz="0.25 0.9 0"/>', "HND009", '<link name="lever">'),
+    ("urdf", '<origin xyz="0 0.05 0"/>', '<origin xyz="0 0.05 0"/>', "MEC009", '<joint name="hinge"',
+     ('<origin xyz="0 0.5 0"/>\n      <geometry><mesh filename="meshes/box.obj" scale="0.04 1 2"/></geometry>\n    </visual>\n'
+      '    <collision>\n      <origin xyz="0 0.5 0"/>',
+      '<origin xyz="0 0.8 0"/>\n      <geometry><mesh filename="meshes/box.obj" scale="0.04 1 2"/></geometry>\n    </visual>\n'
+      '    <collision>\n      <origin xyz="0 0.8 0"/>')),
 
     ("mjcf", "</mujoco>", "", "FIL002", None),
     ("mjcf", 'axis="0 0 -1"', 'axis="0 0 x"', "FIL006"),
@@ -257,13 +260,13 @@ class ForeignDamage(ProgramTest):
 
     def test_exported_doors_have_no_finding(self):
         doors = self.folder / "doors"
-        for body, handle in (("interior_flush_01", "interior_lever_tube_01"), ("window_casement_01", "window_handle_01"),
-                             ("safe_box_01", "safe_wheel_01")):
-            run("compose", "--body", body, "--handle", handle, "--out", doors / body)
+        for body, handle in (("interior_flush_01", "interior_lever_tube_01"), ("window_arched_01", "window_cockspur_03"),
+                             ("safe_antique_06", "safe_wheel_five_01"), ("storage_bowed_rounded_01", "storage_pull_bow_01")):
+            self.assert_ends(run("compose", "--body", body, "--handle", handle, "--out", doors / body), 0)
         self.assert_ends(run("export", doors, "--format", "urdf,mjcf,sdf,glb,usda", "--out", self.folder / "exported"), 0)
         models = sorted((self.folder / "exported").glob("*/model.*"))
         models = [path for path in models if path.suffix != ".config"]
-        self.assertGreaterEqual(len(models), 5)
+        self.assertEqual(len(models), 20)
         for path, item in self.validate(models).items():
             self.assertEqual(item["findings"], [], path)
 

@@ -26,9 +26,12 @@ TEST(JsonSchemaTest, PublishedSchemasAreThoseOfTheRecords) {
     EXPECT_EQ(ReadFile(path), record.schema.dump(2) + "\n")
         << path << " is not what the record says; this file says how to write it anew";
   }
+  // those of `doorforge validate` are held to what it writes by programs/foreign_reports_test
   std::size_t published = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(kFolder))
-    published += entry.path().extension() == ".json" ? 1 : 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kFolder)) {
+    const std::string name = entry.path().filename().string();
+    published += name.ends_with(".json") && !name.starts_with("validation") ? 1 : 0;
+  }
   EXPECT_EQ(published, RecordSchemas().size());
 }
 

@@ -7,5 +7,5 @@
 #include "doorforge/foreign/second_opinion_process.h"
 
 int main(int argc, char** argv) {
-  return doorforge::internal::GiveOpinion({argv, static_cast<std::size_t>(argc)});
+  return doorforge::foreign::GiveOpinion({argv, static_cast<std::size_t>(argc)});
 }

@@ -7,7 +7,7 @@
 
 #include "checks.h"
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 
 struct HingeQuestion {
   const ArticulatedObject& object;
@@ -18,8 +18,8 @@ struct HingeQuestion {
   std::string handle;  ///< Link; empty: it is looked for.
 };
 
-/// MEC002, MEC003, MEC009, HND002, HND003 and HND009 where hinge and handle are known; measured by
+/// MEC002, MEC003, MEC009, HND003 and HND009 where hinge and handle are known; measured by
 /// the boxes about the shapes. What was taken for them, or why none was, becomes a note.
 void CheckHinge(const HingeQuestion& question, FaultList& faults, std::vector<std::string>& notes);
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

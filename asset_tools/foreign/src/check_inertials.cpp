@@ -9,7 +9,7 @@
 
 #include "checks.h"
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 namespace {
 
 constexpr double kHeaviestForeignKgM3 = 20000;  // osmium is 22590
@@ -88,4 +88,4 @@ void CheckInertials(const ArticulatedObject& object, const ObjectTree& tree,
   }
 }
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

@@ -7,7 +7,7 @@
 
 #include "checks.h"
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 namespace {
 
 bool Turns(const ForeignJoint& joint) {
@@ -81,4 +81,4 @@ void CheckJoints(const ArticulatedObject& object, FaultList& faults) {
   }
 }
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

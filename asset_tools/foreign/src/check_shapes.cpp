@@ -8,7 +8,7 @@
 
 #include "checks.h"
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 namespace {
 
 using Box = Eigen::AlignedBox3d;
@@ -181,4 +181,4 @@ std::vector<LinkBounds> CheckShapes(const ArticulatedObject& object, const Objec
   return bounds;
 }
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

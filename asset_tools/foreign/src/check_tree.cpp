@@ -5,7 +5,7 @@
 
 #include "checks.h"
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 namespace {
 
 template <class Named>
@@ -122,4 +122,4 @@ void CheckTree(const ArticulatedObject& object, FaultList& faults) {
   CheckMimics(object, faults);
 }
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

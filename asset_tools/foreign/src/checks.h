@@ -12,7 +12,7 @@
 #include "mesh_measures.h"
 #include "object_tree.h"
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 
 /// TRE: names, ends and loops.
 void CheckTree(const ArticulatedObject& object, FaultList& faults);
@@ -38,4 +38,4 @@ void CheckInertials(const ArticulatedObject& object, const ObjectTree& tree,
 void CheckTriangles(const MeshMeasure& mesh, const SourcePlace& place, const std::string& name,
                     FaultList& faults);
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

@@ -9,7 +9,7 @@
 
 #include "doorforge/foreign/foreign_rules.h"
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 namespace {
 
 // Who wrote the file may have put characters into its names that a terminal obeys.
@@ -98,4 +98,4 @@ SourcePlace PlaceOf(const std::string& file, const XmlElement& element,
   return {file, attribute.line, attribute.column, XPathOf(element) + "/@" + attribute.name};
 }
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

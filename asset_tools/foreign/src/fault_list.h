@@ -13,7 +13,7 @@
 
 #include "xml_text.h"
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 
 /// What a finding says was measured, in words and, where it is one, as a number.
 struct Measured {
@@ -52,4 +52,4 @@ SourcePlace PlaceOf(const std::string& file, const XmlElement& element);
 SourcePlace PlaceOf(const std::string& file, const XmlElement& element,
                     const XmlAttribute& attribute);
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

@@ -16,7 +16,7 @@
 
 #include "raw_mesh.h"
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -583,4 +583,4 @@ TriangleMesh GlbTriangles(std::string_view bytes) {
   return mesh;
 }
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

@@ -12,7 +12,7 @@
 
 #include "fault_list.h"
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 
 /// The bytes of a buffer that lies in another file; nothing, and a finding, where there is none.
 using BufferReader = std::function<std::optional<std::string>(const ForeignFileName&)>;
@@ -26,4 +26,4 @@ TriangleMesh CheckGltf(std::string_view bytes, const std::string& file, const Bu
 /// The triangles of a binary glTF. Throws RawMeshFault with the first fault of its structure.
 TriangleMesh GlbTriangles(std::string_view bytes);
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

@@ -17,7 +17,7 @@
 #include "glb_file.h"
 #include "raw_mesh.h"
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 namespace {
 
 namespace fs = std::filesystem;
@@ -238,4 +238,4 @@ fs::path RootAbove(const fs::path& file, const fs::path& searched) {
   return !searched.empty() && IsInside(folder, wide) ? wide : folder;
 }
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

@@ -15,7 +15,7 @@
 
 #include "fault_list.h"
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 
 /// What is known of a mesh file.
 struct MeshMeasure {
@@ -77,4 +77,4 @@ std::filesystem::path RootAbove(const std::filesystem::path& file,
 TriangleMesh TrianglesOf(const std::filesystem::path& file, const std::filesystem::path& root,
                          std::vector<ForeignFileName>& files);
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "object_tree.h"
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 namespace {
 
 constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
@@ -50,4 +50,4 @@ ObjectTree::ObjectTree(const ArticulatedObject& object)
   }
 }
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

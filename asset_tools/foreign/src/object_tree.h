@@ -8,7 +8,7 @@
 
 #include "doorforge/foreign/articulated_object.h"
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 
 /// How the links of an object hang together, by index. Of names that occur twice the first counts,
 /// of joints to one child the first, and a joint that closes a loop or names no link is left out.
@@ -25,4 +25,4 @@ struct ObjectTree {
   std::vector<RigidTransform> world_from_link;  ///< With all joints at zero.
 };
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 namespace {
 
 constexpr std::string_view kGaps = " \t\r";
@@ -177,4 +177,4 @@ TriangleMesh ReadRawOff(std::string_view bytes) {
   return mesh;
 }
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

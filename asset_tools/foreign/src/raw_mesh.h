@@ -13,7 +13,7 @@
 // Readers that keep every triangle as the file has it, unlike those of ImportMesh(), which drop
 // what repeats: here that is what is looked for.
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 
 /// Why a mesh file cannot be read.
 struct RawMeshFault : std::runtime_error {
@@ -57,4 +57,4 @@ class WordLines {
 /// Adds a fan over the corners.
 void AddFace(const std::vector<int>& corners, int line, TriangleMesh& mesh);
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

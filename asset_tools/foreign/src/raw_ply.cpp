@@ -9,7 +9,7 @@
 
 #include "raw_mesh.h"
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 namespace {
 
 struct PlyType {
@@ -202,4 +202,4 @@ TriangleMesh ReadRawPly(std::string_view bytes) {
   return mesh;
 }
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

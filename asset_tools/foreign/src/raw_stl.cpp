@@ -6,7 +6,7 @@
 
 #include "raw_mesh.h"
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 namespace {
 
 constexpr std::size_t kStlHeader = 84;
@@ -86,4 +86,4 @@ TriangleMesh ReadRawStl(std::string_view bytes) {
   return text && !fits ? ReadTextStl(bytes) : ReadBinaryStl(bytes);
 }
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

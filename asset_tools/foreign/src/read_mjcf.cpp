@@ -10,7 +10,7 @@
 #include "readers.h"
 #include "xml_source.h"
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 namespace {
 
 namespace fs = std::filesystem;
@@ -662,4 +662,4 @@ ArticulatedObject ReadForeignMjcf(const XmlDocument& document, const std::string
   return MjcfReader(file, root, faults).Read(*document.root);
 }
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

@@ -8,7 +8,7 @@
 #include "readers.h"
 #include "xml_source.h"
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 namespace {
 
 // http://sdformat.org/spec, of models
@@ -348,4 +348,4 @@ ArticulatedObject ReadForeignSdf(const XmlDocument& document, const std::string&
   return SdfReader(file, faults).Read(*document.root);
 }
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

@@ -7,7 +7,7 @@
 #include "readers.h"
 #include "xml_source.h"
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 namespace {
 
 // http://wiki.ros.org/urdf/XML
@@ -330,4 +330,4 @@ ArticulatedObject ReadForeignUrdf(const XmlDocument& document, const std::string
   return UrdfReader(file, faults).Read(*document.root);
 }
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

@@ -10,7 +10,7 @@
 #include "readers.h"
 #include "usda_text.h"
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 namespace {
 
 constexpr std::array<std::pair<std::string_view, ForeignJointType>, 6> kUsdJointTypes = {
@@ -341,4 +341,4 @@ ArticulatedObject ReadForeignUsda(std::string_view text, const std::string& file
   }
 }
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

@@ -11,7 +11,7 @@
 #include "fault_list.h"
 #include "xml_text.h"
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 
 /// @name Readers of XML formats
 /// Each fills the value as far as the document allows and adds the faults of the text.
@@ -36,4 +36,4 @@ std::optional<std::string> ForeignText(const std::filesystem::path& path, FaultL
 std::optional<XmlDocument> ForeignXml(std::string_view text, const std::string& file,
                                       FaultList& faults);
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

@@ -13,7 +13,7 @@
 #include "doorforge/core/confined_child.h"
 #include "doorforge/core/error.h"
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 namespace {
 
 // Its own words on one line, since a report has a line for them.
@@ -61,4 +61,4 @@ SecondOpinion AskProgram(const std::string& program, const std::filesystem::path
   return opinion;
 }
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

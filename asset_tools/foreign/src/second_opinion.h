@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 
 enum class Opinion { kTakes, kRefuses, kNotAsked };
 
@@ -20,4 +20,4 @@ struct SecondOpinion {
 /// and a crash of the program kRefuses.
 SecondOpinion AskProgram(const std::string& program, const std::filesystem::path& file);
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

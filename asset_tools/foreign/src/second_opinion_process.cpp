@@ -21,7 +21,7 @@
 #include <urdf_parser/urdf_parser.h>
 #endif
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 namespace {
 
 std::string Answer(const char* verdict, const std::string& program, const std::string& words) {
@@ -122,4 +122,4 @@ int GiveOpinion(std::span<char* const> arguments) {
   ::_exit(0);
 }
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

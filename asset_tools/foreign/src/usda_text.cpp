@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 namespace {
 
 constexpr int kDeepest = 64;
@@ -329,4 +329,4 @@ bool UsdaPrim::HasApi(std::string_view schema) const {
 
 UsdaStage ParseUsda(std::string_view text) { return UsdaParser(text).Parse(); }
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

@@ -22,7 +22,7 @@
 #include "second_opinion.h"
 
 namespace doorforge {
-namespace internal {
+namespace foreign {
 
 namespace fs = std::filesystem;
 
@@ -312,10 +312,10 @@ class FileCheck {
 };
 
 }  // namespace
-}  // namespace internal
+}  // namespace foreign
 
 struct ForeignValidator::Memory {
-  internal::MeshMemory meshes;
+  foreign::MeshMemory meshes;
 };
 
 ForeignValidator::ForeignValidator(ForeignChecks checks)
@@ -325,7 +325,7 @@ ForeignValidator::~ForeignValidator() = default;
 ValidationReport ForeignValidator::Validate(const std::filesystem::path& file,
                                             const std::filesystem::path& searched) const {
   const WorkBudget budget(file.string());
-  internal::FileCheck check(file, searched, checks_, memory_->meshes);
+  foreign::FileCheck check(file, searched, checks_, memory_->meshes);
   try {
     return check.Run();
   } catch (const std::exception&) {
@@ -352,12 +352,12 @@ bool BeginsWithRoot(const std::filesystem::path& file) {
 enum class FileKind { kOther, kObject, kMesh };
 
 FileKind KindOf(const std::filesystem::path& file) {
-  const std::string ending = internal::LowerEndingOf(file);
+  const std::string ending = foreign::LowerEndingOf(file);
   static const std::set<std::string> objects = {".urdf", ".sdf",  ".mjcf", ".usda",
                                                 ".usd",  ".usdc", ".usdz"};
   if (objects.contains(ending)) return FileKind::kObject;
   if ((ending == ".xml" || ending == ".world") && BeginsWithRoot(file)) return FileKind::kObject;
-  if (ending == ".glb" || ending == ".gltf" || internal::FileCheck::IsMesh(ending))
+  if (ending == ".glb" || ending == ".gltf" || foreign::FileCheck::IsMesh(ending))
     return FileKind::kMesh;
   return FileKind::kOther;
 }

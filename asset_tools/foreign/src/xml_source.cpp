@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n";
@@ -140,4 +140,4 @@ void XmlSource::CheckSpelling(const XmlElement& element,
   }
 }
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

@@ -11,7 +11,7 @@
 
 #include "fault_list.h"
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 
 /// What an element may hold, for the search for misspelt names.
 struct KnownElement {
@@ -58,4 +58,4 @@ class XmlSource {
 /// Letters to insert, drop or exchange between them, or 3 if more.
 int LettersApart(std::string_view a, std::string_view b);
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

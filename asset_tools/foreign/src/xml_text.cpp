@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <unordered_map>
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 namespace {
 
 bool IsSpace(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
@@ -145,9 +145,32 @@ class XmlParser {
     if (Sees("<![CDATA[")) return Cdata();
     if (Sees("<!"))
       Fail("a DOCTYPE or another declaration; no object needs one", XmlFaultKind::kDeclaration);
-    if (Sees("<?")) return AdvancePast("?>", "a processing instruction");
+    if (Sees("<?")) return Instruction();
     if (Sees("</")) return Close();
     Open();
+  }
+
+  void Instruction() {
+    const bool first = at_ == 0 || (at_ == 3 && line_ == 1 && text_.starts_with("\xEF\xBB\xBF"));
+    Advance(2);
+    const std::string name = Name();
+    const bool declares = name.size() == 3 && (name[0] | 0x20) == 'x' && (name[1] | 0x20) == 'm' &&
+                          (name[2] | 0x20) == 'l';
+    if (!declares) return AdvancePast("?>", "a processing instruction");
+    if (!first || name != "xml") Fail("an XML declaration that does not begin the file");
+    XmlElement declaration;
+    declaration.name = "?xml";
+    while (true) {
+      const bool spaced = !AtEnd() && IsSpace(text_[at_]);
+      SkipSpace();
+      if (Sees("?>")) break;
+      if (!spaced) Fail("expected a blank or \"?>\" in the XML declaration");
+      ReadAttribute(declaration);
+    }
+    Advance(2);
+    const XmlAttribute* version = declaration.Attribute("version");
+    if (version == nullptr || !version->value.starts_with("1."))
+      Fail("the XML declaration states no version 1.0");
   }
 
   void Comment() {
@@ -336,4 +359,4 @@ std::string XPathOf(const XmlElement& element) {
   return path;
 }
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace doorforge::internal {
+namespace doorforge::foreign {
 
 struct XmlAttribute {
   std::string name;
@@ -65,4 +65,4 @@ XmlDocument ParseXml(std::string_view text, const XmlLimits& limits = {});
 /// among the siblings of that name.
 std::string XPathOf(const XmlElement& element);
 
-}  // namespace doorforge::internal
+}  // namespace doorforge::foreign

@@ -15,159 +15,23 @@
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 
+#include "model_xml.h"
+
 namespace doorforge {
 namespace {
 
 using tinyxml2::XMLElement;
 
-constexpr std::uint64_t kMaxBytes = 16ULL << 20;
-constexpr int kMaxDepth = 64;
-constexpr std::size_t kMaxElements = 2000;  // of links, and of joints; large objects have 200
-
-std::string TagOf(const XMLElement& element) { return '<' + std::string(element.Name()) + '>'; }
-
-// The element, and which link or joint it is or belongs to.
-std::string NameOf(const XMLElement& element) {
-  const auto name = [](const XMLElement& named) {
-    const char* text = named.Attribute("name");
-    return text == nullptr ? std::string() : " \"" + std::string(text) + '"';
-  };
-  const auto owns = [](const XMLElement& owner) {
-    const std::string_view tag = owner.Name();
-    return tag == "link" || tag == "joint";
-  };
-  if (owns(element)) return TagOf(element) + name(element);
-  const tinyxml2::XMLNode* node = element.Parent();
-  while (node != nullptr && node->ToElement() != nullptr && !owns(*node->ToElement()))
-    node = node->Parent();
-  if (node == nullptr || node->ToElement() == nullptr) return TagOf(element);
-  return TagOf(element) + " of " + node->ToElement()->Name() + name(*node->ToElement());
-}
-
-// The file that is read, and what is wrong with it so far.
-struct Source {
-  std::string name;
-  std::vector<UrdfFault>& faults;
-
-  // where reading on makes no sense
-  [[noreturn]] void Stop(int line, const std::string& problem) const {
-    throw Error(ErrorCode::kFormat, name + ":" + std::to_string(line) + ": " + problem);
-  }
-  void Add(UrdfFaultKind kind, const XMLElement& element, const std::string& problem) const {
-    faults.push_back({kind, element.GetLineNum(), NameOf(element) + ": " + problem});
-  }
-  void Fail(const XMLElement& element, const std::string& problem) const {
-    Add(UrdfFaultKind::kUnusable, element, problem);
-  }
-  void RequirePositive(const XMLElement& element, const char* what, double found) const {
-    if (!(found > 0))
-      Add(UrdfFaultKind::kWrong, element,
-          std::string(what) + " is " + Shown(found) + ", allowed above 0");
-  }
-  void RequireNotNegative(const XMLElement& element, const char* what,
-                          const std::optional<double>& found) const {
-    if (found && *found < 0)
-      Add(UrdfFaultKind::kWrong, element,
-          std::string(what) + " is " + Shown(*found) + ", allowed 0 and more");
-  }
-
-  static std::string Shown(double number) {
-    char digits[40];
-    return {digits, std::to_chars(digits, digits + sizeof digits, number).ptr};
-  }
-};
-
-int LineAt(std::string_view text, std::size_t offset) {
-  int line = 1;
-  for (const char c : text.substr(0, offset)) line += c == '\n' ? 1 : 0;
-  return line;
-}
-
-// Declarations define entities and name other files; no URDF needs them.
-void RefuseDeclarations(std::string_view text, const Source& source) {
-  std::size_t at = 0;
-  while ((at = text.find("<!", at)) != std::string_view::npos) {
-    const std::string_view rest = text.substr(at);
-    const bool comment = rest.starts_with("<!--");
-    if (!comment && !rest.starts_with("<![CDATA["))
-      source.Stop(LineAt(text, at), "a DOCTYPE or another declaration; remove it");
-    const std::size_t end = text.find(comment ? "-->" : "]]>", at);
-    if (end == std::string_view::npos) return;  // the parser reports it
-    at = end + 3;
-  }
-}
-
-void RefuseDepth(const XMLElement& element, int depth, const Source& source) {
-  if (depth > kMaxDepth)
-    source.Stop(element.GetLineNum(), TagOf(element) + ": more than 64 levels of elements");
-  for (const XMLElement* child = element.FirstChildElement(); child != nullptr;
-       child = child->NextSiblingElement())
-    RefuseDepth(*child, depth + 1, source);
-}
-
-// Nothing, and a fault, where one of them is no number.
-std::optional<std::vector<double>> Numbers(const XMLElement& element, const char* attribute,
-                                           const Source& source) {
-  const std::string_view text = element.Attribute(attribute);
-  std::vector<double> numbers;
-  std::size_t at = 0;
-  while ((at = text.find_first_not_of(" \t\r\n", at)) != std::string_view::npos) {
-    if (text[at] == '+') ++at;
-    double number = 0;
-    const auto [end, error] = std::from_chars(text.data() + at, text.data() + text.size(), number);
-    if (error != std::errc{} || !std::isfinite(number)) {
-      source.Fail(element, std::string(attribute) + "=\"" + std::string(text) +
-                               "\" holds something that is not a finite number");
-      return std::nullopt;
-    }
-    numbers.push_back(number);
-    at = static_cast<std::size_t>(end - text.data());
-  }
-  return numbers;
-}
-
-std::optional<std::vector<double>> NumbersOfCount(const XMLElement& element, const char* attribute,
-                                                  std::size_t count, const Source& source) {
-  auto numbers = Numbers(element, attribute, source);
-  if (!numbers || numbers->size() == count) return numbers;
-  source.Fail(element, std::string(attribute) + " has " + std::to_string(numbers->size()) +
-                           " numbers, expected " + std::to_string(count));
-  return std::nullopt;
-}
-
-std::optional<double> OptionalNumber(const XMLElement& element, const char* attribute,
-                                     const Source& source) {
-  if (element.Attribute(attribute) == nullptr) return std::nullopt;
-  const auto numbers = NumbersOfCount(element, attribute, 1, source);
-  if (!numbers) return std::nullopt;
-  return numbers->front();
-}
-
-// 0, and a fault, where it is missing; so do all that must be there.
-double Number(const XMLElement& element, const char* attribute, const Source& source) {
-  if (element.Attribute(attribute) == nullptr)
-    source.Fail(element, std::string("missing attribute ") + attribute);
-  return OptionalNumber(element, attribute, source).value_or(0);
-}
-
-Eigen::Vector3d Vector(const XMLElement& element, const char* attribute,
-                       const Eigen::Vector3d& fallback, const Source& source) {
-  if (element.Attribute(attribute) == nullptr) return fallback;
-  const auto numbers = NumbersOfCount(element, attribute, 3, source);
-  return numbers ? Eigen::Vector3d((*numbers)[0], (*numbers)[1], (*numbers)[2]) : fallback;
-}
-
-std::string Text(const XMLElement& element, const char* attribute, const Source& source) {
-  if (const char* text = element.Attribute(attribute)) return text;
-  source.Fail(element, std::string("missing attribute ") + attribute);
-  return {};
-}
-
-const XMLElement* Child(const XMLElement& element, const char* name, const Source& source) {
-  const XMLElement* child = element.FirstChildElement(name);
-  if (child == nullptr) source.Fail(element, std::string("missing <") + name + ">");
-  return child;
-}
+using internal::Child;
+using internal::kMaxModelElements;
+using internal::Number;
+using internal::Numbers;
+using internal::NumbersOfCount;
+using internal::OptionalNumber;
+using internal::TagOf;
+using internal::Text;
+using internal::Vector;
+using Source = internal::ModelSource;
 
 RigidTransform OriginOf(const XMLElement& element, const Source& source) {
   const XMLElement* origin = element.FirstChildElement("origin");
@@ -392,9 +256,9 @@ std::vector<const XMLElement*> NamedElements(const XMLElement& robot, const char
       continue;
     }
     elements.push_back(element);
-    if (elements.size() > kMaxElements)
+    if (elements.size() > kMaxModelElements)
       source.Stop(element->GetLineNum(), TagOf(*element) + ": more than the " +
-                                             std::to_string(kMaxElements) +
+                                             std::to_string(kMaxModelElements) +
                                              " allowed; leave out what the object does not need");
   }
   return elements;
@@ -411,6 +275,17 @@ void RefuseUnknownLinks(const UrdfModel& model, const std::vector<const XMLEleme
         source.Fail(*joints[i], "names link \"" + name + "\", which does not exist");
     }
   }
+}
+
+// What exports say of a door beyond the format, see door_words.h.
+void ReadWords(const XMLElement& element, UrdfModel& model) {
+  const auto add = [&](const XMLElement& from, const std::string& prefix) {
+    for (const tinyxml2::XMLAttribute* a = from.FirstAttribute(); a != nullptr; a = a->Next())
+      model.words[prefix + a->Name()] = a->Value();
+  };
+  add(element, "door_");
+  if (const XMLElement* latch = element.FirstChildElement("latch")) add(*latch, "latch_");
+  if (const XMLElement* grasp = element.FirstChildElement("grasp")) add(*grasp, "grasp_");
 }
 
 // ---- writer -----------------------------------------------------------------------------------
@@ -539,11 +414,11 @@ void AddJoint(XMLElement& robot, const UrdfJoint& joint) {
 }  // namespace
 
 UrdfModel ReadUrdf(const std::filesystem::path& path) {
-  return ParseUrdf(ReadFile(path, kMaxBytes), path.string());
+  return ParseUrdf(ReadFile(path, internal::kMaxModelBytes), path.string());
 }
 
 UrdfModel ReadUrdf(const std::filesystem::path& path, std::vector<UrdfFault>& faults) {
-  return ParseUrdf(ReadFile(path, kMaxBytes), path.string(), faults);
+  return ParseUrdf(ReadFile(path, internal::kMaxModelBytes), path.string(), faults);
 }
 
 UrdfModel ParseUrdf(const std::string& text, const std::string& name) {
@@ -559,17 +434,8 @@ UrdfModel ParseUrdf(const std::string& text, const std::string& name) {
 UrdfModel ParseUrdf(const std::string& text, const std::string& name,
                     std::vector<UrdfFault>& faults) {
   const Source source{name, faults};
-  if (text.size() > kMaxBytes)
-    throw Error(ErrorCode::kFormat, name + ": larger than the 16 MiB that a URDF may have");
-  RefuseDeclarations(text, source);
   tinyxml2::XMLDocument document;
-  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS)
-    source.Stop(document.ErrorLineNum(),
-                "not well-formed XML; each tag needs its end, each value its quotes");
-  const XMLElement* robot = document.RootElement();
-  if (robot == nullptr || std::string_view(robot->Name()) != "robot")
-    source.Stop(robot == nullptr ? 1 : robot->GetLineNum(), "the root element is not <robot>");
-  RefuseDepth(*robot, 1, source);
+  const XMLElement* robot = &internal::ParseModelXml(text, "robot", source, document);
 
   const std::size_t known = faults.size();
   UrdfModel model;
@@ -581,6 +447,7 @@ UrdfModel ParseUrdf(const std::string& text, const std::string& name,
   for (const XMLElement* element : joints) model.joints.push_back(ReadJoint(*element, source));
   if (model.links.empty()) source.Stop(robot->GetLineNum(), "<robot>: no <link> in it");
   RefuseUnknownLinks(model, joints, source);
+  if (const XMLElement* words = robot->FirstChildElement("doorforge")) ReadWords(*words, model);
   std::stable_sort(faults.begin() + static_cast<std::ptrdiff_t>(known), faults.end(),
                    [](const UrdfFault& a, const UrdfFault& b) { return a.line < b.line; });
   return model;

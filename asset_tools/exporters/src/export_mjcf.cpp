@@ -5,10 +5,10 @@
 #include "doorforge/core/committed_file.h"
 #include "doorforge/exporters/export_door.h"
 #include "doorforge/schemas/bolt.h"
+#include "doorforge/schemas/door_words.h"
 
 #include "door_formats.h"
 #include "export_text.h"
-#include "latch_words.h"
 
 namespace doorforge {
 namespace {
@@ -204,7 +204,7 @@ void AddCustom(const char* kind, const std::string& name, const std::string& dat
 // Numbers as MuJoCo reads them, and the words that make the door what it is.
 void AddLatchWords(const DoorAsset& door, XmlElement& root) {
   XmlElement& custom = AddElement(root, "custom");
-  const auto words = internal::LatchWords(door);
+  const auto words = LatchWords(door.latch);
   for (const auto& [name, text] : words) {
     const bool number = text.find_first_not_of("0123456789.e+-") == std::string::npos;
     if (number) AddCustom("numeric", "latch_" + name, text, custom);
@@ -213,7 +213,7 @@ void AddLatchWords(const DoorAsset& door, XmlElement& root) {
     const bool number = text.find_first_not_of("0123456789.e+-") == std::string::npos;
     if (!number) AddCustom("text", "latch_" + name, text, custom);
   }
-  for (const auto& [name, text] : internal::DoorWords(door)) {
+  for (const auto& [name, text] : DoorWords(door)) {
     if (!text.empty())
       AddCustom("text", "door_" + name, text, custom);  // MuJoCo takes no empty one
   }

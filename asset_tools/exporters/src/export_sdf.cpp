@@ -4,11 +4,11 @@
 
 #include "doorforge/core/committed_file.h"
 #include "doorforge/exporters/export_door.h"
+#include "doorforge/schemas/door_words.h"
 
 #include "door_formats.h"
 #include "export_text.h"
 #include "latch_bodies.h"
-#include "latch_words.h"
 
 namespace doorforge {
 namespace {
@@ -149,7 +149,7 @@ void AddAnchor(const std::string& base, XmlElement& model) {
   AddText(joint, "child", base);
 }
 
-// SDF's own word, which Gazebo reads, and Drake's.
+// SDF's own word, which came with 1.11 and which older readers pass over, and Drake's.
 void AddMimic(const std::string& leader, double multiplier, XmlElement& joint, XmlElement& axis) {
   XmlElement& mimic = AddElement(axis, "mimic");
   SetAttribute(mimic, "joint", leader);
@@ -214,9 +214,9 @@ void AddDrakeFilters(const DoorAsset& door, XmlElement& model) {
 
 void AddLatchData(const DoorAsset& door, XmlElement& model) {
   XmlElement& latch = AddElement(model, "doorforge:latch");
-  for (const auto& [name, text] : internal::LatchWords(door)) AddText(latch, name.c_str(), text);
+  for (const auto& [name, text] : LatchWords(door.latch)) AddText(latch, name.c_str(), text);
   XmlElement& words = AddElement(model, "doorforge:door");
-  for (const auto& [name, text] : internal::DoorWords(door)) AddText(words, name.c_str(), text);
+  for (const auto& [name, text] : DoorWords(door)) AddText(words, name.c_str(), text);
   AddText(words, "grasp_half_extent_m", Decimals(door.grasp_half_extent_m));
 }
 
@@ -241,9 +241,6 @@ void AddLinks(const DoorAsset& door, const internal::LatchBodies* latch, XmlElem
   }
 }
 
-// <mimic> came with SDF 1.11.
-const char* VersionOf(bool with_bolt) { return with_bolt ? "1.11" : "1.9"; }
-
 bool HasBolt(const DoorAsset& door, const ExportSettings& settings) {
   return settings.latch == LatchExport::kBolt && door.latch.type != LatchType::kNone &&
          internal::Turns(door.handle_joint);
@@ -255,7 +252,7 @@ std::string ToSdf(const DoorAsset& door, const ExportSettings& settings) {
   std::optional<internal::LatchBodies> latch;
   if (HasBolt(door, settings)) latch = internal::LatchBodiesOf(door);
   XmlElement root{.name = "sdf"};
-  SetAttribute(root, "version", VersionOf(latch.has_value()));
+  SetAttribute(root, "version", "1.9");
   SetAttribute(root, "xmlns:doorforge", "https://doorforge.invalid/sdf");
   if (latch) SetAttribute(root, "xmlns:drake", "http://drake.mit.edu");
   XmlElement& model = AddElement(root, "model");
@@ -278,11 +275,11 @@ std::string ToSdf(const DoorAsset& door, const ExportSettings& settings) {
   return internal::Printed(root);
 }
 
-std::string ToSdfConfig(const DoorAsset& door, const ExportSettings& settings) {
+std::string ToSdfConfig(const DoorAsset& door) {
   XmlElement model{.name = "model"};
   AddText(model, "name", door.id);
   AddText(model, "version", "1.0");
-  SetAttribute(AddText(model, "sdf", "model.sdf"), "version", VersionOf(HasBolt(door, settings)));
+  SetAttribute(AddText(model, "sdf", "model.sdf"), "version", "1.9");
   AddText(model, "description",
           "A door of body " + door.body.id + " and handle " + door.handle.id + ", " + door.license);
   return internal::Printed(model);
@@ -293,7 +290,7 @@ namespace internal {
 void WriteSdf(const DoorAsset& door, const ExportSettings& settings,
               const std::filesystem::path& folder) {
   CommitFile(folder / "model.sdf", ToSdf(door, settings));
-  CommitFile(folder / "model.config", ToSdfConfig(door, settings));
+  CommitFile(folder / "model.config", ToSdfConfig(door));
 }
 
 }  // namespace internal

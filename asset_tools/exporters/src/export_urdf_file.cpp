@@ -5,11 +5,11 @@
 #include "doorforge/core/committed_file.h"
 #include "doorforge/exporters/export_door.h"
 #include "doorforge/exporters/export_urdf.h"
+#include "doorforge/schemas/door_words.h"
 
 #include "door_formats.h"
 #include "export_text.h"
 #include "latch_bodies.h"
-#include "latch_words.h"
 
 namespace doorforge {
 namespace {
@@ -98,11 +98,9 @@ XmlElement ControlOf(const UrdfModel& model) {
 // What URDF has no word for.
 XmlElement WordsOf(const DoorAsset& door) {
   XmlElement words{.name = "doorforge"};
-  for (const auto& [name, text] : internal::DoorWords(door))
-    SetAttribute(words, name.c_str(), text);
+  for (const auto& [name, text] : DoorWords(door)) SetAttribute(words, name.c_str(), text);
   XmlElement& latch = AddElement(words, "latch");
-  for (const auto& [name, text] : internal::LatchWords(door))
-    SetAttribute(latch, name.c_str(), text);
+  for (const auto& [name, text] : LatchWords(door.latch)) SetAttribute(latch, name.c_str(), text);
   XmlElement& grasp = AddElement(words, "grasp");
   SetAttribute(grasp, "link", door.links[kHandleLink].name);
   SetAttribute(grasp, "xyz", Decimals(door.handle_from_grasp.translation()));

@@ -8,11 +8,11 @@
 
 #include "doorforge/core/committed_file.h"
 #include "doorforge/exporters/export_door.h"
+#include "doorforge/schemas/door_words.h"
 
 #include "door_formats.h"
 #include "export_text.h"
 #include "latch_bodies.h"
-#include "latch_words.h"
 
 namespace doorforge {
 namespace {
@@ -334,8 +334,8 @@ void AddWord(const std::string& space, const std::string& name, const std::strin
 }
 
 void AddWords(const DoorAsset& door, UsdaText& usda) {
-  for (const auto& [name, text] : internal::LatchWords(door)) AddWord("latch:", name, text, usda);
-  for (const auto& [name, text] : internal::DoorWords(door)) {
+  for (const auto& [name, text] : LatchWords(door.latch)) AddWord("latch:", name, text, usda);
+  for (const auto& [name, text] : DoorWords(door)) {
     if (name != "id") AddWord("", name, text, usda);  // which is the prim's name
   }
 }

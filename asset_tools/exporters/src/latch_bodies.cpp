@@ -86,8 +86,7 @@ PlacedBox MortiseOf(const Bolt& bolt, const DoorAsset& door) {
   mortise.bounds.extend(
       Bounds(bolt.strike_hull, mortise.frame_from_box.inverse() * bolt.base_from_strike));
   // what stands out in front of the strike would meet a bolt that passes it
-  mortise.bounds.extend(
-      Eigen::Vector3d(mortise.bounds.max() + Eigen::Vector3d(kInFront, 0, 0)));
+  mortise.bounds.extend(Eigen::Vector3d(mortise.bounds.max() + Eigen::Vector3d(kInFront, 0, 0)));
   const Eigen::Vector3d around = Eigen::Vector3d::Constant(kAround);
   return {mortise.frame_from_box, {mortise.bounds.min() - around, mortise.bounds.max() + around}};
 }

@@ -10,7 +10,8 @@
 
 namespace doorforge::internal {
 
-/// A foreign format. `knows` looks at names only; `read` is as ReadObjects().
+/// A foreign format. `knows` looks at names, and at the beginning of a file whose name says little;
+/// `read` is as ReadObjects().
 struct ImportFormat {
   std::string name;
   bool (*knows)(const std::filesystem::path& path);
@@ -25,12 +26,15 @@ ImportFormat UniDoorManipPartsFormat();
 ImportFormat Akb48Format();
 ImportFormat DoorGymFormat();
 ImportFormat UrdfFormat();
+ImportFormat SdfFormat();
+ImportFormat MjcfFormat();
 ImportFormat LooseMeshFormat();
 
 /// All of them, in the order in which they are tried: later ones know less of what they look at.
 inline constexpr ImportFormat (*kImportFormats[])() = {
     GaPartNetFormat, PartNetMobilityFormat, UniDoorManipFormat, UniDoorManipPartsFormat,
-    Akb48Format,     DoorGymFormat,         UrdfFormat,         LooseMeshFormat};
+    Akb48Format,     DoorGymFormat,         UrdfFormat,         SdfFormat,
+    MjcfFormat,      LooseMeshFormat};
 
 /// An id for a part (IdProblem() is empty): letters, digits, '-', '_' and '.' are kept, all else
 /// becomes '-', and a text beyond 50 characters is cut and ends in digits of its hash.

@@ -1,12 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
+#include <fstream>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/inside_folder.h"
+#include "doorforge/schemas/mjcf.h"
+#include "doorforge/schemas/sdf.h"
 
 #include "import_format.h"
 #include "subtask.h"
@@ -18,26 +22,54 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kPackage = "package://";
+constexpr std::array<std::string_view, 2> kPackages = {"package://", "model://"};
 
-bool IsUrdfFile(const fs::path& path) {
-  std::error_code error;
-  return path.extension() == ".urdf" && fs::is_regular_file(path, error);
+/// A format that describes an articulated object in one file of XML.
+struct ModelKind {
+  const char* name;    ///< As --format says it.
+  const char* called;  ///< As messages do.
+  const char* extension;
+  const char* root;  ///< The tag by which a file is known; null: the extension tells enough.
+  UrdfModel (*read)(const fs::path& file, std::vector<UrdfFault>& faults);
+};
+
+constexpr ModelKind kUrdf{
+    "urdf", "URDF", ".urdf", nullptr,
+    [](const fs::path& file, std::vector<UrdfFault>& faults) { return ReadUrdf(file, faults); }};
+constexpr ModelKind kSdf{"sdf", "SDF", ".sdf", nullptr, ReadSdf};
+constexpr ModelKind kMjcf{"mjcf", "MJCF", ".xml", "<mujoco", ReadMjcf};
+
+// Whether the file begins as one of this kind does, comments aside.
+bool HoldsRoot(const fs::path& path, const char* root) {
+  constexpr std::streamsize kLooked = 4096;
+  std::string beginning(kLooked, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(beginning.data(), kLooked);
+  beginning.resize(static_cast<std::size_t>(file.gcount()));
+  return beginning.find(root) != std::string::npos;
 }
 
-// the folder's one URDF; nothing if it has none or several
-std::optional<fs::path> OnlyUrdfIn(const fs::path& folder) {
+bool IsFileOf(const ModelKind& kind, const fs::path& path) {
+  std::error_code error;
+  return path.extension() == kind.extension && fs::is_regular_file(path, error) &&
+         (kind.root == nullptr || HoldsRoot(path, kind.root));
+}
+
+// the folder's one file of the kind; nothing if it has none or several
+std::optional<fs::path> OnlyFileIn(const fs::path& folder, const ModelKind& kind) {
   std::optional<fs::path> found;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (!IsUrdfFile(entry.path())) continue;
+    if (!IsFileOf(kind, entry.path())) continue;
     if (found) return std::nullopt;
     found = entry.path();
   }
   return found;
 }
 
-bool IsUrdf(const fs::path& path) { return IsUrdfFile(path) || OnlyUrdfIn(path).has_value(); }
+bool Knows(const ModelKind& kind, const fs::path& path) {
+  return IsFileOf(kind, path) || OnlyFileIn(path, kind).has_value();
+}
 
 // The folder that a URDF's meshes may lie in: its own; of a URDF in a folder of that name, as ROS
 // packages have, the one above.
@@ -48,12 +80,15 @@ fs::path RootOf(const fs::path& urdf) {
 
 // the name relative to the root
 std::string NameInRoot(const fs::path& root, const fs::path& urdf_folder, const std::string& name) {
-  if (!name.starts_with(kPackage)) {
+  const auto package =
+      std::find_if(kPackages.begin(), kPackages.end(),
+                   [&](std::string_view prefix) { return name.starts_with(prefix); });
+  if (package == kPackages.end()) {
     const fs::path inside = fs::relative(urdf_folder, root);
     if (fs::path(name).is_absolute() || name.find("://") != std::string::npos) return name;
     return (inside / name).lexically_normal().string();
   }
-  const std::string rest = name.substr(kPackage.size());
+  const std::string rest = name.substr(package->size());
   std::error_code error;
   if (fs::exists(root / rest, error)) return rest;
   // package://name/path: the root is the package
@@ -129,24 +164,43 @@ void AddNotes(const std::vector<UrdfFault>& faults, const std::string& file,
   for (ForeignObject& object : objects) object.notes.push_back(UrdfFaultsText(file, faults));
 }
 
-std::vector<ForeignObject> ReadUrdfObject(const fs::path& path, const ReadConfig& config) {
-  const fs::path urdf = IsUrdfFile(path) ? path : OnlyUrdfIn(path).value();
-  if (config.category.empty())
+// Exports of this project say what kind of door they are; nobody else does.
+Category CategoryOf(const UrdfModel& model, const ModelKind& kind, const std::string& where,
+                    const ReadConfig& config) {
+  const auto told = model.words.find("door_category");
+  const auto known = told == model.words.end() ? std::nullopt : CategoryNamed(told->second);
+  if (config.category.empty() && !known)
     throw Error(ErrorCode::kInvalidArgument,
-                urdf.string() + ": a URDF does not say what kind of door it is; pass --category");
+                where + ": " + (kind.called[0] == 'U' ? "a " : "an ") + kind.called +
+                    " does not say what kind of door it is; pass --category");
+  return CategoryOr(config, known.value_or(Category::kInterior));
+}
+
+// The bolt and its strike hold the door; they are no part of its leaf or frame.
+void LeaveOutLatch(UrdfModel& model) {
+  if (!model.words.contains("latch_type")) return;
+  std::erase_if(model.links, [](const UrdfLink& link) { return link.name == "bolt"; });
+  std::erase_if(model.joints, [](const UrdfJoint& joint) { return joint.child == "bolt"; });
+}
+
+std::vector<ForeignObject> ReadModelObject(const ModelKind& kind, const fs::path& path,
+                                           const ReadConfig& config) {
+  const bool is_file = IsFileOf(kind, path);
+  const fs::path urdf = is_file ? path : OnlyFileIn(path, kind).value();
   const fs::path root = RootOf(urdf);
-  const std::string name = IsUrdfFile(path) ? urdf.stem().string() : ObjectNameOf(path);
+  const std::string name = is_file ? urdf.stem().string() : ObjectNameOf(path);
   HingedObject object;
-  object.name = "urdf/" + name;
+  object.name = std::string(kind.name) + "/" + name;
   object.id = name;
   object.where = urdf.string();
-  object.source = "URDF " + urdf.filename().string();
+  object.source = std::string(kind.called) + " " + urdf.filename().string();
   object.license = config.mesh.license;
   std::vector<UrdfFault> faults;
-  object.model = ReadUrdf(urdf, faults);
+  object.model = kind.read(urdf, faults);
+  object.category = CategoryOf(object.model, kind, urdf.string(), config);
+  LeaveOutLatch(object.model);
   object.upright_from_base = UprightFrom(config.mesh.up.empty() ? "z" : config.mesh.up);
   object.height_m = config.height_m;
-  object.category = CategoryOr(config, Category::kInterior);
   object.folder = root;
   object.find_mesh = [root, folder = fs::absolute(urdf).lexically_normal().parent_path(),
                       where = object.where](const std::string& file) {
@@ -159,8 +213,18 @@ std::vector<ForeignObject> ReadUrdfObject(const fs::path& path, const ReadConfig
   return objects;
 }
 
+template <const ModelKind& kind>
+ImportFormat FormatOf() {
+  return {kind.name, [](const fs::path& path) { return Knows(kind, path); },
+          [](const fs::path& path, const ReadConfig& config) {
+            return ReadModelObject(kind, path, config);
+          }};
+}
+
 }  // namespace
 
-ImportFormat UrdfFormat() { return {"urdf", IsUrdf, ReadUrdfObject}; }
+ImportFormat UrdfFormat() { return FormatOf<kUrdf>(); }
+ImportFormat SdfFormat() { return FormatOf<kSdf>(); }
+ImportFormat MjcfFormat() { return FormatOf<kMjcf>(); }
 
 }  // namespace doorforge::internal

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -78,6 +79,9 @@ struct UrdfModel {
   /// Whether MuJoCo is told to load the visuals, too. It takes no mesh whose faces disagree about
   /// what is outside.
   bool mujoco_reads_visuals = true;
+  /// What an export of this project says of the door beyond the format: "latch_...", "door_...",
+  /// "grasp_...", see door_words.h. ToUrdf() does not write it.
+  std::map<std::string, std::string> words = {};
 };
 
 enum class UrdfFaultKind {

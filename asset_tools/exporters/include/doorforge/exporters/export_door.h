@@ -57,13 +57,13 @@ std::string ToMjcf(const DoorAsset& door, const ExportSettings& settings = {});
 /// <doorforge> latch, grasp and what the door is.
 std::string ToExportedUrdf(const DoorAsset& door, const ExportSettings& settings = {});
 
-/// SDF 1.9 (sdformat 12), or 1.11 with a bolt, whose <mimic> that version brought; with the meshes
-/// of WriteDoor() beside it. Springs are in the joints' dynamics. A bolt touches the strike alone,
-/// by bit masks. The latch's numbers are in the element <doorforge:latch>, the grasp is the frame
-/// "grasp".
+/// SDF 1.9 (sdformat 12) with the meshes of WriteDoor() beside it. Springs are in the joints'
+/// dynamics. A bolt touches the strike alone, by bit masks; it follows the handle by <mimic>, a word
+/// of SDF 1.11 that older readers pass over. The latch's numbers are in the element
+/// <doorforge:latch>, the grasp is the frame "grasp".
 std::string ToSdf(const DoorAsset& door, const ExportSettings& settings = {});
 /// The model.config that Gazebo wants beside model.sdf.
-std::string ToSdfConfig(const DoorAsset& door, const ExportSettings& settings = {});
+std::string ToSdfConfig(const DoorAsset& door);
 
 /// glTF 2.0 binary, all in one file: a node a link and a geometry by their names, visual meshes
 /// only, those of authors with their materials, texture coordinates and pictures, y up by the root
@@ -72,7 +72,7 @@ std::string ToGlb(const DoorAsset& door);
 
 /// USD as text with UsdPhysics schemas; all in one file but pictures, which it names as
 /// AuthoredTexturePath(). A bolt's prismatic joint has the mimic schemas of Newton and PhysX; it
-/// touches the strike alone, by collision groups.
+/// touches no link but the frame, by filtered pairs.
 std::string ToUsda(const DoorAsset& door, const ExportSettings& settings = {});
 
 /// The folder of an exported door, for StagedFolder.

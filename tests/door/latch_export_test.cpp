@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <memory>
+
+#include <gtest/gtest.h>
+#include <mujoco/mujoco.h>
+
+#include "doorforge/compose/compose.h"
+#include "doorforge/core/closed_mesh.h"
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/mass_properties.h"
+#include "doorforge/exporters/export_door.h"
+#include "doorforge/schemas/bolt.h"
+
+#include "cut_hull.h"
+#include "latch_bodies.h"
+#include "scratch_folder.h"
+#include "small_parts.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+
+double VolumeOf(const TriangleMesh& mesh) {
+  const auto closed = ClosedMesh::From(mesh);
+  EXPECT_TRUE(closed.has_value());
+  return closed ? MassPropertiesOf(*closed, 1).mass_kg : 0;
+}
+
+DoorAsset LeverDoor(const ComposeConfig& config = {}) {
+  Part handle = SmallLever();
+  handle.pieces.push_back(MakeSolid("rose", BoxMesh({0, -0.02, -0.02}, {0.005, 0.02, 0.02}), 0.1));
+  return ComposeDoor(SmallBody(), handle, config);
+}
+
+TEST(WithoutBox, LeavesTheVolumeOutsideTheBoxInClosedPieces) {
+  const TriangleMesh hull = BoxMesh({0, 0, 0}, {1, 1, 1});
+  // how far the box reaches into the cube along each axis, however it lies
+  for (const Eigen::Vector3d& low :
+       {Eigen::Vector3d(0.2, 0.3, 0.4), Eigen::Vector3d(-1, 0.3, 0.4), Eigen::Vector3d(-1, -1, 0.5),
+        Eigen::Vector3d(0.25, -0.5, -0.5)}) {
+    const Eigen::AlignedBox3d box(low, low + Eigen::Vector3d(1.3, 0.4, 0.9));
+    double sum = 0;
+    for (const TriangleMesh& piece : internal::WithoutBox(hull, {RigidTransform::Identity(), box}))
+      sum += VolumeOf(piece);
+    const Eigen::AlignedBox3d shared =
+        box.intersection(Eigen::AlignedBox3d(Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()));
+    EXPECT_NEAR(sum, 1 - (shared.isEmpty() ? 0 : shared.volume()), 1e-6) << low.transpose();
+  }
+}
+
+TEST(WithoutBox, LeavesAHullAloneThatItDoesNotMeet) {
+  const TriangleMesh hull = BoxMesh({0, 0, 0}, {1, 1, 1});
+  const auto pieces =
+      internal::WithoutBox(hull, {RotationAbout(Eigen::Vector3d::UnitZ(), 0.7),
+                                  {Eigen::Vector3d(3, 3, 3), Eigen::Vector3d(4, 4, 4)}});
+  ASSERT_EQ(pieces.size(), 1U);
+  EXPECT_EQ(pieces[0].vertices, hull.vertices);
+}
+
+// By sampling: no point of the bolt, thrown or drawn back, lies in a piece of the frame.
+TEST(LatchBodies, TheMortiseHoldsTheBoltWherePiecesOfTheFrameWouldMeetIt) {
+  for (const HingeSide side : {HingeSide::kLeft, HingeSide::kRight}) {
+    for (const Opening opening : {Opening::kPull, Opening::kPush}) {
+      const DoorAsset door = LeverDoor({.hinge_side = side, .opening = opening});
+      const auto latch = internal::LatchBodiesOf(door);
+      ASSERT_TRUE(latch.has_value());
+      EXPECT_GT(latch->frame.size(), 2U);  // something was cut, and the strike
+      for (const double drawn : {0.0, latch->bolt.travel_m}) {
+        const RigidTransform base_from_bolt = door.hinge.parent_from_child_at_zero *
+                                              latch->bolt.leaf_from_bolt *
+                                              Translation({0, -drawn, 0});
+        for (const Eigen::Vector3d& vertex : latch->bolt.bolt_hull.vertices) {
+          const Eigen::Vector3d at = base_from_bolt * vertex;
+          for (std::size_t i = 0; i + 1 < latch->frame.size(); ++i) {
+            double deepest = -1e9;  // above the faces of a convex piece
+            const TriangleMesh& hull = latch->frame[i].hull;
+            for (const Eigen::Vector3i& t : hull.triangles) {
+              const Eigen::Vector3d& a = hull.vertices[static_cast<std::size_t>(t[0])];
+              const Eigen::Vector3d normal =
+                  (hull.vertices[static_cast<std::size_t>(t[1])] - a)
+                      .cross(hull.vertices[static_cast<std::size_t>(t[2])] - a);
+              if (normal.norm() > 1e-12)
+                deepest = std::max(deepest, normal.normalized().dot(at - a));
+            }
+            EXPECT_GT(deepest, 0.002) << latch->frame[i].name;
+          }
+        }
+      }
+    }
+  }
+}
+
+// Debian's MuJoCo knows no <mimic>: what holds is the contact of bolt and strike alone.
+TEST(ExportedUrdf, ItsBoltHoldsTheDoorInMuJoCo) {
+  for (const HingeSide side : {HingeSide::kLeft, HingeSide::kRight}) {
+    for (const Opening opening : {Opening::kPull, Opening::kPush}) {
+      const DoorAsset door = LeverDoor({.hinge_side = side, .opening = opening});
+      const fs::path folder = ScratchFolder("latch_export") / door.id;
+      const std::array formats = {*DoorFormatNamed("urdf")};
+      for (const LatchExport latch : {LatchExport::kBolt, LatchExport::kData}) {
+        WriteExportedDoor(door, formats, folder, Existing::kReplace, {latch});
+        std::array<char, 1000> error{};
+        const std::unique_ptr<mjModel, decltype(&mj_deleteModel)> model(
+            mj_loadXML((folder / "model.urdf").c_str(), nullptr, error.data(),
+                       static_cast<int>(error.size())),
+            mj_deleteModel);
+        ASSERT_NE(model, nullptr) << error.data();
+        model->opt.timestep = 0.001;
+        const std::unique_ptr<mjData, decltype(&mj_deleteData)> data(mj_makeData(model.get()),
+                                                                     mj_deleteData);
+        const int hinge = mj_name2id(model.get(), mjOBJ_JOINT, "hinge");
+        const Eigen::Vector3d grasp =
+            door.handle_joint.parent_from_child_at_zero * door.handle_from_grasp.translation();
+        data->qfrc_applied[model->jnt_dofadr[hinge]] = 75 * grasp.head<2>().norm();
+        for (int i = 0; i < 1500; ++i) mj_step(model.get(), data.get());
+        const double opened = data->qpos[model->jnt_qposadr[hinge]];
+        if (latch == LatchExport::kBolt)
+          EXPECT_LT(opened, 0.035) << door.id;
+        else
+          EXPECT_GT(opened, 0.5) << door.id;  // nothing holds it, as export.md says
+      }
+      fs::remove_all(folder);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace doorforge

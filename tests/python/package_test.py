@@ -423,6 +423,18 @@ class Latches(unittest.TestCase):
 
 
 class Package(unittest.TestCase):
+    def test_an_import_loads_little_and_takes_less_than_a_third_of_a_second(self) -> None:
+        program = ("import doorforge, resource, sys\n"
+                   "used = resource.getrusage(resource.RUSAGE_SELF)\n"
+                   "libraries = {line.split()[-1] for line in open('/proc/self/maps') if '.so' in line}\n"
+                   "print(used.ru_utime + used.ru_stime, len(libraries))\n"
+                   "print(*sorted({'numpy', 'torch', 'gymnasium', 'ctypes'} & set(sys.modules)))")
+        runs = [subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout.split("\n")
+                for _ in range(3)]
+        self.assertLess(min(float(run[0].split()[0]) for run in runs), 0.3)  # of the processor, the interpreter's own included
+        self.assertLess(int(runs[0][0].split()[1]), 60)
+        self.assertEqual(runs[0][1], "")
+
     def test_the_extension_has_nothing_of_cgal_and_every_library_has_its_package(self) -> None:
         extension = doorforge._engine.core.__file__
         needed = subprocess.run(["readelf", "-d", extension], capture_output=True, text=True, check=True).stdout

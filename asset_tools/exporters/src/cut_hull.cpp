@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cut_hull.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -17,8 +16,7 @@ constexpr double kThinnest = 0.0005;  // [m] of what is worth keeping
 /// that the triangles of both sides of an edge share it.
 class PlaneCut {
  public:
-  PlaneCut(const TriangleMesh& hull, const Eigen::Vector3d& normal, double distance)
-      : hull_(hull), normal_(normal) {
+  PlaneCut(const TriangleMesh& hull, const Eigen::Vector3d& normal, double distance) : hull_(hull) {
     for (const Eigen::Vector3d& vertex : hull.vertices) {
       const double height = normal.dot(vertex) - distance;
       heights_.push_back(std::abs(height) < kOnPlane ? kOnPlane : height);
@@ -54,46 +52,43 @@ class PlaneCut {
 
   void CutTriangle(const Eigen::Vector3i& triangle) {
     std::vector<int> polygon;
+    int leaves = -1;
+    int enters = -1;
     for (int k = 0; k < 3; ++k) {
       const int a = triangle[k];
       const int b = triangle[(k + 1) % 3];
       const bool a_stays = heights_[static_cast<std::size_t>(a)] < 0;
       const bool b_stays = heights_[static_cast<std::size_t>(b)] < 0;
       if (a_stays) polygon.push_back(Kept(a));
-      if (a_stays != b_stays) polygon.push_back(Crossing(a, b));
+      if (a_stays == b_stays) continue;
+      polygon.push_back(Crossing(a, b));
+      (a_stays ? leaves : enters) = polygon.back();
     }
     for (std::size_t k = 2; k < polygon.size(); ++k)
       cut_.triangles.emplace_back(polygon[0], polygon[k - 1], polygon[k]);
+    if (leaves >= 0) cap_[enters] = leaves;
   }
 
-  // The section of a convex mesh is convex: its corners in the order of their angles.
+  // Each triangle that was cut gave one side of the section. They are followed rather than sorted
+  // by their angles, since corners of earlier cuts may coincide.
   void AddCap() {
-    if (crossings_.size() < 3) return;
-    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-    for (const auto& [edge, corner] : crossings_) middle += At(corner);
-    middle /= static_cast<double>(crossings_.size());
-    const Eigen::Vector3d u = normal_.unitOrthogonal();
-    const Eigen::Vector3d v = normal_.cross(u);
-    std::vector<std::pair<double, int>> corners;
-    for (const auto& [edge, corner] : crossings_) {
-      const Eigen::Vector3d away = At(corner) - middle;
-      corners.emplace_back(std::atan2(v.dot(away), u.dot(away)), corner);
+    if (cap_.size() < 3) return;
+    const int first = cap_.begin()->first;
+    int before = cap_.at(first);
+    for (std::size_t steps = 2; steps < cap_.size(); ++steps) {
+      const auto next = cap_.find(before);
+      if (next == cap_.end() || next->second == first) return;
+      cut_.triangles.emplace_back(first, before, next->second);
+      before = next->second;
     }
-    std::sort(corners.begin(), corners.end());
-    for (std::size_t k = 2; k < corners.size(); ++k)
-      cut_.triangles.emplace_back(corners[0].second, corners[k - 1].second, corners[k].second);
-  }
-
-  const Eigen::Vector3d& At(int corner) const {
-    return cut_.vertices[static_cast<std::size_t>(corner)];
   }
 
   const TriangleMesh& hull_;
-  Eigen::Vector3d normal_;
   std::vector<double> heights_;  // of the hull's vertices above the plane
   TriangleMesh cut_;
   std::map<int, int> kept_;
   std::map<std::pair<int, int>, int> crossings_;
+  std::map<int, int> cap_;  // from each corner of the section to the next
 };
 
 Eigen::AlignedBox3d BoundsIn(const RigidTransform& box_from_frame, const TriangleMesh& mesh) {

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 if _engine.problem is not None:
     warnings.warn(_engine.problem, stacklevel=2)
-else:
+elif _engine.core is not None:
     __version__ = _engine.core.code_version()
 
 # Where each name of the package is; what is not asked for is not loaded.

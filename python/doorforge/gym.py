@@ -77,8 +77,8 @@ class _Task:
         spaces: dict[str, gymnasium.Space[Any]] = {}
         for name in self.names:
             shape, dtype = self.shapes[name]
-            bounds = (0, 4) if dtype is np.uint8 else (-np.inf, np.inf)
-            spaces[name] = gymnasium.spaces.Box(*bounds, shape, dtype)
+            low, high = (0.0, 4.0) if dtype is np.uint8 else (-np.inf, np.inf)
+            spaces[name] = gymnasium.spaces.Box(low, high, shape, dtype)
         return spaces[self.names[0]] if self.single else gymnasium.spaces.Dict(spaces)
 
     def action_space(self) -> gymnasium.spaces.Box:
@@ -132,6 +132,12 @@ class _Player:
         self._visits: dict[int, int] = {}
         self._place: dict[str, Any] = {}
         self._skipped: dict[str, int] = {}
+
+    @property
+    def held(self) -> Stepper:
+        """The episode, which next_scene() has begun."""
+        assert self.stepper is not None
+        return self.stepper
 
     def reseed(self, seed: int) -> None:
         self.seed, self._visits = seed, {}
@@ -282,11 +288,12 @@ class VectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
         if first:
             self._randoms = [np.random.Generator(np.random.PCG64())] * self.num_envs
         for i, player in enumerate(self._players):
-            if seeds[i] is not None or first:
-                self._randoms[i], _ = gymnasium.utils.seeding.np_random(seeds[i])
-                player.reseed(seeds[i] if seeds[i] is not None else int(self._randoms[i].integers(2**31)))
+            seed_here = seeds[i]
+            if seed_here is not None or first:
+                self._randoms[i], _ = gymnasium.utils.seeding.np_random(seed_here)
+                player.reseed(seed_here if seed_here is not None else int(self._randoms[i].integers(2**31)))
         mask = (options or {}).get("reset_mask", np.ones(self.num_envs, bool))
-        jobs: dict[int, Any] = {i: self._begin(i, options or {}) for i in np.flatnonzero(mask)}
+        jobs: dict[int, Any] = {i: self._begin(i, options or {}) for i in np.flatnonzero(mask).tolist()}
         self._advance(jobs)
         self._to_reset[mask] = False
         return self._observe(), self._infos(range(self.num_envs))
@@ -299,13 +306,12 @@ class VectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
         jobs = {}
         for i, player in enumerate(self._players):
             if not self._to_reset[i]:
-                assert player.stepper is not None
-                jobs[i] = self._task.action(player.stepper, actions[i])
+                jobs[i] = self._task.action(player.held, actions[i])
                 _core.Action(jobs[i]) if not isinstance(jobs[i], _core.Action) else None  # refused before anything moves
-        begun = np.flatnonzero(self._to_reset)
+        begun = np.flatnonzero(self._to_reset).tolist()
         jobs.update({i: self._begin(i, {}) for i in begun})
         self._advance(jobs)
-        held = [player.stepper for player in self._players]
+        held = [player.held for player in self._players]
         rewards = np.array([stepper.reward for stepper in held])
         terminated = np.array([stepper.terminated for stepper in held])
         truncated = np.array([stepper.truncated for stepper in held])
@@ -322,15 +328,15 @@ class VectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
         # whole beginnings of episodes first: a long job that comes last leaves the other threads idle
         order = sorted(jobs, key=lambda i: (not isinstance(jobs[i], _core.Scene), i))
         while order:
-            _core.advance([self._players[i].stepper._held for i in order], [jobs[i] for i in order], self._threads)
-            again = [i for i in order if isinstance(jobs[i], _core.Scene) and self._players[i].stepper.over]
+            _core.advance([self._players[i].held._held for i in order], [jobs[i] for i in order], self._threads)
+            again = [i for i in order if isinstance(jobs[i], _core.Scene) and self._players[i].held.over]
             for i in again:
                 self._players[i].skip()
                 jobs[i] = self._players[i].next_scene(self._randoms[i], {})
             order = again
 
     def _observe(self) -> Any:
-        each = [self._task.observe(player.stepper) for player in self._players]
+        each = [self._task.observe(player.held) for player in self._players]
         if self._task.single:
             return np.stack(each)
         return {name: np.stack([one[name] for one in each]) for name in self._task.names}

@@ -274,7 +274,8 @@ std::string ToHtml(std::span<const ValidationReport> reports) {
          "validate</title><style>" +
          std::string(page::kPageStyle) +
          "body{max-width:90rem;margin:auto;padding:1rem}td{vertical-align:top;"
-         "overflow-wrap:anywhere}</style></head><body>\n<h1>doorforge validate</h1>\n<p>" +
+         "overflow-wrap:anywhere}td:first-child{white-space:nowrap}</style></"
+         "head><body>\n<h1>doorforge validate</h1>\n<p>" +
          page::Plural(reports.size(), "item") + ", " + page::Plural(errors, "error") + ", " +
          page::Plural(warnings, "warning") + "</p>\n" + items + "</body></html>\n";
 }

@@ -57,7 +57,7 @@ REPLACED = [
     ("urdf", "</robot>", '  <link name="alone"/>\n</robot>', "TRE007", '<link name="alone"/>'),
     ("urdf", 'mimic joint="turn"', 'mimic joint="trun"', "TRE009"),
     ("urdf", 'mimic joint="turn"', 'mimic joint="slide"', "TRE009"),
-    ("urdf", '<material name="oak"/>', '<material name="ash"/>', "TRE011"),
+    ("urdf", '<material name="oak"/>', '<material name="ash"/>', "TRE013"),
     ("urdf", '<link name="post">', '<material name="oak"/>\n  <link name="post">', "TRE012", '<material name="oak"/>'),
     ("urdf", 'axis xyz="0 0 -1"', 'axis xyz="0 0 0"', "JNT001"),
     ("urdf", 'axis xyz="0 0 -1"', 'axis xyz="0 0 -2"', "JNT002"),

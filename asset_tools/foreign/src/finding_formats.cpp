@@ -272,7 +272,10 @@ std::string ToHtml(std::span<const ValidationReport> reports) {
   if (!passed.empty()) items += "<h2>Without findings</h2>\n<ul>\n" + passed + "</ul>\n";
   return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/><title>doorforge "
          "validate</title><style>" +
-         std::string(page::kPageStyle) + "</style></head><body>\n<h1>doorforge validate</h1>\n<p>" +
+         std::string(page::kPageStyle) +
+         "body{max-width:90rem;margin:auto;padding:1rem}td{vertical-align:top;"
+         "overflow-wrap:anywhere}td:first-child{white-space:nowrap}</style></"
+         "head><body>\n<h1>doorforge validate</h1>\n<p>" +
          page::Plural(reports.size(), "item") + ", " + page::Plural(errors, "error") + ", " +
          page::Plural(warnings, "warning") + "</p>\n" + items + "</body></html>\n";
 }

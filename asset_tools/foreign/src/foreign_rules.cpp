@@ -85,6 +85,8 @@ constexpr ValidationRule kForeignRules[] = {
      "correct the name, or add what it names"},
     {"TRE012", kBad, "Each name of a material, mesh or other asset occurs once", 0,
      "each name once", "rename one of them"},
+    {"TRE013", kDoubtful, "Materials that a URDF names are defined in it", 0,
+     "a material of the robot or of a visual", "define it; readers draw what they like without"},
 
     {"JNT001", kBad, "An axis has a direction", 1e-9, "a length above {}", "write an axis"},
     {"JNT002", kDoubtful, "Axes have unit length", 1e-3, "1 within {}", "normalise the axis"},

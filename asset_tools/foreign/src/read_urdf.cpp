@@ -201,7 +201,7 @@ class UrdfReader {
   void UseMaterial(const XmlElement& material) {
     const auto name = source_.Text(material, "name");
     if (material.children.empty() && name && !materials_.contains(*name))
-      source_.faults().Add("TRE011", source_.At(material, "name"),
+      source_.faults().Add("TRE013", source_.At(material, "name"),
                            "material \"" + *name + "\" is nowhere defined");
     if (!material.children.empty()) ReadLook(material);
   }

@@ -368,12 +368,12 @@ void AddBoltJoint(const Bolt& bolt, const std::array<std::string, 3>& paths,
   usda.Close();
 }
 
-// Greased steel, as hard as the engine bears: at Newton's usual stiffness a door of 75 N would push
-// its bolt through the strike.
-void AddSteel(const Bolt& bolt, UsdaText& usda) {
+// As hard as the engine bears: at Newton's usual stiffness a pull of 75 N pushes the bolt through
+// the strike. And dry: where the mimic is soft, a greased bolt slips back.
+void AddSteel(UsdaText& usda) {
   usda.Open("def Material \"latch_steel\"", "\"PhysicsMaterialAPI\", \"NewtonMaterialAPI\"");
-  usda.Line("float physics:staticFriction = " + Decimal(bolt.friction));
-  usda.Line("float physics:dynamicFriction = " + Decimal(bolt.friction));
+  usda.Line("float physics:staticFriction = 1");
+  usda.Line("float physics:dynamicFriction = 1");
   usda.Line("float newton:contactStiffness = 1000000");
   usda.Line("float newton:contactDamping = 2000");
   usda.Close();
@@ -423,7 +423,7 @@ std::string ToUsda(const DoorAsset& door, const ExportSettings& settings) {
     paths[i] = "/" + name + "/" + Identifier(door.links[i].name);
   const std::string bolt_path = "/" + name + "/" + internal::kBoltLink;
   const std::string steel = "/" + name + "/latch_steel";
-  if (latch) AddSteel(latch->bolt, usda);
+  if (latch) AddSteel(usda);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const DoorLink& link = door.links[i];
     Placed placed{paths[i], poses[i], {}};

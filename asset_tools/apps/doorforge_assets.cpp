@@ -21,7 +21,8 @@ int main(int argc, char** argv) {
       {"repair", RunRepairVerb},
       {"validate", RunValidateVerb},
 #ifdef DOORFORGE_WITH_VIEW
-      {"serve", RunServeVerb},     {"view", RunViewVerb},
+      {"serve", RunServeVerb},
+      {"view", RunViewVerb},
 #endif
   };
   return RunVerbs(kVerbs, argc, argv);

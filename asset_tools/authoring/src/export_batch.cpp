@@ -21,8 +21,7 @@ void Export(const ExportRun& run, ExportedDoor& exported) {
     if (StopRequested() != 0) throw Error(ErrorCode::kIncomplete, "stopped before its turn");
     const DoorAsset door = ReadDoor(exported.folder);
     exported.id = door.id;
-    WriteExportedDoor(door, run.formats, OutputBelow(run.out, door.id), run.existing,
-                      run.settings);
+    WriteExportedDoor(door, run.formats, OutputBelow(run.out, door.id), run.existing, run.settings);
   } catch (const Error& error) {
     exported.problem = error.what();
   } catch (const std::exception&) {

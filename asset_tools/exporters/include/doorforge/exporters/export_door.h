@@ -58,8 +58,8 @@ std::string ToMjcf(const DoorAsset& door, const ExportSettings& settings = {});
 std::string ToExportedUrdf(const DoorAsset& door, const ExportSettings& settings = {});
 
 /// SDF 1.9 (sdformat 12) with the meshes of WriteDoor() beside it. Springs are in the joints'
-/// dynamics. A bolt touches the strike alone, by bit masks; it follows the handle by <mimic>, a word
-/// of SDF 1.11 that older readers pass over. The latch's numbers are in the element
+/// dynamics. A bolt touches the strike alone, by bit masks; it follows the handle by <mimic>, a
+/// word of SDF 1.11 that older readers pass over. The latch's numbers are in the element
 /// <doorforge:latch>, the grasp is the frame "grasp".
 std::string ToSdf(const DoorAsset& door, const ExportSettings& settings = {});
 /// The model.config that Gazebo wants beside model.sdf.

@@ -264,6 +264,7 @@ class SlurmTest(unittest.TestCase):
         self.assertIn("sbatch refused a job", refused.stderr)
         self.assertEqual(self.slurm.run("squeue", "-h"), "")
 
+        (self.folder / "arrays.sh").unlink()  # a script that says something else is not replaced unasked
         submitted = self.doorforge(*small, "--out", self.folder / "arrays", *script, "--slurm-array", ARRAY_SIZE)
         words = submitted.stdout.split()
         self.assertEqual([words[0], *words[4::2]], ["tasks", "merge", "verify"], submitted.stdout)

@@ -2,14 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cut_hull.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace doorforge::internal {
 namespace {
 
 constexpr double kOnPlane = 1e-7;     // [m]
+constexpr double kOnePoint = 1e-6;    // [m] within which vertices become one
 constexpr double kThinnest = 0.0005;  // [m] of what is worth keeping
 
 /// Cuts one mesh: vertices that stay are numbered anew, edges that cross give one vertex each, so
@@ -69,18 +73,16 @@ class PlaneCut {
     if (leaves >= 0) cap_[enters] = leaves;
   }
 
-  // Each triangle that was cut gave one side of the section. They are followed rather than sorted
-  // by their angles, since corners of earlier cuts may coincide.
+  // Each triangle that was cut gave one side of the section. All meet in its middle: a fan about a
+  // corner would have triangles without area, where corners of earlier cuts lie on one line.
   void AddCap() {
     if (cap_.size() < 3) return;
-    const int first = cap_.begin()->first;
-    int before = cap_.at(first);
-    for (std::size_t steps = 2; steps < cap_.size(); ++steps) {
-      const auto next = cap_.find(before);
-      if (next == cap_.end() || next->second == first) return;
-      cut_.triangles.emplace_back(first, before, next->second);
-      before = next->second;
-    }
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const auto& [corner, next] : cap_)
+      middle += cut_.vertices[static_cast<std::size_t>(corner)] / static_cast<double>(cap_.size());
+    const auto apex = static_cast<int>(cut_.vertices.size());
+    cut_.vertices.push_back(middle);
+    for (const auto& [corner, next] : cap_) cut_.triangles.emplace_back(apex, corner, next);
   }
 
   const TriangleMesh& hull_;
@@ -90,6 +92,57 @@ class PlaneCut {
   std::map<std::pair<int, int>, int> crossings_;
   std::map<int, int> cap_;  // from each corner of the section to the next
 };
+
+// For each vertex the first one that lies within kOnePoint of it.
+std::vector<int> FirstOfEachPoint(const std::vector<Eigen::Vector3d>& vertices) {
+  std::vector<int> first;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    std::size_t same = 0;
+    while ((vertices[same] - vertices[i]).norm() > kOnePoint) ++same;
+    first.push_back(first.size() > same ? first[same] : static_cast<int>(i));
+  }
+  return first;
+}
+
+// The smallest index first, so that equal triangles are equal.
+std::array<int, 3> Turned(const Eigen::Vector3i& triangle) {
+  std::array<int, 3> turned{triangle[0], triangle[1], triangle[2]};
+  std::ranges::rotate(turned, std::ranges::min_element(turned));
+  return turned;
+}
+
+// Where a plane passes a hair from a vertex, vertices are one point in a file and triangles have no
+// area. Sides of an edge that became one point fall together; two triangles that lie back to back
+// then enclose nothing.
+TriangleMesh Welded(const TriangleMesh& mesh) {
+  const std::vector<int> first = FirstOfEachPoint(mesh.vertices);
+  std::set<std::array<int, 3>> triangles;
+  for (const Eigen::Vector3i& triangle : mesh.triangles) {
+    const Eigen::Vector3i joined(first[static_cast<std::size_t>(triangle[0])],
+                                 first[static_cast<std::size_t>(triangle[1])],
+                                 first[static_cast<std::size_t>(triangle[2])]);
+    if (joined[0] == joined[1] || joined[1] == joined[2] || joined[2] == joined[0]) continue;
+    const auto back = triangles.find(Turned({joined[0], joined[2], joined[1]}));
+    if (back != triangles.end())
+      triangles.erase(back);
+    else
+      triangles.insert(Turned(joined));
+  }
+  TriangleMesh welded;
+  std::map<int, int> index;
+  for (const std::array<int, 3>& triangle : triangles) {
+    Eigen::Vector3i kept;
+    for (int k = 0; k < 3; ++k) {
+      const int vertex = triangle[static_cast<std::size_t>(k)];
+      const auto [entry, is_new] =
+          index.try_emplace(vertex, static_cast<int>(welded.vertices.size()));
+      if (is_new) welded.vertices.push_back(mesh.vertices[static_cast<std::size_t>(vertex)]);
+      kept[k] = entry->second;
+    }
+    welded.triangles.push_back(kept);
+  }
+  return welded;
+}
 
 Eigen::AlignedBox3d BoundsIn(const RigidTransform& box_from_frame, const TriangleMesh& mesh) {
   Eigen::AlignedBox3d bounds;
@@ -105,7 +158,7 @@ bool IsWorthKeeping(const RigidTransform& box_from_frame, const TriangleMesh& pi
 }  // namespace
 
 TriangleMesh CutByPlane(const TriangleMesh& hull, const Eigen::Vector3d& normal, double distance) {
-  return PlaneCut(hull, normal, distance).Cut();
+  return Welded(PlaneCut(hull, normal, distance).Cut());
 }
 
 std::vector<TriangleMesh> WithoutBox(const TriangleMesh& hull, const PlacedBox& box) {

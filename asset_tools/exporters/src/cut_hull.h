@@ -18,7 +18,8 @@ struct PlacedBox {
 };
 
 /// What a plane leaves of a convex mesh: the side where normal . x < distance. Closed and oriented
-/// as the mesh was; empty if nothing is left. A vertex within 1e-7 m of the plane counts as beyond.
+/// as the mesh was; empty if nothing is left. A vertex within 1e-7 m of the plane counts as beyond;
+/// vertices within 1e-6 m become one, and no triangle has two corners in one point.
 TriangleMesh CutByPlane(const TriangleMesh& hull, const Eigen::Vector3d& normal, double distance);
 
 /// Convex pieces that together fill the hull without the box, six at most; the hull itself if they

@@ -38,7 +38,7 @@ std::string FileOf(const std::string& format) {
   return "model." + format;
 }
 
-// Of the pull at the grasp about the hinge.
+// This is the arm of the pull at the grasp about the hinge.
 double ArmOf(const DoorAsset& door) {
   const Eigen::Vector3d grasp =
       door.handle_joint.parent_from_child_at_zero * door.handle_from_grasp.translation();

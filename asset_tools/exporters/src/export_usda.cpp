@@ -368,8 +368,8 @@ void AddBoltJoint(const Bolt& bolt, const std::array<std::string, 3>& paths,
   usda.Close();
 }
 
-// As hard as the engine bears: at Newton's usual stiffness a pull of 75 N pushes the bolt through
-// the strike. And dry: where the mimic is soft, a greased bolt slips back.
+// The contact is as hard as the engine bears: at Newton's usual stiffness a pull of 75 N pushes the
+// bolt through the strike. It is dry: where the mimic is soft, a greased bolt slips back.
 void AddSteel(UsdaText& usda) {
   usda.Open("def Material \"latch_steel\"", "\"PhysicsMaterialAPI\", \"NewtonMaterialAPI\"");
   usda.Line("float physics:staticFriction = 1");

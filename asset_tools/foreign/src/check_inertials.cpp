@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kHeaviestForeignKgM3 = 20000;  // osmium is 22590
 
-// Of a whole body of links that fixed joints hold together.
+// It is that of a whole body of links that fixed joints hold together.
 std::vector<double> BodyMasses(const ArticulatedObject& object, const ObjectTree& tree) {
   std::vector<double> masses(object.links.size(), 0);
   for (std::size_t i = 0; i < object.links.size(); ++i) {

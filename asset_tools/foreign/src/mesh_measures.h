@@ -21,7 +21,7 @@ namespace doorforge::foreign {
 struct MeshMeasure {
   std::string problem;   ///< Why it cannot be read; empty if it can.
   int problem_line = 0;  ///< 0 where the format has no lines.
-  /// Of the triangles with equal positions as one vertex and without repeated triangles.
+  /// It is of the triangles with equal positions as one vertex and without repeated triangles.
   MeshTopology topology;
   std::size_t triangles = 0;
   std::size_t repeated = 0;

@@ -31,7 +31,7 @@ constexpr std::uint64_t kIoctlOfDevices = 1ULL << 15;              // version 5
 constexpr std::uint64_t kConnections = 3;                          // version 4: bind, connect
 constexpr std::uint64_t kScopes = 3;  // version 6: abstract sockets, signals
 
-// As the kernel declares it since version 6; shorter ones are its beginnings.
+// The kernel declares it so since version 6; what earlier versions know is its beginning.
 struct RulesetAttributes {
   std::uint64_t files = 0;
   std::uint64_t connections = 0;

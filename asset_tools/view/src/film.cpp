@@ -31,7 +31,7 @@ std::string PoseBytes(const std::vector<FilmFrame>& frames) {
   return bytes;
 }
 
-// Of each frame its number of points, then all points in steps of a millimetre's tenth about the
+// Each frame gives its number of points, then all points in steps of a millimetre's tenth about the
 // first frame's first, then their labels.
 Json CloudForView(const std::vector<FilmFrame>& frames, int most, PageContent& content) {
   constexpr double kStep = 1e-4;  // [m]

@@ -13,7 +13,7 @@ namespace doorforge::internal {
 /// among the data.
 std::string HtmlPage(const std::string& title, const PageContent& content);
 
-/// The same, and it may ask the server that it came from.
+/// Makes the same page, which may ask the server that it came from.
 std::string ServedHtmlPage(const std::string& title, const PageContent& content);
 
 }  // namespace doorforge::internal

@@ -30,7 +30,7 @@ class PageContent {
   /// same bytes is kept once.
   std::size_t AddMesh(const TriangleMesh& mesh);
 
-  /// The same for one surface of what an author drew, with "uv" where it has a texture's
+  /// Adds one surface of what an author drew, with "uv" where it has a texture's
   /// coordinates, a pair of floats a corner in the order of the triangles.
   std::size_t AddSurface(const VisualMesh& mesh, const VisualSurface& surface);
 

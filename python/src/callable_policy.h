@@ -30,7 +30,7 @@ SharedCallable Share(CallableSettings settings);
 /// calls, and may be made and destroyed with or without it.
 std::unique_ptr<Policy> MakeCallablePolicy(SharedCallable settings);
 
-/// The same for who takes hold: called once an episode, with what ToPython() of a GraspObservation
+/// This one takes hold: called once an episode, with what ToPython() of a GraspObservation
 /// gives, for the contact [m, world] and two rows of world_from_hand, or None. `names` are not
 /// read.
 std::unique_ptr<GraspPolicy> MakeCallableGrasp(SharedCallable settings);

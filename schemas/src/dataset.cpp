@@ -126,7 +126,7 @@ class FeatureSums {
   double count_ = 0;
 };
 
-// Of one cloud; sums in registers, as in FeatureSums.
+// It is of one cloud; sums stay in registers, as in FeatureSums.
 std::array<double, 3> MeanPoint(std::span<const float> xyz) {
   double x = 0;
   double y = 0;

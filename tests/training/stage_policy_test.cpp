@@ -53,7 +53,7 @@ TEST(StagePolicy, ActsAlikeInMemoryAndFromItsFolder) {
               0, 1e-6);
 }
 
-// The same scene elsewhere: joints as before, cloud and hand moved.
+// This is the scene elsewhere: joints as before, cloud and hand moved.
 Observation Moved(Observation observation, const Eigen::Vector3f& by) {
   for (std::size_t i = 0; i < observation.cloud.xyz.size(); ++i)
     observation.cloud.xyz[i] += by[static_cast<Eigen::Index>(i % 3)];

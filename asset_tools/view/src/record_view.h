@@ -45,7 +45,7 @@ MeshesForView AllMeshes(PageContent& content);
 PageContent::Json DoorForView(const DoorAsset& door, const MeshesForView& meshes,
                               PageContent& content);
 
-/// The same of a part: its fixed piece is link 0, the one that turns link 1. A part has no latch.
+/// Shows a part alike: its fixed piece is link 0, the one that turns link 1. A part has no latch.
 PageContent::Json PartForView(const Part& part, const MeshesForView& meshes);
 
 /// Adds "findings" to what DoorForView() or PartForView() gave.

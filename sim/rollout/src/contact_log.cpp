@@ -12,7 +12,8 @@ namespace doorforge::internal {
 
 namespace {
 
-// Of a first-order low-pass at 10 Hz: what a wrist sensor's reading is after its usual filter.
+// It is that of a first-order low-pass at 10 Hz: what a wrist sensor's reading is after its usual
+// filter.
 constexpr double kForceFilter = 1 / (2 * std::numbers::pi * 10);  // [s]
 
 }  // namespace

@@ -44,7 +44,7 @@ class DenseLayers {
   /// This one writes into `out`, whose memory is used again.
   void Apply(const std::string& name, const Rows& x, Activation activation, Table& out) const;
 
-  /// Of a layer whose inputs before those of `x` are zero.
+  /// It is of a layer whose inputs before those of `x` are zero.
   Table ApplyToLast(const std::string& name, const Rows& x, Activation activation) const;
 
   /// The layers "<name>.0", "<name>.1", "<name>.2" with the activation between them.

@@ -61,10 +61,10 @@ ActionVector ToVector(const Action& action);
 /// throw Error(kInvalidArgument).
 Action FromVector(const ActionVector& vector);
 
-/// The same numbers without rounding to float.
+/// Gives these numbers without rounding to float.
 using ActionNumbers = std::array<double, 9>;
 ActionNumbers ToNumbers(const Action& action);
-/// As FromVector(), but rows that are orthonormal to 1e-12 stay as they are: ToNumbers() of an
+/// Does as FromVector(), but rows that are orthonormal to 1e-12 stay as they are: ToNumbers() of an
 /// action that FromVector() or FromNumbers() gave comes back with the same bits.
 Action FromNumbers(const ActionNumbers& numbers);
 

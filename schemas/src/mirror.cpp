@@ -27,4 +27,9 @@ ActionVector MirroredSideways(const ActionVector& action) {
   return mirrored;
 }
 
+LabelledCloud MirroredSideways(LabelledCloud cloud) {
+  for (std::size_t i = 1; i < cloud.xyz.size(); i += 3) cloud.xyz[i] = -cloud.xyz[i];
+  return cloud;
+}
+
 }  // namespace doorforge

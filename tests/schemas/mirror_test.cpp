@@ -64,5 +64,12 @@ TEST(Mirror, AnActionInTheMirrorLeadsToTheMirrorImageOfWhereItLed) {
   }
 }
 
+TEST(Mirror, APointInTheMirrorHasTheOppositeY) {
+  const LabelledCloud cloud{{1, 2, 3, 4, -5, 6}, {0, 1}};
+  const LabelledCloud mirrored = MirroredSideways(cloud);
+  EXPECT_EQ(mirrored.xyz, (std::vector<float>{1, -2, 3, 4, 5, 6}));
+  EXPECT_EQ(mirrored.label, cloud.label);
+}
+
 }  // namespace
 }  // namespace doorforge

@@ -3,6 +3,8 @@
 #include "doorforge/policy/trying_policy.h"
 
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -11,6 +13,7 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/rigid_transform.h"
 #include "doorforge/policy/stage_policy.h"
+#include "doorforge/schemas/mirror.h"
 
 #include "synthetic_samples.h"
 
@@ -18,6 +21,7 @@ namespace doorforge {
 namespace {
 
 constexpr double kStep = 0.02;  // [m]
+const std::vector<MotionWay> kBothWays = {MotionWay::kUsual, MotionWay::kOther};
 
 Proprioception HandAt(const Eigen::Vector3d& place, const Eigen::Matrix3d& rotation) {
   Proprioception proprioception{};
@@ -76,12 +80,12 @@ class Hand {
 };
 
 std::vector<MotionWay> WaysTaken(Hand hand, bool turns, int actions) {
-  TryingPolicy policy(std::make_unique<ToAndFro>(turns), {});
+  TryingPolicy policy(std::make_unique<ToAndFro>(turns), {}, kBothWays, nullptr);
   policy.Reset();
   std::vector<MotionWay> ways;
   for (int i = 0; i < actions; ++i) {
     hand.Do(policy.Act(hand.Seen()));
-    ways.push_back(policy.way());
+    ways.push_back(policy.guess().way);
   }
   return ways;
 }
@@ -103,18 +107,22 @@ TEST(TryingPolicy, GoesTheOtherWayOnceTheUsualLeadsNowhere) {
 }
 
 TEST(TryingPolicy, WhatIsTakenBackDoesNotCount) {
-  TryingPolicy policy(std::make_unique<ToAndFro>(false), {});
+  TryingPolicy policy(std::make_unique<ToAndFro>(false), {}, kBothWays, nullptr);
   const Hand still(0, 0);
   for (int i = 0; i < 20; ++i) {
     policy.Act(still.Seen());
     policy.TakeBack();
-    EXPECT_EQ(policy.way(), MotionWay::kUsual);
+    EXPECT_EQ(policy.guess().way, MotionWay::kUsual);
   }
 }
 
 TEST(TryingPolicy, RefusesSettingsOutOfRange) {
-  EXPECT_THROW(TryingPolicy(std::make_unique<ToAndFro>(false), {.patience = 0}), Error);
-  EXPECT_THROW(TryingPolicy(std::make_unique<ToAndFro>(false), {.moved_share = 1.5}), Error);
+  const auto make = [](const StallConfig& stall) {
+    TryingPolicy(std::make_unique<ToAndFro>(false), stall, kBothWays, nullptr);
+  };
+  EXPECT_NO_THROW(make({}));
+  EXPECT_THROW(make({.patience = 0}), Error);
+  EXPECT_THROW(make({.moved_share = 1.5}), Error);
 }
 
 // Whether a policy does something else once the hand has not moved for three actions.
@@ -129,6 +137,61 @@ bool ChangesItsMind(const std::vector<TrainingSample>& samples) {
   EXPECT_EQ(policy->Act(observation).position_delta_m, first.position_delta_m);
   EXPECT_EQ(policy->Act(observation).position_delta_m, first.position_delta_m);
   return policy->Act(observation).position_delta_m != first.position_delta_m;
+}
+
+Observation Mirrored(Observation observation) {
+  observation.cloud = MirroredSideways(std::move(observation.cloud));
+  observation.proprioception = MirroredSideways(observation.proprioception);
+  return observation;
+}
+
+std::shared_ptr<SideFinder> Knows(SideChoice side) {
+  return std::make_shared<SideFinder>(side, std::nullopt);
+}
+
+TEST(TryingPolicy, DoesAtADoorHingedRightTheMirrorImageOfWhatItDoesAtItsMirrorImage) {
+  const auto made = testing::MakeSyntheticSamples(5, 4);
+  const NetworkView view{ViewFrame::kHand, StateKind::kHand};
+  const StageNetworks networks =
+      InitialNetworks(MeasureNormalisation(made.samples, view), false, 4);
+  const auto left = MakePolicy(networks, {}, Knows(SideChoice::kLeft));
+  const auto right = MakePolicy(networks, {}, Knows(SideChoice::kRight));
+  for (const TrainingSample& sample : made.samples) {
+    Observation observation;
+    observation.proprioception = sample.proprioception;
+    observation.cloud.xyz.assign(sample.cloud.begin(), sample.cloud.end());
+    const Action one = FromVector(MirroredSideways(ToVector(left->Act(observation))));
+    const Action other = right->Act(Mirrored(observation));
+    EXPECT_EQ(one.position_delta_m, other.position_delta_m);
+    EXPECT_EQ(one.world_from_hand_rotation, other.world_from_hand_rotation);
+  }
+}
+
+TEST(TryingPolicy, TellsTheNextStageOnWhichSideTheHingeIs) {
+  const auto finder = Knows(SideChoice::kAuto);
+  TryingPolicy turns(std::make_unique<ToAndFro>(true), {}, {MotionWay::kUsual}, finder);
+  Hand moves_one_way(0, 1);
+  finder->Begin(std::nullopt);
+  for (int i = 0; i < 6; ++i) moves_one_way.Do(turns.Act(moves_one_way.Seen()));
+  // a turn about x is mirrored into the opposite one
+  EXPECT_EQ(turns.guess().side, HingeSide::kRight);
+  TryingPolicy opens(std::make_unique<ToAndFro>(false), {}, {MotionWay::kUsual}, finder);
+  opens.Reset();
+  opens.Act(moves_one_way.Seen());
+  EXPECT_EQ(opens.guess().side, HingeSide::kRight);
+  finder->Begin(std::nullopt);
+  opens.Reset();
+  opens.Act(moves_one_way.Seen());
+  EXPECT_EQ(opens.guess().side, HingeSide::kLeft);
+}
+
+TEST(TryingPolicy, APolicyOfTheArmsJointsHasNoMirrorImage) {
+  const auto made = testing::MakeSyntheticSamples(5, 4);
+  const NetworkView view{ViewFrame::kHand, StateKind::kJoints};
+  const StageNetworks networks =
+      InitialNetworks(MeasureNormalisation(made.samples, view), false, 4);
+  EXPECT_NO_THROW(MakePolicy(networks, {.side = SideChoice::kLeft}));
+  EXPECT_THROW(MakePolicy(networks, {.side = SideChoice::kRight}), Error);
 }
 
 TEST(TryingPolicy, IsWhatNetworksOfBothWaysBecome) {

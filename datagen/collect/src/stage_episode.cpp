@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "doorforge/registry/run_policy_set.h"
 #include "doorforge/rollout/camera_observer.h"
 #include "doorforge/rollout/grasp_from_policy.h"
 #include "doorforge/rollout/run_episode.h"
@@ -75,6 +76,7 @@ CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const Identified
     roles.learner_decisions = LearnerDecisions(config, planned);
   }
 
+  BeginEpisode(*set, {scene, door, robot, config.cloud});
   CollectedEpisode collected;
   Observer* observer = &camera;
   if (policies_camera) observer = &*policies_camera;
@@ -86,6 +88,7 @@ CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const Identified
   collected.meta["door"] = DoorRecord(door);
   const MotionWay way = WayOf(door, config.stage);
   if (way != MotionWay::kUsual) collected.meta["way"] = NameOf(way);
+  if (door.hinge_side != HingeSide::kLeft) collected.meta["side"] = NameOf(door.hinge_side);
   collected.meta["poses"] = PosesRecord(episode.scene);
   collected.meta["camera"] = CameraRecord(recorded_scene.camera);
   collected.meta["visible_points"] = camera.Visible(decisions);

@@ -41,6 +41,15 @@ LabelledCloud JoinedCloud(LabelledCloud visible, const LabelledCloud& before,
   return SampleCloud(visible, start_m, extent).cloud;
 }
 
+LabelledCloud ClosedDoorCloud(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
+                              const CloudConfig& cloud) {
+  CameraObserver camera(scene, door, robot, cloud, /*sees_robot=*/false);
+  const SceneSnapshot closed = ClosedDoor(scene, door, robot);
+  return SampleCloud(camera.Look(closed).visible, closed.door[kHandleLink].translation(),
+                     {.point_count = cloud.point_count})
+      .cloud;
+}
+
 RememberedView::RememberedView(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
                                const CloudConfig& cloud, const RememberedViewConfig& config)
     : scene_(scene), door_(&door), robot_(&robot), cloud_(cloud), config_(config) {

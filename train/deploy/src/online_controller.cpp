@@ -49,6 +49,7 @@ void CheckOnlineControllerConfig(const OnlineControllerConfig& config) {
 OnlineController::OnlineController(const OnlineControllerSetup& setup)
     : setup_(setup), robot_(LoadRobot({}, setup.base)) {
   CheckOnlineControllerConfig(setup.config);
+  finder_ = LoadSideFinder(setup.opener, setup.config.policy);
   opener_ = LoadActor(setup.opener, Stage::kOpen);
   handler_ = LoadHandler(setup.handler);
   grasper_ = LoadGrasper(setup.grasper);
@@ -72,8 +73,9 @@ std::optional<OnlineController::Actor> OnlineController::LoadActor(const std::st
   auto familiarity = LoadFamiliarity(folder, record);
   const NetworkView view = record.networks.normalisation.view;
   GainCritic critic(record.networks);
-  Actor actor{MakePolicy(std::move(record.networks), setup_.config.policy), record.weights_sha256,
-              std::move(critic), std::move(familiarity)};
+  Actor actor{MakePolicy(std::move(record.networks), setup_.config.policy, finder_),
+              record.weights_sha256, std::move(critic), std::move(familiarity)};
+  actor.trying = dynamic_cast<TryingPolicy*>(actor.policy.get());
   actor.policy->Reset();
   actor.remembers = view.remembered_finer > 0;
   actor.within_m = static_cast<double>(view.cloud_within_m);
@@ -111,7 +113,7 @@ ActAnswer OnlineController::DecideGrasp(DepthImage depth, PixelMask handle,
     return ObserveHandle(seen_.depth, *seen_.handle, setup_.camera,
                          -Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0), setup_.config.cloud);
   });
-  before_ = sight.view.visible;
+  KeepBefore(sight.view.visible);
   const GripperClearance clearance(robot_);
   sight.view.hand_from_tcp = robot_.hand_from_tcp();
   sight.view.fits = [&](const Eigen::Vector3d& contact_m, const Eigen::Matrix3d& rotation) {
@@ -131,8 +133,19 @@ ActAnswer OnlineController::Decide(DepthImage depth, const RobotState& state,
 }
 
 void OnlineController::Remember(const DepthImage& before, const InputNames& names) {
-  before_ = NamingInputs(names.depth + " and " + names.camera,
-                         [&] { return ObserveBefore(before, setup_.camera, setup_.config.cloud); });
+  KeepBefore(NamingInputs(names.depth + " and " + names.camera, [&] {
+    return ObserveBefore(before, setup_.camera, setup_.config.cloud);
+  }));
+}
+
+// The side of the hinge is told from as many points as it was learned from.
+void OnlineController::KeepBefore(LabelledCloud before) {
+  const Eigen::Vector3d start(static_cast<double>(before.xyz[0]),
+                              static_cast<double>(before.xyz[1]),
+                              static_cast<double>(before.xyz[2]));
+  finder_->Begin(
+      SampleCloud(before, start, {.point_count = setup_.config.cloud.point_count}).cloud);
+  before_ = std::move(before);
 }
 
 RobotSight OnlineController::SightOf(const Actor& actor, const RobotState& state) const {
@@ -213,17 +226,21 @@ ActAnswer OnlineController::Answer(Stage stage, Actor& actor, const RobotState& 
   answer.world_from_hand.translation() =
       state.world_from_hand.translation() + action.position_delta_m;
   answer.world_from_hand_now = state.world_from_hand;
-  answer.expected_gain_rad = actor.critic.GainOf(observation, action);
+  const Observation shown = actor.trying->AsShown(observation);
+  answer.expected_gain_rad = actor.critic.GainOf(shown, actor.trying->AsShown(action));
   answer.foreign = ForeignnessOf(
-      actor.familiarity, SightNumbersOf({observation.cloud.xyz, observation.cloud.label},
-                                        observation.proprioception, NetworkFamily::kMotion));
+      actor.familiarity, SightNumbersOf({shown.cloud.xyz, shown.cloud.label}, shown.proprioception,
+                                        NetworkFamily::kMotion));
   answer.candidates = setup_.config.policy.candidates;
   answer.visible_points = sight.visible_count;
   answer.weights_sha256 = actor.weights_sha256;
   Judge(setup_.config.hold, answer);
+  // an action on a picture of something else must not end the stage, and whether the hand follows
+  // only an unbroken sequence can tell
+  const bool held = !answer.hold_reasons.empty();
+  if (held || !setup_.sees_every_decision) actor.trying->TakeBack();
   if (stage == Stage::kHandle && Predicts()) {
-    // an action on a picture of something else must not end the stage
-    if (!answer.hold_reasons.empty()) actor.turning->TakeBack();
+    if (held) actor.turning->TakeBack();
     answer.turned = actor.turning->Turned();
   }
   return answer;

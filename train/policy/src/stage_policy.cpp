@@ -26,7 +26,7 @@ void AppendCopies(const std::vector<float>& values, int copies, std::vector<floa
   for (int i = 0; i < copies; ++i) out.insert(out.end(), values.begin(), values.end());
 }
 
-class StagePolicy : public Policy, public TwoWayPolicy {
+class StagePolicy : public TwoWayPolicy {
  public:
   StagePolicy(StageNetworks networks, const PolicyOptions& options)
       : networks_(std::move(networks)),
@@ -40,10 +40,6 @@ class StagePolicy : public Policy, public TwoWayPolicy {
   }
 
   void Reset() override { decision_ = 0; }
-
-  Action Act(const Observation& observation) override {
-    return Act(observation, MotionWay::kUsual);
-  }
 
   Action Act(const Observation& observation, MotionWay way) override {
     const Eigen::Vector3f hand_m = HandPositionOf(observation.proprioception);
@@ -108,18 +104,36 @@ class StagePolicy : public Policy, public TwoWayPolicy {
 
 }  // namespace
 
-std::unique_ptr<Policy> MakePolicy(StageNetworks networks, const PolicyOptions& options) {
+std::unique_ptr<Policy> MakePolicy(StageNetworks networks, const PolicyOptions& options,
+                                   std::shared_ptr<SideFinder> finder) {
   Require(options.candidates >= 1 && options.candidates <= 1000, ErrorCode::kInvalidConfig,
           "policy.candidates: must be 1 to 1000");
-  const bool tries = KnowsBothWays(networks.normalisation);
-  auto policy = std::make_unique<StagePolicy>(std::move(networks), options);
-  if (!tries) return policy;
-  return std::make_unique<TryingPolicy>(std::move(policy), options.stall);
+  const StageNormalisation& normalisation = networks.normalisation;
+  std::vector<MotionWay> ways = {MotionWay::kUsual};
+  if (KnowsBothWays(normalisation)) ways.push_back(MotionWay::kOther);
+  // the mirror image of an arm is another arm, see mirror.h
+  const bool has_mirror_image = normalisation.view.state != StateKind::kJoints;
+  Require(has_mirror_image || options.side != SideChoice::kRight, ErrorCode::kInvalidConfig,
+          "policy.side: a policy that reads the arm's joints knows doors hinged left alone");
+  if (!has_mirror_image) finder.reset();
+  if (has_mirror_image && !finder && options.side != SideChoice::kAuto)
+    finder = std::make_shared<SideFinder>(options.side, std::nullopt);
+  return std::make_unique<TryingPolicy>(std::make_unique<StagePolicy>(std::move(networks), options),
+                                        options.stall, std::move(ways), std::move(finder));
 }
 
 std::unique_ptr<Policy> LoadPolicy(const std::filesystem::path& folder,
-                                   const PolicyOptions& options, std::string_view stage) {
-  return MakePolicy(ReadPolicy(folder, stage).networks, options);
+                                   const PolicyOptions& options, std::string_view stage,
+                                   std::shared_ptr<SideFinder> finder) {
+  return MakePolicy(ReadPolicy(folder, stage).networks, options, std::move(finder));
+}
+
+std::shared_ptr<SideFinder> LoadSideFinder(const std::filesystem::path& opener,
+                                           const PolicyOptions& options) {
+  std::optional<SideClassifier> classifier;
+  if (!opener.empty())
+    classifier = ReadSideClassifier(opener, ReadPolicy(opener).provenance.dataset_sha256);
+  return std::make_shared<SideFinder>(options.side, std::move(classifier));
 }
 
 }  // namespace doorforge

@@ -7,6 +7,7 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/rigid_transform.h"
+#include "doorforge/schemas/mirror.h"
 
 namespace doorforge {
 namespace {
@@ -53,8 +54,12 @@ void StallDetector::Ask(const Proprioception& now, const Action& action) {
   asked_ = action;
 }
 
-TryingPolicy::TryingPolicy(std::unique_ptr<TwoWayPolicy> policy, const StallConfig& config)
-    : policy_(std::move(policy)), stall_(config) {
+TryingPolicy::TryingPolicy(std::unique_ptr<TwoWayPolicy> policy, const StallConfig& config,
+                           std::vector<MotionWay> ways, std::shared_ptr<SideFinder> finder)
+    : policy_(std::move(policy)),
+      stall_(config),
+      ways_(std::move(ways)),
+      finder_(std::move(finder)) {
   Require(config.patience >= 1 && config.patience <= 100, ErrorCode::kInvalidConfig,
           "policy.stall.patience: must be 1 to 100");
   Require(config.moved_share >= 0 && config.moved_share <= 1, ErrorCode::kInvalidConfig,
@@ -64,19 +69,47 @@ TryingPolicy::TryingPolicy(std::unique_ptr<TwoWayPolicy> policy, const StallConf
 void TryingPolicy::Reset() {
   policy_->Reset();
   stall_.Reset();
-  way_ = MotionWay::kUsual;
+  guesses_.clear();
   changed_ = false;
 }
 
+// Both ways on the likelier side before the other side.
+void TryingPolicy::Begin(const Observation& observation) {
+  const HingeSide side =
+      finder_ ? finder_->SideFor(HandPositionOf(observation.proprioception)) : HingeSide::kLeft;
+  for (const MotionWay way : ways_) guesses_.push_back({side, way});
+  if (finder_ && finder_->MayChange()) {
+    for (const MotionWay way : ways_) guesses_.push_back({Opposite(side), way});
+  }
+  tried_ = 0;
+  guess_ = guesses_.front();
+}
+
 Action TryingPolicy::Act(const Observation& observation) {
-  changed_ = stall_.Stalls(observation.proprioception);
+  if (guesses_.empty()) Begin(observation);
+  changed_ = guesses_.size() > 1 && stall_.Stalls(observation.proprioception);
   if (changed_) {
-    way_ = Opposite(way_);
+    guess_ = guesses_[++tried_ % guesses_.size()];
+    if (finder_) finder_->Found(guess_.side);
     stall_.Reset();
   }
-  Action action = policy_->Act(observation, way_);
+  const Action action = guess_.side == HingeSide::kLeft
+                            ? policy_->Act(observation, guess_.way)
+                            : AsShown(policy_->Act(AsShown(observation), guess_.way));
   stall_.Ask(observation.proprioception, action);
   return action;
+}
+
+Observation TryingPolicy::AsShown(Observation observation) const {
+  if (guess_.side == HingeSide::kLeft) return observation;
+  observation.cloud = MirroredSideways(std::move(observation.cloud));
+  observation.proprioception = MirroredSideways(observation.proprioception);
+  return observation;
+}
+
+Action TryingPolicy::AsShown(const Action& action) const {
+  if (guess_.side == HingeSide::kLeft) return action;
+  return FromVector(MirroredSideways(ToVector(action)));
 }
 
 }  // namespace doorforge

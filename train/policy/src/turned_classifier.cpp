@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include "doorforge/core/committed_file.h"
@@ -14,6 +13,7 @@
 #include "doorforge/core/rigid_transform.h"
 #include "doorforge/schemas/safetensors.h"
 
+#include "logistic_regression.h"
 #include "policy_companion.h"
 
 namespace doorforge {
@@ -27,11 +27,9 @@ constexpr internal::CompanionKind kClassifierKind{kClassifierSchema, kTurnedSche
                                                   "train the policy again with this build"};
 constexpr double kRidge = 1;
 constexpr double kLeastFeatureDeviation = 1e-3;  // so that what hardly varied is not blown up
-constexpr int kNewtonSteps = 50;
-constexpr int kUnknowns = static_cast<int>(kTurnedInputs) + 1;
+constexpr Eigen::Index kUnknowns = kTurnedInputs + 1;
 
 using Inputs = std::array<double, kTurnedInputs>;
-using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
 
 // The motion, the magnitudes of its numbers, the lengths of its vectors.
 Inputs InputsOf(const HandMotion& motion) {
@@ -48,8 +46,6 @@ Inputs InputsOf(const HandMotion& motion) {
   }
   return inputs;
 }
-
-double Logistic(double x) { return 1 / (1 + std::exp(-x)); }
 
 void MeasureInputs(std::span<const TurnedExample> examples, TurnedClassifier& classifier) {
   const auto count = static_cast<double>(examples.size());
@@ -72,58 +68,14 @@ void MeasureInputs(std::span<const TurnedExample> examples, TurnedClassifier& cl
 }
 
 // Normalised inputs, and a 1 for the bias.
-Unknowns RowOf(const TurnedClassifier& classifier, const HandMotion& motion) {
+Eigen::VectorXd RowOf(const TurnedClassifier& classifier, const HandMotion& motion) {
   const Inputs inputs = InputsOf(motion);
-  Unknowns row;
+  Eigen::VectorXd row(kUnknowns);
   for (std::size_t i = 0; i < kTurnedInputs; ++i)
     row[static_cast<Eigen::Index>(i)] =
         (inputs[i] - static_cast<double>(classifier.mean[i])) / classifier.deviation[i];
   row[kUnknowns - 1] = 1;
   return row;
-}
-
-struct Objective {
-  double value = 0;
-  Unknowns gradient = Unknowns::Zero();
-  Eigen::Matrix<double, kUnknowns, kUnknowns> curvature =
-      Eigen::Matrix<double, kUnknowns, kUnknowns>::Zero();
-};
-
-Objective ObjectiveAt(const Unknowns& unknowns, const std::vector<Unknowns>& rows,
-                      std::span<const TurnedExample> examples) {
-  Objective objective;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double score = rows[i].dot(unknowns);
-    const double p = Logistic(score);
-    const double signed_score = examples[i].turned ? -score : score;
-    objective.value += std::max(0.0, signed_score) + std::log1p(std::exp(-std::fabs(signed_score)));
-    objective.gradient += (p - (examples[i].turned ? 1 : 0)) * rows[i];
-    objective.curvature.noalias() += (p * (1 - p) * rows[i]) * rows[i].transpose();
-  }
-  Unknowns ridge = Unknowns::Constant(kRidge);
-  ridge[kUnknowns - 1] = 1e-9;  // the bias is free
-  objective.value += 0.5 * ridge.cwiseProduct(unknowns).dot(unknowns);
-  objective.gradient += ridge.cwiseProduct(unknowns);
-  objective.curvature.diagonal() += ridge;
-  return objective;
-}
-
-// Newton's method; a step that does not descend is halved.
-Unknowns Minimum(const std::vector<Unknowns>& rows, std::span<const TurnedExample> examples) {
-  Unknowns unknowns = Unknowns::Zero();
-  Objective now = ObjectiveAt(unknowns, rows, examples);
-  for (int i = 0; i < kNewtonSteps && now.gradient.norm() > 1e-9 * (1 + now.value); ++i) {
-    Unknowns step = now.curvature.ldlt().solve(now.gradient);
-    Objective next = ObjectiveAt(unknowns - step, rows, examples);
-    for (int half = 0; half < 20 && next.value > now.value; ++half) {
-      step *= 0.5;
-      next = ObjectiveAt(unknowns - step, rows, examples);
-    }
-    if (next.value >= now.value) break;
-    unknowns -= step;
-    now = next;
-  }
-  return unknowns;
 }
 
 std::array<float, kTurnedInputs> ArrayOf(const TensorFile& file, const std::string& name,
@@ -165,11 +117,11 @@ HandMotion HandMotionOf(const Proprioception& first, const Proprioception& now,
 }
 
 double TurnedClassifier::Probability(const HandMotion& motion) const {
-  const Unknowns row = RowOf(*this, motion);
+  const Eigen::VectorXd row = RowOf(*this, motion);
   double score = bias;
   for (std::size_t i = 0; i < kTurnedInputs; ++i)
     score += weight[i] * row[static_cast<Eigen::Index>(i)];
-  return Logistic(score);
+  return internal::Logistic(score);
 }
 
 // A turn is mirrored as its axis is, which keeps y and turns x and z around; a way the other way
@@ -186,10 +138,14 @@ std::optional<TurnedClassifier> FitTurnedClassifier(std::span<const TurnedExampl
   if (turned == 0 || std::cmp_equal(turned, examples.size())) return std::nullopt;
   TurnedClassifier classifier;
   MeasureInputs(examples, classifier);
-  std::vector<Unknowns> rows;
-  rows.reserve(examples.size());
-  for (const TurnedExample& example : examples) rows.push_back(RowOf(classifier, example.motion));
-  const Unknowns found = Minimum(rows, examples);
+  internal::LogisticProblem problem;
+  for (const TurnedExample& example : examples) {
+    problem.rows.push_back(RowOf(classifier, example.motion));
+    problem.yes.push_back(example.turned);
+  }
+  problem.ridge = Eigen::VectorXd::Constant(kUnknowns, kRidge);
+  problem.ridge[kUnknowns - 1] = 1e-9;  // the bias is free
+  const Eigen::VectorXd found = internal::FitLogistic(problem);
   for (std::size_t i = 0; i < kTurnedInputs; ++i)
     classifier.weight[i] = static_cast<float>(found[static_cast<Eigen::Index>(i)]);
   classifier.bias = static_cast<float>(found[kUnknowns - 1]);

@@ -28,7 +28,10 @@ Action TurningPolicy::Act(const Observation& observation) {
   first_before_ = first_;
   turned_before_ = turned_;
   if (!first_) first_ = observation.proprioception;
-  const HandMotion motion = HandMotionOf(*first_, observation.proprioception, ToVector(action));
+  HandMotion motion = HandMotionOf(*first_, observation.proprioception, ToVector(action));
+  // the classifier, too, has learned doors hinged left
+  if (tries_ != nullptr && tries_->guess().side == HingeSide::kRight)
+    motion = MirroredSideways(motion);
   turned_ = turned_ || classifier_.Probability(motion) >= 0.5;
   return action;
 }
@@ -40,7 +43,8 @@ void TurningPolicy::TakeBack() {
 }
 
 std::unique_ptr<TurningPolicy> LoadTurningPolicy(const std::filesystem::path& folder,
-                                                 const PolicyOptions& options) {
+                                                 const PolicyOptions& options,
+                                                 std::shared_ptr<SideFinder> finder) {
   PolicyRecord record = ReadPolicy(folder, "handle");
   const auto classifier = ReadTurnedClassifier(folder, record.provenance.dataset_sha256);
   if (!classifier)
@@ -49,8 +53,8 @@ std::unique_ptr<TurningPolicy> LoadTurningPolicy(const std::filesystem::path& fo
                     ": this policy cannot tell when the handle is turned (it has no "
                     "turned.safetensors, which earlier builds did not write); run its training "
                     "command again with --resume, which adds it, or use the privileged switch");
-  return std::make_unique<TurningPolicy>(MakePolicy(std::move(record.networks), options),
-                                         *classifier);
+  return std::make_unique<TurningPolicy>(
+      MakePolicy(std::move(record.networks), options, std::move(finder)), *classifier);
 }
 
 }  // namespace doorforge

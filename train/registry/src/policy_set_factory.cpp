@@ -20,8 +20,10 @@ PolicySetFactory::PolicySetFactory(const PolicyRegistry& registry, const PolicyW
 
 PolicySet PolicySetFactory::Make() const {
   PolicySet set;
-  AddOpener(set);
-  AddHandler(set);
+  const std::shared_ptr<SideFinder> finder = LoadSideFinder(opener_.folder, settings_.network);
+  set.memory = finder;
+  AddOpener(set, finder);
+  AddHandler(set, finder);
   AddGrasper(set);
   return set;
 }
@@ -41,22 +43,23 @@ RememberedViewConfig PolicySetFactory::Remembered() const {
   return {view.remembered_finer, static_cast<double>(view.cloud_within_m)};
 }
 
-void PolicySetFactory::AddOpener(PolicySet& set) const {
-  set.open = opener_.IsFolder() ? LoadPolicy(opener_.folder, settings_.network)
-                                : opener_.motion->make(settings_);
+void PolicySetFactory::AddOpener(PolicySet& set, const std::shared_ptr<SideFinder>& finder) const {
+  set.open = opener_.IsFolder()
+                 ? LoadPolicy(opener_.folder, settings_.network, NameOf(Stage::kOpen), finder)
+                 : opener_.motion->make(settings_);
   Require(set.open != nullptr, ErrorCode::kInvalidArgument,
           "the policy \"" + opener_.word + "\" is to open doors, and its row makes none");
 }
 
-void PolicySetFactory::AddHandler(PolicySet& set) const {
+void PolicySetFactory::AddHandler(PolicySet& set, const std::shared_ptr<SideFinder>& finder) const {
   if (!handler_.IsFolder()) {
     set.handle = handler_.motion->make(settings_);
   } else if (PredictsSwitch()) {
-    auto handler = LoadTurningPolicy(handler_.folder, settings_.network);
+    auto handler = LoadTurningPolicy(handler_.folder, settings_.network, finder);
     set.handle_turned = handler.get();
     set.handle = std::move(handler);
   } else {
-    set.handle = LoadPolicy(handler_.folder, settings_.network, NameOf(Stage::kHandle));
+    set.handle = LoadPolicy(handler_.folder, settings_.network, NameOf(Stage::kHandle), finder);
   }
 }
 

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/registry/run_policy_set.h"
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "doorforge/rollout/grasp_look.h"
+#include "doorforge/rollout/remembered_view.h"
 #include "doorforge/schemas/fallible.h"
 
 namespace doorforge {
@@ -50,7 +53,16 @@ std::unique_ptr<CameraObserver> CameraOf(const EpisodePlace& place,
   return camera;
 }
 
+void BeginEpisode(const PolicySet& set, const EpisodePlace& place) {
+  if (!set.memory) return;
+  std::optional<LabelledCloud> before;
+  if (set.memory->WantsPicture())
+    before = ClosedDoorCloud(place.scene, place.door, place.robot, place.cloud);
+  set.memory->Begin(std::move(before));
+}
+
 Episode RunPolicySet(const EpisodePlace& place, const PolicySet& set, Observer* observer) {
+  BeginEpisode(set, place);
   const std::unique_ptr<GraspFromPolicy> grasp = GraspOf(set, place);
   EpisodeRoles roles{.grasp = grasp.get(), .handle = set.handle.get(), .open = set.open.get()};
   if (set.handle_turned != nullptr)

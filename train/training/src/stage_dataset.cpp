@@ -127,6 +127,33 @@ std::vector<TurnedExample> TurnedExamplesOf(const DatasetReader& reader, std::si
   return examples;
 }
 
+HingeSide SideIn(const nlohmann::ordered_json& meta, const std::string& path) {
+  if (!meta.contains("side")) return HingeSide::kLeft;
+  const auto word = ValueOf<std::string>(meta, "side", path);
+  const std::optional<HingeSide> side = HingeSideNamed(word);
+  if (!side) throw Error(ErrorCode::kFormat, path + ".side: unknown word \"" + word + '"');
+  return *side;
+}
+
+// The closed doors of episodes [begin, end), as the camera sees them at the first decision.
+std::vector<SideExample> SidesOf(const DatasetReader& reader, std::size_t begin, std::size_t end) {
+  std::vector<SideExample> examples;
+  for (std::size_t i = begin; i < end; ++i) {
+    const EpisodeArrays arrays = reader.Arrays(i);
+    const std::string path = "episode " + reader.entry(i).key + ": meta.json";
+    std::vector<float> door;
+    for (std::size_t point = 0; point < kCloudPoints; ++point) {
+      if (arrays.label[point] == static_cast<std::uint8_t>(PointLabel::kRobot)) continue;
+      const auto xyz = arrays.cloud.subspan(3 * point, 3);
+      door.insert(door.end(), xyz.begin(), xyz.end());
+    }
+    if (door.empty()) continue;
+    const auto first = RowOf<std::tuple_size_v<Proprioception>>(arrays.proprio, 0);
+    examples.push_back({SideNumbersOf(door, HandPositionOf(first)), SideIn(reader.Meta(i), path)});
+  }
+  return examples;
+}
+
 // Episodes [begin, end) of a split.
 std::vector<TrainingSample> SamplesOf(const DatasetReader& reader, const std::string& stage,
                                       std::size_t begin, std::size_t end) {
@@ -172,10 +199,12 @@ void AppendDataset(const fs::path& folder, const std::string& stage, double vali
   dataset.readers.push_back(std::make_unique<DatasetReader>(folder, stage, "train"));
   const DatasetReader& train = *dataset.readers.back();
   const std::size_t episodes = train.size();
+  const bool opens = stage == NameOf(Stage::kOpen);
   if (fs::exists(folder / stage / "val")) {
     dataset.readers.push_back(std::make_unique<DatasetReader>(folder, stage, "val"));
     const DatasetReader& validation = *dataset.readers.back();
     AppendEpisodes({train, stage, 0, episodes}, dataset.train, dataset.turned_train);
+    if (opens) AppendAll(SidesOf(train, 0, episodes), dataset.sides);
     AppendEpisodes({validation, stage, 0, validation.size()}, dataset.validation,
                    dataset.turned_validation);
     return;
@@ -184,6 +213,7 @@ void AppendDataset(const fs::path& folder, const std::string& stage, double vali
       episodes > 0 ? episodes - 1 : 0,
       static_cast<std::size_t>(std::ceil(validation_share * static_cast<double>(episodes))));
   AppendEpisodes({train, stage, 0, episodes - aside}, dataset.train, dataset.turned_train);
+  if (opens) AppendAll(SidesOf(train, 0, episodes - aside), dataset.sides);
   AppendEpisodes({train, stage, episodes - aside, episodes}, dataset.validation,
                  dataset.turned_validation);
 }

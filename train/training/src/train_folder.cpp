@@ -21,6 +21,7 @@
 #include "doorforge/core/progress.h"
 #include "doorforge/policy/familiarity.h"
 #include "doorforge/policy/policy_file.h"
+#include "doorforge/policy/side_classifier.h"
 #include "doorforge/training/linear_algebra.h"
 #include "doorforge/training/loss_files.h"
 #include "doorforge/training/stage_dataset.h"
@@ -69,11 +70,13 @@ struct PolicyOutput {
   std::uint64_t steps_per_epoch;
   std::optional<TurnedClassifier> turned;
   std::optional<Familiarity> familiarity;
+  std::optional<SideClassifier> side;
 };
 
 void WriteBesides(const PolicyOutput& output, const fs::path& folder) {
   WriteTurnedClassifier(folder, output.turned, output.provenance.dataset_sha256);
   WriteFamiliarity(folder, output.familiarity, output.provenance.dataset_sha256);
+  WriteSideClassifier(folder, output.side, output.provenance.dataset_sha256);
 }
 
 // Where both networks have been validated, what they were at their best: a policy below the last.
@@ -90,8 +93,8 @@ void WriteBest(const PolicyOutput& output, const BestNetworks& best) {
 
 // Only what WriteBest() writes: whatever else lies there is the user's.
 void RemoveBest(const fs::path& out) {
-  for (const char* file :
-       {"policy.json", "policy.safetensors", "turned.safetensors", "familiar.safetensors"})
+  for (const char* file : {"policy.json", "policy.safetensors", "turned.safetensors",
+                           "familiar.safetensors", "side.safetensors"})
     fs::remove(out / "best" / file);
   if (fs::is_directory(out / "best") && fs::is_empty(out / "best")) fs::remove(out / "best");
 }
@@ -182,9 +185,10 @@ class FolderTraining {
  private:
   // what lies beside the networks is known before they are trained
   void Prepare() {
-    output_ = {request_.out, provenance_, per_epoch_, {}, {}};
+    output_ = {request_.out, provenance_, per_epoch_, {}, {}, {}};
     CommitFile(request_.out / "config.yaml", JsonText(ToJson(request_.config), 2) + "\n");
     output_.turned = FitTurnedClassifier(TurnedExamples());
+    output_.side = FitSideClassifier(dataset_.sides);
     output_.familiarity = FitFamiliarity(
         dataset_.train, dataset_.validation, request_.config.family,
         request_.config.augment_mirror ? SampleSides::kMirroredToo : SampleSides::kAsSeen);

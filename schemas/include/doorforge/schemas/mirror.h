@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "doorforge/schemas/cloud.h"
 #include "doorforge/schemas/policy.h"
 
 namespace doorforge {
@@ -18,5 +19,7 @@ Proprioception MirroredSideways(const Proprioception& proprioception);
 
 /// The rotation may be an absolute target, or a turn from the present rotation of the hand.
 ActionVector MirroredSideways(const ActionVector& action);
+/// The points' y changes its sign; their labels stay.
+LabelledCloud MirroredSideways(LabelledCloud cloud);
 
 }  // namespace doorforge

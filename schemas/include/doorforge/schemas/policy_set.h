@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "doorforge/schemas/episode_memory.h"
 #include "doorforge/schemas/grasp_policy.h"
 #include "doorforge/schemas/policy.h"
 #include "doorforge/schemas/stage_switch.h"
@@ -19,6 +20,7 @@ struct PolicySet {
   std::unique_ptr<GraspPolicy> grasp = nullptr;  ///< Null: the expert's grasp.
   /// Pixels along each side of the camera that `grasp` looks through, times those of the scene's.
   int grasp_resolution_scale = 1;
+  std::shared_ptr<EpisodeMemory> memory = nullptr;  ///< The policies share it; null: nothing.
 };
 
 }  // namespace doorforge

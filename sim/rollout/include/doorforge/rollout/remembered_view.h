@@ -46,6 +46,13 @@ void CheckRememberedView(const RememberedViewConfig& config);
 LabelledCloud JoinedCloud(LabelledCloud visible, const LabelledCloud& before,
                           const Eigen::Vector3d& start_m, const CloudExtent& extent);
 
+/// What the scene's camera sees of the closed door before the robot comes: as many points as a
+/// policy's cloud has.
+///
+/// @throws as CameraObserver.
+LabelledCloud ClosedDoorCloud(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
+                              const CloudConfig& cloud);
+
 /// The scene's camera on the closed door alone, rendered when it is first asked for. `door` and
 /// `robot` must outlive it. Serves one thread at a time.
 class RememberedView {

@@ -117,6 +117,7 @@ class OnlineController {
     std::string weights_sha256;
     GainCritic critic;
     std::optional<Familiarity> familiarity;
+    TryingPolicy* trying = nullptr;    // the same, or what turning plays
     TurningPolicy* turning = nullptr;  // the same, where it says when the handle is turned
     bool remembers = false;            // RememberedPoints, of so much:
     double within_m = 0;
@@ -127,6 +128,7 @@ class OnlineController {
     std::optional<Familiarity> familiarity;
   };
 
+  void KeepBefore(LabelledCloud before);
   std::optional<Actor> LoadActor(const std::string& folder, Stage stage);
   std::optional<Actor> LoadHandler(const std::string& folder);
   std::optional<Grasper> LoadGrasper(const std::string& folder);
@@ -149,6 +151,7 @@ class OnlineController {
   std::optional<Grasper> grasper_;
   SeenPicture seen_;
   std::optional<LabelledCloud> before_;
+  std::shared_ptr<SideFinder> finder_;
   bool unlocked_ = false;
 };
 

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "doorforge/networks/stage_networks.h"
+#include "doorforge/policy/side_finder.h"
 #include "doorforge/policy/trying_policy.h"
 #include "doorforge/schemas/policy.h"
 
@@ -19,13 +20,15 @@ struct PolicyOptions {
   /// N(0, I); the critic's highest score is taken (the first of equals).
   int candidates = 1;
   std::uint64_t seed = 1;  ///< The draws begin with it anew at every Reset().
-  StallConfig stall = {};  ///< When a policy that knows both ways goes the other one.
+  StallConfig stall = {};  ///< When the other way or side is tried.
+  SideChoice side = SideChoice::kAuto;
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
     visit("candidates", self.candidates);
     visit("seed", self.seed);
     visit("stall", self.stall);
+    visit("side", self.side);
   }
 };
 
@@ -36,13 +39,24 @@ struct PolicyOptions {
 /// own. Act() reads the cloud and the proprioception only, and throws Error(kInvalidArgument) if
 /// they are not finite or the cloud does not hold 4096 points.
 ///
+/// @param finder Shared by the policies of a set. Null: doors are hinged on the left, or as
+///     `options.side` says.
 /// @throws Error(kMissing or kFormat) as ReadPolicy(), Error(kInvalidConfig) on bad options.
 std::unique_ptr<Policy> LoadPolicy(const std::filesystem::path& folder,
                                    const PolicyOptions& options = {},
-                                   std::string_view stage = "open");
+                                   std::string_view stage = "open",
+                                   std::shared_ptr<SideFinder> finder = nullptr);
 
-/// Makes one of networks in memory. One that has learned both ways a motion may take is a
-/// TryingPolicy.
-std::unique_ptr<Policy> MakePolicy(StageNetworks networks, const PolicyOptions& options = {});
+/// Makes one of networks in memory.
+std::unique_ptr<Policy> MakePolicy(StageNetworks networks, const PolicyOptions& options = {},
+                                   std::shared_ptr<SideFinder> finder = nullptr);
+
+/// What policies of a set share of an episode's door. Of the opener's folder it reads
+/// `side.safetensors`, where there is one.
+///
+/// @param opener A folder that `doorforge train open` wrote; empty: none.
+/// @throws Error as ReadPolicy() and ReadSideClassifier().
+std::shared_ptr<SideFinder> LoadSideFinder(const std::filesystem::path& opener,
+                                           const PolicyOptions& options = {});
 
 }  // namespace doorforge

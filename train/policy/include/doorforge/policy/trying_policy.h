@@ -5,8 +5,11 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <vector>
 
+#include "doorforge/policy/side_finder.h"
 #include "doorforge/schemas/motion_way.h"
+#include "doorforge/schemas/names.h"
 #include "doorforge/schemas/policy.h"
 
 namespace doorforge {
@@ -59,26 +62,49 @@ class StallDetector {
   std::deque<Share> shares_;
 };
 
-/// Tries the usual way first. Where that leads nowhere it goes the other way, and back again where
-/// that does not either: it is told nothing of the door but what it feels. Deterministic as the
-/// policy is.
+/// Which side the hinge is taken to be on, and which way the motion takes.
+struct MotionGuess {
+  HingeSide side = HingeSide::kLeft;
+  MotionWay way = MotionWay::kUsual;
+
+  friend bool operator==(const MotionGuess&, const MotionGuess&) = default;
+};
+
+/// Plays a policy that has learned doors hinged left on doors of either side: to a door hinged
+/// right it shows the mirror image, see mirror.h, and does the mirror image of its answer. Begins
+/// with what the SideFinder says and the usual way. Where that leads nowhere it tries the next
+/// guess, the first again after the last: it is told nothing of the door but what it sees and
+/// feels. Deterministic as the policy is.
 class TryingPolicy : public Policy {
  public:
   /// @param policy Not null.
+  /// @param ways Which ways it has learned, in the order in which they are tried; not empty.
+  /// @param finder Shared with the policies of other stages. Null: doors are hinged left.
   /// @throws Error(kInvalidConfig) unless patience is 1 to 100 and the share 0 to 1.
-  TryingPolicy(std::unique_ptr<TwoWayPolicy> policy, const StallConfig& config);
+  TryingPolicy(std::unique_ptr<TwoWayPolicy> policy, const StallConfig& config,
+               std::vector<MotionWay> ways, std::shared_ptr<SideFinder> finder);
 
   void Reset() override;
   Action Act(const Observation& observation) override;
   void TakeBack() { stall_.TakeBack(); }  ///< The last action is not carried out.
 
-  MotionWay way() const { return way_; }     ///< It was taken by the last Act().
-  bool changed() const { return changed_; }  ///< The last Act() took another way than that before.
+  const MotionGuess& guess() const { return guess_; }  ///< By which the last Act() went.
+  bool changed() const { return changed_; }  ///< The last Act() went by another than that before.
+  /// What the policy is shown of the scene by the present guess, for those who judge what it does.
+  Observation AsShown(Observation observation) const;
+  /// An action in the scene that it is shown, from one in the scene as it is, and the other way.
+  Action AsShown(const Action& action) const;
 
  private:
+  void Begin(const Observation& observation);
+
   std::unique_ptr<TwoWayPolicy> policy_;
   StallDetector stall_;
-  MotionWay way_ = MotionWay::kUsual;
+  std::vector<MotionWay> ways_;
+  std::shared_ptr<SideFinder> finder_;
+  std::vector<MotionGuess> guesses_;  // of this episode; empty before its first action
+  std::size_t tried_ = 0;
+  MotionGuess guess_;
   bool changed_ = false;
 };
 

@@ -45,6 +45,7 @@ class TurningPolicy : public Policy, public StageSwitch {
 /// @throws Error as LoadPolicy() and ReadTurnedClassifier(); Error(kInvalidArgument) if the folder
 ///     has no classifier, with the way to get one.
 std::unique_ptr<TurningPolicy> LoadTurningPolicy(const std::filesystem::path& folder,
-                                                 const PolicyOptions& options = {});
+                                                 const PolicyOptions& options = {},
+                                                 std::shared_ptr<SideFinder> finder = nullptr);
 
 }  // namespace doorforge

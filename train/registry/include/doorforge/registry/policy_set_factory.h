@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 
 #include "doorforge/core/named_enum.h"
+#include "doorforge/policy/side_finder.h"
 #include "doorforge/registry/policy_registry.h"
 #include "doorforge/rollout/remembered_view.h"
 #include "doorforge/schemas/policy_set.h"
@@ -61,8 +63,8 @@ class PolicySetFactory {
   bool PredictsSwitch() const;
 
  private:
-  void AddOpener(PolicySet& set) const;
-  void AddHandler(PolicySet& set) const;
+  void AddOpener(PolicySet& set, const std::shared_ptr<SideFinder>& finder) const;
+  void AddHandler(PolicySet& set, const std::shared_ptr<SideFinder>& finder) const;
   void AddGrasper(PolicySet& set) const;
 
   PolicySettings settings_;

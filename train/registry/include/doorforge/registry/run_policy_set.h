@@ -39,6 +39,12 @@ std::unique_ptr<GraspFromPolicy> GraspOf(const PolicySet& set, const EpisodePlac
 std::unique_ptr<CameraObserver> CameraOf(const EpisodePlace& place,
                                          const RememberedViewConfig& remembered);
 
+/// Makes the set forget the last episode, and shows it the closed door where that is of use. Before
+/// every episode that is not run by RunPolicySet().
+///
+/// @throws as CameraObserver.
+void BeginEpisode(const PolicySet& set, const EpisodePlace& place);
+
 /// Runs the three stages of an episode with the policies of a set and records the opening, as
 /// RunStages(). Where a policy that is Fallible had no action, the outcome is kDiverged and the
 /// detail is kPolicyFailed with the reason.

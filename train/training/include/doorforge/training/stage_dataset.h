@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "doorforge/networks/training_sample.h"
+#include "doorforge/policy/side_classifier.h"
 #include "doorforge/policy/turned_classifier.h"
 #include "doorforge/schemas/seen_parts.h"
 
@@ -25,6 +26,9 @@ struct StageDataset {
   /// The stage "handle" has one for each sample, in its order.
   std::vector<TurnedExample> turned_train;
   std::vector<TurnedExample> turned_validation;
+  /// The stage "open" has one for each episode that is trained from: the closed door of its first
+  /// decision, without the robot's points.
+  std::vector<SideExample> sides;
   SeenParts parts;             ///< They are those of the doors of all data sets.
   std::string content_sha256;  ///< StageContentSha256() gives it.
   std::vector<std::unique_ptr<DatasetReader>> readers;

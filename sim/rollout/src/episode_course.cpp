@@ -10,10 +10,26 @@
 #include "text_format.h"
 
 namespace doorforge::internal {
+namespace {
+
+constexpr double kAsGoodAsShutRad = 3 * kDegree;  // what was seen of the door still holds
+
+}  // namespace
 
 void EpisodeCourse::End(std::optional<Verdict> failure) {
   state_.failure = std::move(failure);
   state_.over = true;
+}
+
+// A grasp that led nowhere is not the end, where another may be tried.
+void EpisodeCourse::Fail(Verdict verdict) {
+  const bool is_shut = world_.state().hinge_rad < kAsGoodAsShutRad;
+  if (state_.grasps >= grasps_ || !is_shut || world_.diverged()) return End(std::move(verdict));
+  LetGo(world_);
+  if (world_.diverged()) return End(std::move(verdict));
+  BeginStage(Stage::kGrasp);
+  state_.truncated = false;
+  state_.early.clear();
 }
 
 // ---- grasp --------------------------------------------------------------------------------------
@@ -21,10 +37,11 @@ void EpisodeCourse::End(std::optional<Verdict> failure) {
 void EpisodeCourse::Grasp(std::optional<ChosenGrasp> grasp) {
   if (!grasp)
     return End(Verdict{EpisodeOutcome::kNotReached, "no point to take hold of is in view"});
+  ++state_.grasps;
   if (!grasp->plan) grasp->plan = PlanOf(*grasp, world_);
   state_.grasp_cost = grasp->plan->cost;
   if (std::optional<Verdict> missed = TakeHold(world_, state_.log, *grasp))
-    return End(std::move(missed));
+    return Fail(std::move(*missed));
   BeginStage(Stage::kHandle);
 }
 
@@ -77,7 +94,7 @@ void EpisodeCourse::FinishTurn() {
   world_.Watch(EpisodePhase::kUnlock);
   const bool lost = state_.log.StepsWithoutPads(world_.step()) > physics().steps_per_action;
   const bool said = SaysTurned();
-  if (!said && (lost || !predicted_turned_)) return End(TurnVerdict(lost));
+  if (!said && (lost || !predicted_turned_)) return Fail(TurnVerdict(lost));
   const WorldState& state = world_.state();
   const Latch& latch = world_.scene().latch;
   if (!IsTurned(latch, state) && !state.handle_done)
@@ -121,7 +138,7 @@ void EpisodeCourse::FinishOpening() {
   world_.Watch(EpisodePhase::kEnd);
   state_.handle_done = state_.early.empty() || world_.state().handle_done;
   if (state_.log.opened()) return End(std::nullopt);
-  End(JudgeOpening(OpeningNow(), world_.limits()));
+  Fail(JudgeOpening(OpeningNow(), world_.limits()));
 }
 
 OpeningEvidence EpisodeCourse::OpeningNow() const {
@@ -159,7 +176,7 @@ void EpisodeCourse::Turn(HandleRule& rule) {
     lost = contacts.AnyPad() ? 0 : lost + 1;
   }
   world_.Watch(EpisodePhase::kUnlock);
-  End(TurnVerdict(lost > 0));
+  Fail(TurnVerdict(lost > 0));
 }
 
 // ---- the record ---------------------------------------------------------------------------------
@@ -172,6 +189,7 @@ EpisodeOutcome EpisodeCourse::outcome() const {
 std::string EpisodeCourse::Detail() const {
   const ContactLog& log = state_.log;
   std::string text = Format("grasp cost %.2f; ", state_.grasp_cost);
+  if (state_.grasps > 1) text += Format("grasp %d; ", state_.grasps);
   if (!log.touched_itself().empty())
     text += "robot touched itself at " + log.touched_itself() + "; ";
   if (world_.diverged()) return text + Describe(*world_.world().fault());
@@ -191,6 +209,7 @@ Episode EpisodeCourse::Summary() const {
   episode.peak_handle_rad = world_.memory().peak_handle_rad;
   episode.simulated_s = world_.state().time_s;
   episode.handle_done = state_.handle_done;
+  episode.grasps = state_.grasps;
   episode.peak_force_n = state_.log.peak_force_n();
   episode.peak_net_force_n = state_.log.peak_net_force_n();
   episode.state_sha256 = world_.world().StateHash();

@@ -19,8 +19,9 @@ namespace doorforge::internal {
 class EpisodeCourse {
  public:
   /// @param predicted_turned As EpisodeRoles::predicted_turned.
-  EpisodeCourse(EpisodeWorld& world, std::function<bool()> predicted_turned)
-      : world_(world), predicted_turned_(std::move(predicted_turned)) {}
+  /// @param grasps As EpisodeRoles::grasps.
+  EpisodeCourse(EpisodeWorld& world, std::function<bool()> predicted_turned, int grasps)
+      : world_(world), predicted_turned_(std::move(predicted_turned)), grasps_(grasps) {}
 
   /// The stage "grasp"; nothing where no point to take hold of is in view.
   void Grasp(std::optional<ChosenGrasp> grasp);
@@ -45,6 +46,7 @@ class EpisodeCourse {
     bool truncated = false;  // by the number of actions
     int actions = 0;         // of the present stage
     double grasp_cost = 0;
+    int grasps = 0;     // taken so far
     std::string early;  // how far the handle was, where a predicted flag came too early
     bool handle_done = false;
     std::optional<Verdict> failure;
@@ -56,6 +58,7 @@ class EpisodeCourse {
  private:
   const PhysicsConfig& physics() const { return world_.scene().physics; }
   void End(std::optional<Verdict> failure);
+  void Fail(Verdict verdict);
   void BeginStage(Stage stage);
   bool SaysTurned() const;
   void EndTurnIfDone();
@@ -69,6 +72,7 @@ class EpisodeCourse {
 
   EpisodeWorld& world_;
   std::function<bool()> predicted_turned_;
+  int grasps_;
   State state_;
 };
 

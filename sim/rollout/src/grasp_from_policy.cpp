@@ -28,7 +28,9 @@ std::optional<ChosenGrasp> GraspFromPolicy::Choose(const SceneSnapshot& snapshot
 
 std::optional<GraspAction> GraspFromPolicy::ActionAt(const SceneSnapshot& snapshot) {
   GraspObservation observation;
-  observation.visible = visible_(snapshot);
+  if (!seen_) seen_ = visible_(snapshot);
+  observation.visible = *seen_;
+  observation.tried = tried_;
   observation.approach = -snapshot.door[kHandleLink].linear().col(0);
   observation.sample = [&](const Eigen::Vector3d& start, double within_m) {
     return SampleCloud(observation.visible, start, {.within_m = within_m}).cloud;
@@ -41,6 +43,7 @@ std::optional<GraspAction> GraspFromPolicy::ActionAt(const SceneSnapshot& snapsh
   observation.episode = episode_;
   observation.privileged.world_from_tcp = snapshot.door[kHandleLink] * handle_from_grasp_;
   std::optional<GraspAction> action = policy_.Choose(observation);
+  if (action) tried_.push_back({action->contact_m, action->world_from_hand_rotation});
   if (action && recorded_)
     action->cloud = SampleCloud(observation.visible, action->contact_m, *recorded_).cloud;
   return action;

@@ -41,13 +41,19 @@ class Play {
                  {.first = Stage::kGrasp,
                   .turn = roles.handle == nullptr ? &rule_ : nullptr,
                   .predicted_turned = roles.predicted_turned,
+                  .grasps = roles.grasps,
                   .clouds = CloudsOf(roles),
                   .bad_action = BadAction::kDiverge}) {}
 
   Episode Run(const Scene& scene, Observer* observer) {
     stepper_.Reset(scene, observer);
-    Grasp();
-    while (!stepper_.now().over()) Decide();
+    while (!stepper_.now().over()) {
+      if (stepper_.now().stage == Stage::kGrasp) {
+        Grasp();
+      } else {
+        Decide();
+      }
+    }
     Episode episode = stepper_.Summary();
     if (roles_.recorded == Stage::kGrasp)
       recorder_.RateAll(GraspRating(stepper_.now().observation.privileged));
@@ -81,6 +87,7 @@ void Play::Grasp() {
     recorder_.Note(seen, action, action, stepper_.state());
   }
   stepper_.Step(chosen);
+  begun_ = Stage::kGrasp;
 }
 
 void Play::Begin(Policy& policy, Stage stage) {

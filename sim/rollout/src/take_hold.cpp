@@ -5,6 +5,7 @@
 namespace doorforge::internal {
 namespace {
 
+constexpr double kBack = 0.1;          // [m] clear of the handle
 constexpr double kJointsThere = 0.01;  // [rad or m] from the place before the grasp
 
 // The joints go to the place before the grasp, then the hand straight in.
@@ -62,6 +63,17 @@ std::optional<Verdict> Close(EpisodeWorld& world, ContactLog& log, bool needs_bo
 }
 
 }  // namespace
+
+void LetGo(EpisodeWorld& world) {
+  RigidTransform hand = world.world().PoseOfRobot().world_from_hand;
+  world.controller().close_fingers = false;
+  world.controller().FollowHand(hand);
+  const int opening = world.StepsIn(world.limits().close_time_s);
+  for (int i = 0; i < opening && !world.diverged(); ++i) world.StepHand();
+  hand.translation() -= kBack * hand.linear().col(2);
+  world.MoveHand(hand, world.limits().approach_speed_m_s);
+  world.controller().FollowHand(world.world().PoseOfRobot().world_from_hand);
+}
 
 GraspPlan PlanOf(const ChosenGrasp& grasp, const EpisodeWorld& world) {
   RigidTransform world_from_hand = RigidTransform::Identity();

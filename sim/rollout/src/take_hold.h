@@ -18,6 +18,9 @@ namespace doorforge::internal {
 /// @param grasp Its plan says how the arm gets there.
 std::optional<Verdict> TakeHold(EpisodeWorld& world, ContactLog& log, const ChosenGrasp& grasp);
 
+/// Opens the fingers and moves the hand straight back, for another grasp.
+void LetGo(EpisodeWorld& world);
+
 /// The plan of a grasp that came without one.
 GraspPlan PlanOf(const ChosenGrasp& grasp, const EpisodeWorld& world);
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/rigid_transform.h"
 #include "doorforge/core/rng.h"
 #include "doorforge/networks/handle_points.h"
 #include "doorforge/networks/heads.h"
@@ -23,6 +24,24 @@ namespace {
 
 Eigen::Vector3d PointOf(const std::vector<float>& xyz, std::size_t i) {
   return Eigen::Vector3f(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]).cast<double>();
+}
+
+constexpr double kAnotherPlace = 0.02;  // [m]
+constexpr double kAnotherTurn = 0.4;    // [rad]
+
+// Half a turn about the approach is the same grip of a parallel gripper.
+double GripAngle(const Eigen::Matrix3d& one, const Eigen::Matrix3d& other) {
+  const Eigen::Matrix3d round = Eigen::Vector3d(-1, -1, 1).asDiagonal();
+  return std::min(RotationVector(one.transpose() * other).norm(),
+                  RotationVector(one.transpose() * other * round).norm());
+}
+
+bool IsAnother(const std::vector<TriedGrasp>& tried, const Eigen::Vector3d& contact_m,
+               const Eigen::Matrix3d& rotation) {
+  return std::ranges::none_of(tried, [&](const TriedGrasp& grasp) {
+    return (grasp.contact_m - contact_m).norm() < kAnotherPlace &&
+           GripAngle(grasp.world_from_hand_rotation, rotation) < kAnotherTurn;
+  });
 }
 
 class NetworkGraspPolicy : public GraspPolicy {
@@ -138,7 +157,9 @@ class NetworkGraspPolicy : public GraspPolicy {
     }
     const std::vector<Candidate> candidates = Candidates(seen, clouds, affordance_rad);
     const auto fitting = std::ranges::find_if(candidates, [&](const Candidate& candidate) {
-      return Fits(seen, ContactOf(seen, clouds[candidate.point], candidate), candidate);
+      const Eigen::Vector3d contact_m = ContactOf(seen, clouds[candidate.point], candidate);
+      return IsAnother(seen.tried, contact_m, candidate.world_from_hand_rotation) &&
+             Fits(seen, contact_m, candidate);
     });
     const Candidate& best = fitting == candidates.end() ? candidates.front() : *fitting;
     explanation.expected_opening_rad = best.rating_rad;

@@ -12,7 +12,9 @@
 namespace doorforge {
 namespace {
 
-constexpr double kLever = 0.1;  // [m] by which turns are weighed against shifts
+constexpr double kOnTheWay = 0.12;       // [m] farther than a hand goes with a handle that it turns
+constexpr double kLeastSideways = 0.01;  // [m] an action
+constexpr double kLever = 0.1;           // [m] by which turns are weighed against shifts
 
 Eigen::Vector3d TurnBetween(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to) {
   return RotationVector(to * from.transpose());
@@ -20,7 +22,13 @@ Eigen::Vector3d TurnBetween(const Eigen::Matrix3d& from, const Eigen::Matrix3d& 
 
 }  // namespace
 
+double StallDetector::WayFromStart(const Proprioception& now) const {
+  if (!start_) return 0;
+  return static_cast<double>((HandPositionOf(now) - HandPositionOf(*start_)).norm());
+}
+
 void StallDetector::Reset() {
+  start_.reset();
   before_.reset();
   shares_.clear();
 }
@@ -31,25 +39,45 @@ void StallDetector::Answer(const Proprioception& now) {
   const Eigen::Vector3d turn = TurnBetween(rotation, asked_.world_from_hand_rotation);
   const Eigen::Vector3d turned = TurnBetween(rotation, HandRotationOf(now));
   const Eigen::Vector3d moved = (HandPositionOf(now) - HandPositionOf(*before_)).cast<double>();
+  const double sideways = asked_.position_delta_m.y();
   shares_.push_back({moved.dot(asked_.position_delta_m) + kLever * kLever * turned.dot(turn),
-                     asked_.position_delta_m.squaredNorm() + kLever * kLever * turn.squaredNorm()});
-  if (shares_.size() > static_cast<std::size_t>(config_.patience)) shares_.pop_front();
-  before_.reset();
+                     asked_.position_delta_m.squaredNorm() + kLever * kLever * turn.squaredNorm(),
+                     moved.y() * sideways, sideways * sideways});
+  while (shares_.size() > static_cast<std::size_t>(config_.patience)) shares_.pop_front();
 }
 
-bool StallDetector::Stalls(const Proprioception& now) {
-  Answer(now);
-  if (shares_.size() < static_cast<std::size_t>(config_.patience)) return false;
+bool StallDetector::IsFull() const {
+  return shares_.size() >= static_cast<std::size_t>(config_.patience);
+}
+
+StallDetector::Share StallDetector::Sum() const {
   Share sum;
   for (const Share& share : shares_) {
     sum.done += share.done;
     sum.asked += share.asked;
+    sum.sideways_done += share.sideways_done;
+    sum.sideways_asked += share.sideways_asked;
   }
+  return sum;
+}
+
+bool StallDetector::Stalls(const Proprioception& now) {
+  Answer(now);
+  if (!IsFull() || WayFromStart(now) > config_.within_m) return false;
+  const Share sum = Sum();
   return sum.done < config_.moved_share * sum.asked;
+}
+
+bool StallDetector::IsHeldSideways(const Proprioception& now) const {
+  if (!IsFull() || WayFromStart(now) > kOnTheWay) return false;
+  const Share sum = Sum();
+  return sum.sideways_asked > config_.patience * kLeastSideways * kLeastSideways &&
+         sum.sideways_done < config_.sideways_share * sum.sideways_asked;
 }
 
 void StallDetector::Ask(const Proprioception& now, const Action& action) {
   Answer(now);
+  if (!start_) start_ = now;
   before_ = now;
   asked_ = action;
 }
@@ -75,8 +103,13 @@ void TryingPolicy::Reset() {
 
 // Both ways on the likelier side before the other side.
 void TryingPolicy::Begin(const Observation& observation) {
-  const HingeSide side =
-      finder_ ? finder_->SideFor(HandPositionOf(observation.proprioception)) : HingeSide::kLeft;
+  HingeSide side = HingeSide::kLeft;
+  if (finder_) {
+    // the same stage once more: what came before led nowhere
+    if (episode_ == finder_->episode()) finder_->GoOver();
+    episode_ = finder_->episode();
+    side = finder_->SideFor(HandPositionOf(observation.proprioception));
+  }
   for (const MotionWay way : ways_) guesses_.push_back({side, way});
   if (finder_ && finder_->MayChange()) {
     for (const MotionWay way : ways_) guesses_.push_back({Opposite(side), way});
@@ -87,18 +120,23 @@ void TryingPolicy::Begin(const Observation& observation) {
 
 Action TryingPolicy::Act(const Observation& observation) {
   if (guesses_.empty()) Begin(observation);
-  changed_ = guesses_.size() > 1 && stall_.Stalls(observation.proprioception);
+  const Proprioception& now = observation.proprioception;
+  changed_ =
+      guesses_.size() > 1 && (stall_.Stalls(now) || (IsInDoubt() && stall_.IsHeldSideways(now)));
   if (changed_) {
     guess_ = guesses_[++tried_ % guesses_.size()];
     if (finder_) finder_->Found(guess_.side);
     stall_.Reset();
   }
+  if (finder_ && stall_.WayFromStart(now) > kOnTheWay) finder_->Confirm(guess_.side);
   const Action action = guess_.side == HingeSide::kLeft
                             ? policy_->Act(observation, guess_.way)
                             : AsShown(policy_->Act(AsShown(observation), guess_.way));
-  stall_.Ask(observation.proprioception, action);
+  stall_.Ask(now, action);
   return action;
 }
+
+bool TryingPolicy::IsInDoubt() const { return finder_ && !finder_->IsClear(); }
 
 Observation TryingPolicy::AsShown(Observation observation) const {
   if (guess_.side == HingeSide::kLeft) return observation;

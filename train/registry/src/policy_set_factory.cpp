@@ -22,6 +22,7 @@ PolicySet PolicySetFactory::Make() const {
   PolicySet set;
   const std::shared_ptr<SideFinder> finder = LoadSideFinder(opener_.folder, settings_.network);
   set.memory = finder;
+  set.grasps = settings_.grasps;
   AddOpener(set, finder);
   AddHandler(set, finder);
   AddGrasper(set);

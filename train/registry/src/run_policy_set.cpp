@@ -65,6 +65,7 @@ Episode RunPolicySet(const EpisodePlace& place, const PolicySet& set, Observer* 
   BeginEpisode(set, place);
   const std::unique_ptr<GraspFromPolicy> grasp = GraspOf(set, place);
   EpisodeRoles roles{.grasp = grasp.get(), .handle = set.handle.get(), .open = set.open.get()};
+  roles.grasps = set.grasps;
   if (set.handle_turned != nullptr)
     roles.predicted_turned = [turned = set.handle_turned] { return turned->Turned(); };
   for (Fallible* policy : FallibleOf(set)) policy->ForgetFailure();

@@ -37,6 +37,7 @@ EvaluatedEpisode RowOf(const Episode& episode, const DoorAsset& door) {
           .peak_hinge_rad = episode.peak_hinge_rad,
           .peak_handle_rad = episode.peak_handle_rad,
           .simulated_s = episode.simulated_s,
+          .grasps = episode.grasps,
           .handle_done = episode.handle_done,
           .peak_force_n = episode.peak_force_n,
           .peak_net_force_n = episode.peak_net_force_n,
@@ -64,6 +65,7 @@ nlohmann::ordered_json EvaluatedEpisodeToJson(const EvaluatedEpisode& episode) {
           {"peak_hinge_rad", episode.peak_hinge_rad},
           {"peak_handle_rad", episode.peak_handle_rad},
           {"simulated_s", episode.simulated_s},
+          {"grasps", episode.grasps},
           {"handle_done", episode.handle_done},
           {"peak_force_n", episode.peak_force_n},
           {"peak_net_force_n", episode.peak_net_force_n},
@@ -89,6 +91,9 @@ EvaluatedEpisode EvaluatedEpisodeFromJson(const nlohmann::ordered_json& json,
           .peak_hinge_rad = ValueOf<double>(json, "peak_hinge_rad", path),
           .peak_handle_rad = ValueOf<double>(json, "peak_handle_rad", path),
           .simulated_s = ValueOf<double>(json, "simulated_s", path),
+          .grasps = json.contains("grasps")  // earlier builds had none
+                        ? ValueOf<int>(json, "grasps", path)
+                        : 1,
           .handle_done = ValueOf<bool>(json, "handle_done", path),
           .peak_force_n = ValueOf<double>(json, "peak_force_n", path),
           .peak_net_force_n = json.contains("peak_net_force_n")  // earlier builds had none

@@ -77,6 +77,7 @@ struct Episode {
   double peak_hinge_rad = 0;
   double peak_handle_rad = 0;
   double simulated_s = 0;
+  int grasps = 1;            ///< So many times the hand took hold.
   bool handle_done = false;  ///< The stages before opening succeeded: held, turned, unlocked.
   /// Greatest sum of the normal forces between robot and door in one step, from the grasp on [N].
   double peak_force_n = 0;

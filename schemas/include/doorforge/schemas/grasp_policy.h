@@ -22,6 +22,12 @@ struct PrivilegedGraspState {
   RigidTransform world_from_tcp = RigidTransform::Identity();
 };
 
+/// A grasp that led nowhere.
+struct TriedGrasp {
+  Eigen::Vector3d contact_m = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d world_from_hand_rotation = Eigen::Matrix3d::Identity();
+};
+
 /// What is known when a grasp is chosen: one look at the closed door before the robot comes into
 /// view. The handle's labels and the approach come from the simulator, or on a robot from a mask of
 /// the handle and the way that the door faces.
@@ -36,6 +42,7 @@ struct GraspObservation {
   /// passing through what is seen. Empty: it always does.
   std::function<bool(const Eigen::Vector3d&, const Eigen::Matrix3d&)> fits = nullptr;
   RigidTransform hand_from_tcp = RigidTransform::Identity();  ///< It is fixed by the robot.
+  std::vector<TriedGrasp> tried = {};  ///< In this episode already, in order.
   /// Name the episode, for policies that draw by chance: equal names, equal draws.
   std::uint64_t seed = 0;
   std::string episode;  ///< "<door id>/<number>"

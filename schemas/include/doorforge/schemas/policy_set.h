@@ -20,6 +20,7 @@ struct PolicySet {
   std::unique_ptr<GraspPolicy> grasp = nullptr;  ///< Null: the expert's grasp.
   /// Pixels along each side of the camera that `grasp` looks through, times those of the scene's.
   int grasp_resolution_scale = 1;
+  int grasps = 1;  ///< So many times the hand may take hold in an episode.
   std::shared_ptr<EpisodeMemory> memory = nullptr;  ///< The policies share it; null: nothing.
 };
 

@@ -40,6 +40,9 @@ struct StepperOptions {
   /// Means what EpisodeRoles::predicted_turned does, and is asked after each action at the stage
   /// "handle".
   std::function<bool()> predicted_turned = nullptr;
+  /// Means what EpisodeRoles::grasps does. After a grasp that led nowhere the next stage is "grasp"
+  /// again; above 1 where that stage is the caller's.
+  int grasps = 1;
   /// Stages whose observations have a cloud; at all others no picture is made.
   std::vector<Stage> clouds = {};
   BadAction bad_action = BadAction::kRefuse;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "doorforge/physics/robot_model.h"
 #include "doorforge/rollout/gripper_clearance.h"
@@ -31,7 +32,8 @@ class GraspFromPolicy : public GraspChooser {
   /// is the policy's own.
   void RecordWith(const CloudExtent& extent) { recorded_ = extent; }
 
-  /// Throws as the policy.
+  /// Called again in an episode, it passes on what was seen at first, since the door is as it was,
+  /// and the grasps that were tried. Throws as the policy.
   std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override;
   /// Gives Choose()'s choice as the policy made it, with what it says of it.
   std::optional<GraspAction> ActionAt(const SceneSnapshot& snapshot);
@@ -44,6 +46,8 @@ class GraspFromPolicy : public GraspChooser {
   RigidTransform hand_from_tcp_;
   GripperClearance clearance_;
   VisibleCloud visible_;
+  std::optional<LabelledCloud> seen_;
+  std::vector<TriedGrasp> tried_;
   std::optional<CloudExtent> recorded_;
 };
 

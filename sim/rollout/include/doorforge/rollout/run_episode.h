@@ -82,6 +82,10 @@ struct EpisodeRoles {
   /// learner on the states that it gets itself into (Ross et al. 2011). Null: nobody.
   Policy* learner = nullptr;
   int learner_decisions = 0;
+  /// So many times the hand may take hold, at least once. Where a grasp led nowhere and the door is
+  /// still as good as shut (3 degrees), the fingers open, the hand moves straight back, and `grasp`
+  /// is asked again.
+  int grasps = 1;
 };
 
 /// Runs one episode of the three stages: grasp, turn of the handle until it is "handle done" and

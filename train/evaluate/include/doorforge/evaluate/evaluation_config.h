@@ -27,6 +27,7 @@ struct EvaluationConfig {
   int grasp_look_finer =
       GraspCameraConfig{}
           .resolution_scale;  ///< GraspCameraConfig::resolution_scale of a trained grasper.
+  int grasps = 1;             ///< So many times the hand may take hold in an episode, 1 to 10.
   SceneConfig scene;
   CloudConfig cloud;  ///< It must be that of the data set that the policy was trained from.
 
@@ -35,6 +36,7 @@ struct EvaluationConfig {
     return {.network = policy,
             .network_grasp = grasp,
             .network_grasp_resolution = grasp_look_finer,
+            .grasps = grasps,
             .random_grasp = random_grasp};
   }
 
@@ -49,6 +51,7 @@ struct EvaluationConfig {
     visit("grasp", self.grasp);
     visit("random_grasp", self.random_grasp);
     visit("grasp_look_finer", self.grasp_look_finer);
+    visit("grasps", self.grasps);
     visit("scene", self.scene);
     visit("cloud", self.cloud);
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -37,18 +38,32 @@ class SideFinder : public EpisodeMemory {
   bool WantsPicture() const override { return classifier_ && choice_ == SideChoice::kAuto; }
   void Begin(std::optional<LabelledCloud> before) override;
 
+  /// Of which episode this is, from 1 on; 0 before the first.
+  std::uint64_t episode() const { return episode_; }
+  /// The next grasp of the episode: unless the picture was clear about it, it begins with the other
+  /// side than the one before.
+  void GoOver();
   /// What to begin with for who holds the handle with the hand here.
   HingeSide SideFor(const Eigen::Vector3f& hand_m);
   /// Whether the other side may be tried.
   bool MayChange() const { return choice_ == SideChoice::kAuto; }
+  /// Whether the picture or the door's motion has left no doubt.
+  bool IsClear() const { return is_clear_; }
   /// The side is this one, as a policy has found.
   void Found(HingeSide side) { side_ = side; }
+  /// It is this one beyond doubt: the door has moved.
+  void Confirm(HingeSide side);
 
  private:
+  HingeSide Look(const Eigen::Vector3f& hand_m);
+
   SideChoice choice_;
   std::optional<SideClassifier> classifier_;
   std::optional<LabelledCloud> before_;
   std::optional<HingeSide> side_;
+  HingeSide first_ = HingeSide::kLeft;  // of the present grasp
+  bool is_clear_ = false;
+  std::uint64_t episode_ = 0;
 };
 
 }  // namespace doorforge

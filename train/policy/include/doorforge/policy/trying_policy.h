@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -26,11 +27,19 @@ class TwoWayPolicy {
 struct StallConfig {
   int patience = 3;           ///< So many actions are looked at together.
   double moved_share = 0.35;  ///< The hand did less than this share of what they asked for.
+  /// A hand that is farther than this from where it began is not on a wrong way, but held up on the
+  /// right one [m].
+  double within_m = 0.05;
+  /// As `moved_share`, of the shifts along the world's y alone: a leaf that is hinged on the other
+  /// side takes the hand along the other arc.
+  double sideways_share = 0.6;
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
     visit("patience", self.patience);
     visit("moved_share", self.moved_share);
+    visit("within_m", self.within_m);
+    visit("sideways_share", self.sideways_share);
   }
 };
 
@@ -41,6 +50,8 @@ class StallDetector {
   explicit StallDetector(const StallConfig& config) : config_(config) {}
 
   void Reset();
+  /// How far the hand is from where the first action was asked for [m].
+  double WayFromStart(const Proprioception& now) const;
   /// Notes what is asked for where the hand is now, after the answer to what was asked before.
   void Ask(const Proprioception& now, const Action& action);
   /// What was asked for last is not carried out.
@@ -48,15 +59,23 @@ class StallDetector {
   /// Of the last `patience` actions; false while there are fewer. The share is the projection of
   /// what the hand did on what was asked.
   bool Stalls(const Proprioception& now);
+  /// Whether the last `patience` actions asked for a way to one side and the hand did too little of
+  /// it, while it has not gone far yet. For after Stalls().
+  bool IsHeldSideways(const Proprioception& now) const;
 
  private:
   struct Share {
     double done = 0;
     double asked = 0;
+    double sideways_done = 0;
+    double sideways_asked = 0;
   };
   void Answer(const Proprioception& now);
+  bool IsFull() const;
+  Share Sum() const;
 
   StallConfig config_;
+  std::optional<Proprioception> start_;
   std::optional<Proprioception> before_;
   Action asked_;
   std::deque<Share> shares_;
@@ -97,6 +116,7 @@ class TryingPolicy : public Policy {
 
  private:
   void Begin(const Observation& observation);
+  bool IsInDoubt() const;  // about the side
 
   std::unique_ptr<TwoWayPolicy> policy_;
   StallDetector stall_;
@@ -104,6 +124,7 @@ class TryingPolicy : public Policy {
   std::shared_ptr<SideFinder> finder_;
   std::vector<MotionGuess> guesses_;  // of this episode; empty before its first action
   std::size_t tried_ = 0;
+  std::uint64_t episode_ = 0;  // SideFinder::episode() of the last stage that began
   MotionGuess guess_;
   bool changed_ = false;
 };

@@ -28,6 +28,7 @@ struct PolicySettings {
   GraspOptions network_grasp;  ///< Trained graspers are made with them.
   int network_grasp_resolution =
       GraspCameraConfig{}.resolution_scale;  ///< PolicySet::grasp_resolution_scale of them.
+  int grasps = 1;                            ///< PolicySet::grasps.
   RandomGraspConfig random_grasp = {};
   OpeningExpertConfig opening_expert = {};
   /// With it the expert turns the handle decision by decision; without, by the rule of

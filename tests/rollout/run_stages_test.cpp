@@ -8,6 +8,7 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/physics/scene_sampling.h"
+#include "doorforge/rollout/expert_grasp.h"
 #include "doorforge/rollout/grasp_from_policy.h"
 #include "doorforge/rollout/handle_expert.h"
 #include "doorforge/rollout/opening_expert.h"
@@ -33,6 +34,48 @@ class RunStagesTest : public testing::Test {
 
   RobotModel robot_;
 };
+
+// Takes hold of the air before the leaf some times, then as the expert does.
+class MissesFirst : public GraspChooser {
+ public:
+  MissesFirst(GraspChooser& expert, int misses) : expert_(expert), misses_(misses) {}
+  std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override {
+    if (misses_-- <= 0) return expert_.Choose(snapshot);
+    const RigidTransform& handle = snapshot.door[kHandleLink];
+    ChosenGrasp beside;
+    beside.contact_m =
+        handle.translation() + 0.12 * handle.linear().col(0) - 0.15 * Eigen::Vector3d::UnitZ();
+    beside.world_from_hand_rotation = HandTowards(-handle.linear().col(0));
+    return beside;
+  }
+
+ private:
+  static Eigen::Matrix3d HandTowards(const Eigen::Vector3d& approach) {
+    Eigen::Matrix3d rotation;
+    rotation.col(2) = approach;
+    rotation.col(1) = Eigen::Vector3d::UnitZ();
+    rotation.col(0) = rotation.col(1).cross(approach);
+    return rotation;
+  }
+
+  GraspChooser& expert_;
+  int misses_;
+};
+
+TEST_F(RunStagesTest, TakesHoldAgainAsOftenAsItMay) {
+  const DoorAsset door = MakePrimitiveDoor({});
+  const Scene scene = SampleScene(door, 1, 0);
+  ExpertGrasp expert(scene, door, robot_);
+  for (int misses = 0; misses < 3; ++misses) {
+    for (int grasps = 1; grasps <= 3; ++grasps) {
+      MissesFirst chooser(expert, misses);
+      const Episode episode = Run(door, scene, {.grasp = &chooser, .grasps = grasps});
+      EXPECT_EQ(episode.outcome == EpisodeOutcome::kOpened, grasps > misses)
+          << misses << ", " << grasps << ": " << episode.detail;
+      EXPECT_EQ(episode.grasps, std::min(grasps, misses + 1));
+    }
+  }
+}
 
 TEST_F(RunStagesTest, TurnsOfTheHandleAddUpToDoneAndTheDoorOpens) {
   for (const Mechanism mechanism : {Mechanism::kLever, Mechanism::kRound}) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/policy/trying_policy.h"
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -165,6 +166,49 @@ TEST(TryingPolicy, DoesAtADoorHingedRightTheMirrorImageOfWhatItDoesAtItsMirrorIm
     EXPECT_EQ(one.position_delta_m, other.position_delta_m);
     EXPECT_EQ(one.world_from_hand_rotation, other.world_from_hand_rotation);
   }
+}
+
+// A hand that holds a handle which only goes round a hinge on one side of it.
+class HandOnALeaf {
+ public:
+  explicit HandOnALeaf(double side) : side_(side) {}
+  Observation Seen() const {
+    Observation observation;
+    observation.proprioception = HandAt({0.4 * std::sin(angle_), side_ * 0.4 * std::cos(angle_), 1},
+                                        Eigen::Matrix3d::Identity());
+    return observation;
+  }
+  // The leaf takes of an action what lies along its arc.
+  void Do(const Action& action) {
+    const Eigen::Vector3d arc(std::cos(angle_), -side_ * std::sin(angle_), 0);
+    angle_ += action.position_delta_m.dot(arc) / 0.4;
+  }
+
+ private:
+  double side_;
+  double angle_ = 0.25;
+};
+
+// Pulls along the arc of a leaf that is hinged left, to the hand's -y.
+class PullsLeft : public TwoWayPolicy {
+ public:
+  void Reset() override {}
+  Action Act(const Observation&, MotionWay) override {
+    return {{0.02, -0.015, 0}, Eigen::Matrix3d::Identity()};
+  }
+};
+
+HingeSide SideFoundOn(HandOnALeaf hand) {
+  const auto finder = Knows(SideChoice::kAuto);
+  finder->Begin(std::nullopt);
+  TryingPolicy opens(std::make_unique<PullsLeft>(), {.within_m = 0}, {MotionWay::kUsual}, finder);
+  for (int i = 0; i < 5; ++i) hand.Do(opens.Act(hand.Seen()));
+  return opens.guess().side;
+}
+
+TEST(TryingPolicy, NoticesThatTheLeafTakesTheHandToTheOtherSide) {
+  EXPECT_EQ(SideFoundOn(HandOnALeaf(1)), HingeSide::kLeft);
+  EXPECT_EQ(SideFoundOn(HandOnALeaf(-1)), HingeSide::kRight);
 }
 
 TEST(TryingPolicy, TellsTheNextStageOnWhichSideTheHingeIs) {

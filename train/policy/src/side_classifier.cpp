@@ -111,12 +111,13 @@ void WriteSideClassifier(const fs::path& folder, const std::optional<SideClassif
   CommitFile(folder / kSideFile, EncodeTensors(file));
 }
 
-std::optional<SideClassifier> ReadSideClassifier(const fs::path& folder,
-                                                 const std::string& dataset_sha256) {
+std::optional<SideClassifier> ReadSideClassifier(const fs::path& folder) {
   const std::string path = (folder / kSideFile).string();
   if (!fs::exists(path)) return std::nullopt;
   const TensorFile file = ReadTensors(path);
-  internal::RequireCompanion(file, kSideKind, dataset_sha256, path);
+  const auto data = file.metadata.find("dataset_sha256");
+  internal::RequireCompanion(file, kSideKind, data == file.metadata.end() ? "" : data->second,
+                             path);
   SideClassifier classifier{ValuesOf<float>(
       TensorNamed(file, "weight", path), {SightSize(NetworkFamily::kMotion)}, path + ": weight")};
   if (!std::ranges::all_of(classifier.weight, [](float one) { return std::isfinite(one); }))

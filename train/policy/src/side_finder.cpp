@@ -31,7 +31,7 @@ HingeSide SideFinder::Look(const Eigen::Vector3f& hand_m) {
   if (!classifier_ || !before_ || before_->xyz.empty()) return HingeSide::kLeft;
   const double odds = classifier_->LogOddsOfLeft(SideNumbersOf(before_->xyz, hand_m));
   is_clear_ = std::fabs(odds) > kClearLogOdds;
-  return odds >= 0 ? HingeSide::kLeft : HingeSide::kRight;
+  return odds < -kClearLogOdds ? HingeSide::kRight : HingeSide::kLeft;
 }
 
 void SideFinder::Confirm(HingeSide side) {

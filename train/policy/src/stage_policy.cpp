@@ -131,8 +131,7 @@ std::unique_ptr<Policy> LoadPolicy(const std::filesystem::path& folder,
 std::shared_ptr<SideFinder> LoadSideFinder(const std::filesystem::path& opener,
                                            const PolicyOptions& options) {
   std::optional<SideClassifier> classifier;
-  if (!opener.empty())
-    classifier = ReadSideClassifier(opener, ReadPolicy(opener).provenance.dataset_sha256);
+  if (!opener.empty()) classifier = ReadSideClassifier(opener);
   return std::make_shared<SideFinder>(options.side, std::move(classifier));
 }
 

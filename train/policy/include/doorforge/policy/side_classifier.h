@@ -49,17 +49,17 @@ struct SideClassifier {
 std::optional<SideClassifier> FitSideClassifier(std::span<const SideExample> examples);
 
 /// Writes `side.safetensors` into a policy's folder (docs/format-policy.md); without a classifier
-/// removes what an earlier training may have left there.
+/// removes what an earlier training may have left there. It belongs to doors, not to the policy's
+/// weights, so it may come from other data than these.
+///
+/// @param dataset_sha256 What the examples were taken from, for the record.
 void WriteSideClassifier(const std::filesystem::path& folder,
                          const std::optional<SideClassifier>& classifier,
                          const std::string& dataset_sha256);
 
 /// Reads it; nothing if the folder has none.
 ///
-/// @param dataset_sha256 Of the policy's record.
-/// @throws Error(kFormat) if it is damaged, of another version, or was made from other data than
-///     the policy.
-std::optional<SideClassifier> ReadSideClassifier(const std::filesystem::path& folder,
-                                                 const std::string& dataset_sha256);
+/// @throws Error(kFormat) if it is damaged or of another version.
+std::optional<SideClassifier> ReadSideClassifier(const std::filesystem::path& folder);
 
 }  // namespace doorforge

@@ -28,8 +28,9 @@ constexpr HingeSide Opposite(HingeSide side) {
   return side == HingeSide::kLeft ? HingeSide::kRight : HingeSide::kLeft;
 }
 
-/// On which side of an episode's door the hinge is, as far as its policies know: at first what the
-/// picture from before the robot came says, left without one; then what they have found out.
+/// On which side of an episode's door the hinge is, as far as its policies know: at first right
+/// where the picture from before the robot came leaves no doubt of it, else left; then what they
+/// have found out.
 class SideFinder : public EpisodeMemory {
  public:
   SideFinder(SideChoice choice, std::optional<SideClassifier> classifier)

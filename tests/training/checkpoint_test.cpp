@@ -219,8 +219,8 @@ TEST(Checkpoint, TheGraspsLossesHaveTheirOwnNamesAndGapsUntilTheyAreKnown) {
   TrainerState state = SomeState();
   state.networks.family = NetworkFamily::kGrasp;
   state.steps = {UnknownLosses(), UnknownLosses()};
-  state.steps[0].score_rad = 0.5;
-  state.steps[1].score_rad = 0.25;
+  state.steps[0].angle_gain_rad = 0.5;
+  state.steps[1].angle_gain_rad = 0.25;
   state.steps[1].affordance_rad = 0.125;
   TrainConfig config;
   config.family = NetworkFamily::kGrasp;

@@ -134,7 +134,7 @@ const std::vector<Column>& Columns() {
            "angle gained by what was executed, of the hinge (stage open) or the handle (stage "
            "handle); stage grasp: the door's final angle"},
           [](const Decision& decision, auto& numbers) {
-            numbers.push_back(static_cast<float>(decision.score_rad));
+            numbers.push_back(static_cast<float>(decision.angle_gain_rad));
           },
           &EpisodeArrays::score},
       TypedColumn<double>{

@@ -17,7 +17,7 @@
 
 #include "doors/door_record.h"
 #include "doors/latch_json.h"
-#include "doors/record_json.h"
+#include "models/record_json.h"
 
 namespace doorforge {
 namespace {

@@ -9,7 +9,7 @@
 #include "doorforge/core/record_id.h"
 #include "doorforge/schemas/mesh_file.h"
 
-#include "doors/record_json.h"
+#include "models/record_json.h"
 
 namespace doorforge {
 namespace {

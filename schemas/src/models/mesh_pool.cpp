@@ -11,7 +11,7 @@
 #include "doorforge/core/json_file.h"
 #include "doorforge/schemas/mesh_file.h"
 
-#include "doors/record_json.h"
+#include "models/record_json.h"
 
 namespace doorforge {
 namespace {

@@ -13,7 +13,7 @@ double ActorError(const StageLosses& losses, const TrainConfig& config) {
 }
 
 double CriticError(const StageLosses& losses, const TrainConfig& /*config*/) {
-  return losses.score_rad;
+  return losses.angle_gain_rad;
 }
 
 // From 1, the first of equals; 0 without a number.

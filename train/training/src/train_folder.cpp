@@ -267,8 +267,8 @@ std::string LossText(const StageLosses& losses, NetworkFamily family) {
   const double to_degrees = 57.29578;
   const std::vector<Shown> motion = {{"position %.2f mm", 1e3 * losses.position_m},
                                      {"rotation %.2f deg", to_degrees * losses.rotation_rad},
-                                     {"critic %.2f deg", to_degrees * losses.score_rad}};
-  const std::vector<Shown> grasp = {{"discriminator %.2f deg", to_degrees * losses.score_rad},
+                                     {"critic %.2f deg", to_degrees * losses.angle_gain_rad}};
+  const std::vector<Shown> grasp = {{"discriminator %.2f deg", to_degrees * losses.angle_gain_rad},
                                     {"affordance %.2f deg", to_degrees * losses.affordance_rad}};
   std::string text;
   for (const Shown& shown : family == NetworkFamily::kGrasp ? grasp : motion) {

@@ -63,7 +63,7 @@ void SumAsTree(std::span<std::span<float>> parts) {
 
 constexpr std::array<double StageLosses::*, 5> kLosses = {
     &StageLosses::position_m, &StageLosses::rotation_rad, &StageLosses::divergence,
-    &StageLosses::score_rad, &StageLosses::affordance_rad};
+    &StageLosses::angle_gain_rad, &StageLosses::affordance_rad};
 
 // `losses` with those values of `newer` that are known.
 StageLosses Updated(StageLosses losses, const StageLosses& newer) {
@@ -80,7 +80,8 @@ void AddScaled(const StageLosses& losses, double factor, StageLosses& sum) {
 // All clouds are made in one way, which the policy's record tells whoever lets it act.
 void RequireLikeClouds(std::span<const TrainingSample> samples) {
   for (const TrainingSample& sample : samples) {
-    Require(sample.cloud_within_m == samples.front().cloud_within_m, ErrorCode::kInvalidArgument,
+    Require(sample.cloud_crop_radius_m == samples.front().cloud_crop_radius_m,
+            ErrorCode::kInvalidArgument,
             "the data sets' clouds have different extents (cloud_within_m in meta.json); train "
             "from those with the same");
     Require(sample.remembered_finer == samples.front().remembered_finer,
@@ -95,10 +96,10 @@ NetworkView ViewOf(const TrainConfig& config, std::span<const TrainingSample> sa
   NetworkView view;
   view.frame = config.frame;
   if (config.family == NetworkFamily::kMotion) view.state = config.state;
-  view.context_m = static_cast<float>(config.context_m);
-  view.zoom = static_cast<float>(config.zoom);
+  view.crop_radius_m = static_cast<float>(config.crop_radius_m);
+  view.point_scale = static_cast<float>(config.point_scale);
   RequireLikeClouds(samples);
-  view.cloud_within_m = samples.front().cloud_within_m;
+  view.cloud_crop_radius_m = samples.front().cloud_crop_radius_m;
   view.remembered_finer = samples.front().remembered_finer;
   if (config.family == NetworkFamily::kGrasp) view.near_points = config.near_points;
   return view;
@@ -611,7 +612,7 @@ TrainerState TrainStage(std::span<const TrainingSample> train,
           "the networks to begin with were trained with other settings of frame, state, "
           "context_m, zoom or near_points, or from clouds of another extent, than \"" +
               std::string(NameOf(config.frame)) + "\", \"" + std::string(NameOf(config.state)) +
-              "\", " + std::to_string(config.context_m));
+              "\", " + std::to_string(config.crop_radius_m));
   if (config.encoder_norm == EncoderNorm::kBatch) {
     Require(
         !hooks.initial, ErrorCode::kInvalidArgument,

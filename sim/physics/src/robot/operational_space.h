@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "doorforge/physics/door_world.h"
+#include "doorforge/physics/robot_command.h"
 #include "doorforge/schemas/scene.h"
 
 namespace doorforge::internal {

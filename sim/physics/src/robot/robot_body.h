@@ -9,7 +9,7 @@
 
 #include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
 
-#include "doorforge/physics/door_world.h"
+#include "doorforge/physics/robot_command.h"
 #include "doorforge/physics/robot_model.h"
 #include "doorforge/schemas/scene.h"
 

@@ -12,12 +12,12 @@
 #include "doorforge/core/hash.h"
 
 #include "collision/bullet_memory.h"
+#include "collision/row_solver.h"
+#include "robot/robot_body.h"
+#include "robot/self_collision.h"
 #include "world/contact_report.h"
 #include "world/door_body.h"
-#include "robot/robot_body.h"
-#include "collision/row_solver.h"
-#include "robot/self_collision.h"
-#include "world/world_monitor.h"
+#include "world/step_energy_audit.h"
 
 namespace doorforge {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "doorforge/physics/lone_door.h"
+#include "doorforge/physics/robotless_door.h"
 
 namespace doorforge {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "doorforge/core/error.h"
 
-#include "episode/text_format.h"
+#include "text_format.h"
 
 namespace doorforge::internal {
 namespace {
@@ -46,7 +46,7 @@ void CheckAction(const Action& action, const std::string& name) {
   RequireRotation(action.world_from_hand_rotation, name + ".world_from_hand_rotation");
 }
 
-void CheckGrasp(const ChosenGrasp& grasp) {
+void CheckGrasp(const GraspCommand& grasp) {
   RequireFinite(grasp.contact_m, "grasp.contact_m");
   RequireRotation(grasp.world_from_hand_rotation, "grasp.world_from_hand_rotation");
 }

@@ -12,6 +12,6 @@ namespace doorforge::internal {
 /// Throws Error(kInvalidArgument) that names the number unless all are finite and the matrix is a
 /// rotation to 1e-3.
 void CheckAction(const Action& action, const std::string& name);
-void CheckGrasp(const ChosenGrasp& grasp);
+void CheckGrasp(const GraspCommand& grasp);
 
 }  // namespace doorforge::internal

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "episode/text_format.h"
+#include "text_format.h"
 
 namespace doorforge::internal {
 

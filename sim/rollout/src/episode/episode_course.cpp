@@ -7,7 +7,7 @@
 #include "doorforge/rollout/reward.h"
 
 #include "episode/take_hold.h"
-#include "episode/text_format.h"
+#include "text_format.h"
 
 namespace doorforge::internal {
 
@@ -18,7 +18,7 @@ void EpisodeCourse::End(std::optional<Verdict> failure) {
 
 // ---- grasp --------------------------------------------------------------------------------------
 
-void EpisodeCourse::Grasp(std::optional<ChosenGrasp> grasp) {
+void EpisodeCourse::Grasp(std::optional<GraspCommand> grasp) {
   if (!grasp)
     return End(Verdict{EpisodeOutcome::kNotReached, "no point to take hold of is in view"});
   if (!grasp->plan) grasp->plan = PlanOf(*grasp, world_);
@@ -58,8 +58,8 @@ double EpisodeCourse::Act(const Action& action) {
 
 // Whether it is time to open, by whoever says so.
 bool EpisodeCourse::SaysTurned() const {
-  if (!predicted_turned_) return IsTurned(world_.scene().latch, world_.state());
-  return state_.actions > 0 && predicted_turned_();
+  if (!handle_turned_) return IsTurned(world_.scene().latch, world_.state());
+  return state_.actions > 0 && handle_turned_();
 }
 
 void EpisodeCourse::EndTurnIfDone() {
@@ -77,7 +77,7 @@ void EpisodeCourse::FinishTurn() {
   world_.Watch(EpisodePhase::kUnlock);
   const bool lost = state_.log.StepsWithoutPads(world_.step()) > physics().steps_per_action;
   const bool said = SaysTurned();
-  if (!said && (lost || !predicted_turned_)) return End(TurnVerdict(lost));
+  if (!said && (lost || !handle_turned_)) return End(TurnVerdict(lost));
   const WorldState& state = world_.state();
   const Latch& latch = world_.scene().latch;
   if (!IsTurned(latch, state) && !state.handle_done)
@@ -119,7 +119,7 @@ void EpisodeCourse::EndOpeningIfDone() {
 
 void EpisodeCourse::FinishOpening() {
   world_.Watch(EpisodePhase::kEnd);
-  state_.handle_done = state_.early.empty() || world_.state().handle_done;
+  state_.handle_turned = state_.early.empty() || world_.state().handle_done;
   if (state_.log.opened()) return End(std::nullopt);
   End(JudgeOpening(OpeningNow(), world_.limits()));
 }
@@ -132,7 +132,7 @@ OpeningEvidence EpisodeCourse::OpeningNow() const {
           .slip_m = world_.Slip(),
           .coasted = state_.log.coasted(),
           .lost_pads = without_pads > physics().steps_per_action,
-          .handle_done = state_.handle_done,
+          .handle_turned = state_.handle_turned,
           .locked = world_.state().locked,
           .early = state_.early,
           .held_up_at_loss = state_.log.held_up_at_loss(),
@@ -190,7 +190,7 @@ Episode EpisodeCourse::Summary() const {
   episode.peak_hinge_rad = world_.memory().peak_hinge_rad;
   episode.peak_handle_rad = world_.memory().peak_handle_rad;
   episode.simulated_s = world_.state().time_s;
-  episode.handle_done = state_.handle_done;
+  episode.handle_turned = state_.handle_turned;
   episode.peak_force_n = state_.log.peak_force_n();
   episode.peak_net_force_n = state_.log.peak_net_force_n();
   episode.state_sha256 = world_.world().StateHash();

@@ -18,12 +18,12 @@ namespace doorforge::internal {
 /// and says when a stage and when the episode is over, and why. Who decides is not its business.
 class EpisodeCourse {
  public:
-  /// @param predicted_turned As EpisodeRoles::predicted_turned.
-  EpisodeCourse(EpisodeWorld& world, std::function<bool()> predicted_turned)
-      : world_(world), predicted_turned_(std::move(predicted_turned)) {}
+  /// @param handle_turned As EpisodePolicies::handle_turned.
+  EpisodeCourse(EpisodeWorld& world, std::function<bool()> handle_turned)
+      : world_(world), handle_turned_(std::move(handle_turned)) {}
 
   /// The stage "grasp"; nothing where no point to take hold of is in view.
-  void Grasp(std::optional<ChosenGrasp> grasp);
+  void Grasp(std::optional<GraspCommand> grasp);
   /// The stage "handle", action by action, begins: it may be over at once.
   void BeginTurn() { EndTurnIfDone(); }
   /// One action at the stage "handle" or "open", held for its time; what it was worth.
@@ -46,7 +46,7 @@ class EpisodeCourse {
     int actions = 0;         // of the present stage
     double grasp_cost = 0;
     std::string early;  // how far the handle was, where a predicted flag came too early
-    bool handle_done = false;
+    bool handle_turned = false;
     std::optional<Verdict> failure;
     ContactLog log;
   };
@@ -68,7 +68,7 @@ class EpisodeCourse {
   std::string Detail() const;
 
   EpisodeWorld& world_;
-  std::function<bool()> predicted_turned_;
+  std::function<bool()> handle_turned_;
   State state_;
 };
 

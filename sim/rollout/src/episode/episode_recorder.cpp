@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "doorforge/rollout/run_episode.h"
+#include "doorforge/rollout/proprioception.h"
 
 namespace doorforge::internal {
 
@@ -23,7 +23,7 @@ void EpisodeRecorder::Note(const Observation& observation, const Action& asked,
 }
 
 void EpisodeRecorder::RateAll(double reward) {
-  for (Decision& decision : decisions_) decision.score_rad = reward;
+  for (Decision& decision : decisions_) decision.angle_gain_rad = reward;
 }
 
 JointState EpisodeRecorder::JointsOf(const WorldState& state) const {

@@ -20,7 +20,7 @@ class EpisodeRecorder {
   void Note(const Observation& observation, const Action& asked, const Action& executed,
             const WorldState& state);
   /// What the last one was worth.
-  void Rate(double reward) { decisions_.back().score_rad = reward; }
+  void Rate(double reward) { decisions_.back().angle_gain_rad = reward; }
   /// What all were worth: a choice of grasp is rated when the episode is over.
   void RateAll(double reward);
 

@@ -47,7 +47,7 @@ const StepResult& EpisodeStepper::Step(const Action& action) {
   Running& running = Playing("action");
   if (running.bad_action() == BadAction::kRefuse) internal::CheckAction(action, "action");
   if (running.course().stage() == Stage::kGrasp) {
-    ChosenGrasp grasp;
+    GraspCommand grasp;
     grasp.contact_m = action.position_delta_m;
     grasp.world_from_hand_rotation = action.world_from_hand_rotation;
     running.Grasp(std::move(grasp));
@@ -57,7 +57,7 @@ const StepResult& EpisodeStepper::Step(const Action& action) {
   return running.now();
 }
 
-const StepResult& EpisodeStepper::Step(const std::optional<ChosenGrasp>& grasp) {
+const StepResult& EpisodeStepper::Step(const std::optional<GraspCommand>& grasp) {
   Running& running = Playing("grasp");
   Require(running.course().stage() == Stage::kGrasp, ErrorCode::kInvalidArgument,
           "grasp: the hand holds the handle already; from here on Step() takes actions");

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "doorforge/rollout/standing_place.h"
+#include "doorforge/rollout/base_placement.h"
 
 namespace doorforge::internal {
 namespace {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/rollout/outcome_judge.h"
 
-#include "episode/text_format.h"
+#include "text_format.h"
 
 namespace doorforge {
 
@@ -84,7 +84,7 @@ Verdict JudgeOpening(const OpeningEvidence& evidence, const EpisodeLimits& limit
   if (evidence.coasted)
     return {EpisodeOutcome::kGripLost, detail + Format(", the door coasted past %.0f deg by itself",
                                                        limits.open_angle_rad / kDegree)};
-  if (!evidence.handle_done) {
+  if (!evidence.handle_turned) {
     detail += "; " + evidence.early;
     if (evidence.locked) return {EpisodeOutcome::kHandleStuck, std::move(detail)};
   }

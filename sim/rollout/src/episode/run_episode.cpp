@@ -16,7 +16,7 @@ namespace doorforge {
 namespace {
 
 // The cloud of a stage is made where it is recorded or somebody looks at it.
-std::vector<Stage> CloudsOf(const EpisodeRoles& roles) {
+std::vector<Stage> CloudsOf(const EpisodePolicies& roles) {
   std::vector<Stage> clouds;
   const auto add = [&](Stage stage, const Policy* policy) {
     if (policy != nullptr && (roles.recorded == stage || policy->UsesPointCloud()))
@@ -31,7 +31,7 @@ std::vector<Stage> CloudsOf(const EpisodeRoles& roles) {
 class Play {
  public:
   Play(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
-       const EpisodeRoles& roles)
+       const EpisodePolicies& roles)
       : roles_(roles),
         expert_grasp_(scene, door, robot),
         rule_(scene, door),
@@ -40,7 +40,7 @@ class Play {
         stepper_(door, robot,
                  {.first = Stage::kGrasp,
                   .turn = roles.handle == nullptr ? &rule_ : nullptr,
-                  .predicted_turned = roles.predicted_turned,
+                  .handle_turned = roles.handle_turned,
                   .clouds = CloudsOf(roles),
                   .bad_action = BadAction::kDiverge}) {}
 
@@ -61,7 +61,7 @@ class Play {
   void Begin(Policy& policy, Stage stage);
   Action Executed(const Action& action, Stage stage);
 
-  const EpisodeRoles& roles_;
+  const EpisodePolicies& roles_;
   ExpertGrasp expert_grasp_;
   ExpertUnlock rule_;
   internal::ActionNoise noise_;
@@ -72,8 +72,8 @@ class Play {
 };
 
 void Play::Grasp() {
-  GraspChooser& chooser = roles_.grasp != nullptr ? *roles_.grasp : expert_grasp_;
-  std::optional<ChosenGrasp> chosen = chooser.Choose(stepper_.Snapshot());
+  SnapshotGraspPolicy& chooser = roles_.grasp != nullptr ? *roles_.grasp : expert_grasp_;
+  std::optional<GraspCommand> chosen = chooser.Choose(stepper_.Snapshot());
   if (chosen && recorder_.Records(Stage::kGrasp)) {
     Observation seen = stepper_.now().observation;
     seen.cloud = std::move(chosen->cloud);
@@ -118,7 +118,7 @@ Episode RunEpisode(const Scene& scene, const DoorAsset& door, const RobotModel& 
 }
 
 Episode RunStages(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
-                  const EpisodeRoles& roles, Observer* observer) {
+                  const EpisodePolicies& roles, Observer* observer) {
   Require(roles.open != nullptr && (roles.recorded != Stage::kHandle || roles.handle != nullptr) &&
               (roles.recorded != Stage::kGrasp || roles.grasp != nullptr),
           ErrorCode::kInvalidArgument,

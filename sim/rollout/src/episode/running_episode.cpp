@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "doorforge/rollout/expert_grasp.h"
+#include "doorforge/rollout/proprioception.h"
 #include "doorforge/rollout/reward.h"
 
 namespace doorforge {
@@ -13,7 +14,7 @@ namespace doorforge {
 void EpisodeStepper::Running::PlayToTheCallersFirst() {
   if (options_.first != Stage::kGrasp) {
     ExpertGrasp expert(world_.scene(), door_, world_.robot());
-    GraspChooser& chooser = options_.grasp != nullptr ? *options_.grasp : expert;
+    SnapshotGraspPolicy& chooser = options_.grasp != nullptr ? *options_.grasp : expert;
     course_.Grasp(chooser.Choose(world_.Snapshot(EpisodePhase::kStart)));
     if (!course_.over()) BeginTurn();
     PlayOthers();
@@ -51,7 +52,7 @@ void EpisodeStepper::Running::Settle(double reward) {
   now_.observation = Observe();
 }
 
-void EpisodeStepper::Running::Grasp(std::optional<ChosenGrasp> grasp) {
+void EpisodeStepper::Running::Grasp(std::optional<GraspCommand> grasp) {
   course_.Grasp(std::move(grasp));
   if (!course_.over()) BeginTurn();
   PlayOthers();

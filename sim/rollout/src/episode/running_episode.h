@@ -28,12 +28,12 @@ class EpisodeStepper::Running {
       : options_(options),
         door_(ApplyVariation(door, scene.variation)),
         world_(scene, door_, robot, observer),
-        course_(world_, options.predicted_turned) {
+        course_(world_, options.handle_turned) {
     world_.Watch(EpisodePhase::kStart);
   }
 
   void PlayToTheCallersFirst();
-  void Grasp(std::optional<ChosenGrasp> grasp);
+  void Grasp(std::optional<GraspCommand> grasp);
   void Act(const Action& action);
 
   const internal::EpisodeWorld& world() const { return world_; }

@@ -63,7 +63,7 @@ std::optional<Verdict> Close(EpisodeWorld& world, ContactLog& log, bool needs_bo
 
 }  // namespace
 
-GraspPlan PlanOf(const ChosenGrasp& grasp, const EpisodeWorld& world) {
+GraspPlan PlanOf(const GraspCommand& grasp, const EpisodeWorld& world) {
   RigidTransform world_from_hand = RigidTransform::Identity();
   world_from_hand.linear() = grasp.world_from_hand_rotation;
   RigidTransform world_from_tcp = world_from_hand * world.robot().hand_from_tcp();
@@ -74,7 +74,7 @@ GraspPlan PlanOf(const ChosenGrasp& grasp, const EpisodeWorld& world) {
           0};
 }
 
-std::optional<Verdict> TakeHold(EpisodeWorld& world, ContactLog& log, const ChosenGrasp& grasp) {
+std::optional<Verdict> TakeHold(EpisodeWorld& world, ContactLog& log, const GraspCommand& grasp) {
   world.controller().SetPosture(grasp.plan->grasp);
   std::optional<Verdict> unreached = Reach(world, log, *grasp.plan);
   if (unreached && grasp.both_pads) return unreached;

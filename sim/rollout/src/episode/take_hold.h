@@ -13,12 +13,12 @@ namespace doorforge::internal {
 
 /// Moves the arm to a grasp and closes the fingers. A grasp that somebody chose is tried as it is:
 /// the fingers close also where the hand did not quite arrive, and one pad on the handle is enough
-/// to go on; see ChosenGrasp::both_pads.
+/// to go on; see GraspCommand::both_pads.
 ///
 /// @param grasp Its plan says how the arm gets there.
-std::optional<Verdict> TakeHold(EpisodeWorld& world, ContactLog& log, const ChosenGrasp& grasp);
+std::optional<Verdict> TakeHold(EpisodeWorld& world, ContactLog& log, const GraspCommand& grasp);
 
 /// The plan of a grasp that came without one.
-GraspPlan PlanOf(const ChosenGrasp& grasp, const EpisodeWorld& world);
+GraspPlan PlanOf(const GraspCommand& grasp, const EpisodeWorld& world);
 
 }  // namespace doorforge::internal

@@ -4,8 +4,8 @@
 
 namespace doorforge {
 
-std::optional<ChosenGrasp> ExpertGrasp::Choose(const SceneSnapshot& snapshot) {
-  ChosenGrasp chosen;
+std::optional<GraspCommand> ExpertGrasp::Choose(const SceneSnapshot& snapshot) {
+  GraspCommand chosen;
   chosen.plan = PlanGrasp(scene_, door_, robot_);
   chosen.both_pads = true;
   const RigidTransform world_from_tcp = snapshot.door[kHandleLink] * chosen.plan->handle_from_tcp;

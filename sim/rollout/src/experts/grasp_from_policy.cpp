@@ -16,10 +16,10 @@ GraspFromPolicy::GraspFromPolicy(GraspPolicy& policy, const Scene& scene, const 
       clearance_(robot),
       visible_(std::move(visible)) {}
 
-std::optional<ChosenGrasp> GraspFromPolicy::Choose(const SceneSnapshot& snapshot) {
+std::optional<GraspCommand> GraspFromPolicy::Choose(const SceneSnapshot& snapshot) {
   std::optional<GraspAction> action = ActionAt(snapshot);
   if (!action) return std::nullopt;
-  ChosenGrasp chosen;
+  GraspCommand chosen;
   chosen.cloud = std::move(action->cloud);
   chosen.contact_m = action->contact_m;
   chosen.world_from_hand_rotation = action->world_from_hand_rotation;
@@ -30,8 +30,8 @@ std::optional<GraspAction> GraspFromPolicy::ActionAt(const SceneSnapshot& snapsh
   GraspObservation observation;
   observation.visible = visible_(snapshot);
   observation.approach = -snapshot.door[kHandleLink].linear().col(0);
-  observation.sample = [&](const Eigen::Vector3d& start, double within_m) {
-    return SampleCloud(observation.visible, start, {.within_m = within_m}).cloud;
+  observation.sample = [&](const Eigen::Vector3d& start, double crop_radius_m) {
+    return SampleCloud(observation.visible, start, {.crop_radius_m = crop_radius_m}).cloud;
   };
   observation.fits = [&](const Eigen::Vector3d& contact_m, const Eigen::Matrix3d& rotation) {
     return clearance_.Fits(observation.visible, contact_m, rotation);

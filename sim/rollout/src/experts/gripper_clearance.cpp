@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "doorforge/rollout/grasp_plan.h"
-#include "doorforge/rollout/run_episode.h"
+#include "doorforge/rollout/snapshot_grasp_policy.h"
 
 namespace doorforge {
 

@@ -92,22 +92,22 @@ Rng CameraObserver::Stream(const std::string& purpose) const { return {seed_, st
 
 void CameraObserver::Remember(RememberedView before) { before_ = std::move(before); }
 
-Sight CameraObserver::Look(const SceneSnapshot& snapshot) {
+CameraFrame CameraObserver::Render(const SceneSnapshot& snapshot) {
   const std::vector<RigidTransform> poses = LinkPosesOf(snapshot);
-  Sight sight;
-  sight.ideal = camera_.Render(model_, poses);
-  sight.depth =
-      WithDepthNoise(sight.ideal, model_, config_.noise, Stream(std::to_string(looks_++)));
-  sight.visible = CropCloud(sight.depth, camera_as_calibrated_, config_);
-  sight.sampled = SampleCloud(sight.visible, snapshot.robot.world_from_tcp.translation(),
+  CameraFrame frame;
+  frame.ideal = camera_.Render(model_, poses);
+  frame.depth =
+      WithDepthNoise(frame.ideal, model_, config_.noise, Stream(std::to_string(looks_++)));
+  frame.visible = CropCloud(frame.depth, camera_as_calibrated_, config_);
+  frame.sampled = SampleCloud(frame.visible, snapshot.robot.world_from_tcp.translation(),
                               {config_.point_count});
-  if (before_ && snapshot.phase == EpisodePhase::kUnlock && !sight.visible.label.empty())
-    sight.sampled.cloud = before_->With(sight.visible, snapshot.robot.world_from_tcp.translation());
-  return sight;
+  if (before_ && snapshot.phase == EpisodePhase::kUnlock && !frame.visible.label.empty())
+    frame.sampled.cloud = before_->With(frame.visible, snapshot.robot.world_from_tcp.translation());
+  return frame;
 }
 
 LabelledCloud CameraObserver::Observe(const SceneSnapshot& snapshot) {
-  return Look(snapshot).sampled.cloud;
+  return Render(snapshot).sampled.cloud;
 }
 
 }  // namespace doorforge

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
+#include "doorforge/rollout/proprioception.h"
+
 #include "doorforge/core/error.h"
-#include "doorforge/rollout/run_episode.h"
 
 namespace doorforge {
 

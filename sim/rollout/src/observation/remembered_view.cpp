@@ -28,9 +28,9 @@ SceneSnapshot ClosedDoor(const Scene& scene, const DoorAsset& door, const RobotM
 }  // namespace
 
 void CheckRememberedView(const RememberedViewConfig& config) {
-  Require(config.finer >= 0 && config.finer <= 8, ErrorCode::kInvalidConfig,
+  Require(config.resolution_scale >= 0 && config.resolution_scale <= 8, ErrorCode::kInvalidConfig,
           "config.remembered.finer: out of 0..8");
-  Require(config.within_m >= 0 && config.within_m < 100, ErrorCode::kInvalidConfig,
+  Require(config.crop_radius_m >= 0 && config.crop_radius_m < 100, ErrorCode::kInvalidConfig,
           "config.remembered.within_m: out of 0..100");
 }
 
@@ -47,16 +47,17 @@ RememberedView::RememberedView(const Scene& scene, const DoorAsset& door, const 
   CheckRememberedView(config);
   Require(config.IsOn(), ErrorCode::kInvalidConfig,
           "config.remembered.finer: 0, so nothing is remembered");
-  scene_.camera.width *= config.finer;
-  scene_.camera.height *= config.finer;
+  scene_.camera.width *= config.resolution_scale;
+  scene_.camera.height *= config.resolution_scale;
 }
 
 LabelledCloud RememberedView::With(LabelledCloud visible, const Eigen::Vector3d& start_m) {
   if (!before_) {
     CameraObserver camera(scene_, *door_, *robot_, cloud_, /*sees_robot=*/false);
-    before_ = camera.Look(ClosedDoor(scene_, *door_, *robot_)).visible;
+    before_ = camera.Render(ClosedDoor(scene_, *door_, *robot_)).visible;
   }
-  return JoinedCloud(std::move(visible), *before_, start_m, {cloud_.point_count, config_.within_m});
+  return JoinedCloud(std::move(visible), *before_, start_m,
+                     {cloud_.point_count, config_.crop_radius_m});
 }
 
 }  // namespace doorforge

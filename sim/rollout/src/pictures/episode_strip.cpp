@@ -13,7 +13,7 @@
 #include "doorforge/rollout/opening_expert.h"
 #include "doorforge/sensor/scene_picture.h"
 
-#include "episode/text_format.h"
+#include "text_format.h"
 
 namespace doorforge {
 namespace {

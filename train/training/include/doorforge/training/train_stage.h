@@ -26,7 +26,7 @@ struct StageLosses {
   double position_m = 0;      ///< Mean absolute error of a component.
   double rotation_rad = 0;    ///< Mean geodesic angle.
   double divergence = 0;      ///< Posterior against N(0, I).
-  double score_rad = 0;       ///< Critic's or discriminator's mean absolute error.
+  double angle_gain_rad = 0;  ///< Critic's or discriminator's mean absolute error.
   double affordance_rad = 0;  ///< Affordance's, to the mean of the best ratings.
 };
 StageLosses UnknownLosses();  ///< All NaN.

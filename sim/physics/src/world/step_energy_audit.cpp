@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "world/world_monitor.h"
+#include "world/step_energy_audit.h"
 
 #include <algorithm>
 #include <cmath>

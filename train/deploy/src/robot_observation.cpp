@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/deploy/robot_sight.h"
+#include "doorforge/deploy/robot_observation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +16,8 @@
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/nearest_name.h"
 #include "doorforge/physics/door_world.h"
+#include "doorforge/rollout/proprioception.h"
 #include "doorforge/rollout/remembered_view.h"
-#include "doorforge/rollout/run_episode.h"
 
 namespace doorforge {
 namespace {
@@ -227,15 +227,15 @@ RobotState ReadRobotState(const std::filesystem::path& path, const RobotModel& r
   return state;
 }
 
-RobotSight ObserveDepth(const DepthImage& depth, const CalibratedCamera& camera,
-                        const RobotState& state, const CloudConfig& config) {
+RobotObservation ObserveDepth(const DepthImage& depth, const CalibratedCamera& camera,
+                              const RobotState& state, const CloudConfig& config) {
   const LabelledCloud visible = VisiblePoints(depth, camera, config);
   SampledCloud sampled = SampleCloud(visible, state.tcp_in_world_m, {config.point_count});
-  RobotSight sight;
-  sight.observation.cloud = std::move(sampled.cloud);
-  sight.observation.proprioception = state.proprioception;
-  sight.visible_count = sampled.visible_count;
-  return sight;
+  RobotObservation seen;
+  seen.observation.cloud = std::move(sampled.cloud);
+  seen.observation.proprioception = state.proprioception;
+  seen.visible_count = sampled.visible_count;
+  return seen;
 }
 
 LabelledCloud ObserveBefore(const DepthImage& depth, CalibratedCamera camera,
@@ -251,20 +251,21 @@ LabelledCloud ObserveBefore(const DepthImage& depth, CalibratedCamera camera,
   return VisiblePoints(depth, camera, config);
 }
 
-RobotSight ObserveDepth(const DepthImage& depth, const CalibratedCamera& camera,
-                        const RobotState& state, const RememberedPoints& before,
-                        const CloudConfig& config) {
+RobotObservation ObserveDepth(const DepthImage& depth, const CalibratedCamera& camera,
+                              const RobotState& state, const RememberedPoints& before,
+                              const CloudConfig& config) {
   LabelledCloud visible = VisiblePoints(depth, camera, config);
-  RobotSight sight;
-  sight.visible_count = static_cast<int>(visible.label.size());
-  sight.observation.cloud = JoinedCloud(std::move(visible), before.visible, state.tcp_in_world_m,
-                                        {config.point_count, before.within_m});
-  sight.observation.proprioception = state.proprioception;
-  return sight;
+  RobotObservation seen;
+  seen.visible_count = static_cast<int>(visible.label.size());
+  seen.observation.cloud = JoinedCloud(std::move(visible), before.visible, state.tcp_in_world_m,
+                                       {config.point_count, before.crop_radius_m});
+  seen.observation.proprioception = state.proprioception;
+  return seen;
 }
 
-HandleSight ObserveHandle(DepthImage depth, const PixelMask& handle, const CalibratedCamera& camera,
-                          const Eigen::Vector3d& approach, const CloudConfig& config) {
+HandleObservation ObserveHandle(DepthImage depth, const PixelMask& handle,
+                                const CalibratedCamera& camera, const Eigen::Vector3d& approach,
+                                const CloudConfig& config) {
   if (handle.width != depth.width || handle.height != depth.height)
     throw Error(ErrorCode::kInvalidArgument,
                 "the handle's mask has " + std::to_string(handle.width) + " x " +
@@ -277,24 +278,24 @@ HandleSight ObserveHandle(DepthImage depth, const PixelMask& handle, const Calib
                 "take hold of; pixels that show the handle are to be other than 0");
   for (std::size_t i = 0; i < depth.label.size(); ++i)
     depth.label[i] = handle.set[i] != 0 ? kHandle : static_cast<std::uint8_t>(PointLabel::kOther);
-  HandleSight sight;
-  sight.view.visible = VisiblePoints(depth, camera, config);
-  const LabelledCloud& visible = sight.view.visible;
-  sight.visible_count = static_cast<int>(visible.label.size());
-  sight.handle_count = static_cast<int>(std::ranges::count(visible.label, kHandle));
-  if (sight.handle_count == 0)
+  HandleObservation seen;
+  seen.view.visible = VisiblePoints(depth, camera, config);
+  const LabelledCloud& visible = seen.view.visible;
+  seen.visible_count = static_cast<int>(visible.label.size());
+  seen.handle_count = static_cast<int>(std::ranges::count(visible.label, kHandle));
+  if (seen.handle_count == 0)
     throw Error(ErrorCode::kInvalidArgument,
                 "no point to take hold of is in view: " +
                     std::to_string(std::ranges::count(handle.set, 1)) +
                     " pixels of the mask are set, and none of them has a depth inside the crop " +
                     Format("(nearer than %.2f m, higher than %.2f m)", config.max_depth_m,
                            config.min_height_m));
-  sight.view.approach = approach;
-  sight.view.sample = [visible, count = config.point_count](const Eigen::Vector3d& start,
-                                                            double within_m) {
-    return SampleCloud(visible, start, {count, within_m}).cloud;
+  seen.view.approach = approach;
+  seen.view.sample = [visible, count = config.point_count](const Eigen::Vector3d& start,
+                                                           double crop_radius_m) {
+    return SampleCloud(visible, start, {count, crop_radius_m}).cloud;
   };
-  return sight;
+  return seen;
 }
 
 }  // namespace doorforge

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/physics/lone_door.h"
+#include "doorforge/physics/robotless_door.h"
 
 #include <cmath>
 #include <numbers>

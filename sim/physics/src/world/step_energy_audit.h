@@ -8,8 +8,8 @@
 
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
 
+#include "doorforge/physics/divergence_detector.h"
 #include "doorforge/physics/robot_model.h"
-#include "doorforge/physics/state_watch.h"
 #include "doorforge/schemas/door_asset.h"
 
 #include "collision/bullet_body.h"

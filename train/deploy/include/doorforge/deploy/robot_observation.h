@@ -49,17 +49,17 @@ RobotState ReadRobotState(const std::filesystem::path& path, const RobotModel& r
 /// @throws Error(kInvalidArgument) if picture and camera differ in size, or fewer points than
 ///     `config.point_count` are left after the crop (the recorder fills up with copies; in a real
 ///     picture so few points mean a fault), with the numbers that explain it.
-struct RobotSight {
+struct RobotObservation {
   Observation observation;
   int visible_count = 0;
 };
-RobotSight ObserveDepth(const DepthImage& depth, const CalibratedCamera& camera,
-                        const RobotState& state, const CloudConfig& config = {});
+RobotObservation ObserveDepth(const DepthImage& depth, const CalibratedCamera& camera,
+                              const RobotState& state, const CloudConfig& config = {});
 
 /// What a policy remembers of the time before the robot came.
 struct RememberedPoints {
-  LabelledCloud visible;  ///< Every point that was visible then, in the world.
-  double within_m = 0;    ///< CloudExtent::within_m of the joint cloud.
+  LabelledCloud visible;     ///< Every point that was visible then, in the world.
+  double crop_radius_m = 0;  ///< CloudExtent::crop_radius_m of the joint cloud.
 };
 
 /// The points of a picture that was taken before the robot came.
@@ -71,12 +71,12 @@ LabelledCloud ObserveBefore(const DepthImage& depth, CalibratedCamera camera,
                             const CloudConfig& config = {});
 
 /// Does what ObserveDepth() does, and joins it with what is remembered, as JoinedCloud() does.
-RobotSight ObserveDepth(const DepthImage& depth, const CalibratedCamera& camera,
-                        const RobotState& state, const RememberedPoints& before,
-                        const CloudConfig& config = {});
+RobotObservation ObserveDepth(const DepthImage& depth, const CalibratedCamera& camera,
+                              const RobotState& state, const RememberedPoints& before,
+                              const CloudConfig& config = {});
 
 /// What a grasper is given of a picture of the closed door, and how much of it there is.
-struct HandleSight {
+struct HandleObservation {
   GraspObservation view;
   int visible_count = 0;  ///< Points inside the crop.
   int handle_count = 0;   ///< So many of these lie on the handle.
@@ -87,7 +87,8 @@ struct HandleSight {
 /// @param approach World: straight into the leaf.
 /// @throws Error(kInvalidArgument) as ObserveDepth(), if picture and mask differ in size, or no
 ///     pixel of the mask is inside the crop.
-HandleSight ObserveHandle(DepthImage depth, const PixelMask& handle, const CalibratedCamera& camera,
-                          const Eigen::Vector3d& approach, const CloudConfig& config = {});
+HandleObservation ObserveHandle(DepthImage depth, const PixelMask& handle,
+                                const CalibratedCamera& camera, const Eigen::Vector3d& approach,
+                                const CloudConfig& config = {});
 
 }  // namespace doorforge

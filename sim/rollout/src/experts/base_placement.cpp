@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/rollout/standing_place.h"
+#include "doorforge/rollout/base_placement.h"
 
 #include <algorithm>
 #include <limits>
@@ -11,10 +11,10 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/physics/inverse_kinematics.h"
-#include "doorforge/physics/start_probe.h"
+#include "doorforge/physics/spawn_collision_checker.h"
 #include "doorforge/rollout/grasp_plan.h"
 
-#include "episode/text_format.h"
+#include "text_format.h"
 
 namespace doorforge {
 namespace {

@@ -16,11 +16,11 @@
 #include "doorforge/core/progress.h"
 #include "doorforge/core/record_id.h"
 #include "doorforge/core/wilson_interval.h"
+#include "doorforge/rollout/base_placement.h"
 #include "doorforge/rollout/run_episode.h"
-#include "doorforge/rollout/standing_place.h"
 
-#include "pictures/film.h"
-#include "episode/text_format.h"
+#include "simulate/film.h"
+#include "text_format.h"
 
 namespace doorforge {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/deploy/robot_sight.h"
+#include "doorforge/deploy/robot_observation.h"
 
 #include <array>
 #include <cmath>
@@ -56,7 +56,7 @@ StageNetworks UntrainedNetworks(NetworkFamily family = NetworkFamily::kMotion) {
   normalisation.action.mean = {0.02F, 0, 0, 0, 0, -1, 0, 1, 0};
   normalisation.hand_m.deviation.fill(0.2F);
   normalisation.base_m.deviation.fill(0.2F);
-  normalisation.score_rad.deviation.fill(0.1F);
+  normalisation.angle_gain_rad.deviation.fill(0.1F);
   return InitialNetworks(normalisation, false, 3, family);
 }
 
@@ -74,10 +74,10 @@ class Photographer : public Observer {
   Photographer(const Scene& scene, const DoorAsset& door, const RobotModel& robot)
       : camera_(scene, door, robot) {}
   LabelledCloud Observe(const SceneSnapshot& snapshot) override {
-    Sight sight = camera_.Look(snapshot);
-    pictures.push_back(std::move(sight.depth));
+    CameraFrame frame = camera_.Render(snapshot);
+    pictures.push_back(std::move(frame.depth));
     hands.push_back(snapshot.robot.world_from_hand);
-    return sight.sampled.cloud;
+    return frame.sampled.cloud;
   }
 
   std::vector<DepthImage> pictures;
@@ -117,7 +117,7 @@ Json StateFile(const Decision& decision, const Scene& scene) {
 class RobotSightTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = fs::temp_directory_path() / ("robot_sight_test_" + std::to_string(::getpid()));
+    folder_ = fs::temp_directory_path() / ("robot_observation_test_" + std::to_string(::getpid()));
     WriteUntrained(folder_ / "opener", "open");
     WriteUntrained(folder_ / "handler", "handle");
     WriteUntrained(folder_ / "grasper", "grasp");
@@ -276,9 +276,9 @@ TEST_F(RobotSightTest, APictureAndAStateGiveWhatThePolicySawInTheSimulator) {
       ASSERT_EQ(found.size(), expected.size());
       for (std::size_t k = 0; k < found.size(); ++k) ASSERT_NEAR(found[k], expected[k], 2e-6);
       // a pose in decimals is off by its last bit, which decides between points equally far
-      const RobotSight sight = ObserveDepth(depth, {ViewOf(scene_.camera)}, state);
-      EXPECT_EQ(sight.observation.cloud.xyz, Sampled(rounded, i).xyz);
-      EXPECT_EQ(static_cast<std::size_t>(sight.visible_count), expected.size() / 3);
+      const RobotObservation seen = ObserveDepth(depth, {ViewOf(scene_.camera)}, state);
+      EXPECT_EQ(seen.observation.cloud.xyz, Sampled(rounded, i).xyz);
+      EXPECT_EQ(static_cast<std::size_t>(seen.visible_count), expected.size() / 3);
     }
   }
 }
@@ -316,11 +316,11 @@ TEST_F(RobotSightTest, TheProgramDecidesAsThePolicyDidInTheSimulator) {
 }
 
 // The closed door before the robot is in view, as a grasper sees it.
-class Onlooker : public GraspChooser {
+class Onlooker : public SnapshotGraspPolicy {
  public:
   explicit Onlooker(CameraObserver& camera) : camera_(camera) {}
-  std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override {
-    depth = camera_.Look(snapshot).depth;
+  std::optional<GraspCommand> Choose(const SceneSnapshot& snapshot) override {
+    depth = camera_.Render(snapshot).depth;
     approach = -snapshot.door[kHandleLink].linear().col(0);
     return std::nullopt;
   }
@@ -350,13 +350,13 @@ TEST_F(RobotSightTest, TheProgramTakesHoldAsTheGrasperDoesInTheSimulator) {
 
   GraspOptions options;
   options.orientations = 5;
-  HandleSight sight = ObserveHandle(depth, handle, {ViewOf(scene_.camera)}, onlooker.approach);
+  HandleObservation seen = ObserveHandle(depth, handle, {ViewOf(scene_.camera)}, onlooker.approach);
   const GripperClearance clearance(robot_);
-  sight.view.fits = [&](const Eigen::Vector3d& contact_m, const Eigen::Matrix3d& rotation) {
-    return clearance.Fits(sight.view.visible, contact_m, rotation);
+  seen.view.fits = [&](const Eigen::Vector3d& contact_m, const Eigen::Matrix3d& rotation) {
+    return clearance.Fits(seen.view.visible, contact_m, rotation);
   };
   const auto expected =
-      MakeGraspPolicy(UntrainedNetworks(NetworkFamily::kGrasp), options)->Choose(sight.view);
+      MakeGraspPolicy(UntrainedNetworks(NetworkFamily::kGrasp), options)->Choose(seen.view);
   ASSERT_TRUE(expected);
   const double yaw = std::atan2(-onlooker.approach.y(), -onlooker.approach.x());
   const std::string common =
@@ -369,7 +369,7 @@ TEST_F(RobotSightTest, TheProgramTakesHoldAsTheGrasperDoesInTheSimulator) {
   ASSERT_EQ(answer.code, 0);
   const Json decision = Json::parse(answer.text);
   EXPECT_EQ(decision["stage"], "grasp");
-  EXPECT_EQ(decision["handle_points"], sight.handle_count);
+  EXPECT_EQ(decision["handle_points"], seen.handle_count);
   EXPECT_LT((Vector3FromJson(decision["contact_m"], "contact") - expected->contact_m).norm(), 1e-5);
   const RigidTransform hand = TransformFromJson(decision["world_from_hand"], "hand");
   EXPECT_LT((hand.linear() - expected->world_from_hand_rotation).norm(), 1e-4);
@@ -417,7 +417,7 @@ TEST_F(RobotSightTest, AHandlerThatRemembersIsGivenThePictureFromBeforeAndAsksFo
   const auto handler = folder_ / "remembers";
   StageNetworks networks = UntrainedNetworks();
   networks.normalisation.view.remembered_finer = 2;
-  networks.normalisation.view.cloud_within_m = 0.25F;
+  networks.normalisation.view.cloud_crop_radius_m = 0.25F;
   PolicyProvenance provenance;
   provenance.stage = "handle";
   provenance.dataset_sha256 = std::string(64, 'a');
@@ -427,7 +427,8 @@ TEST_F(RobotSightTest, AHandlerThatRemembersIsGivenThePictureFromBeforeAndAsksFo
   const ProgramAnswer answer =
       RunAct(With("camera.yaml", inputs + " --before " + before.string()), "2>/dev/null");
   ASSERT_EQ(answer.code, 0) << answer.text;
-  RememberedView simulated(scene_, door, robot_, {}, {.finer = 2, .within_m = 0.25});
+  RememberedView simulated(scene_, door, robot_, {},
+                           {.resolution_scale = 2, .crop_radius_m = 0.25});
   Observation observation;
   observation.cloud = simulated.With(CropCloud(pictures_[0], scene_.camera),
                                      (hands_[0] * robot_.hand_from_tcp()).translation());

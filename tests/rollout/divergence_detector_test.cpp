@@ -4,7 +4,7 @@
 // Blow-ups are put into worlds in which the gripper holds or turns a handle, and must be found;
 // good episodes must not be accused. Short here; DOORFORGE_LONG_TESTS=1 injects 1,000 and, with
 // DOORFORGE_DOORS=<folder of doors>, lets the expert open 5,000.
-#include "doorforge/physics/state_watch.h"
+#include "doorforge/physics/divergence_detector.h"
 
 #include <atomic>
 #include <cmath>

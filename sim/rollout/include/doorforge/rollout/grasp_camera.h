@@ -12,7 +12,8 @@ namespace doorforge {
 struct GraspCameraConfig {
   int resolution_scale =
       2;  ///< It multiplies the pixels along each side of the scene's camera, 1 to 8.
-  double crop_radius_m = 0.4;  ///< It is the CloudExtent::within_m of the cloud about the contact.
+  double crop_radius_m =
+      0.4;  ///< It is the CloudExtent::crop_radius_m of the cloud about the contact.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {

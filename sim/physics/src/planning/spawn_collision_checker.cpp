@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/physics/start_probe.h"
+#include "doorforge/physics/spawn_collision_checker.h"
 
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/physics/state_watch.h"
+#include "doorforge/physics/divergence_detector.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "episode/text_format.h"
+#include "text_format.h"
 
 #include <cstdarg>
 #include <cstdio>

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/rollout/standing_place.h"
+#include "doorforge/rollout/base_placement.h"
 
 #include <gtest/gtest.h>
 
 #include "doorforge/core/error.h"
 #include "doorforge/physics/load_robot.h"
 #include "doorforge/physics/scene_sampling.h"
-#include "doorforge/physics/start_probe.h"
+#include "doorforge/physics/spawn_collision_checker.h"
 
 #include "../physics/primitive_door.h"
 

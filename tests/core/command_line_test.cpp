@@ -105,6 +105,45 @@ TEST(CommandLine, AnEmptyValueIsRefusedWhereItMustNotPassForNone) {
             "it");
 }
 
+enum class Shape { kRound, kFlat };
+constexpr NamedValue<Shape> kShapes[] = {{Shape::kRound, "round"}, {Shape::kFlat, "flat"}};
+constexpr std::span<const NamedValue<Shape>> ValuesOf(Shape) { return kShapes; }
+
+TEST(CommandLine, AChoiceIsOneOfItsEnumsWordsAndTheHelpShowsTheDefault) {
+  const auto with = [](const std::vector<std::string>& words, Shape& shape) {
+    CLI::App app{"", "doorforge try"};
+    AddChoice(app, "--shape", shape, "of the knob");
+    const std::string refusal = RefusalOf(app, words);
+    return refusal.empty() ? app.help() : refusal;
+  };
+  Shape shape = Shape::kFlat;
+  EXPECT_NE(with({}, shape).find("[flat]"), std::string::npos);
+  EXPECT_EQ(shape, Shape::kFlat);
+  with({"--shape", "round"}, shape);
+  EXPECT_EQ(shape, Shape::kRound);
+  EXPECT_NE(with({"--shape", "rund"}, shape).find("rund not in {round,flat}"), std::string::npos);
+}
+
+TEST(CommandLine, AChoiceThatIsNotGivenIsLeftToOthers) {
+  std::optional<Shape> shape;
+  CLI::App app{"", "doorforge try"};
+  AddChoice(app, "--shape", shape, "of the knob");
+  Parse(app, {});
+  EXPECT_FALSE(shape.has_value());
+  Parse(app, {"--shape", "flat"});
+  EXPECT_EQ(shape, Shape::kFlat);
+}
+
+TEST(CommandLine, OverwriteMeansThatWhatIsThereIsReplaced) {
+  Existing existing = Existing::kRefuse;
+  CLI::App app{"", "doorforge try"};
+  AddOverwrite(app, existing, "replace it");
+  Parse(app, {});
+  EXPECT_EQ(existing, Existing::kRefuse);
+  Parse(app, {"--overwrite"});
+  EXPECT_EQ(existing, Existing::kReplace);
+}
+
 TEST(CommandLine, WhatIsMissingIsStillTold) {
   Verb verb;
   const std::string refusal = RefusalOf(verb.app, {"x.stl"});

@@ -167,4 +167,12 @@ const PartPiece* FindPiece(const Part& part, std::string_view name) {
   return nullptr;
 }
 
+void RequireCategory(const std::string& option, const std::string& word) {
+  if (CategoryNamed(word)) return;
+  std::string all;
+  for (const std::string& name : NamesOf<Category>()) all += (all.empty() ? "" : ", ") + name;
+  throw Error(ErrorCode::kInvalidArgument,
+              option + ": unknown category \"" + word + "\"; allowed are " + all);
+}
+
 }  // namespace doorforge

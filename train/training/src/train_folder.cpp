@@ -297,4 +297,25 @@ TrainingOutcome TrainIntoFolder(const TrainingRequest& request) {
   return FolderTraining(request, *group, dataset).Run();
 }
 
+std::string OutcomeText(const TrainingOutcome& outcome, const TrainingRequest& request) {
+  const auto place = [](const fs::path& path) {
+    return fs::absolute(path).lexically_normal().string() + "\n";
+  };
+  std::string text = "policy:     " + place(request.out) +
+                     "curves:     " + place(request.out / kCurvesPage) +
+                     "samples:    " + std::to_string(outcome.train_samples) + " for training, " +
+                     std::to_string(outcome.validation_samples) + " for validation\n";
+  if (const auto& turned = outcome.turned)
+    text += "turned:     " + std::to_string(turned->correct) + " of " +
+            std::to_string(turned->turned) + " last actions told, " +
+            std::to_string(turned->called - turned->correct) + " of " +
+            std::to_string(turned->called) + " calls too early (validation)\n";
+  if (!outcome.last_epoch) return text;
+  const NetworkFamily family = request.config.family;
+  text += "training:   " + LossText(outcome.last_epoch->train, family) + "\n";
+  if (outcome.validation_samples > 0)
+    text += "validation: " + LossText(outcome.last_epoch->validation, family) + "\n";
+  return text;
+}
+
 }  // namespace doorforge

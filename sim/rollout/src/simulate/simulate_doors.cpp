@@ -163,4 +163,21 @@ Json SimulatedToJson(std::span<const SimulatedEpisode> episodes) {
   return json;
 }
 
+std::string SimulatedText(std::span<const SimulatedEpisode> episodes) {
+  std::string text;
+  for (const SimulatedEpisode& simulated : episodes)
+    text += NameOf(simulated) + ": " + std::string(NameOf(simulated.episode.outcome)) + " (" +
+            simulated.episode.detail + ")\n";
+  for (const auto& [group, tally] : TallyOutcomes(episodes)) {
+    const auto percent = [](double part) { return std::to_string(std::lround(100 * part)); };
+    text += group + ": opened " + std::to_string(tally.opened) + " of " +
+            std::to_string(tally.episodes) + " (95 %: " + percent(tally.low) + " to " +
+            percent(tally.high) + " %)";
+    for (const auto& [outcome, count] : tally.outcomes)
+      text += ", " + outcome + " " + std::to_string(count);
+    text += "\n";
+  }
+  return text;
+}
+
 }  // namespace doorforge

@@ -78,7 +78,7 @@ void ExpectSameEnd(const Episode& a, const Episode& b) {
   EXPECT_EQ(a.peak_handle_rad, b.peak_handle_rad);
   EXPECT_EQ(a.peak_force_n, b.peak_force_n);
   EXPECT_EQ(a.simulated_s, b.simulated_s);
-  EXPECT_EQ(a.handle_done, b.handle_done);
+  EXPECT_EQ(a.handle_turned, b.handle_turned);
 }
 
 class EpisodeStepperTest : public testing::Test {

@@ -105,7 +105,7 @@ Options Parse(int argc, char** argv, const EvalVerbSetup& setup) {
 EvaluationConfig ConfigOf(const Options& options) {
   auto config = LoadConfig<EvaluationConfig>(options.config, options.settings);
   if (options.unlock_switch) config.unlock_switch = *options.unlock_switch;
-  Require(options.unlock_switch != SwitchSource::kPredicted ||
+  Require(options.unlock_switch != SwitchSource::kPolicy ||
               options.request.policies.handler != kExpertPolicy,
           ErrorCode::kInvalidArgument,
           "--switch predicted: a policy that turns the handle says when it is turned; give one "

@@ -39,7 +39,7 @@ std::unique_ptr<GraspFromPolicy> GraspOf(const PolicySet& set, const EpisodePlac
                                                        /*sees_robot=*/false);
   return std::make_unique<GraspFromPolicy>(
       *set.grasp, scene, place.door, place.robot,
-      [camera](const SceneSnapshot& snapshot) { return camera->Look(snapshot).visible; });
+      [camera](const SceneSnapshot& snapshot) { return camera->Render(snapshot).visible; });
 }
 
 std::unique_ptr<CameraObserver> CameraOf(const EpisodePlace& place,

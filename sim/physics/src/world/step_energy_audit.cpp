@@ -38,7 +38,7 @@ std::vector<WatchedJoint> JointsOf(const RobotModel& model, const DoorAsset& doo
   return joints;
 }
 
-std::vector<double> DriveLimits(const RobotModel& model) {
+std::vector<double> LimitsOfDrives(const RobotModel& model) {
   std::vector<double> limits;
   for (const RobotJoint& joint : model.joints()) limits.push_back(joint.effort);
   for (std::size_t i = limits.size() - 2; i < limits.size(); ++i) limits[i] = kFingerLimit;
@@ -67,7 +67,7 @@ StepEnergyAudit::StepEnergyAudit(const BulletBody& robot, const BulletBody& door
                                  const RobotModel& model, const DoorAsset& asset)
     : robot_(robot),
       door_(door),
-      drive_limit_(DriveLimits(model)),
+      drive_limit_(LimitsOfDrives(model)),
       torque_limit_(TorqueLimits(asset)),
       watch_(JointsOf(model, asset)) {
   const auto links =

@@ -118,7 +118,7 @@ TEST(CommandLine, AChoiceIsOneOfItsEnumsWordsAndTheHelpShowsTheDefault) {
     return refusal.empty() ? app.help() : refusal;
   };
   KnobShape shape = KnobShape::kFlat;
-  EXPECT_NE(with({}, shape).find("[flat]"), std::string::npos);
+  EXPECT_NE(with({}, shape).find("=flat"), std::string::npos);
   EXPECT_EQ(shape, KnobShape::kFlat);
   with({"--shape", "round"}, shape);
   EXPECT_EQ(shape, KnobShape::kRound);

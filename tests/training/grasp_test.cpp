@@ -157,8 +157,8 @@ TEST(TrainGrasp, GivesTheSameBitsForAnyNumberOfThreadsAndInterruptionsInBothPhas
   const TrainerState whole = TrainStage(train.samples, validation.samples, config, hooks);
   EXPECT_EQ(whole.step, 8U);
   ASSERT_EQ(whole.epochs.size(), 4U);
-  EXPECT_TRUE(std::isnan(whole.epochs[1].validation.affordance_rad));
-  EXPECT_FALSE(std::isnan(whole.epochs[2].validation.affordance_rad));
+  EXPECT_FALSE(whole.epochs[1].validation.affordance_rad.has_value());
+  EXPECT_TRUE(whole.epochs[2].validation.affordance_rad.has_value());
   EXPECT_EQ(whole.epochs[3].validation.angle_gain_rad, whole.epochs[1].validation.angle_gain_rad);
   for (const int stop_after : {1, 7}) {
     TrainHooks stopped;

@@ -242,15 +242,15 @@ TEST(Heads, APolicyScoresAsTrainingDoesOnEveryInstructionSet) {
     if (!IsSupported(set)) continue;
     const auto critic = internal::CriticHead(motion.networks, set).Score(motion.batch);
     EXPECT_NEAR(MeanError(critic, motion.batch),
-                CriticObjective(motion.networks, motion.batch, {}).losses.angle_gain_rad, 1e-6);
+                *CriticObjective(motion.networks, motion.batch, {}).losses.angle_gain_rad, 1e-6);
     const auto affordance = internal::AffordanceHead(grasp.networks, set).Score(grasp.batch);
     EXPECT_NEAR(MeanError(affordance, grasp.batch),
-                AffordanceObjective(grasp.networks, grasp.batch, {}).losses.affordance_rad, 1e-6);
+                *AffordanceObjective(grasp.networks, grasp.batch, {}).losses.affordance_rad, 1e-6);
     const auto near = internal::DiscriminatorHead(grasp.networks, set).Score(grasp.batch);
-    EXPECT_NEAR(
-        MeanError(near, grasp.batch),
-        DiscriminatorObjective(grasp.networks, grasp.batch, grasp.config, {}).losses.angle_gain_rad,
-        1e-6);
+    EXPECT_NEAR(MeanError(near, grasp.batch),
+                *DiscriminatorObjective(grasp.networks, grasp.batch, grasp.config, {})
+                     .losses.angle_gain_rad,
+                1e-6);
   }
 }
 
@@ -266,7 +266,7 @@ TEST(Heads, APolicyDecodesAsTrainingDoesWithEitherKindOfBranches) {
         error += std::abs(static_cast<double>(decoded[9 * i + k]) -
                           static_cast<double>(f.made.samples[i].action[k]));
     EXPECT_NEAR(error / static_cast<double>(3 * f.made.samples.size()),
-                ActorObjective(f.networks, f.batch, f.config, {}).losses.position_m, 1e-6);
+                *ActorObjective(f.networks, f.batch, f.config, {}).losses.position_m, 1e-6);
   }
 }
 
@@ -301,8 +301,8 @@ TEST(HeadNetworks, LossesOfAKnownPredictionAreTheClosedForm) {
   }
   const auto count = static_cast<double>(f.made.samples.size());
   const auto result = ActorObjective(f.networks, f.batch, f.config, {});
-  EXPECT_NEAR(result.losses.position_m, position / (3 * count), 1e-6);
-  EXPECT_NEAR(result.losses.rotation_rad, angle / count, 1e-4);
+  EXPECT_NEAR(*result.losses.position_m, position / (3 * count), 1e-6);
+  EXPECT_NEAR(*result.losses.rotation_rad, angle / count, 1e-4);
 }
 
 TEST(HeadNetworks, RotationGradientsStayFiniteAtTheTargetAndOppositeIt) {
@@ -325,7 +325,7 @@ TEST(HeadNetworks, RotationGradientsStayFiniteAtTheTargetAndOppositeIt) {
     }
     std::vector<float> gradient(ActorLayout().size());
     const auto result = ActorObjective(f.networks, f.batch, f.config, gradient);
-    EXPECT_NEAR(result.losses.rotation_rad, turn, 0.03);
+    EXPECT_NEAR(*result.losses.rotation_rad, turn, 0.03);
     for (const float g : gradient) ASSERT_TRUE(std::isfinite(g));
   }
 }

@@ -86,7 +86,7 @@ TEST(TrainStage, LearnsTheMirrorImagesOfWhatItIsShown) {
   config.epochs = 40;
   config.learning_rate = 2e-3;
   const double without =
-      TrainStage(train.samples, images.samples, config, {}).epochs.back().validation.position_m;
+      *TrainStage(train.samples, images.samples, config, {}).epochs.back().validation.position_m;
   config.augment_mirror = true;
   const TrainerState state = TrainStage(train.samples, images.samples, config, {});
   EXPECT_LT(state.epochs.back().validation.position_m, 0.5 * without);
@@ -229,8 +229,8 @@ TEST(TrainStage, InTheHandsFrameItLearnsTurnsThatDoNotDependOnTheHandsRotation) 
   const TrainerState b = TrainStage(turned, {}, config, {});
   ASSERT_EQ(a.steps.size(), b.steps.size());
   EXPECT_EQ(a.networks.normalisation.view.frame, ViewFrame::kHand);
-  EXPECT_NEAR(a.steps[0].rotation_rad, b.steps[0].rotation_rad, 1e-4);
-  EXPECT_NEAR(a.steps.back().position_m, b.steps.back().position_m, 1e-3);
+  EXPECT_NEAR(*a.steps[0].rotation_rad, *b.steps[0].rotation_rad, 1e-4);
+  EXPECT_NEAR(*a.steps.back().position_m, *b.steps.back().position_m, 1e-3);
 
   config.frame = ViewFrame::kWorld;
   EXPECT_EQ(TrainStage(train.samples, {}, config, {}).networks.normalisation.view.frame,
@@ -267,10 +267,11 @@ TEST(TrainStage, InLibtorchsOperatorsItLearnsTheSame) {
   const TrainerState torch = TrainStage(train.samples, validation.samples, config, {});
   ASSERT_EQ(torch.steps.size(), own.steps.size());
   for (std::size_t i = 0; i < own.steps.size(); ++i) {
-    EXPECT_NEAR(torch.steps[i].rotation_rad, own.steps[i].rotation_rad, 1e-4);
-    EXPECT_NEAR(torch.steps[i].angle_gain_rad, own.steps[i].angle_gain_rad, 1e-4);
+    EXPECT_NEAR(*torch.steps[i].rotation_rad, *own.steps[i].rotation_rad, 1e-4);
+    EXPECT_NEAR(*torch.steps[i].angle_gain_rad, *own.steps[i].angle_gain_rad, 1e-4);
   }
-  EXPECT_NEAR(torch.epochs[1].validation.rotation_rad, own.epochs[1].validation.rotation_rad, 1e-3);
+  EXPECT_NEAR(*torch.epochs[1].validation.rotation_rad, *own.epochs[1].validation.rotation_rad,
+              1e-3);
   for (const char* none : {"gpu", "", "cuda:99"}) {
     config.device = none;
     EXPECT_THROW(TrainStage(train.samples, {}, config, {}), Error) << none;
@@ -282,13 +283,13 @@ TEST(BestNetworks, AreEachOfTheEpochInWhichTheyErredLeast) {
   const TrainConfig config = SmallConfig();
   TrainerState state;
   state.networks = InitialNetworks(MeasureNormalisation(made.samples), false, 9);
-  const StageLosses unknown = UnknownLosses();
-  const auto end_epoch = [&](double position_m, double rotation_rad, double angle_gain_rad) {
+  const StageLosses unknown;
+  const auto end_epoch = [&](std::optional<double> position_m, std::optional<double> rotation_rad,
+                             std::optional<double> angle_gain_rad) {
     const auto mark = static_cast<float>(state.epochs.size() + 1);
     state.networks.actor[0] = mark;
     state.networks.critic[0] = -mark;
-    state.epochs.push_back(
-        {unknown, {position_m, rotation_rad, 0, angle_gain_rad, unknown.angle_gain_rad}});
+    state.epochs.push_back({unknown, {position_m, rotation_rad, 0, angle_gain_rad, {}}});
     internal::UpdateBest(config, state);
   };
   end_epoch(unknown.position_m, unknown.rotation_rad, unknown.angle_gain_rad);
@@ -333,7 +334,7 @@ TEST(TrainStage, ASetSmallerThanABatchIsOneBatchWithoutValidation) {
   config.epochs = 1;
   const TrainerState state = TrainStage(train.samples, {}, config, {});
   EXPECT_EQ(state.step, 1U);
-  EXPECT_TRUE(std::isnan(state.epochs[0].validation.position_m));
+  EXPECT_FALSE(state.epochs[0].validation.position_m.has_value());
 }
 
 TEST(TrainStage, StopsWhenALossIsNotFinite) {

@@ -212,10 +212,11 @@ std::vector<float> ToVector(const Tensor& tensor) {
 // What a head gives for a batch: what is minimised, and what is reported.
 struct Loss {
   Tensor objective;
-  StageLosses losses = UnknownLosses();
+  StageLosses losses = {};
 };
 
-Loss MeanAbsolute(const Tensor& score, const HeadBatch& batch, double StageLosses::*reported) {
+Loss MeanAbsolute(const Tensor& score, const HeadBatch& batch,
+                  std::optional<double> StageLosses::*reported) {
   Loss loss{(score - View(batch.angle_gains_rad, 1)).abs().mean()};
   loss.losses.*reported = loss.objective.item<double>();
   return loss;

@@ -22,9 +22,9 @@ struct HeadBatch : HeadInputs {
 };
 
 struct HeadResult {
-  StageLosses losses = UnknownLosses();  ///< The network's own; the rest NaN.
-  double objective = 0;                  ///< What is minimised.
-  std::vector<float> feature_gradient;   ///< n x 128; empty if no gradient was asked for.
+  StageLosses losses;                   ///< The network's own.
+  double objective = 0;                 ///< What is minimised.
+  std::vector<float> feature_gradient;  ///< n x 128; empty if no gradient was asked for.
 };
 
 /// Uses one thread for libtorch in this process, whatever the machine has. Idempotent.

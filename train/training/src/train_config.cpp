@@ -95,11 +95,6 @@ double LearningRateAt(const TrainConfig& config, TrainingPlace place) {
   return 0;
 }
 
-StageLosses UnknownLosses() {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  return {kNone, kNone, kNone, kNone, kNone};
-}
-
 std::vector<LossColumn> LossColumnsOf(NetworkFamily family) {
   if (family == NetworkFamily::kGrasp)
     return {{"discriminator.score_rad", &StageLosses::angle_gain_rad},

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -262,19 +263,20 @@ class FolderTraining {
 std::string LossText(const StageLosses& losses, NetworkFamily family) {
   struct Shown {
     const char* format;
-    double value;
+    double unit;
+    std::optional<double> value;
   };
   const double to_degrees = 57.29578;
-  const std::vector<Shown> motion = {{"position %.2f mm", 1e3 * losses.position_m},
-                                     {"rotation %.2f deg", to_degrees * losses.rotation_rad},
-                                     {"critic %.2f deg", to_degrees * losses.angle_gain_rad}};
-  const std::vector<Shown> grasp = {{"discriminator %.2f deg", to_degrees * losses.angle_gain_rad},
-                                    {"affordance %.2f deg", to_degrees * losses.affordance_rad}};
+  const std::vector<Shown> motion = {{"position %.2f mm", 1e3, losses.position_m},
+                                     {"rotation %.2f deg", to_degrees, losses.rotation_rad},
+                                     {"critic %.2f deg", to_degrees, losses.angle_gain_rad}};
+  const std::vector<Shown> grasp = {{"discriminator %.2f deg", to_degrees, losses.angle_gain_rad},
+                                    {"affordance %.2f deg", to_degrees, losses.affordance_rad}};
   std::string text;
   for (const Shown& shown : family == NetworkFamily::kGrasp ? grasp : motion) {
-    if (std::isnan(shown.value)) continue;
+    if (!shown.value) continue;
     char part[64];
-    std::snprintf(part, sizeof part, shown.format, shown.value);
+    std::snprintf(part, sizeof part, shown.format, shown.unit * *shown.value);
     text += (text.empty() ? "" : ", ") + std::string(part);
   }
   return text;

@@ -6,8 +6,8 @@
 
 #include "doorforge/physics/door_world.h"
 
-#include "world/door_body.h"
 #include "robot/robot_body.h"
+#include "world/door_body.h"
 
 namespace doorforge::internal {
 

@@ -11,8 +11,8 @@
 #include "doorforge/physics/latch_law.h"
 #include "doorforge/schemas/door_asset.h"
 
-#include "world/bolt_body.h"
 #include "collision/bullet_body.h"
+#include "world/bolt_body.h"
 
 namespace doorforge::internal {
 

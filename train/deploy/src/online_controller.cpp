@@ -78,7 +78,7 @@ std::optional<OnlineController::Actor> OnlineController::LoadActor(const std::st
   actor.trying = dynamic_cast<TryingPolicy*>(actor.policy.get());
   actor.policy->Reset();
   actor.remembers = view.remembered_finer > 0;
-  actor.within_m = static_cast<double>(view.cloud_within_m);
+  actor.crop_radius_m = static_cast<double>(view.cloud_crop_radius_m);
   return actor;
 }
 
@@ -109,17 +109,19 @@ ActAnswer OnlineController::DecideGrasp(DepthImage depth, PixelMask handle,
                 "a grasp is to be chosen, and --grasper, which chooses it, was not given");
   const double yaw = setup_.config.door_yaw_rad;
   seen_ = {std::move(depth), std::move(handle)};
-  HandleSight sight = NamingInputs(names.depth + ", " + names.handle + " and " + names.camera, [&] {
-    return ObserveHandle(seen_.depth, *seen_.handle, setup_.camera,
-                         -Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0), setup_.config.cloud);
-  });
-  KeepBefore(sight.view.visible);
+  HandleObservation seen =
+      NamingInputs(names.depth + ", " + names.handle + " and " + names.camera, [&] {
+        return ObserveHandle(seen_.depth, *seen_.handle, setup_.camera,
+                             -Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0),
+                             setup_.config.cloud);
+      });
+  KeepBefore(seen.view.visible);
   const GripperClearance clearance(robot_);
-  sight.view.hand_from_tcp = robot_.hand_from_tcp();
-  sight.view.fits = [&](const Eigen::Vector3d& contact_m, const Eigen::Matrix3d& rotation) {
-    return clearance.Fits(sight.view.visible, contact_m, rotation);
+  seen.view.hand_from_tcp = robot_.hand_from_tcp();
+  seen.view.fits = [&](const Eigen::Vector3d& contact_m, const Eigen::Matrix3d& rotation) {
+    return clearance.Fits(seen.view.visible, contact_m, rotation);
   };
-  return Answer(*grasper_->policy->Choose(sight.view), sight);
+  return Answer(*grasper_->policy->Choose(seen.view), seen);
 }
 
 ActAnswer OnlineController::Decide(DepthImage depth, const RobotState& state,
@@ -127,9 +129,9 @@ ActAnswer OnlineController::Decide(DepthImage depth, const RobotState& state,
   seen_ = {std::move(depth), {}};
   const Stage stage = StageOf(state, names.state);
   Actor& actor = ActorOf(stage);
-  const RobotSight sight =
-      NamingInputs(names.depth + " and " + names.camera, [&] { return SightOf(actor, state); });
-  return Answer(stage, actor, state, sight);
+  const RobotObservation seen = NamingInputs(names.depth + " and " + names.camera,
+                                             [&] { return ObservationOf(actor, state); });
+  return Answer(stage, actor, state, seen);
 }
 
 void OnlineController::Remember(const DepthImage& before, const InputNames& names) {
@@ -148,7 +150,8 @@ void OnlineController::KeepBefore(LabelledCloud before) {
   before_ = std::move(before);
 }
 
-RobotSight OnlineController::SightOf(const Actor& actor, const RobotState& state) const {
+RobotObservation OnlineController::ObservationOf(const Actor& actor,
+                                                 const RobotState& state) const {
   const CloudConfig& cloud = setup_.config.cloud;
   if (!actor.remembers) return ObserveDepth(seen_.depth, setup_.camera, state, cloud);
   if (!before_)
@@ -156,7 +159,7 @@ RobotSight OnlineController::SightOf(const Actor& actor, const RobotState& state
                 "the policy that turns the handle remembers what the camera saw before the robot "
                 "came, and there is no such picture; pass it as --before, in a stream as "
                 "\"before\"");
-  return ObserveDepth(seen_.depth, setup_.camera, state, {*before_, actor.within_m}, cloud);
+  return ObserveDepth(seen_.depth, setup_.camera, state, {*before_, actor.crop_radius_m}, cloud);
 }
 
 std::optional<Foreignness> OnlineController::ForeignnessOf(
@@ -167,7 +170,7 @@ std::optional<Foreignness> OnlineController::ForeignnessOf(
                      familiarity->DistanceAt(setup_.config.hold.foreign_percentile)};
 }
 
-ActAnswer OnlineController::Answer(const GraspAction& choice, const HandleSight& sight) const {
+ActAnswer OnlineController::Answer(const GraspAction& choice, const HandleObservation& seen) const {
   RigidTransform world_from_tcp = RigidTransform::Identity();
   world_from_tcp.linear() = choice.world_from_hand_rotation * robot_.hand_from_tcp().linear();
   world_from_tcp.translation() =
@@ -181,8 +184,8 @@ ActAnswer OnlineController::Answer(const GraspAction& choice, const HandleSight&
       grasper_->familiarity,
       SightNumbersOf({choice.cloud.xyz, choice.cloud.label}, {}, NetworkFamily::kGrasp));
   answer.candidates = setup_.config.grasp.points * setup_.config.grasp.orientations;
-  answer.visible_points = sight.visible_count;
-  answer.handle_points = sight.handle_count;
+  answer.visible_points = seen.visible_count;
+  answer.handle_points = seen.handle_count;
   answer.weights_sha256 = grasper_->weights_sha256;
   Judge(setup_.config.hold, answer);
   return answer;
@@ -217,8 +220,8 @@ OnlineController::Actor& OnlineController::ActorOf(Stage stage) {
 }
 
 ActAnswer OnlineController::Answer(Stage stage, Actor& actor, const RobotState& state,
-                                   const RobotSight& sight) {
-  const Observation& observation = sight.observation;
+                                   const RobotObservation& seen) {
+  const Observation& observation = seen.observation;
   const Action action = actor.policy->Act(observation);
   ActAnswer answer;
   answer.stage = stage;
@@ -232,7 +235,7 @@ ActAnswer OnlineController::Answer(Stage stage, Actor& actor, const RobotState& 
       actor.familiarity, SightNumbersOf({shown.cloud.xyz, shown.cloud.label}, shown.proprioception,
                                         NetworkFamily::kMotion));
   answer.candidates = setup_.config.policy.candidates;
-  answer.visible_points = sight.visible_count;
+  answer.visible_points = seen.visible_count;
   answer.weights_sha256 = actor.weights_sha256;
   Judge(setup_.config.hold, answer);
   // an action on a picture of something else must not end the stage, and whether the hand follows

@@ -38,7 +38,7 @@ EvaluatedEpisode RowOf(const Episode& episode, const DoorAsset& door) {
           .peak_handle_rad = episode.peak_handle_rad,
           .simulated_s = episode.simulated_s,
           .grasps = episode.grasps,
-          .handle_done = episode.handle_done,
+          .handle_turned = episode.handle_turned,
           .peak_force_n = episode.peak_force_n,
           .peak_net_force_n = episode.peak_net_force_n,
           .state_sha256 = episode.state_sha256};
@@ -66,7 +66,7 @@ nlohmann::ordered_json EvaluatedEpisodeToJson(const EvaluatedEpisode& episode) {
           {"peak_handle_rad", episode.peak_handle_rad},
           {"simulated_s", episode.simulated_s},
           {"grasps", episode.grasps},
-          {"handle_done", episode.handle_done},
+          {"handle_done", episode.handle_turned},
           {"peak_force_n", episode.peak_force_n},
           {"peak_net_force_n", episode.peak_net_force_n},
           {"state_sha256", episode.state_sha256}};
@@ -94,7 +94,7 @@ EvaluatedEpisode EvaluatedEpisodeFromJson(const nlohmann::ordered_json& json,
           .grasps = json.contains("grasps")  // earlier builds had none
                         ? ValueOf<int>(json, "grasps", path)
                         : 1,
-          .handle_done = ValueOf<bool>(json, "handle_done", path),
+          .handle_turned = ValueOf<bool>(json, "handle_done", path),
           .peak_force_n = ValueOf<double>(json, "peak_force_n", path),
           .peak_net_force_n = json.contains("peak_net_force_n")  // earlier builds had none
                                   ? ValueOf<double>(json, "peak_net_force_n", path)

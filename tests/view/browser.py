@@ -13,7 +13,7 @@ import urllib.request
 
 import websockets
 
-CODES = {"Tab": 9, "Escape": 27}
+CODES = {"Tab": 9, "Escape": 27, "ArrowDown": 40}
 FLAGS = ["--headless=new", "--no-sandbox", "--disable-quic", "--no-first-run", "--hide-scrollbars", "--use-angle=swiftshader",
          "--enable-unsafe-swiftshader", "--disable-background-networking", "--disable-component-update", "--disable-sync",
          "--disable-extensions", "--remote-debugging-port=0", "--remote-allow-origins=*"]
@@ -132,6 +132,12 @@ class Browser:
         box = self.js(f"(() => {{ const e = document.querySelector({json.dumps(selector)}); e.scrollIntoView({{block: 'center'}}); "
                       "const b = e.getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; })()")
         self.click(*box)
+
+    def choose_files(self, selector: str, *paths: pathlib.Path) -> None:
+        """Puts files into a field for files, as its dialog does."""
+        root = self.call("DOM.getDocument")["root"]["nodeId"]
+        field = self.call("DOM.querySelector", nodeId=root, selector=selector)["nodeId"]
+        self.call("DOM.setFileInputFiles", nodeId=field, files=[str(path) for path in paths])
 
     def key(self, key: str, modifiers: int = 0) -> None:
         for kind in ("keyDown", "keyUp"):

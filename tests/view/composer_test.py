@@ -107,9 +107,7 @@ class ComposerPage(ServedTest):
             pass  # it hangs up on who goes on sending
         with socket.create_connection(("127.0.0.1", self.port), timeout=20) as raw:  # two gigabytes are announced
             raw.sendall(f"POST /compose HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\nContent-Type: application/json\r\nContent-Length: 2147483648\r\n\r\n".encode())
-            raw.sendall(b"x" * 1000)
-            raw.shutdown(socket.SHUT_WR)
-            self.assertIn(b"413", raw.recv(100) or b"413")
+            self.assertIn(b"413", raw.recv(100))
         self.assertEqual(self.ask("GET", "/")[0], 200)
 
     def test_two_tabs_at_once(self) -> None:

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -17,15 +18,25 @@
 namespace doorforge {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct DatasetInfoOptions {
   std::string folder;
   std::string png;
   std::string html;
+  std::string films;
   int examples = 2;
   int threads = 0;
   bool overwrite = false;
   bool json = false;
 };
+
+// As the page names it.
+std::string FilmsAddress(const DatasetInfoOptions& options) {
+  if (options.films.empty()) return {};
+  const fs::path folder = fs::absolute(options.html).parent_path();
+  return fs::absolute(options.films).lexically_relative(folder).generic_string();
+}
 
 int Info(const DatasetInfoOptions& options) {
   RequireNoFile(options.png, options.overwrite);
@@ -34,7 +45,8 @@ int Info(const DatasetInfoOptions& options) {
   const EpisodeDescription episodes = DescribeEpisodes(
       options.folder, options.html.empty() ? 0 : options.examples, options.threads);
   if (!options.png.empty()) WritePng(options.png, EpisodeCharts(episodes));
-  if (!options.html.empty()) CommitFile(options.html, DatasetPage(dataset, episodes));
+  if (!options.html.empty())
+    CommitFile(options.html, DatasetPage(dataset, episodes, FilmsAddress(options)));
   if (options.json) {
     dataset["stages"] = StagesToJson(episodes);
     std::cout << JsonText(dataset, 2) << '\n';
@@ -52,7 +64,14 @@ Subcommand AddInfo(CLI::App& dataset) {
       "info", "counts, success by category and mechanism, angles, causes of failure");
   app->add_option("folder", options->folder, "the dataset's folder")->required();
   app->add_option("--png", options->png, "picture of the hinge angles, one chart a category");
-  app->add_option("--html", options->html, "one page with everything, that needs no other file");
+  auto* html = app->add_option("--html", options->html,
+                               "one page with everything, that needs no other file");
+  app->add_option(
+         "--films", options->films,
+         "page of `doorforge view` with the films of `dataset films`: every failure on the "
+         "page is linked to its own")
+      ->needs(html)
+      ->check(CLI::ExistingFile);
   app->add_option("--examples", options->examples, "episodes a category that the page shows")
       ->check(CLI::Range(0, 100))
       ->capture_default_str();

@@ -58,23 +58,19 @@ int Verify(DatasetVerifyOptions& options) {
   return AnyFault(findings) ? 1 : 0;
 }
 
-void AddRegenerateOptions(CLI::App& app, DatasetVerifyOptions& options) {
-  RegenerateDatasetRequest& given = options.regenerate;
-  auto* share = app.add_option("--regenerate", options.share,
-                               "make a share of the episodes again from their seeds, such as 1%, "
-                               "and compare every byte");
-  app.add_option("--doors", given.doors, "the doors that the dataset was made with")->needs(share);
-  app.add_option("--robot", given.robot,
-                 "URDF of the dataset's robot; needed where its config.yaml names a file that is "
-                 "not in the dataset's folder")
-      ->needs(share);
-  CollectionWords& policies = given.policies;
-  app.add_option("--handler", policies.handler, "the policy that turned the handle")->needs(share);
-  app.add_option("--opener", policies.opener, "the policy that opened")->needs(share);
-  app.add_option("--learner", policies.learner, "the policy that drove or took hold")->needs(share);
-}
-
 }  // namespace
+
+std::vector<CLI::Option*> AddMadeWithOptions(CLI::App& app, RegenerateDatasetRequest& given) {
+  CollectionWords& policies = given.policies;
+  return {
+      app.add_option("--doors", given.doors, "the doors that the dataset was made with"),
+      app.add_option("--robot", given.robot,
+                     "URDF of the dataset's robot; needed where its config.yaml names a file that "
+                     "is not in the dataset's folder"),
+      app.add_option("--handler", policies.handler, "the policy that turned the handle"),
+      app.add_option("--opener", policies.opener, "the policy that opened"),
+      app.add_option("--learner", policies.learner, "the policy that drove or took hold")};
+}
 
 Subcommand AddVerify(CLI::App& dataset) {
   const auto options = std::make_shared<DatasetVerifyOptions>();
@@ -87,7 +83,10 @@ Subcommand AddVerify(CLI::App& dataset) {
   app->add_option("--threads", options->threads, "threads, 0: all")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  AddRegenerateOptions(*app, *options);
+  auto* share = app->add_option("--regenerate", options->share,
+                                "make a share of the episodes again from their seeds, such as 1%, "
+                                "and compare every byte");
+  for (CLI::Option* option : AddMadeWithOptions(*app, options->regenerate)) option->needs(share);
   app->footer(
       "examples:\n  doorforge dataset verify data/open\n"
       "  doorforge dataset verify data/open --regenerate 1% --doors doors/train");

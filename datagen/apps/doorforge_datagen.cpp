@@ -19,7 +19,7 @@ int RunDatasetVerb(int argc, char** argv) {
   app.footer("examples:\n  doorforge dataset verify data/open\n  doorforge dataset info data/open");
   const Subcommand subcommands[] = {AddVerify(app), AddMerge(app), AddReobserve(app),
                                     AddStatus(app), AddInfo(app),  AddExport(app),
-                                    AddCard(app)};
+                                    AddCard(app),   AddFilms(app)};
   ParseVerb(app, argc, argv, EmptyValues::kRefuse);
   for (const Subcommand& subcommand : subcommands) {
     if (subcommand.app->parsed()) return subcommand.run();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -25,5 +26,10 @@ Subcommand AddStatus(CLI::App& dataset);
 Subcommand AddInfo(CLI::App& dataset);
 Subcommand AddExport(CLI::App& dataset);
 Subcommand AddCard(CLI::App& dataset);
+Subcommand AddFilms(CLI::App& dataset);
+
+struct RegenerateDatasetRequest;
+/// What a dataset was made with, for who makes episodes again: doors, robot, policies.
+std::vector<CLI::Option*> AddMadeWithOptions(CLI::App& app, RegenerateDatasetRequest& given);
 
 }  // namespace doorforge

@@ -97,6 +97,14 @@ std::vector<FilmInstant> InstantsFromJson(const Json& json, const std::string& p
 
 }  // namespace
 
+std::string FilmAddress(const std::string& door_id, std::uint64_t seed, std::uint64_t episode) {
+  return door_id + "/" + std::to_string(seed) + "/" + std::to_string(episode);
+}
+
+std::string FilmAddress(const Scene& scene) {
+  return FilmAddress(scene.door_id, scene.seed, scene.episode);
+}
+
 Json FilmToJson(const EpisodeFilm& film) {
   Json json = {{"schema", kSchema},
                {"schema_version", 1},

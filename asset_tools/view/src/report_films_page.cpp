@@ -27,15 +27,6 @@ fs::path ReportFileOf(const fs::path& path) {
   return fs::is_directory(path) ? path / "report.json" : path;
 }
 
-/// What a page and its address call an episode.
-std::string AddressOf(const std::string& door, std::uint64_t seed, std::uint64_t episode) {
-  return door + "/" + std::to_string(seed) + "/" + std::to_string(episode);
-}
-
-std::string AddressOf(const EpisodeFilm& film) {
-  return AddressOf(film.scene.door_id, film.scene.seed, film.scene.episode);
-}
-
 // Of each row what a table shows.
 Json RowsOfReport(const fs::path& path) {
   const Json report = ReadJsonFile(path);
@@ -48,8 +39,8 @@ Json RowsOfReport(const fs::path& path) {
     const std::string place = where + ": episodes[" + std::to_string(i) + "]";
     const Json& episode = episodes[i];
     const auto door = ValueOf<std::string>(episode, "door_id", place);
-    rows.push_back({{"address", AddressOf(door, ValueOf<std::uint64_t>(episode, "seed", place),
-                                          ValueOf<std::uint64_t>(episode, "episode", place))},
+    rows.push_back({{"address", FilmAddress(door, ValueOf<std::uint64_t>(episode, "seed", place),
+                                            ValueOf<std::uint64_t>(episode, "episode", place))},
                     {"door", door},
                     {"category", ValueOf<std::string>(episode, "category", place)},
                     {"seed", ValueOf<std::uint64_t>(episode, "seed", place)},
@@ -64,7 +55,7 @@ Json RowsOfReport(const fs::path& path) {
 Json RowOfFilm(const EpisodeFilm& film) {
   double hinge = 0;
   for (const FilmInstant& instant : film.instants) hinge = std::max(hinge, instant.hinge_rad);
-  return {{"address", AddressOf(film)},
+  return {{"address", FilmAddress(film.scene)},
           {"door", film.scene.door_id},
           {"category", ""},
           {"seed", film.scene.seed},
@@ -84,13 +75,13 @@ class RowFilms {
     if (!doors_) doors_.emplace(chosen_.doors, chosen_.threads);
     const auto door = doors_->Find(film.scene.door_sha256);
     if (!door) {
-      faults.push_back(AddressOf(film) +
+      faults.push_back(FilmAddress(film.scene) +
                        ": its door is not in the folders given with --doors, or has changed since");
       return;
     }
     try {
       internal::Film shown = internal::FilmOf(film, **door, robot_);
-      shown.title = AddressOf(film);
+      shown.title = FilmAddress(film.scene);
       row["film"] = writer_.size();
       writer_.Add(**door, film.scene.door_sha256, shown);
     } catch (const Error& error) {
@@ -138,9 +129,9 @@ ViewPage MakeReportPage(const ReportFilms& chosen) {
     page.faults.push_back(films_file.string() +
                           ": films are shown with --doors, the folders of the doors");
   for (const EpisodeFilm& film : films) {
-    const auto place = places.find(AddressOf(film));
+    const auto place = places.find(FilmAddress(film.scene));
     if (place == places.end())
-      page.faults.push_back(films_file.string() + ": " + AddressOf(film) +
+      page.faults.push_back(films_file.string() + ": " + FilmAddress(film.scene) +
                             " is no row of the report");
     else if (!chosen.doors.empty())
       shown.Add(film, rows[place->second], page.faults);

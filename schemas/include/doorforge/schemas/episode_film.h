@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -38,6 +39,10 @@ struct EpisodeFilm {
   std::string state_sha256;           ///< Episode::state_sha256.
   std::vector<FilmInstant> instants;  ///< In the order of time.
 };
+
+/// What pages call an episode, and its anchor there: "<door>/<seed>/<number>".
+std::string FilmAddress(const Scene& scene);
+std::string FilmAddress(const std::string& door_id, std::uint64_t seed, std::uint64_t episode);
 
 /// {"schema": "doorforge.film", ...} as docs/format-report.md describes it; numbers of the instants
 /// have six decimals.

@@ -16,6 +16,9 @@ class FilmRecorder : public Observer {
   /// @param camera Whom clouds are asked from; may be null: then policies see an empty one.
   explicit FilmRecorder(Observer* camera = nullptr) : camera_(camera) {}
 
+  /// Clouds are asked from this camera from now on.
+  void LookThrough(Observer* camera) { camera_ = camera; }
+
   LabelledCloud Observe(const SceneSnapshot& snapshot) override;
   void Watch(const SceneSnapshot& snapshot) override;
   bool Follows() const override { return true; }

@@ -13,7 +13,7 @@ import urllib.request
 
 import websockets
 
-CODES = {"Tab": 9, "Escape": 27, "ArrowDown": 40}
+CODES = {"Tab": 9, "Escape": 27, "ArrowDown": 40, "Enter": 13}
 FLAGS = ["--headless=new", "--no-sandbox", "--disable-quic", "--no-first-run", "--hide-scrollbars", "--use-angle=swiftshader",
          "--enable-unsafe-swiftshader", "--disable-background-networking", "--disable-component-update", "--disable-sync",
          "--disable-extensions", "--remote-debugging-port=0", "--remote-allow-origins=*"]
@@ -142,7 +142,7 @@ class Browser:
     def key(self, key: str, modifiers: int = 0) -> None:
         for kind in ("keyDown", "keyUp"):
             self.call("Input.dispatchKeyEvent", type=kind, key=key, code=key, modifiers=modifiers,
-                      windowsVirtualKeyCode=CODES.get(key, 0))
+                      windowsVirtualKeyCode=CODES.get(key, 0), **({"text": "\r"} if key == "Enter" else {}))
         self.settle()
 
     def screenshot(self, path: pathlib.Path | None = None) -> bytes:

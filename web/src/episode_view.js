@@ -43,7 +43,7 @@ export class EpisodeView {
     });
     this.withRobot = this.withCloud = this.withAction = true;
     this.tools.append(
-      h('div', { class: 'choice', role: 'group', 'aria-label': 'marks' }, see('withRobot', 'Robot'), see('withCloud', 'Cloud'), see('withAction', 'Action')),
+      h('div', { class: 'choice', role: 'group', 'aria-label': 'marks' }, see('withRobot', 'Robot'), (this.cloudToggle = see('withCloud', 'Cloud')), see('withAction', 'Action')),
       h('div', { class: 'choice', role: 'group', 'aria-label': 'look at' }, h('button', { type: 'button', onclick: () => this.frameAll() }, 'All'), h('button', { type: 'button', onclick: () => this.frameHand() }, 'Hand')));
   }
 
@@ -73,6 +73,7 @@ export class EpisodeView {
     this.poseCount = 3 + this.document.robot.bodies;
     this.numbers = this.content.floats(episode.poses, this.frameCount * this.poseCount * NUMBERS);
     this.clouds = this.readClouds();
+    this.cloudToggle.hidden = this.clouds === null;
     this.charts = this.makeCharts();
     this.slider.max = this.frameCount - 1;
     this.fillPanel();

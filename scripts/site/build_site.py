@@ -76,6 +76,7 @@ def title_of(page: pathlib.Path) -> str:
 
 
 def add_documents(stage: Stage) -> None:
+    stage.add("site.css", "scripts/site/site.css")
     for source, place in MOVED.items():
         stage.add(place, source)
     for path in sorted((ROOT / "docs").rglob("*")):

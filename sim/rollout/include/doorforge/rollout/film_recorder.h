@@ -33,12 +33,15 @@ class FilmRecorder : public Observer {
   struct Instant {
     FilmInstant shown;
     Eigen::Vector3d hand_m = Eigen::Vector3d::Zero();
-    bool named = false;  ///< Its phase is known.
+    EpisodePhase phase = EpisodePhase::kStart;
+    bool named = false;  ///< The phase is known.
   };
   struct Memory {
     std::vector<Instant> instants;
     std::any camera;
   };
+
+  void Add(const SceneSnapshot& snapshot, bool named);
 
   Observer* camera_;
   std::vector<Instant> instants_;

@@ -4,6 +4,7 @@
 too large, damaged or no mesh is refused by its name while the server goes on.
 
 usage: drop_test.py BUILD"""
+import concurrent.futures
 import gzip
 import hashlib
 import json
@@ -114,9 +115,9 @@ class DroppedMeshes(ServedTest):
         self.assertIn(result.returncode, (0, 1), result.stderr)
         return files_of(there / "doors/mine")
 
-    def check_equal(self, name: str) -> None:
+    def check_equal(self, name: str, role: str = "handle") -> None:
         got = self.downloaded()
-        self.assertIn("handle/part.json", got)
+        self.assertIn(f"{role}/part.json", got)
         self.assertIn("validation.json", got)
         command = shlex.split(self.browser.js("document.querySelector('.command code').textContent"))
         self.assertEqual(self.by_command_line(command[1:], f"{name}_command"), got)
@@ -168,6 +169,17 @@ class DroppedMeshes(ServedTest):
         self.put_on()
         self.assertEqual(self.browser.js("Object.keys(JSON.parse(doorforge.composer.request).handle_mesh)"), ["mechanism"])
         self.check_equal("glb")
+
+    def test_a_leaf_is_put_behind_a_handle(self) -> None:
+        self.compose_page()
+        self.drop(self.file("my_leaf.stl", stl(box((0, 0, 0), (40, 800, 1900)))))
+        self.set("own-role", "body")
+        self.click_face(0, 40)
+        self.assertEqual(self.browser.js("[doorforge.composer.offered.front, doorforge.composer.offered.mesh.mount]"), ["x", []])
+        self.set("own-hinge", "right")
+        self.put_on()
+        self.assertIn("--body my_leaf.stl", self.browser.js("document.querySelector('.command code').textContent"))
+        self.check_equal("leaf", "body")
 
     def test_every_setting_of_compose_has_its_field(self) -> None:
         self.compose_page()
@@ -265,6 +277,32 @@ class DroppedMeshes(ServedTest):
             self.assertEqual(code, 200)
             materials = [text for name, text in members_of(archive).items() if name.startswith("handle/") and name.endswith(".mtl")]
             self.assertEqual(any(b"Kd 1 0 0" in text for text in materials), red, (material, materials))
+
+    def test_two_tabs_drop_files_of_one_name(self) -> None:
+        def composed(mesh: bytes) -> bytes:
+            self.assertEqual(self.upload("a.stl", mesh)[0], 200)
+            request = {"body": BODY, "handle": "a.stl", "handle_mesh": {"front": "z", "up": "y"}, "files": {"a.stl": hashlib.sha256(mesh).hexdigest()}}
+            code, archive = self.ask("POST", "/download", json.dumps(request))
+            self.assertEqual(code, 200)
+            return archive
+        meshes = [stl(LEVER), stl(box((-9, -9, 0), (9, 9, 45)) + box((-12, -9, 45), (50, 9, 60)))]
+        alone = [composed(mesh) for mesh in meshes]
+        self.assertNotEqual(*alone)
+        with concurrent.futures.ThreadPoolExecutor(4) as pool:
+            self.assertEqual(list(pool.map(composed, meshes * 4)), alone * 4)
+
+    def test_files_that_were_long_not_asked_for_are_forgotten(self) -> None:
+        mesh = stl(LEVER)
+        self.assertEqual(self.upload("a.stl", mesh)[0], 200)
+        request = json.dumps({"body": BODY, "handle": "a.stl", "handle_mesh": {"front": "z", "up": "y"}, "files": {"a.stl": hashlib.sha256(mesh).hexdigest()}})
+        self.assertEqual(self.ask("POST", "/compose", request)[0], 200)
+        for number in range(5):  # 300 MiB
+            self.assertEqual(self.upload(f"{number}.png", bytes([number]) * (60 << 20))[0], 200)
+        code, said = self.ask("POST", "/compose", request)
+        self.assertEqual(code, 404)
+        self.assertIn(b"a.stl: is no longer kept; drop it again", said)
+        self.assertEqual(self.upload("a.stl", mesh)[0], 200)
+        self.assertEqual(self.ask("POST", "/compose", request)[0], 200)
 
     def test_foreign_pages_may_not_drop(self) -> None:
         for headers in ({"Host": "evil.example"}, {"Origin": "http://evil.example"}, {"Sec_Fetch_Site": "cross-site"}):

@@ -7,6 +7,7 @@
 
 #include "doorforge/authoring/compose_doors.h"
 #include "doorforge/authoring/export_batch.h"
+#include "doorforge/core/committed_file.h"
 #include "doorforge/core/config_io.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
@@ -100,6 +101,19 @@ std::string Without(std::string message, const fs::path& folder) {
   return message;
 }
 
+// By the confined process; its own folder is no matter of the page.
+ImportedMesh ReadDropped(const std::string& name, const std::string& bytes) {
+  const internal::ScratchFolder scratch;
+  CommitFile(scratch.path() / name, bytes);
+  try {
+    return ImportMesh(scratch.path() / name, {.max_file_bytes = internal::kMostFileBytes,
+                                              .max_triangles = kMostTriangles,
+                                              .timeout_s = kReadSeconds});
+  } catch (const Error& error) {
+    throw Error(error.code(), Without(error.what(), scratch.path()));
+  }
+}
+
 // What the verb writes beside a door of which a part was imported, with the verb's name of it.
 void WriteValidation(const fs::path& folder) {
   ValidationReport report = DoorValidator(OpenableCheck()).Validate(folder);
@@ -175,26 +189,17 @@ std::string Composer::Thumbnail(const std::string& id) {
 std::string Composer::Keep(const std::string& name, const std::string& bytes) {
   internal::CheckFileName(name);
   Require(!bytes.empty(), ErrorCode::kInvalidArgument, name + ": is empty");
-  const std::string hash = dropped_->Keep(bytes);
-  if (!internal::IsMeshName(name)) return PackMeshes({}, {{"name", name}, {"file", hash}});
-  const internal::ScratchFolder scratch;
-  dropped_->PutInto(scratch.path(), {{name, hash}});
-  try {
-    const ImportedMesh mesh =
-        ImportMesh(scratch.path() / name, {.max_file_bytes = internal::kMostFileBytes,
-                                           .max_triangles = kMostTriangles,
-                                           .timeout_s = kReadSeconds});
-    std::vector<TriangleMesh> pieces;
-    for (const ImportedPiece& piece : mesh.pieces) pieces.push_back(piece.mesh);
-    return PackMeshes(pieces, {{"name", name},
-                               {"file", hash},
-                               {"up", mesh.frame.up},
-                               {"front", mesh.frame.front},
-                               {"unit_m", mesh.frame.unit_m},
-                               {"states_unit", mesh.frame.states_unit}});
-  } catch (const Error& error) {
-    throw Error(error.code(), Without(error.what(), scratch.path()));
-  }
+  if (!internal::IsMeshName(name))
+    return PackMeshes({}, {{"name", name}, {"file", dropped_->Keep(bytes)}});
+  const ImportedMesh mesh = ReadDropped(name, bytes);
+  std::vector<TriangleMesh> pieces;
+  for (const ImportedPiece& piece : mesh.pieces) pieces.push_back(piece.mesh);
+  return PackMeshes(pieces, {{"name", name},
+                             {"file", dropped_->Keep(bytes)},
+                             {"up", mesh.frame.up},
+                             {"front", mesh.frame.front},
+                             {"unit_m", mesh.frame.unit_m},
+                             {"states_unit", mesh.frame.states_unit}});
 }
 
 // A composed door in a folder of its own, and what `use` makes of it.

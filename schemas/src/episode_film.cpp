@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view kSchema = "doorforge.film";
+constexpr std::string_view kFilmSchema = "doorforge.film";
 constexpr std::size_t kMostInstants = 100'000;
 
 double Rounded(double value) { return std::round(value * 1e6) / 1e6; }
@@ -39,58 +39,58 @@ constexpr std::pair<const char*, double FilmInstant::*> kQuantities[] = {
     {"handle_rad", &FilmInstant::handle_rad}, {"bolt_m", &FilmInstant::bolt_m},
     {"force_n", &FilmInstant::force_n},       {"net_force_n", &FilmInstant::net_force_n}};
 
-[[noreturn]] void Refuse(const std::string& where, const std::string& why) {
+[[noreturn]] void RefuseFilm(const std::string& where, const std::string& why) {
   throw Error(ErrorCode::kFormat, where + ": " + why);
 }
 
 const Json& ListOf(const Json& json, const char* key, std::size_t size, const std::string& path) {
   const Json& list = MemberOf(json, key, path);
   if (!list.is_array() || list.size() != size)
-    Refuse(path + "." + key, "expected a list of " + std::to_string(size));
+    RefuseFilm(path + "." + key, "expected a list of " + std::to_string(size));
   return list;
 }
 
-double NumberIn(const Json& value, const std::string& where) {
-  if (!value.is_number()) Refuse(where, "expected a number");
+double FilmNumber(const Json& value, const std::string& where) {
+  if (!value.is_number()) RefuseFilm(where, "expected a number");
   const auto number = value.get<double>();
-  if (!std::isfinite(number)) Refuse(where, "expected a finite number");
+  if (!std::isfinite(number)) RefuseFilm(where, "expected a finite number");
   return number;
 }
 
-std::vector<double> NumbersIn(const Json& list, const std::string& where) {
-  if (!list.is_array()) Refuse(where, "expected a list of numbers");
+std::vector<double> FilmNumbers(const Json& list, const std::string& where) {
+  if (!list.is_array()) RefuseFilm(where, "expected a list of numbers");
   std::vector<double> numbers;
-  for (const Json& value : list) numbers.push_back(NumberIn(value, where));
+  for (const Json& value : list) numbers.push_back(FilmNumber(value, where));
   return numbers;
 }
 
 std::optional<Eigen::Vector3d> PointIn(const Json& value, const std::string& where) {
   if (value.is_null()) return std::nullopt;
-  const std::vector<double> numbers = NumbersIn(value, where);
-  if (numbers.size() != 3) Refuse(where, "expected three numbers or null");
+  const std::vector<double> numbers = FilmNumbers(value, where);
+  if (numbers.size() != 3) RefuseFilm(where, "expected three numbers or null");
   return Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
 }
 
 std::vector<FilmInstant> InstantsFromJson(const Json& json, const std::string& path) {
   const Json& times = MemberOf(json, "time_s", path);
   if (!times.is_array() || times.empty() || times.size() > kMostInstants)
-    Refuse(path + ".time_s", "expected 1 to 100000 instants");
+    RefuseFilm(path + ".time_s", "expected 1 to 100000 instants");
   std::vector<FilmInstant> instants(times.size());
   for (const auto& [key, quantity] : kQuantities) {
     const Json& list = ListOf(json, key, instants.size(), path);
     for (std::size_t i = 0; i < instants.size(); ++i)
-      instants[i].*quantity = NumberIn(list[i], path + "." + key);
+      instants[i].*quantity = FilmNumber(list[i], path + "." + key);
   }
   const Json& phases = ListOf(json, "phase", instants.size(), path);
   const Json& robot = ListOf(json, "robot", instants.size(), path);
   const Json& asked = ListOf(json, "asked_m", instants.size(), path);
   for (std::size_t i = 0; i < instants.size(); ++i) {
-    if (!phases[i].is_string()) Refuse(path + ".phase", "expected words");
+    if (!phases[i].is_string()) RefuseFilm(path + ".phase", "expected words");
     instants[i].phase = phases[i].get<std::string>();
-    instants[i].robot = NumbersIn(robot[i], path + ".robot");
+    instants[i].robot = FilmNumbers(robot[i], path + ".robot");
     instants[i].asked_m = PointIn(asked[i], path + ".asked_m");
     if (instants[i].robot.size() != instants[0].robot.size())
-      Refuse(path + ".robot", "expected as many joints at each instant");
+      RefuseFilm(path + ".robot", "expected as many joints at each instant");
   }
   return instants;
 }
@@ -106,7 +106,7 @@ std::string FilmAddress(const Scene& scene) {
 }
 
 Json FilmToJson(const EpisodeFilm& film) {
-  Json json = {{"schema", kSchema},
+  Json json = {{"schema", kFilmSchema},
                {"schema_version", 1},
                {"outcome", NameOf(film.outcome)},
                {"detail", film.detail},
@@ -128,13 +128,13 @@ Json FilmToJson(const EpisodeFilm& film) {
 }
 
 EpisodeFilm FilmFromJson(const Json& json, const std::string& path) {
-  if (!json.is_object() || json.value("schema", "") != kSchema)
-    Refuse(path, "is no film: its schema is not " + std::string(kSchema));
+  if (!json.is_object() || json.value("schema", "") != kFilmSchema)
+    RefuseFilm(path, "is no film: its schema is not " + std::string(kFilmSchema));
   if (ValueOf<int>(json, "schema_version", path) != 1)
-    Refuse(path, "a later version of the format than this build reads");
+    RefuseFilm(path, "a later version of the format than this build reads");
   EpisodeFilm film;
   const auto outcome = EpisodeOutcomeNamed(ValueOf<std::string>(json, "outcome", path));
-  if (!outcome) Refuse(path + ".outcome", "unknown");
+  if (!outcome) RefuseFilm(path + ".outcome", "unknown");
   film.outcome = *outcome;
   film.detail = ValueOf<std::string>(json, "detail", path);
   film.state_sha256 = ValueOf<std::string>(json, "state_sha256", path);

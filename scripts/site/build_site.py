@@ -25,7 +25,7 @@ MOVED = {"README.md": "index.md", "CONTRIBUTING.md": "contributing.md", "SECURIT
 EXAMPLES = (
     ("lever", "A lever and a bolt", ("--body", "interior_flush_01", "--handle", "interior_lever_tube_01", "--set", "latch=bolt")),
     ("window", "A window with a crank", ("--body", "window_fanned_01", "--handle", "window_crank_01")),
-    ("refrigerator", "A refrigerator with a plain pull", ("--body", "first:refrigerator:body", "--handle", "first:refrigerator:handle")),
+    ("refrigerator", "A refrigerator", ("--body", "refrigerator_arched_01", "--handle", "refrigerator_latch_01")),
 )
 
 
@@ -93,15 +93,6 @@ def run(*command: object) -> str:
     return subprocess.run([str(word) for word in command], check=True, capture_output=True, text=True).stdout
 
 
-def first_part(doorforge: pathlib.Path, wanted: str) -> str:
-    _, category, role = wanted.split(":")
-    for line in run(doorforge, "catalog", "list").splitlines():
-        words = line.split()
-        if {category, role} <= set(words):
-            return words[0]
-    raise SystemExit(f"the catalogue has no {role} of {category}")
-
-
 def add_doors(stage: Stage, programs: pathlib.Path, scratch: pathlib.Path) -> None:
     doorforge = programs / "doorforge"
     folder = stage.folder / "doors"
@@ -109,7 +100,6 @@ def add_doors(stage: Stage, programs: pathlib.Path, scratch: pathlib.Path) -> No
     lines = ["# Doors in 3D", "", "Drag to turn, wheel to zoom; the sliders move hinge and handle, and the latch holds. Each stands on a page of its "
              "own, too, as [doorforge view](../view.md) writes it.", ""]
     for name, title, words in EXAMPLES:
-        words = tuple(first_part(doorforge, word) if word.startswith("first:") else word for word in words)
         run(doorforge, "compose", *words, "--out", scratch / name)
         run(doorforge, "view", scratch / name, "--out", folder / f"{name}.html")
         lines += [f"## {title}", "", frame(name, title), "", "```text", " ".join(["doorforge compose", *words, "--out", f"doors/{name}"]), "```", ""]

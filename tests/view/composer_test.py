@@ -33,6 +33,8 @@ class ComposerPage(ServedTest):
 
     def test_what_is_composed_is_compose_s_folder(self) -> None:
         self.choose()
+        marked = self.browser.js("[...document.querySelectorAll('.card:not([hidden]) [aria-pressed=true]')].map((b) => b.textContent)")
+        self.assertEqual(marked, [BODY, LEVER])
         self.set("hinge_side", "right")
         self.set("latch", "bolt")
         self.set("leaf_width_m", 0.85)
@@ -50,6 +52,14 @@ class ComposerPage(ServedTest):
         run(*command[1:])
         self.assertEqual(members, files_of(out))
         self.assertEqual(self.browser.errors, [])
+
+    def test_what_a_category_begins_with_is_marked(self) -> None:
+        self.browser.open(self.address)
+        self.settled()
+        self.set("category", "refrigerator")
+        self.settled()
+        marked = self.browser.js("[...document.querySelectorAll('.card:not([hidden]) [aria-pressed=true]')].map((b) => b.textContent)")
+        self.assertEqual(marked, self.browser.js("[doorforge.composer.chosen.body, doorforge.composer.chosen.handle]"))
 
     def test_exports_are_export_s(self) -> None:
         run("compose", "--body", BODY, "--handle", LEVER, "--out", self.folder / "plain")

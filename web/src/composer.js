@@ -159,8 +159,8 @@ export class ComposerView {
   fillShelf() {
     for (const role of ['body', 'handle']) {
       const parts = this.parts(role);
-      this.grids[role].show(parts);
       this.chosen[role] = parts[0]?.id ?? '';
+      this.grids[role].show(parts);
     }
     this.changed(0);
   }

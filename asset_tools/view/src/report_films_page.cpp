@@ -4,6 +4,7 @@
 
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
@@ -68,14 +69,14 @@ Json RowOfFilm(const EpisodeFilm& film) {
 // Films by the number of their row.
 class RowFilms {
  public:
-  RowFilms(const RobotModel& robot, const ReportFilms& chosen)
-      : robot_(robot), writer_(robot, 0), chosen_(chosen) {}
+  RowFilms(const RobotModel& robot, const ReportFilms& chosen, std::string file)
+      : robot_(robot), writer_(robot, 0), chosen_(chosen), file_(std::move(file)) {}
 
   void Add(const EpisodeFilm& film, Json& row, std::vector<std::string>& faults) {
     if (!doors_) doors_.emplace(chosen_.doors, chosen_.threads);
     const auto door = doors_->Find(film.scene.door_sha256);
     if (!door) {
-      faults.push_back(FilmAddress(film.scene) +
+      faults.push_back(file_ + ": " + FilmAddress(film.scene) +
                        ": its door is not in the folders given with --doors, or has changed since");
       return;
     }
@@ -86,7 +87,7 @@ class RowFilms {
       writer_.Add(**door, film.scene.door_sha256, shown);
     } catch (const Error& error) {
       row.erase("film");
-      faults.emplace_back(error.what());
+      faults.push_back(file_ + ": " + error.what());
     }
   }
 
@@ -96,6 +97,7 @@ class RowFilms {
   const RobotModel& robot_;
   internal::EpisodeWriter writer_;
   const ReportFilms& chosen_;
+  std::string file_;  // that messages name
   std::optional<internal::DoorFinder> doors_;
 };
 
@@ -124,7 +126,7 @@ ViewPage MakeReportPage(const ReportFilms& chosen) {
   const RobotModel robot = LoadRobot(
       chosen.robot.urdf, films.empty() ? RobotBase::kSliders : films[0].scene.physics.base,
       chosen.robot.read_mesh);
-  RowFilms shown(robot, chosen);
+  RowFilms shown(robot, chosen, films_file.string());
   if (!films.empty() && chosen.doors.empty())
     page.faults.push_back(films_file.string() +
                           ": films are shown with --doors, the folders of the doors");

@@ -128,7 +128,7 @@ Json FilmToJson(const EpisodeFilm& film) {
 }
 
 EpisodeFilm FilmFromJson(const Json& json, const std::string& path) {
-  if (!json.is_object() || json.value("schema", "") != kFilmSchema)
+  if (!json.is_object() || !json.contains("schema") || json["schema"] != kFilmSchema)
     RefuseFilm(path, "is no film: its schema is not " + std::string(kFilmSchema));
   if (ValueOf<int>(json, "schema_version", path) != 1)
     RefuseFilm(path, "a later version of the format than this build reads");

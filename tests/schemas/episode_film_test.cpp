@@ -80,6 +80,7 @@ TEST(EpisodeFilm, WhatDoesNotFitIsRefusedByName) {
   EXPECT_NE(with("time_s", nlohmann::ordered_json::array()).find("film.time_s"), std::string::npos);
   EXPECT_NE(with("outcome", "flew").find("film.outcome"), std::string::npos);
   EXPECT_NE(with("schema", "doorforge.report").find("no film"), std::string::npos);
+  EXPECT_NE(with("schema", 3).find("no film"), std::string::npos);
   EXPECT_NE(with("schema_version", 2).find("later version"), std::string::npos);
 }
 

@@ -136,6 +136,16 @@ class Films(PageTest):
             result = run("view", path, "--doors", self.folder / "doors", "--out", self.folder / "none.html", code=3)
             self.assertIn(f"{path}:2", result.stderr)
 
+    def test_damaged_reports_are_refused(self) -> None:
+        report = json.loads((self.report / "report.json").read_text())
+        for number, change in enumerate(({"schema": 3}, {"schema": "doorforge.door"}, {"episodes": 3}, {"episodes": [3]}, {"episodes": [{}]},
+                                         {"episodes": [report["episodes"][0] | {"seed": -1}]})):
+            folder = self.folder / f"damaged_{number}"
+            folder.mkdir()
+            (folder / "report.json").write_text(json.dumps(report | change))
+            result = run("view", folder, "--doors", self.folder / "doors", "--out", self.folder / "none.html", code=3)
+            self.assertIn(f"{folder}/report.json", result.stderr)
+
     def test_films_of_a_data_set_are_its_failures(self) -> None:
         data = self.folder / "data"
         run("datagen", "open", "--doors", self.folder / "doors", "--out", data, "--episodes", "4", *FEW, code=1)

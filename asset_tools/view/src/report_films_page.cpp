@@ -32,9 +32,10 @@ fs::path ReportFileOf(const fs::path& path) {
 Json RowsOfReport(const fs::path& path) {
   const Json report = ReadJsonFile(path);
   const std::string where = path.string();
-  if (!report.is_object() || report.value("schema", "") != "doorforge.report")
+  if (!report.is_object() || !report.contains("schema") || report["schema"] != "doorforge.report")
     throw Error(ErrorCode::kFormat, where + ": is no report of doorforge eval");
   const Json& episodes = MemberOf(report, "episodes", where);
+  if (!episodes.is_array()) throw Error(ErrorCode::kFormat, where + ": episodes: expected a list");
   Json rows = Json::array();
   for (std::size_t i = 0; i < episodes.size(); ++i) {
     const std::string place = where + ": episodes[" + std::to_string(i) + "]";

@@ -256,7 +256,7 @@ class DroppedMeshes(ServedTest):
         digest = hashlib.sha256(good).hexdigest()
         request = {"body": BODY, "handle": "a.stl", "files": {"a.stl": digest}, "handle_mesh": {"front": "z", "up": "y"}}
         self.assertEqual(self.ask("POST", "/compose", json.dumps(request))[0], 200)
-        for change, code in (({"handle": "../a.stl", "files": {"../a.stl": digest}}, 400), ({"files": {"/tmp/a.stl": digest}}, 400), ({"files": {"a.stl": "../../etc/passwd"}}, 404),
+        for change, code in (({"handle": "../a.stl", "files": {"../a.stl": digest}}, 400), ({"files": {"/elsewhere/a.stl": digest}}, 400), ({"files": {"a.stl": "../../etc/passwd"}}, 404),
                              ({"files": {"a.stl": 3}}, 400), ({"files": [digest]}, 400), ({"files": {}}, 404), ({"handle": "/etc/passwd"}, 404), ({"files": {f"{i}.stl": digest for i in range(17)}}, 400),
                              ({"handle_mesh": {"rose": "/etc/passwd"}}, 400), ({"body_mesh": {"frame": "../x.stl"}}, 400), ({"handle_mesh": {"front": "q"}}, 400)):
             status, said = self.ask("POST", "/compose", json.dumps(request | change))

@@ -44,6 +44,13 @@ function(doorforge_describe_commands)
     COMMENT "Writing man pages and completion of the programs' options" VERBATIM)
   add_custom_target(doorforge_commands ALL DEPENDS ${described}/written)
 
+  # the documents, these pages among them, as a site in build/.../site; see docs/site.md
+  add_custom_target(site
+    COMMAND Python3::Interpreter -B ${PROJECT_SOURCE_DIR}/scripts/site/build_site.py
+            ${CMAKE_BINARY_DIR} ${CMAKE_BINARY_DIR}/site
+    DEPENDS ${programs}
+    COMMENT "Building the site of the documents" VERBATIM)
+
   install(DIRECTORY ${described}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT programs)
   install(FILES ${described}/bash/doorforge
           DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT programs)

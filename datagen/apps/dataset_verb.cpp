@@ -4,6 +4,7 @@
 // The subcommands of `doorforge dataset`.
 
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -39,6 +40,8 @@
 
 namespace doorforge {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// A subcommand of `doorforge dataset`.
 struct Subcommand {
@@ -84,6 +87,16 @@ int Verify(DatasetVerifyOptions& options) {
   return AnyFault(findings) ? 1 : 0;
 }
 
+// What a dataset was made with, for who makes episodes again.
+std::vector<CLI::Option*> AddMadeWithOptions(CLI::App& app, RegenerateDatasetRequest& given) {
+  CollectionWords& who = given.policies;
+  return {app.add_option("--doors", given.doors, "the doors that the dataset was made with"),
+          app.add_option("--robot", given.robot, kRobotOption),
+          app.add_option("--handler", who.handler, "the policy that turned the handle"),
+          app.add_option("--opener", who.opener, "the policy that opened"),
+          app.add_option("--learner", who.learner, "the policy that drove or took hold")};
+}
+
 Subcommand AddVerify(CLI::App& dataset) {
   const auto options = std::make_shared<DatasetVerifyOptions>();
   CLI::App* app = dataset.add_subcommand(
@@ -93,16 +106,10 @@ Subcommand AddVerify(CLI::App& dataset) {
   app->add_option("folder", options->request.folder, "the dataset's folder")->required();
   AddJson(*app, options->json);
   AddThreads(*app, options->request.threads, "threads, 0: all");
-  RegenerateDatasetRequest& given = options->regenerate;
   auto* share = app->add_option("--regenerate", options->share,
                                 "make a share of the episodes again from their seeds, such as 1%, "
                                 "and compare every byte");
-  app->add_option("--doors", given.doors, "the doors that the dataset was made with")->needs(share);
-  app->add_option("--robot", given.robot, kRobotOption)->needs(share);
-  CollectionWords& who = given.policies;
-  app->add_option("--handler", who.handler, "the policy that turned the handle")->needs(share);
-  app->add_option("--opener", who.opener, "the policy that opened")->needs(share);
-  app->add_option("--learner", who.learner, "the policy that drove or took hold")->needs(share);
+  for (CLI::Option* option : AddMadeWithOptions(*app, options->regenerate)) option->needs(share);
   app->footer(
       "examples:\n  doorforge dataset verify data/open\n"
       "  doorforge dataset verify data/open --regenerate 1% --doors doors/train");
@@ -222,11 +229,19 @@ struct DatasetInfoOptions {
   std::string folder;
   std::string png;
   std::string html;
+  std::string films;
   int examples = 2;
   int threads = 0;
   bool overwrite = false;
   bool json = false;
 };
+
+// As the page names it.
+std::string FilmsAddress(const DatasetInfoOptions& options) {
+  if (options.films.empty()) return {};
+  const fs::path folder = fs::absolute(options.html).parent_path();
+  return fs::absolute(options.films).lexically_relative(folder).generic_string();
+}
 
 int Info(const DatasetInfoOptions& options) {
   RequireNoFile(options.png, options.overwrite);
@@ -235,7 +250,8 @@ int Info(const DatasetInfoOptions& options) {
   const EpisodeDescription episodes = DescribeEpisodes(
       options.folder, options.html.empty() ? 0 : options.examples, options.threads);
   if (!options.png.empty()) WritePng(options.png, EpisodeCharts(episodes));
-  if (!options.html.empty()) CommitFile(options.html, DatasetPage(dataset, episodes));
+  if (!options.html.empty())
+    CommitFile(options.html, DatasetPage(dataset, episodes, FilmsAddress(options)));
   const std::string text = DescriptionText(dataset) + StagesText(episodes);
   dataset["stages"] = StagesToJson(episodes);
   PrintAnswer(options.json, dataset, text);
@@ -248,7 +264,13 @@ Subcommand AddInfo(CLI::App& dataset) {
       "info", "counts, success by category and mechanism, angles, causes of failure");
   app->add_option("folder", options->folder, "the dataset's folder")->required();
   app->add_option("--png", options->png, "picture of the hinge angles, one chart a category");
-  app->add_option("--html", options->html, "one page with everything, that needs no other file");
+  auto* html = app->add_option("--html", options->html,
+                               "one page with everything, that needs no other file");
+  app->add_option("--films", options->films,
+                  "page of `doorforge view` with the films of `dataset films`: every failure on "
+                  "the page is linked to its own")
+      ->needs(html)
+      ->check(CLI::ExistingFile);
   app->add_option("--examples", options->examples, "episodes a category that the page shows")
       ->check(CLI::Range(0, 100))
       ->capture_default_str();
@@ -324,6 +346,40 @@ Subcommand AddCard(CLI::App& dataset) {
   return {app, [options] { return WriteCard(*options); }};
 }
 
+struct DatasetFilmsOptions {
+  RegenerateDatasetRequest request;
+  std::string out;
+  bool overwrite = false;
+};
+
+int Films(DatasetFilmsOptions& options) {
+  RequireNoFile(options.out, options.overwrite);
+  options.request.robot_meshes = RobotMeshes();
+  const std::vector<EpisodeFilm> films = FilmFailures(options.request);
+  WriteFilms(options.out, films);
+  PrintText(options.out + ": " + std::to_string(films.size()) + " films\n");
+  return 0;
+}
+
+Subcommand AddFilms(CLI::App& dataset) {
+  const auto options = std::make_shared<DatasetFilmsOptions>();
+  RegenerateDatasetRequest& request = options->request;
+  CLI::App* app = dataset.add_subcommand(
+      "films", "the course of every planned episode that failed, made again from its seed");
+  app->add_option("folder", request.folder, "the dataset's folder")->required();
+  app->add_option("--out", options->out, "file for `doorforge view`, such as films.jsonl")
+      ->required();
+  AddMadeWithOptions(*app, request);
+  app->get_option("--doors")->required();
+  AddThreads(*app, request.threads, "threads, 0: all");
+  AddOverwrite(*app, options->overwrite, "replace --out if it is there");
+  app->footer(
+      "example:\n  doorforge dataset films data --doors doors --out films.jsonl\n"
+      "  doorforge view films.jsonl --doors doors --out films.html\n"
+      "  doorforge dataset info data --html data.html --films films.html");
+  return {app, [options] { return Films(*options); }};
+}
+
 }  // namespace
 
 int RunDatasetVerb(int argc, char** argv) {
@@ -332,7 +388,7 @@ int RunDatasetVerb(int argc, char** argv) {
   app.footer("examples:\n  doorforge dataset verify data/open\n  doorforge dataset info data/open");
   const Subcommand subcommands[] = {AddVerify(app), AddMerge(app), AddReobserve(app),
                                     AddStatus(app), AddInfo(app),  AddExport(app),
-                                    AddCard(app)};
+                                    AddCard(app),   AddFilms(app)};
   ParseVerb(app, argc, argv, EmptyValues::kRefuse);
   for (const Subcommand& subcommand : subcommands) {
     if (subcommand.app->parsed()) return subcommand.run();

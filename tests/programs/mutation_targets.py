@@ -130,6 +130,8 @@ def dataset_targets() -> list[Target]:
         Target("info page", "data", everything,
                ("dataset", "info", data, "--html", "OUT/page.html", "--png", "OUT/p.png"), sealed=0.5),
         Target("view data", "data", everything, ("view", data, "--doors", "IN/tested_door", "--out", "OUT/page.html"), sealed=0.5),
+        Target("view report", "report", ("tested_report/report.json", "tested_report/films.jsonl"),
+               ("view", "IN/tested_report", "--doors", "IN/tested_door", "--out", "OUT/page.html"), weight=2),
         Target("card", "data", everything, ("dataset", "card", data), in_place=True),
         Target("merge", "data", everything, ("dataset", "merge", "OUT/m", data), sealed=0.5, weight=2),
         Target("robomimic", "data", everything, ("dataset", "export", data, "--to", "robomimic", "--out", "OUT/e.hdf5"),

@@ -259,7 +259,7 @@ def make_inputs(doorforge: pathlib.Path, folder: pathlib.Path) -> None:
     door = folder / "doors/tested_door"
     run("compose", "--body", BODY, "--handle", HANDLE, "--out", door)
     shutil.copytree(door, folder / "doors/other_door")
-    for name in ("configs", "robots", "data", "begun"):
+    for name in ("configs", "robots", "data", "begun", "report"):
         shutil.copytree(door, folder / name / "tested_door")
     data = folder / "data/tested_set"
     run("datagen", "open", "--doors", door, "--out", data, *COLLECT)
@@ -267,6 +267,11 @@ def make_inputs(doorforge: pathlib.Path, folder: pathlib.Path) -> None:
     run("datagen", "open", "--doors", door, "--out", folder / "train/tested_set", "--episodes", 2, "--seed", 3)
     shutil.copytree(folder / "train/tested_set", folder / "trained/tested_set")
     run("train", "open", "--data", folder / "trained/tested_set", "--out", folder / "trained/tested_training", *TRAIN)
+
+    run("eval", "--opener", "expert", "--doors", door, "--seeds", 1, "--set", "scene.physics.max_opening_actions=4", "--films",
+        "--out", folder / "report/tested_report")
+    for name in ("report.html", "films.html"):
+        (folder / "report/tested_report" / name).unlink()
 
     run("catalog", "build", "--category", "safe", "--out", folder / "built")
     for name in (SAFE_BODY, *SAFE_HANDLES):

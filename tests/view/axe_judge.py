@@ -12,14 +12,18 @@ import tempfile
 AXE = pathlib.Path(sys.argv.pop(2)).read_text()
 
 from browser import Browser  # noqa: E402
+from drop_test import LEVER, stl  # noqa: E402
 from pages import BUILD, run  # noqa: E402
 
 
-def judged(browser: Browser, address: str, name: str) -> int:
+def judged(browser: Browser, address: str, name: str, before=lambda: None) -> int:
+    """Number of violations, on both screens, once `before` has brought the page there."""
     faults = 0
     for width, height in ((1200, 800), (390, 844)):
         browser.size(width, height, mobile=width < 500)
+        browser.open("about:blank", ready=False)
         browser.open(address)
+        before()
         browser.js(AXE + ";0")
         for fault in browser.js("axe.run().then((r) => r.violations.map((v) => `${v.id}: ${v.help}: ${v.nodes[0].html.slice(0, 120)}`))"):
             print(f"{name}, {width} px: {fault}")
@@ -37,8 +41,20 @@ def main() -> int:
         for name, options in (("door", ()), ("gallery", ("--gallery",)), ("episode", ("--episode",))):
             run("view", folder / "doors", *options, "--out", folder / f"{name}.html")
             faults += judged(browser, (folder / f"{name}.html").as_uri(), name)
+        run("eval", "--opener", "expert", "--doors", folder / "doors", "--seeds", "1", "--set", "scene.physics.max_opening_actions=4", "--films", "--out", folder / "report")
+        films = (folder / "report/films.html").as_uri()
+        faults += judged(browser, films, "report")
+        faults += judged(browser, films, "film", lambda: browser.js("document.querySelector('tbody button').click()"))
         server = subprocess.Popen([BUILD / "bin/doorforge", "serve", "--port", "0"], stdout=subprocess.PIPE, text=True)
-        faults += judged(browser, server.stdout.readline().split(": ")[0], "composer")
+        address = server.stdout.readline().split(": ")[0]
+        faults += judged(browser, address, "composer")
+        (folder / "lever.stl").write_bytes(stl(LEVER))
+
+        def drop() -> None:
+            browser.choose_files("#file", folder / "lever.stl")
+            browser.wait("document.querySelector('dialog.own[open]') !== null")
+        faults += judged(browser, address, "composer, a dropped mesh", drop)
+        faults += judged(browser, address, "composer, all settings", lambda: browser.js("document.querySelector('.more').open = true"))
         server.send_signal(signal.SIGTERM)
         server.wait(20)
         return 1 if faults else 0

@@ -13,7 +13,7 @@ import urllib.request
 
 import websockets
 
-CODES = {"Tab": 9, "Escape": 27}
+CODES = {"Tab": 9, "Escape": 27, "ArrowDown": 40, "Enter": 13}
 FLAGS = ["--headless=new", "--no-sandbox", "--disable-quic", "--no-first-run", "--hide-scrollbars", "--use-angle=swiftshader",
          "--enable-unsafe-swiftshader", "--disable-background-networking", "--disable-component-update", "--disable-sync",
          "--disable-extensions", "--remote-debugging-port=0", "--remote-allow-origins=*"]
@@ -133,10 +133,16 @@ class Browser:
                       "const b = e.getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; })()")
         self.click(*box)
 
+    def choose_files(self, selector: str, *paths: pathlib.Path) -> None:
+        """Puts files into a field for files, as its dialog does."""
+        root = self.call("DOM.getDocument")["root"]["nodeId"]
+        field = self.call("DOM.querySelector", nodeId=root, selector=selector)["nodeId"]
+        self.call("DOM.setFileInputFiles", nodeId=field, files=[str(path) for path in paths])
+
     def key(self, key: str, modifiers: int = 0) -> None:
         for kind in ("keyDown", "keyUp"):
             self.call("Input.dispatchKeyEvent", type=kind, key=key, code=key, modifiers=modifiers,
-                      windowsVirtualKeyCode=CODES.get(key, 0))
+                      windowsVirtualKeyCode=CODES.get(key, 0), **({"text": "\r"} if key == "Enter" else {}))
         self.settle()
 
     def screenshot(self, path: pathlib.Path | None = None) -> bytes:

@@ -8,18 +8,8 @@ import unittest
 
 import numpy as np
 
-from kinematics import poses_of_urdf
+from kinematics import matrix, poses_of_urdf
 from pages import PageTest, run
-
-
-def matrix(pose: dict) -> np.ndarray:
-    x, y, z, w = pose["quaternion_xyzw"]
-    result = np.eye(4)
-    result[:3, :3] = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                               [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                               [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
-    result[:3, 3] = pose["position_m"]
-    return result
 
 
 class EpisodePage(PageTest):

@@ -35,3 +35,13 @@ def poses_of_urdf(path: pathlib.Path, angles: dict[str, float]) -> dict[str, np.
             step[:3, :3] = step[:3, :3] @ turned(numbers(joint.find("axis").get("xyz")), angles[joint.get("name")])
         poses[joint.find("child").get("link")] = poses[joint.find("parent").get("link")] @ step
     return poses
+
+
+def matrix(pose: dict) -> np.ndarray:
+    x, y, z, w = pose["quaternion_xyzw"]
+    result = np.eye(4)
+    result[:3, :3] = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                               [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                               [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+    result[:3, 3] = pose["position_m"]
+    return result

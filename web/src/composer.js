@@ -6,6 +6,7 @@
 import { Content } from './content.js';
 import { EpisodeView } from './episode_view.js';
 import { Grid } from './grid.js';
+import { OwnMesh } from './own_mesh.js';
 import { RecordView } from './record_view.js';
 import { copyButton, h } from './dom.js';
 
@@ -14,6 +15,16 @@ const CHOICES = [
   ['hinge_side', 'Hinged', ['left', 'right']], ['opening', 'Opens', ['pull', 'push']], ['latch', 'Latch', ['auto', 'none', 'effort', 'bolt']],
   ['handle_sense', 'Handle unlocks', ['as_made', 'reversed']],
 ];
+// What most doors do without.
+const MORE_CHOICES = [
+  ['place', 'Handle goes', ['auto', 'seat', 'plane', 'author', 'axis']], ['handle_turn_deg', 'Handle turned [deg]', [0, 90, 180, 270]],
+];
+const MORE_NUMBERS = [
+  ['unlock_angle_rad', 'Unlocks at [rad]', 0, 0.01], ['handle_done_angle_rad', 'Handle done at [rad]', 0, 0.01], ['lock_effort_nm', 'Latch effort [N m]', 0, 1], ['bolt_throw_m', 'Bolt throw [m]', 0.002, 0.001],
+  ['hinge_spring_nm_per_rad', 'Hinge spring [N m/rad]', 0, 0.1], ['handle_spring_nm_per_rad', 'Handle spring [N m/rad]', 0, 0.1], ['hinge_damping_nm_s', 'Hinge damping [N m s]', 0, 0.01], ['handle_damping_nm_s', 'Handle damping [N m s]', 0, 0.01],
+  ['seed', 'Seed', 0, 1],
+];
+const MORE_CHECKS = [['relatch', 'Locks again'], ['unlocks_ajar', 'Unlocks ajar']];
 const PAUSE = 250; // [ms] after the last change, before the server is asked
 
 export class ComposerView {
@@ -26,6 +37,9 @@ export class ComposerView {
     this.grids = Object.fromEntries(['body', 'handle'].map((role) => [role, new Grid(128, 132, () => this.card(role))]));
     this.command = h('code', { tabindex: 0 });
     this.copy = copyButton('', 'command');
+    this.copyYaml = copyButton('', 'YAML', 'copy as YAML');
+    this.notes = h('ul', { class: 'notes', hidden: true, 'aria-label': 'what was assumed of your mesh' });
+    this.own = null; // the mesh that was dropped and is on the door
     this.element = h('div', { class: 'composer' }, this.shelf(), h('div', { class: 'made' }, this.controls(), this.view.element));
   }
 
@@ -34,7 +48,89 @@ export class ComposerView {
     this.category = h('select', { id: 'category', onchange: () => this.fillShelf() }, categories.map((value) => h('option', { value }, value)));
     return h('section', { class: 'shelf', 'aria-label': 'parts' }, h('h1', {}, 'Compose a door'),
       h('div', {}, h('label', { for: 'category' }, 'Category'), this.category),
+      this.dropZone(),
       h('h2', {}, 'Body'), this.grids.body.element, h('h2', {}, 'Handle'), this.grids.handle.element);
+  }
+
+  // Files of one's own: dropped anywhere on the page, or chosen.
+  dropZone() {
+    const input = h('input', { type: 'file', id: 'file', multiple: true, accept: '.stl,.obj,.glb,.mtl,.png,.jpg,.jpeg', onchange: () => this.drop([...input.files]) });
+    this.ownName = h('span', { class: 'name' });
+    this.ownRow = h('div', { class: 'own-row', hidden: true }, this.ownName,
+      h('button', { type: 'button', class: 'small', id: 'own-edit', onclick: () => this.own.show() }, 'turn it'),
+      h('button', { type: 'button', class: 'small', id: 'own-remove', onclick: () => this.removeOwn() }, 'remove'));
+    const zone = h('div', { class: 'drop' }, h('label', { for: 'file' }, 'Your own handle or leaf: drop an STL, OBJ or GLB here'), input, this.ownRow);
+    for (const kind of ['dragover', 'drop']) window.addEventListener(kind, (event) => event.preventDefault());
+    window.addEventListener('dragover', () => zone.classList.add('over'));
+    window.addEventListener('dragleave', () => zone.classList.remove('over'));
+    window.addEventListener('drop', (event) => {
+      zone.classList.remove('over');
+      this.drop([...event.dataTransfer.files]);
+    });
+    return zone;
+  }
+
+  /** Sends the files to the server, which reads them; then asks how the mesh is meant. */
+  async drop(files) {
+    const most = this.document.most_file_bytes;
+    const tooLarge = files.find(({ size }) => size > most);
+    if (tooLarge) return this.say(`${tooLarge.name}: has ${Math.round(tooLarge.size / 2 ** 20)} MiB, a dropped file may have ${most / 2 ** 20}; doorforge compose takes 512`);
+    const kept = {};
+    let mesh = null;
+    for (const file of files) {
+      const bytes = await this.ask(`/file?name=${encodeURIComponent(file.name)}`, file, 'application/octet-stream');
+      if (bytes === null) return;
+      const content = await Content.fromBytes(bytes);
+      kept[content.document.name] = content.document.file;
+      if (content.document.shown.length > 0) mesh = content;
+    }
+    if (mesh === null) return this.say('drop a mesh: STL, OBJ or GLB');
+    this.offered?.dispose();
+    this.offered = new OwnMesh(mesh, { applied: (own) => this.putOn(own), closed: (own) => own !== this.own && own.dispose() });
+    this.offered.files = kept;
+    this.element.append(this.offered.element);
+    this.offered.show();
+  }
+
+  putOn(own) {
+    if (this.own && this.own !== own) this.own.dispose();
+    this.own = own;
+    this.offered = null;
+    this.ownName.textContent = own.name;
+    this.ownRow.hidden = false;
+    this.refreshShelf();
+    this.changed(0);
+  }
+
+  removeOwn() {
+    this.own?.dispose();
+    this.own = null;
+    this.ownRow.hidden = true;
+    this.notes.hidden = true;
+    this.refreshShelf();
+    this.changed(0);
+  }
+
+  refreshShelf() {
+    for (const grid of Object.values(this.grids)) grid.refresh();
+  }
+
+  say(message) {
+    this.status.textContent = message;
+    this.status.classList.add('refused');
+  }
+
+  // The settings behind "More": numbers that are empty as by default, choices, words.
+  more() {
+    const { settings, presets } = this.document;
+    const numbers = MORE_NUMBERS.map(([key, title, min, step]) => h('div', {}, h('label', { for: key }, title), h('input', { type: 'number', id: key, min, step, placeholder: settings[key] > 0 ? settings[key] : key === 'seed' ? 'none' : 'as made', oninput: ({ target }) => this.set(key, target.value === '' ? null : Number(target.value)) })));
+    const pick = (key, title, values, read) => h('div', {}, h('label', { for: key }, title), h('select', { id: key, onchange: ({ target }) => this.set(key, read(target.value)) }, values.map((value) => h('option', { value, selected: value === settings[key] }, value))));
+    const choices = MORE_CHOICES.map(([key, title, values]) => pick(key, title, values, (text) => (typeof values[0] === 'number' ? Number(text) : text)));
+    const chosenPresets = Object.entries(presets).map(([key, values]) => pick(key, key === 'joints' ? 'Springs and damping of' : 'Masses of', values, (text) => text));
+    const words = [['id', 'Id of the door', (text) => text || null], ['license_allow', 'Licences allowed', (text) => (text.trim() === '' ? null : text.split(',').map((word) => word.trim()))]]
+      .map(([key, title, read]) => h('div', {}, h('label', { for: key }, title), h('input', { type: 'text', id: key, placeholder: key === 'id' ? 'of its parts' : 'any', oninput: ({ target }) => this.set(key, read(target.value)) })));
+    const checks = MORE_CHECKS.map(([key, title]) => h('div', { class: 'check' }, h('input', { type: 'checkbox', id: key, onchange: ({ target }) => this.set(key, target.checked) }), h('label', { for: key }, title)));
+    return h('details', { class: 'more' }, h('summary', {}, 'More settings'), h('div', { class: 'settings' }, choices, numbers, chosenPresets, words, checks));
   }
 
   controls() {
@@ -44,11 +140,11 @@ export class ComposerView {
     const mirrored = h('div', { class: 'check' }, h('input', { type: 'checkbox', id: 'handle_mirrored', onchange: ({ target }) => this.set('handle_mirrored', target.checked) }), h('label', { for: 'handle_mirrored' }, 'Handle mirrored'));
     this.format = h('select', { id: 'format' }, h('option', { value: '' }, 'door folder'), this.document.formats.map((value) => h('option', { value }, value)));
     return h('section', { class: 'controls', 'aria-label': 'settings' },
-      h('form', { class: 'settings', onsubmit: (event) => event.preventDefault() }, LENGTHS.map(length), scale, CHOICES.map(pick), mirrored),
+      h('form', { onsubmit: (event) => event.preventDefault() }, h('div', { class: 'settings' }, LENGTHS.map(length), scale, CHOICES.map(pick), mirrored), this.more()),
       h('div', { class: 'actions' },
         h('button', { type: 'button', id: 'open', onclick: () => this.open() }, 'Does it open?'),
         h('div', {}, h('label', { for: 'format' }, 'Download as'), this.format), h('button', { type: 'button', id: 'download', onclick: () => this.download() }, 'Download'), this.status),
-      h('p', { class: 'command' }, this.command, this.copy));
+      h('p', { class: 'command' }, this.command, this.copy, this.copyYaml), this.notes);
   }
 
   start() {
@@ -63,8 +159,8 @@ export class ComposerView {
   fillShelf() {
     for (const role of ['body', 'handle']) {
       const parts = this.parts(role);
-      this.grids[role].show(parts);
       this.chosen[role] = parts[0]?.id ?? '';
+      this.grids[role].show(parts);
     }
     this.changed(0);
   }
@@ -75,6 +171,7 @@ export class ComposerView {
     let part = null;
     const button = h('button', { type: 'button', class: 'open', onclick: () => {
       this.chosen[role] = part.id;
+      if (this.own?.role === role) this.removeOwn();
       this.grids[role].refresh();
       this.changed(0);
     } }, image, name);
@@ -84,7 +181,7 @@ export class ComposerView {
         if (part !== item) image.src = `/thumbnail/${encodeURIComponent(item.id)}`;
         part = item;
         name.textContent = item.id;
-        button.setAttribute('aria-pressed', String(this.chosen[role] === item.id));
+        button.setAttribute('aria-pressed', String(this.chosen[role] === item.id && this.own?.role !== role));
       },
     };
   }
@@ -96,7 +193,9 @@ export class ComposerView {
   }
 
   get request() {
-    return JSON.stringify({ ...this.chosen, settings: this.settings });
+    const asked = { ...this.chosen, settings: this.settings };
+    if (this.own) Object.assign(asked, { [this.own.role]: this.own.name, [`${this.own.role}_mesh`]: this.own.settings, files: this.own.files });
+    return JSON.stringify(asked);
   }
 
   changed(pause) {
@@ -105,12 +204,12 @@ export class ComposerView {
   }
 
   /** The bytes of an answer; what is refused is said, and gives null. */
-  async ask(path, request) {
+  async ask(path, request, type = 'application/json') {
     this.status.textContent = 'asking ...';
     this.status.classList.remove('refused');
     let message = '';
     try {
-      const answer = await fetch(path, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: request });
+      const answer = await fetch(path, { method: 'POST', headers: { 'Content-Type': type }, body: request });
       if (answer.ok) {
         this.status.textContent = '';
         return new Uint8Array(await answer.arrayBuffer());
@@ -119,8 +218,7 @@ export class ComposerView {
     } catch {
       message = 'the server does not answer; is doorforge serve still running?';
     }
-    this.status.textContent = message;
-    this.status.classList.add('refused');
+    this.say(message);
     return null;
   }
 
@@ -133,6 +231,9 @@ export class ComposerView {
     this.view.use(content);
     this.view.load(content.document.records[0]);
     this.command.textContent = this.copy.text = content.document.command;
+    this.copyYaml.text = content.document.yaml;
+    this.notes.replaceChildren(...content.document.notes.map((note) => h('li', {}, note)));
+    this.notes.hidden = content.document.notes.length === 0;
     document.documentElement.dataset.composed = request;
   }
 

@@ -19,12 +19,12 @@ export const degrees = (radians) => (radians * 180) / Math.PI;
 export const number = (value, digits = 3) => String(Number(value.toPrecision(digits)));
 
 /** A button that copies its `text` and says so. */
-export const copyButton = (text, what) => {
+export const copyButton = (text, what, name = 'copy') => {
   const button = h('button', { type: 'button', class: 'small', 'aria-label': `copy ${what}`, onclick: async () => {
     await copy(button.text);
     button.textContent = 'copied';
-    setTimeout(() => (button.textContent = 'copy'), 1500);
-  } }, 'copy');
+    setTimeout(() => (button.textContent = name), 1500);
+  } }, name);
   button.text = text;
   return button;
 };

@@ -43,7 +43,7 @@ export class EpisodeView {
     });
     this.withRobot = this.withCloud = this.withAction = true;
     this.tools.append(
-      h('div', { class: 'choice', role: 'group', 'aria-label': 'marks' }, see('withRobot', 'Robot'), see('withCloud', 'Cloud'), see('withAction', 'Action')),
+      h('div', { class: 'choice', role: 'group', 'aria-label': 'marks' }, see('withRobot', 'Robot'), (this.cloudToggle = see('withCloud', 'Cloud')), see('withAction', 'Action')),
       h('div', { class: 'choice', role: 'group', 'aria-label': 'look at' }, h('button', { type: 'button', onclick: () => this.frameAll() }, 'All'), h('button', { type: 'button', onclick: () => this.frameHand() }, 'Hand')));
   }
 
@@ -73,7 +73,8 @@ export class EpisodeView {
     this.poseCount = 3 + this.document.robot.bodies;
     this.numbers = this.content.floats(episode.poses, this.frameCount * this.poseCount * NUMBERS);
     this.clouds = this.readClouds();
-    this.chart = curves(episode);
+    this.cloudToggle.hidden = this.clouds === null;
+    this.charts = this.makeCharts();
     this.slider.max = this.frameCount - 1;
     this.fillPanel();
     this.show(0);
@@ -103,12 +104,23 @@ export class EpisodeView {
     const seen = this.clouds ? LABELS.filter((_, label) => this.clouds.some(({ labels }) => labels.includes(label))) : [];
     this.panel.replaceChildren(
       h('section', {}, h('h1', {}, episode.title)),
-      h('section', {}, h('h2', {}, 'Angles'), this.chart,
-        h('p', { class: 'soft' }, h('span', { class: 'key hinge' }), 'hinge ', h('span', { class: 'key handle' }), 'handle'), (this.now = h('p', { role: 'status' }))),
+      (this.now = h('p', { role: 'status' })),
+      ...this.charts.map(({ title, chart, keys, note }) => h('section', {}, h('h2', {}, title), chart,
+        h('p', { class: 'soft' }, keys.flatMap(([name, text]) => [h('span', { class: `key ${name}` }), `${text} `])), note ? h('p', { class: 'soft' }, note) : null)),
       ...(seen.length ? [h('section', {}, h('h2', {}, 'Cloud'), h('ul', { class: 'legend' }, seen.map(([name, color]) => h('li', {}, h('span', { class: 'key', style: `background:#${color.toString(16)}` }), name))))] : []),
       h('section', {}, h('h2', {}, 'Episode'), h('dl', {}, episode.facts.map(([term, text]) => h('div', {}, h('dt', {}, term), h('dd', {}, text))))));
     this.chip.textContent = episode.opened ? 'Opened' : 'Not opened';
     this.chip.dataset.locked = !episode.opened;
+  }
+
+  // Angles, forces and what was hidden, as far as the episode has them.
+  makeCharts() {
+    const { times, hinge, handle, force, net_force: netForce, hidden } = this.episode;
+    const angles = { title: 'Angles', unit: '°', least: 0, most: 10, series: [['hinge', hinge.map(degrees)], ['handle', handle.map(degrees)]], keys: [['hinge', 'hinge'], ['handle', 'handle']] };
+    const forces = force && { title: 'Forces on the door', unit: ' N', least: 0, most: 10, series: [['grip', force], ['net', netForce]], keys: [['grip', 'all contacts'], ['net', 'beyond the squeeze of the fingers']], note: 'At the instants of the film; the greatest between them is in the report.' };
+    const names = Object.keys(hidden ?? {});
+    const shares = names.length > 0 && { title: 'Hidden from the camera', unit: ' %', least: 0, most: 100, series: names.map((name, i) => [`hidden-${i}`, hidden[name].map((share) => 100 * share)]), keys: names.map((name, i) => [`hidden-${i}`, name]) };
+    return [angles, forces, shares].filter(Boolean).map((drawn) => ({ ...drawn, chart: curves({ times, ...drawn }) }));
   }
 
   // The pose of a body between two frames.
@@ -153,8 +165,9 @@ export class EpisodeView {
     const seconds = this.mixed(episode.times, frame, share);
     this.time.textContent = `${seconds.toFixed(2)} s`;
     this.slider.setAttribute('aria-valuetext', `${seconds.toFixed(2)} seconds`);
-    this.chart.at(seconds);
-    this.now.textContent = `${episode.phases[frame]}: hinge ${degrees(this.mixed(episode.hinge, frame, share)).toFixed(1)}°, handle ${degrees(handle).toFixed(1)}°`;
+    for (const { chart } of this.charts) chart.at(seconds);
+    const force = episode.force ? `, ${this.mixed(episode.force, frame, share).toFixed(0)} N` : '';
+    this.now.textContent = `${episode.phases[frame]}: hinge ${degrees(this.mixed(episode.hinge, frame, share)).toFixed(1)}°, handle ${degrees(handle).toFixed(1)}°${force}`;
     this.stage.changed();
   }
 

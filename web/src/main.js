@@ -5,6 +5,7 @@ import { ComposerView } from './composer.js';
 import { Content } from './content.js';
 import { EpisodeView } from './episode_view.js';
 import { Gallery } from './gallery.js';
+import { ReportView } from './report_view.js';
 import { RecordView } from './record_view.js';
 import { h } from './dom.js';
 
@@ -47,7 +48,14 @@ const showComposer = (content) => {
   return { composer, view: composer.view };
 };
 
-const SHOW = { records: showRecords, gallery: showGallery, episodes: showEpisodes, composer: showComposer };
+const showReport = (content) => {
+  const report = new ReportView(content);
+  document.body.append(h('main', {}, report.element));
+  report.start();
+  return { report };
+};
+
+const SHOW = { report: showReport, records: showRecords, gallery: showGallery, episodes: showEpisodes, composer: showComposer };
 
 const start = async () => {
   const content = await Content.fromPage();

@@ -28,15 +28,22 @@ const placed = (object, matrix) => {
 
 const matrix4 = (numbers) => new Matrix4().fromArray(numbers);
 
-const label = (text) => {
-  const canvas = Object.assign(document.createElement('canvas'), { width: 128, height: 64 });
+/** Words that face the onlooker, 12 cm high where they are not scaled. */
+export const label = (text, color = 0x59626c) => {
+  const font = '600 40px system-ui, sans-serif';
+  const canvas = document.createElement('canvas');
+  canvas.getContext('2d').font = font;
+  const width = Math.max(128, Math.ceil(canvas.getContext('2d').measureText(text).width) + 16);
+  Object.assign(canvas, { width, height: 64 });
   const pen = canvas.getContext('2d');
-  pen.font = '600 40px system-ui, sans-serif';
+  pen.font = font;
   pen.textAlign = 'center';
-  pen.fillStyle = '#59626c';
-  pen.fillText(text, 64, 46);
-  const sprite = new Sprite(new SpriteMaterial({ map: new CanvasTexture(canvas), depthTest: false }));
-  sprite.scale.set(0.24, 0.12, 1);
+  pen.fillStyle = `#${color.toString(16).padStart(6, '0')}`;
+  pen.fillText(text, width / 2, 46);
+  const map = new CanvasTexture(canvas);
+  map.colorSpace = SRGBColorSpace;
+  const sprite = new Sprite(new SpriteMaterial({ map, depthTest: false }));
+  sprite.scale.set((0.12 * width) / 64, 0.12, 1);
   return sprite;
 };
 

@@ -60,12 +60,13 @@ class OneDoor {
     const auto load_body = [&] { return store_.Load(request_.body); };
     const auto load_handle = [&] { return store_.Load(request_.handle); };
     const auto import_body = [&] {
-      return ImportOwn({request_.body, PartRole::kBody, CategoryFor(handle_), request_.body_mesh},
-                       own_body_);
+      return ImportOwn(
+          {FileNamed(request_.body), PartRole::kBody, CategoryFor(handle_), request_.body_mesh},
+          own_body_);
     };
     const auto import_handle = [&] {
       return ImportOwn(
-          {request_.handle, PartRole::kHandle, CategoryFor(body_), request_.handle_mesh},
+          {FileNamed(request_.handle), PartRole::kHandle, CategoryFor(body_), request_.handle_mesh},
           own_handle_);
     };
     // what is imported takes its category from the other half
@@ -73,6 +74,10 @@ class OneDoor {
     if (!own_handle) handle_ = Named(run_.handle_named_by, load_handle);
     if (own_body) body_ = Named(run_.body_named_by, import_body);
     if (own_handle) handle_ = Named(run_.handle_named_by, import_handle);
+  }
+
+  fs::path FileNamed(const std::string& name) const {
+    return run_.files.empty() ? fs::path(name) : run_.files / name;
   }
 
   // a name that stands in a settings file is looked for there, and so is what is wrong with it

@@ -2,18 +2,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/composer/composer.h"
 
-#include <cstdlib>
-#include <functional>
+#include <set>
+#include <span>
 
 #include "doorforge/authoring/compose_doors.h"
 #include "doorforge/authoring/export_batch.h"
+#include "doorforge/core/committed_file.h"
 #include "doorforge/core/config_io.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
+#include "doorforge/mesh/import_mesh.h"
+#include "doorforge/openable/openable_check.h"
 #include "doorforge/validate/validate_door.h"
 #include "doorforge/view/packed_content.h"
 
+#include "compose_command.h"
+#include "dropped_files.h"
+#include "scratch_folder.h"
 #include "zip_file.h"
 
 namespace doorforge {
@@ -22,71 +28,110 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// A folder of its own that goes when its time is over.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (fs::temp_directory_path() / "doorforge-composer-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
-      throw Error(ErrorCode::kIo, name + ": a folder cannot be made");
-    path_ = name;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
+constexpr std::size_t kMostFiles = 16;               // of a request
+constexpr std::uint64_t kMostTriangles = 1'000'000;  // of a dropped mesh
+constexpr double kReadSeconds = 20;                  // for one
+constexpr double kComposeSeconds = 60;
 
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
+// What a request says: the door, and files that were dropped.
+struct Asked {
+  ComposeRequest door;
+  internal::NamedFiles files;
 };
 
-ComposeRequest RequestOf(const std::string& text) {
+internal::NamedFiles FilesOf(const Json& json) {
+  if (!json.is_object() || json.size() > kMostFiles)
+    throw Error(ErrorCode::kInvalidArgument, "request.files: expected an object of at most " +
+                                                 std::to_string(kMostFiles) + " names");
+  internal::NamedFiles files;
+  for (const auto& [name, hash] : json.items()) {
+    internal::CheckFileName(name);
+    if (!hash.is_string())
+      throw Error(ErrorCode::kInvalidArgument, "request.files: " + name + ": expected a hash");
+    files[name] = hash.get<std::string>();
+  }
+  return files;
+}
+
+// Second meshes of a part would have to be dropped as well.
+LooseMeshConfig MeshOf(const Json& json, const std::string& where) {
+  LooseMeshConfig mesh;
+  Assign(json, mesh, where);
+  if (!mesh.rose.empty() || !mesh.frame.empty())
+    throw Error(ErrorCode::kInvalidArgument,
+                where + ": rose and frame are for the command line alone");
+  return mesh;
+}
+
+Asked RequestOf(const std::string& text) {
   const Json json = ParseJson(text, "request");
   if (!json.is_object()) throw Error(ErrorCode::kInvalidArgument, "request: expected an object");
+  static const std::set<std::string> kKeys = {"body",        "handle",   "settings", "body_mesh",
+                                              "handle_mesh", "category", "files"};
   for (const auto& [key, unused] : json.items()) {
-    if (key != "body" && key != "handle" && key != "settings")
+    if (!kKeys.contains(key))
       throw Error(ErrorCode::kInvalidArgument, "request: unknown key \"" + key + "\"");
   }
-  ComposeRequest request;
-  request.body = ValueOf<std::string>(json, "body", "request");
-  request.handle = ValueOf<std::string>(json, "handle", "request");
-  if (json.contains("settings")) Assign(json["settings"], request.door, "settings");
-  return request;
+  Asked asked;
+  ComposeRequest& door = asked.door;
+  door.body = ValueOf<std::string>(json, "body", "request");
+  door.handle = ValueOf<std::string>(json, "handle", "request");
+  if (json.contains("settings")) Assign(json["settings"], door.door, "settings");
+  if (json.contains("category")) door.category = ValueOf<std::string>(json, "category", "request");
+  if (json.contains("body_mesh")) door.body_mesh = MeshOf(json["body_mesh"], "body_mesh");
+  if (json.contains("handle_mesh")) door.handle_mesh = MeshOf(json["handle_mesh"], "handle_mesh");
+  if (json.contains("files")) asked.files = FilesOf(json["files"]);
+  return asked;
 }
 
-// For a POSIX shell.
-std::string Quoted(const std::string& word) {
-  const bool plain = word.find_first_not_of(
-                         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=") ==
-                     std::string::npos;
-  if (plain && !word.empty()) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
+Json PresetsForPage() {
+  const auto names = [](std::span<const ComposePreset> presets) {
+    Json list = Json::array();
+    for (const ComposePreset& preset : presets) list.push_back(preset.name);
+    return list;
+  };
+  return {{"joints", names(JointPresets())}, {"masses", names(MassPresets())}};
 }
 
-// What differs from the defaults, as --set takes it.
-std::string CommandOf(const ComposeRequest& request, const fs::path& parts) {
-  std::string command = "doorforge compose --body " + Quoted(request.body) + " --handle " +
-                        Quoted(request.handle) + " --out doors/mine";
-  if (!parts.empty()) command += " --parts " + Quoted(parts.string());
-  const Json standard = ToJson(ComposeConfig{});
-  const Json chosen = ToJson(request.door);
-  for (const auto& [key, value] : chosen.items()) {
-    if (value == standard[key]) continue;
-    const std::string text = value.is_string() ? value.get<std::string>() : JsonText(value);
-    command += " --set " + Quoted(key + "=" + text);
+// Folders of this server are no matter of the page.
+std::string Without(std::string message, const fs::path& folder) {
+  const std::string prefix = folder.string() + "/";
+  for (std::size_t at = 0; (at = message.find(prefix, at)) != std::string::npos;)
+    message.erase(at, prefix.size());
+  return message;
+}
+
+// By the confined process; its own folder is no matter of the page.
+ImportedMesh ReadDropped(const std::string& name, const std::string& bytes) {
+  const internal::ScratchFolder scratch;
+  CommitFile(scratch.path() / name, bytes);
+  try {
+    return ImportMesh(scratch.path() / name, {.max_file_bytes = internal::kMostFileBytes,
+                                              .max_triangles = kMostTriangles,
+                                              .timeout_s = kReadSeconds});
+  } catch (const Error& error) {
+    throw Error(error.code(), Without(error.what(), scratch.path()));
   }
-  return command;
+}
+
+// What the verb writes beside a door of which a part was imported, with the verb's name of it.
+void WriteValidation(const fs::path& folder) {
+  ValidationReport report = DoorValidator(OpenableCheck()).Validate(folder);
+  report.folder = internal::kCommandOut;
+  WriteJsonFile(folder / "validation.json", ToJson(std::span<const ValidationReport>(&report, 1)));
 }
 
 }  // namespace
 
-Composer::Composer(fs::path parts) : parts_(std::move(parts)) {
+struct Composer::Made {
+  fs::path folder;
+  ComposeRequest request;
+  Json notes;
+  bool imported = false;
+};
+
+Composer::Composer(fs::path parts)
+    : parts_(std::move(parts)), dropped_(std::make_unique<internal::DroppedFiles>()) {
   if (parts_.empty()) {
     for (CatalogueEntry& entry : ListCatalogue(DataFolder())) {
       Known& known = known_[entry.id];
@@ -101,6 +146,8 @@ Composer::Composer(fs::path parts) : parts_(std::move(parts)) {
     known_[part.id] = {part.role, part.category, part.mechanism, {}, folder};
   }
 }
+
+Composer::~Composer() = default;
 
 const Composer::Known& Composer::Find(const std::string& id) const {
   const auto found = known_.find(id);
@@ -123,6 +170,9 @@ std::string Composer::Page() const {
                                                    {"version", CodeVersion()},
                                                    {"parts", Parts()},
                                                    {"settings", ToJson(ComposeConfig{})},
+                                                   {"mesh_settings", ToJson(LooseMeshConfig{})},
+                                                   {"presets", PresetsForPage()},
+                                                   {"most_file_bytes", internal::kMostFileBytes},
                                                    {"formats", DoorFormatNames()}});
 }
 
@@ -136,47 +186,69 @@ std::string Composer::Thumbnail(const std::string& id) {
   return picture;
 }
 
-namespace {
-
-// A composed door in a folder of its own, and what `use` makes of it.
-std::string WithDoor(const ComposeRequest& request, const fs::path& parts,
-                     const std::function<std::string(const fs::path&)>& use) {
-  const ScratchFolder scratch;
-  const fs::path out = scratch.path() / "door";
-  ComposeOneDoor({.out = out, .parts = parts, .threads = 1, .max_seconds = 60}, request);
-  return use(out);
+std::string Composer::Keep(const std::string& name, const std::string& bytes) {
+  internal::CheckFileName(name);
+  Require(!bytes.empty(), ErrorCode::kInvalidArgument, name + ": is empty");
+  if (!internal::IsMeshName(name))
+    return PackMeshes({}, {{"name", name}, {"file", dropped_->Keep(bytes)}});
+  const ImportedMesh mesh = ReadDropped(name, bytes);
+  std::vector<TriangleMesh> pieces;
+  for (const ImportedPiece& piece : mesh.pieces) pieces.push_back(piece.mesh);
+  return PackMeshes(pieces, {{"name", name},
+                             {"file", dropped_->Keep(bytes)},
+                             {"up", mesh.frame.up},
+                             {"front", mesh.frame.front},
+                             {"unit_m", mesh.frame.unit_m},
+                             {"states_unit", mesh.frame.states_unit}});
 }
 
-}  // namespace
+// A composed door in a folder of its own, and what `use` makes of it.
+std::string Composer::WithDoor(const std::string& text, const Use& use) const {
+  const auto [door, files] = RequestOf(text);
+  for (const std::string& name : {door.body, door.handle}) {
+    if (!files.contains(name)) Find(name);
+  }
+  const internal::ScratchFolder scratch;
+  try {
+    dropped_->PutInto(scratch.path() / "files", files);
+    Made made{.folder = scratch.path() / "door", .request = door, .notes = Json::array()};
+    const ComposeRun run{.out = made.folder,
+                         .parts = parts_,
+                         .files = scratch.path() / "files",
+                         .threads = 1,
+                         .max_seconds = kComposeSeconds,
+                         .note = [&](const std::string& note) { made.notes.push_back(note); }};
+    made.imported = ComposeOneDoor(run, door).imported;
+    return use(made);
+  } catch (const Error& error) {
+    throw Error(error.code(),
+                Without(Without(error.what(), scratch.path() / "files"), scratch.path()));
+  }
+}
 
-std::string Composer::Compose(const std::string& text) const {
-  const ComposeRequest request = RequestOf(text);
-  Find(request.body);
-  Find(request.handle);
-  return WithDoor(request, parts_, [&](const fs::path& folder) {
-    return PackRecord(folder, {{"command", CommandOf(request, parts_)}});
+std::string Composer::Compose(const std::string& request) const {
+  return WithDoor(request, [&](const Made& made) {
+    return PackRecord(made.folder, {{"command", internal::CommandOf(made.request, parts_)},
+                                    {"yaml", internal::YamlOf(made.request, parts_)},
+                                    {"notes", made.notes}});
   });
 }
 
-std::string Composer::Open(const std::string& text) const {
-  const ComposeRequest request = RequestOf(text);
-  Find(request.body);
-  Find(request.handle);
-  return WithDoor(request, parts_,
-                  [&](const fs::path& folder) { return PackExpertFilm(folder, 1); });
+std::string Composer::Open(const std::string& request) const {
+  return WithDoor(request, [](const Made& made) { return PackExpertFilm(made.folder, 1); });
 }
 
-std::string Composer::Download(const std::string& text, const std::string& format) const {
-  const ComposeRequest request = RequestOf(text);
-  Find(request.body);
-  Find(request.handle);
+std::string Composer::Download(const std::string& request, const std::string& format) const {
   const DoorFormat* chosen = format.empty() ? nullptr : DoorFormatNamed(format);
   if (!format.empty() && chosen == nullptr)
     throw Error(ErrorCode::kInvalidArgument, "there is no format \"" + format + "\"");
-  return WithDoor(request, parts_, [&](const fs::path& folder) {
-    if (chosen == nullptr) return internal::ZipOf(internal::MembersOf(folder, "door"));
-    const fs::path out = folder.parent_path() / "exported";
-    WriteExportedDoor(ReadDoor(folder), {chosen, 1}, out, Existing::kRefuse);
+  return WithDoor(request, [&](const Made& made) {
+    if (chosen == nullptr) {
+      if (made.imported) WriteValidation(made.folder);
+      return internal::ZipOf(internal::MembersOf(made.folder, "door"));
+    }
+    const fs::path out = made.folder.parent_path() / "exported";
+    WriteExportedDoor(ReadDoor(made.folder), {chosen, 1}, out, Existing::kRefuse);
     return internal::ZipOf(internal::MembersOf(out, "door"));
   });
 }

@@ -11,11 +11,13 @@
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 
+#include "dropped_files.h"
+
 namespace doorforge {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{64} << 10;  // of a request
-constexpr auto kLook = std::chrono::milliseconds(50);      // how often a stop is looked for
+constexpr std::uint64_t kMostBytes = std::uint64_t{64} << 10;  // of a request
+constexpr auto kLook = std::chrono::milliseconds(50);          // how often a stop is looked for
 
 void Refuse(httplib::Response& response, int status, const std::string& message) {
   response.status = status;
@@ -65,6 +67,10 @@ void AddAnswers(httplib::Server& server, Composer& composer) {
                                                      httplib::Response& response) {
     Answer(response, "image/jpeg", [&] { return composer.Thumbnail(request.matches[1]); });
   });
+  server.Post("/file", [&](const httplib::Request& request, httplib::Response& response) {
+    Answer(response, "application/octet-stream",
+           [&] { return composer.Keep(request.get_param_value("name"), request.body); });
+  });
   server.Post("/compose", [&](const httplib::Request& request, httplib::Response& response) {
     Answer(response, "application/octet-stream", [&] { return composer.Compose(request.body); });
   });
@@ -77,23 +83,46 @@ void AddAnswers(httplib::Server& server, Composer& composer) {
   });
 }
 
+struct Refusal {
+  int status = 0;  // 0: none
+  std::string message;
+};
+
+// What a request brings along must say how long it is, and is taken as it is: a compressed body
+// would be unpacked without limit.
+Refusal RefusalOfBody(const httplib::Request& request) {
+  const bool is_file = request.path == "/file";
+  const std::string type = is_file ? "application/octet-stream" : "application/json";
+  if (request.get_header_value("Content-Type") != type) return {415, "a request is " + type};
+  if (request.has_header("Content-Encoding") || request.has_header("Transfer-Encoding"))
+    return {415, "a request is neither compressed nor in chunks"};
+  if (!request.has_header("Content-Length")) return {411, "a request says its length"};
+  const auto bytes = request.get_header_value<std::uint64_t>("Content-Length");
+  if (is_file && bytes > internal::kMostFileBytes)
+    return {413, request.get_param_value("name") + ": has " + std::to_string(bytes >> 20) +
+                     " MiB, a dropped file may have 64; doorforge compose takes 512"};
+  if (!is_file && bytes > kMostBytes) return {413, "a request has at most 64 KiB"};
+  return {};
+}
+
 void Guard(httplib::Server& server, int port) {
-  server.set_payload_max_length(kMostBytes);
+  server.set_payload_max_length(internal::kMostFileBytes);
+  server.set_keep_alive_max_count(1);  // what is refused is not read, so that nothing can follow it
   server.set_default_headers({{"X-Content-Type-Options", "nosniff"},
                               {"Cache-Control", "no-store"},
                               {"Cross-Origin-Resource-Policy", "same-origin"}});
   server.set_pre_routing_handler(
       [keeper = Doorkeeper(port)](const httplib::Request& request, httplib::Response& response) {
-        if (!keeper.LetsIn(request)) {
-          Refuse(response, 403, "only pages of this server on this machine may ask");
-          return httplib::Server::HandlerResponse::Handled;
-        }
-        if (request.method == "POST" &&
-            request.get_header_value("Content-Type") != "application/json") {
-          Refuse(response, 415, "a request is application/json");
-          return httplib::Server::HandlerResponse::Handled;
-        }
-        return httplib::Server::HandlerResponse::Unhandled;
+        Refusal refusal;
+        if (!keeper.LetsIn(request))
+          refusal = {403, "only pages of this server on this machine may ask"};
+        else if (request.method == "POST")
+          refusal = RefusalOfBody(request);
+        else if (request.method != "GET" && request.method != "HEAD")
+          refusal = {405, "only GET and POST are answered"};
+        if (refusal.status == 0) return httplib::Server::HandlerResponse::Unhandled;
+        Refuse(response, refusal.status, refusal.message);
+        return httplib::Server::HandlerResponse::Handled;
       });
 }
 

@@ -12,9 +12,9 @@
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
 #include "doorforge/schemas/dataset.h"
-#include "doorforge/schemas/door_set.h"
 #include "doorforge/schemas/episode_arrays.h"
 
+#include "door_finder.h"
 #include "episode_writer.h"
 #include "expert_film.h"
 #include "html_page.h"
@@ -57,6 +57,23 @@ std::string HiddenText(const Json& meta) {
   return text;
 }
 
+// The same over time.
+std::vector<std::pair<std::string, std::vector<double>>> HiddenShares(const Json& meta,
+                                                                      std::size_t decisions) {
+  std::vector<std::pair<std::string, std::vector<double>>> hidden;
+  const auto found = meta.find("hidden");
+  if (found == meta.end() || !found->is_object()) return hidden;
+  for (const auto& [name, shares] : found->items()) {
+    if (!shares.is_array() || shares.size() != decisions) continue;
+    std::vector<double> numbers;
+    for (const Json& share : shares) numbers.push_back(share.is_number() ? share.get<double>() : 0);
+    std::string words = name;
+    std::ranges::replace(words, '_', ' ');
+    hidden.emplace_back(words, std::move(numbers));
+  }
+  return hidden;
+}
+
 FilmFrame FrameOf(const EpisodeArrays& arrays, std::size_t t, const Scene& scene,
                   const RobotModel& robot) {
   const std::span<const double> state = arrays.state.subspan(t * std::tuple_size_v<JointState>);
@@ -88,9 +105,12 @@ Stored ReadStored(const ShardReader& shard, std::size_t episode, const RobotMode
     throw Error(ErrorCode::kFormat,
                 shard.Describe(episode, "state.npy") +
                     ": the episode has no states, as builds of before wrote it");
-  if (!scene.robot.name.empty())
-    throw Error(ErrorCode::kInvalidArgument, where + ": the robot is " + scene.robot.name +
-                                                 "; pages have the built-in one alone");
+  if (scene.robot.name != robot.name() || scene.robot.sha256 != robot.sha256())
+    throw Error(ErrorCode::kInvalidArgument,
+                where + ": the robot is " +
+                    (scene.robot.name.empty() ? "the built-in one" : scene.robot.name) +
+                    (scene.robot.name == robot.name() ? ", which has changed since"
+                                                      : "; --robot names its URDF"));
   const std::string& key = shard.index().episodes[episode].key;
   const std::string stage = shard.index().header.stage;
   const std::string outcome = ValueOf<std::string>(meta, "outcome", where);
@@ -107,6 +127,7 @@ Stored ReadStored(const ShardReader& shard, std::size_t episode, const RobotMode
                 scene.door_sha256};
   if (const std::string hidden = HiddenText(meta); !hidden.empty())
     stored.film.facts.emplace_back("Hidden", hidden);
+  stored.film.hidden = HiddenShares(meta, arrays.decisions);
   const Json& times = MemberOf(meta, "decision_time_s", where);
   for (std::size_t t = 0; t < arrays.decisions; ++t) {
     stored.film.frames.push_back(FrameOf(arrays, t, scene, robot));
@@ -164,26 +185,22 @@ std::vector<Stored> ReadEpisodes(const DatasetEpisodes& chosen, const RobotModel
 ViewPage MakeDatasetPage(const DatasetEpisodes& chosen) {
   Require(chosen.most >= 1 && chosen.points >= 0, ErrorCode::kInvalidArgument,
           "view: at least one episode, and no negative number of points");
-  const RobotModel robot = LoadMobileFranka();
+  const RobotModel robot =
+      LoadRobot(chosen.robot.urdf, RobotBase::kSliders, chosen.robot.read_mesh);
   ViewPage page;
   std::vector<Stored> episodes = ReadEpisodes(chosen, robot, page.faults);
-  const DoorSet set =
-      FindDoorSet({.folders = {chosen.doors.begin(), chosen.doors.end()}}, chosen.threads);
-  DoorCache cache(set.doors);
+  internal::DoorFinder doors(chosen.doors, chosen.threads);
   EpisodeWriter writer(robot, chosen.points);
   for (Stored& episode : episodes) {
-    const auto found = std::ranges::find_if(set.doors, [&](const FoundDoor& door) {
-      return door.identity.sha256 == episode.door_sha256;
-    });
-    if (found == set.doors.end()) {
+    const auto door = doors.Find(episode.door_sha256);
+    if (!door) {
       page.faults.push_back(
           episode.film.title +
           ": its door is not in the folders given with --doors, or has changed since");
       continue;
     }
-    const IdentifiedDoor door = cache.Take(static_cast<std::size_t>(found - set.doors.begin()));
-    PoseDoor(*door, episode.film);
-    writer.Add(*door, episode.door_sha256, episode.film);
+    PoseDoor(**door, episode.film);
+    writer.Add(**door, episode.door_sha256, episode.film);
   }
   if (writer.size() == 0)
     throw Error(ErrorCode::kMissing, page.faults.empty()
@@ -196,7 +213,8 @@ ViewPage MakeDatasetPage(const DatasetEpisodes& chosen) {
 }
 
 ViewPage MakeExpertPage(std::span<const fs::path> doors, const ExpertEpisodes& config) {
-  const RobotModel robot = LoadMobileFranka();
+  const RobotModel robot =
+      LoadRobot(config.robot.urdf, RobotBase::kSliders, config.robot.read_mesh);
   struct Made {
     DoorAsset door;
     Film film;

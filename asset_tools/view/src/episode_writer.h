@@ -21,6 +21,7 @@ class EpisodeWriter {
 
   std::size_t size() const { return content_.document["episodes"].size(); }
   const PageContent& content() const { return content_; }
+  PageContent& content() { return content_; }
 
  private:
   int points_;

@@ -4,7 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
+#include <numbers>
+
+#include "doorforge/core/error.h"
 
 namespace doorforge::internal {
 namespace {
@@ -67,7 +71,79 @@ Json CloudForView(const std::vector<FilmFrame>& frames, int most, PageContent& c
           {"labels", content.AddBytes(labels)["at"]}};
 }
 
+// null where any frame has none
+Json ForcesForView(const std::vector<FilmFrame>& frames,
+                   std::optional<double> FilmFrame::*quantity) {
+  Json forces = Json::array();
+  for (const FilmFrame& frame : frames) {
+    if (!(frame.*quantity)) return nullptr;
+    forces.push_back(std::round(100 * *(frame.*quantity)) / 100);
+  }
+  return forces;
+}
+
+std::string NumberText(const char* format, double number) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, number);
+  return text;
+}
+
+// The greatest of a quantity over the instants.
+double Greatest(const EpisodeFilm& record, double FilmInstant::*quantity) {
+  double most = 0;
+  for (const FilmInstant& instant : record.instants) most = std::max(most, instant.*quantity);
+  return most;
+}
+
+FilmFrame FrameAtInstant(const FilmInstant& instant, const Scene& scene, const DoorAsset& door,
+                         const RobotModel& robot) {
+  const JointVector joints = Eigen::Map<const Eigen::VectorXd>(
+      instant.robot.data(), static_cast<Eigen::Index>(instant.robot.size()));
+  const RobotPose pose = robot.PoseAt(joints, scene.world_from_robot_base);
+  auto links = DoorFromLinks(door, instant.hinge_rad, instant.handle_rad);
+  for (RigidTransform& link : links) link = scene.world_from_door * link;
+  FilmFrame frame;
+  frame.time_s = instant.time_s;
+  frame.phase = instant.phase;
+  frame.hinge_rad = instant.hinge_rad;
+  frame.handle_rad = instant.handle_rad;
+  if (scene.latch.type == LatchType::kBolt) frame.bolt_m = instant.bolt_m;
+  frame.poses = PosesOf(links, pose);
+  frame.hand_m = pose.world_from_hand.translation();
+  frame.asked_m = instant.asked_m;
+  frame.force_n = instant.force_n;
+  frame.net_force_n = instant.net_force_n;
+  return frame;
+}
+
 }  // namespace
+
+Film FilmOf(const EpisodeFilm& record, const DoorAsset& door, const RobotModel& robot) {
+  Require(record.scene.robot.name == robot.name() && !record.instants.empty() &&
+              record.instants[0].robot.size() == static_cast<std::size_t>(robot.joint_count()),
+          ErrorCode::kInvalidArgument,
+          door.id + ": the episode is of the robot \"" + record.scene.robot.name +
+              "\"; name its URDF with --robot");
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  Film film;
+  film.title = door.id;
+  film.opened = record.outcome == EpisodeOutcome::kOpened;
+  film.facts = {
+      {"Door", door.id},
+      {"Outcome", std::string(NameOf(record.outcome))},
+      {"Detail", record.detail},
+      {"Seed, number",
+       std::to_string(record.scene.seed) + ", " + std::to_string(record.scene.episode)},
+      {"Greatest hinge angle",
+       NumberText("%.1f deg", kDegrees * Greatest(record, &FilmInstant::hinge_rad))},
+      {"Greatest handle angle",
+       NumberText("%.1f deg", kDegrees * Greatest(record, &FilmInstant::handle_rad))},
+      {"Greatest force shown", NumberText("%.0f N", Greatest(record, &FilmInstant::force_n))},
+      {"Simulated", NumberText("%.1f s", record.instants.back().time_s)}};
+  for (const FilmInstant& instant : record.instants)
+    film.frames.push_back(FrameAtInstant(instant, record.scene, door, robot));
+  return film;
+}
 
 std::vector<RigidTransform> PosesOf(const std::array<RigidTransform, 3>& door,
                                     const RobotPose& robot) {
@@ -102,6 +178,10 @@ Json FilmForView(const Film& film, int points, PageContent& content) {
     shown["hands"].push_back(Vector3ToJson(frame.hand_m));
     shown["asked"].push_back(frame.asked_m ? Vector3ToJson(*frame.asked_m) : Json(nullptr));
   }
+  shown["force"] = ForcesForView(film.frames, &FilmFrame::force_n);
+  shown["net_force"] = ForcesForView(film.frames, &FilmFrame::net_force_n);
+  shown["hidden"] = Json::object();
+  for (const auto& [name, shares] : film.hidden) shown["hidden"][name] = shares;
   shown["poses"] = content.AddBytes(PoseBytes(film.frames))["at"];
   shown["cloud"] = points > 0 ? CloudForView(film.frames, points, content) : Json(nullptr);
   return shown;

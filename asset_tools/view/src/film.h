@@ -10,6 +10,7 @@
 #include "doorforge/physics/robot_model.h"
 #include "doorforge/schemas/cloud.h"
 #include "doorforge/schemas/door_asset.h"
+#include "doorforge/schemas/episode_film.h"
 #include "doorforge/schemas/policy.h"
 
 #include "page_content.h"
@@ -27,6 +28,8 @@ struct FilmFrame {
   Eigen::Vector3d hand_m = Eigen::Vector3d::Zero();
   std::optional<Eigen::Vector3d> asked_m;  ///< Where the policy wants the hand next.
   LabelledCloud cloud;                     ///< May be empty.
+  std::optional<double> force_n;           ///< FilmInstant::force_n, where it is known.
+  std::optional<double> net_force_n;
 };
 
 struct Film {
@@ -34,7 +37,12 @@ struct Film {
   bool opened = false;
   std::vector<std::pair<std::string, std::string>> facts;  ///< Rows of a table for people.
   std::vector<FilmFrame> frames;
+  /// Shares of what was hidden from the camera, by name, one a frame; empty where none is recorded.
+  std::vector<std::pair<std::string, std::vector<double>>> hidden = {};
 };
+
+/// The film of a record. Throws Error(kInvalidArgument) where the record is not of this robot.
+Film FilmOf(const EpisodeFilm& record, const DoorAsset& door, const RobotModel& robot);
 
 /// The poses of a frame: `door` in the world, and the robot.
 std::vector<RigidTransform> PosesOf(const std::array<RigidTransform, 3>& door,
@@ -45,8 +53,8 @@ std::vector<RigidTransform> PosesOf(const std::array<RigidTransform, 3>& door,
 PageContent::Json RobotForView(const RobotModel& robot, PageContent& content);
 
 /// {"title", "opened", "facts", "times", "phases", "hinge", "handle", "bolt", "poses", "hands",
-/// "asked", "cloud"}; docs/design/view.md has their shapes. At most `points` points of each cloud
-/// are kept, every n-th.
+/// "asked", "cloud", "force", "net_force", "hidden"}; docs/design/view.md has their shapes. At most
+/// `points` points of each cloud are kept, every n-th.
 PageContent::Json FilmForView(const Film& film, int points, PageContent& content);
 
 }  // namespace doorforge::internal

@@ -35,6 +35,15 @@ std::string PackExpertFilm(const std::filesystem::path& door_folder, std::uint64
   return writer.content().Packed();
 }
 
+std::string PackMeshes(std::span<const TriangleMesh> meshes, const Json& beside) {
+  internal::PageContent content;
+  content.document.update(beside);
+  Json shown = Json::array();
+  for (const TriangleMesh& mesh : meshes) shown.push_back(content.AddMesh(mesh));
+  content.document["shown"] = std::move(shown);
+  return content.Packed();
+}
+
 std::string ServedPage(const std::string& title, const Json& document) {
   internal::PageContent content;
   content.document.update(document);

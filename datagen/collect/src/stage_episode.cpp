@@ -8,6 +8,7 @@
 #include "doorforge/registry/run_policy_set.h"
 #include "doorforge/rollout/base_placement.h"
 #include "doorforge/rollout/camera_observer.h"
+#include "doorforge/rollout/film_recorder.h"
 #include "doorforge/rollout/grasp_from_policy.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/schemas/motion_way.h"
@@ -32,11 +33,16 @@ int LearnerDecisions(const StageConfig& config, const PlannedEpisode& planned) {
                                   .Index(static_cast<std::uint32_t>(config.learner_decisions)));
 }
 
-}  // namespace
+struct EpisodeToRun {
+  const PlannedEpisode& planned;
+  const IdentifiedDoor& door;
+  const RobotModel& robot;
+  const StageConfig& config;
+};
 
-CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const IdentifiedDoor& identified,
-                                 const RobotModel& robot, const StageConfig& config,
-                                 StagePolicies& policies) {
+// `film`, where there is one, looks on.
+CollectedEpisode RunRecorded(const EpisodeToRun& run, StagePolicies& policies, FilmRecorder* film) {
+  const auto& [planned, identified, robot, config] = run;
   const DoorAsset& door = *identified;
   const Scene scene = PlaceRobotBase(
       robot, SampleScene(identified, config.seed, planned.number, config.scene), door);
@@ -80,6 +86,10 @@ CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const Identified
   CollectedEpisode collected;
   Observer* observer = &camera;
   if (policies_camera) observer = &*policies_camera;
+  if (film != nullptr) {
+    film->LookThrough(observer);
+    observer = film;
+  }
   collected.episode = RunStages(scene, door, robot, roles, observer);
   const Episode& episode = collected.episode;
   const std::size_t decisions = episode.decisions.size();
@@ -106,6 +116,21 @@ CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const Identified
   const bool is_kept = episode.outcome == EpisodeOutcome::kOpened || collected.keep_failed;
   if (config.preview && is_kept) collected.preview_png = camera.PreviewPng(decisions);
   return collected;
+}
+
+}  // namespace
+
+CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const IdentifiedDoor& door,
+                                 const RobotModel& robot, const StageConfig& config,
+                                 StagePolicies& policies) {
+  return RunRecorded({planned, door, robot, config}, policies, nullptr);
+}
+
+EpisodeFilm FilmStageEpisode(const PlannedEpisode& planned, const IdentifiedDoor& door,
+                             const RobotModel& robot, const StageConfig& config,
+                             StagePolicies& policies) {
+  FilmRecorder film;
+  return film.Film(RunRecorded({planned, door, robot, config}, policies, &film).episode);
 }
 
 }  // namespace doorforge

@@ -121,4 +121,8 @@ CollectedEpisode StageRun::Run(const PlannedEpisode& planned) {
   return RunStageEpisode(planned, shelf_.Take(planned.door), robot_, config_, *policies_);
 }
 
+EpisodeFilm StageRun::Film(const PlannedEpisode& planned) {
+  return FilmStageEpisode(planned, shelf_.Take(planned.door), robot_, config_, *policies_);
+}
+
 }  // namespace doorforge

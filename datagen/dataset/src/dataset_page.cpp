@@ -201,6 +201,31 @@ std::string Examples(const std::vector<ExampleEpisode>& examples) {
   return html + "</div></section>\n";
 }
 
+// "ep000012" as 12, the number of the scene.
+std::string NumberOfKey(const std::string& key) {
+  const std::size_t digit = key.find_first_of("123456789");
+  return digit == std::string::npos ? "0" : key.substr(digit);
+}
+
+std::string Failures(const std::vector<UnwrittenEpisode>& failures, const std::string& seed,
+                     const std::string& films) {
+  if (failures.empty()) return "";
+  std::string rows;
+  for (const UnwrittenEpisode& failure : failures) {
+    const std::string address = failure.door_id + "/" + seed + "/" + NumberOfKey(failure.key);
+    const std::string link =
+        films.empty() ? "" : "<a href=\"" + Escape(films + "#" + address) + "\">film</a>";
+    rows += "<tr><td>" + Escape(failure.part) + "</td><td>" + Escape(failure.key) + "</td><td>" +
+            Escape(failure.door_id) + "</td><td>" + Escape(failure.outcome) + "</td><td>" + link +
+            "</td><td class=\"soft\">" + Escape(failure.detail) + "</td></tr>\n";
+  }
+  return "<section><h2>Failures</h2>\n<p class=\"soft\">Planned episodes that failed and are not "
+         "in "
+         "the data.</p>\n<div class=\"scroll\"><table><thead><tr><th>part</th><th>episode</th>"
+         "<th>door</th><th>cause</th><th></th><th>detail</th></tr></thead><tbody>" +
+         rows + "</tbody></table></div></section>\n";
+}
+
 struct Totals {
   std::uint64_t episodes = 0;
   std::uint64_t failed = 0;
@@ -238,7 +263,8 @@ std::string DoorTable(const Json& dataset) {
 
 }  // namespace
 
-std::string DatasetPage(const Json& dataset, const EpisodeDescription& description) {
+std::string DatasetPage(const Json& dataset, const EpisodeDescription& description,
+                        const std::string& films) {
   const Totals totals = TotalsOf(dataset);
   std::uint64_t doors = 0;
   for (const Json& kind : dataset.at("doors")) doors += kind.at("doors").get<std::uint64_t>();
@@ -255,10 +281,13 @@ std::string DatasetPage(const Json& dataset, const EpisodeDescription& descripti
       Figure(Fixed(static_cast<double>(totals.bytes) / (1 << 20), 1) + " MiB", "of shards") +
       "</div>\n";
   for (const StageEpisodes& stage : description.stages) html += StageSection(stage);
-  html += DoorTable(dataset) + Examples(description.examples) + "</main>\n<footer>doorforge " +
-          Escape(dataset.at("code_version").get<std::string>()) + ", seed " +
-          std::to_string(dataset.at("seed").get<std::uint64_t>()) + ", configuration SHA-256 " +
-          Escape(dataset.at("config_sha256").get<std::string>()) + "</footer></body></html>\n";
+  html += DoorTable(dataset) + Examples(description.examples) +
+          Failures(description.unwritten, std::to_string(dataset.at("seed").get<std::uint64_t>()),
+                   films) +
+          "</main>\n<footer>doorforge " + Escape(dataset.at("code_version").get<std::string>()) +
+          ", seed " + std::to_string(dataset.at("seed").get<std::uint64_t>()) +
+          ", configuration SHA-256 " + Escape(dataset.at("config_sha256").get<std::string>()) +
+          "</footer></body></html>\n";
   return html;
 }
 

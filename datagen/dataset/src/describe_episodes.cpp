@@ -113,7 +113,11 @@ class Builder {
     Count(stage.by_category[door.category], facts);
     Count(stage.by_mechanism[door.mechanism], facts);
     Count(stage.by_split[place.part.split], facts);
-    if (facts.decisions > 0) ++stage.decisions[facts.decisions];
+    if (facts.decisions > 0)
+      ++stage.decisions[facts.decisions];
+    else if (!facts.success)
+      unwritten_.push_back({place.part.stage + "/" + place.part.split, facts.key, facts.door_id,
+                            facts.outcome, facts.detail});
     std::vector<ExampleEpisode>& shown = shown_[{place.part.stage, door.category}];
     if (!facts.has_preview || static_cast<int>(shown.size()) >= examples_) return;
     shown.push_back({place.part.stage + "/" + place.part.split, facts.key, facts.door_id,
@@ -122,6 +126,7 @@ class Builder {
 
   EpisodeDescription Finish() {
     EpisodeDescription description;
+    description.unwritten = std::move(unwritten_);
     for (auto& [name, stage] : stages_) description.stages.push_back(std::move(stage));
     for (auto& [kind, shown] : shown_)
       std::move(shown.begin(), shown.end(), std::back_inserter(description.examples));
@@ -133,6 +138,7 @@ class Builder {
   int examples_;
   std::map<std::string, StageEpisodes> stages_;
   std::map<std::pair<std::string, std::string>, std::vector<ExampleEpisode>> shown_;
+  std::vector<UnwrittenEpisode> unwritten_;
 };
 
 Json HistogramToJson(const AngleHistogram& histogram) {

@@ -74,6 +74,9 @@ void AddOptions(CLI::App& app, Options& options) {
   AddSettings(app, options.settings, "a.b=c overrides one setting");
   app.add_flag("--allow-seen", options.request.allow_seen,
                "evaluate on doors with parts that the policy was trained on, too");
+  app.add_flag("--films", options.request.films,
+               "with --out: run every failure once more and keep its course in films.jsonl, with "
+               "films.html to look at it and links from report.html");
   AddJson(app, options.json, "print report.json's document instead of a table");
   AddOverwrite(app, options.existing, "replace the report in --out");
 }
@@ -96,6 +99,8 @@ Options Parse(int argc, char** argv, const EvalVerbSetup& setup) {
   ParseVerb(app, argc, argv);
   UseRemotePolicies(options.remote, setup.opener, options.request.registry,
                     options.request.policies);
+  Require(!options.request.films || !options.out.empty(), ErrorCode::kInvalidArgument,
+          "--films: goes with --out");
   Require(!options.request.policies.opener.empty(), ErrorCode::kInvalidArgument,
           "--opener is required: " + setup.registry.Choices(Stage::kOpen) + "; see `" +
               setup.program + " --help`");
@@ -116,6 +121,24 @@ EvaluationConfig ConfigOf(const Options& options) {
   return config;
 }
 
+// The page of films is made by `doorforge view`, a program of its own for its licence.
+int MakeFilmsPage(const Options& options) {
+  for (const fs::path& folder : ProgramFolders()) {
+    const fs::path program = folder / "doorforge-assets";
+    if (!fs::exists(program)) continue;
+    std::vector<std::string> command = {program.string(),
+                                        "view",
+                                        options.out,
+                                        "--out",
+                                        (fs::path(options.out) / "films.html").string(),
+                                        "--doors"};
+    for (const fs::path& doors : options.request.doors.folders) command.push_back(doors.string());
+    return RunChild(command);
+  }
+  PrintNote("films.html: doorforge-assets, which makes it, is not installed");
+  return 1;
+}
+
 int Evaluate(Options& options) {
   // refused before hours of work, not after
   std::optional<StagedFolder> staged;
@@ -129,13 +152,16 @@ int Evaluate(Options& options) {
     return 128 + StopRequested();
   }
   for (const std::string& note : evaluation.notes) PrintProgress("note: " + note + "\n");
+  int code = 0;
   if (staged) {
+    if (!evaluation.films.empty()) WriteFilms(staged->path() / "films.jsonl", evaluation.films);
     WriteReportFolder(evaluation.report, evaluation.pictures, *staged);
     const fs::path page = fs::absolute(fs::path(options.out) / "report.html").lexically_normal();
     PrintProgress("report: " + page.string() + "\n");
+    if (!evaluation.films.empty()) code = MakeFilmsPage(options);
   }
   PrintAnswer(options.json, ReportToJson(evaluation.report), ReportTable(evaluation.report));
-  return 0;
+  return code;
 }
 
 }  // namespace

@@ -182,6 +182,10 @@ Evaluation EvaluateOpener(const EvaluationRequest& request) {
     report.reference = RunWithProgress("expert", trials, ExpertPolicies(), request.threads);
 
   evaluation.pictures = TakePictures({trials, report.episodes}, policies, request.threads);
+  if (request.films)
+    evaluation.films = TakeFilms({trials, report.episodes}, policies, request.threads);
+  for (const EpisodeFilm& film : evaluation.films)
+    evaluation.pictures.filmed.insert(FilmAddress(film.scene));
   for (const fs::path& data : request.data)
     evaluation.pictures.doors.merge(internal::TrainingPreviews(data, kTrainingPreviews));
   return evaluation;

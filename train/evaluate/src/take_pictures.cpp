@@ -7,13 +7,17 @@
 #include <optional>
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/object_pool.h"
 #include "doorforge/core/parallel_for.h"
+#include "doorforge/core/program.h"
+#include "doorforge/core/progress.h"
 #include "doorforge/physics/load_robot.h"
 #include "doorforge/registry/run_policy_set.h"
 #include "doorforge/report/html_numbers.h"
 #include "doorforge/report/outcome_text.h"
 #include "doorforge/report/success_statistics.h"
 #include "doorforge/rollout/camera_observer.h"
+#include "doorforge/rollout/film_recorder.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/sensor/affordance_picture.h"
 #include "doorforge/sensor/depth_camera.h"
@@ -87,6 +91,24 @@ FilmedTrial FilmTrial(const FinishedTrials& finished, std::size_t index, const P
       door.id + ", seed " + std::to_string(scene.seed) + ": " + finished.rows[index].detail;
   if (film.HasDecision()) filmed.first_decision = film.FirstDecision();
   return filmed;
+}
+
+// Nothing where a policy that need not act alike twice did not.
+std::optional<EpisodeFilm> FilmOfTrial(const FinishedTrials& finished, std::size_t index,
+                                       const PolicySet& set, const TrialPolicies& policies) {
+  const auto [held, scene] = finished.trials.At(index);
+  const DoorAsset& door = *held;
+  const RobotModel robot = LoadRobot({}, scene.physics.base);
+  std::unique_ptr<Observer> camera;
+  if (policies.make_observer) camera = policies.make_observer(scene, door);
+  FilmRecorder recorder(camera.get());
+  const Episode episode =
+      RunPolicySet({scene, door, robot, finished.trials.cloud()}, set, &recorder);
+  const bool repeated = episode.state_sha256 == finished.rows[index].state_sha256;
+  if (!repeated && IsFallible(set)) return std::nullopt;
+  Require(repeated, ErrorCode::kInvalidArgument,
+          door.id + ": the episode for the film ended in another state than the first run");
+  return recorder.Film(episode);
 }
 
 void AddSight(const FinishedTrials& finished, std::size_t index, const SceneSnapshot& snapshot,
@@ -206,6 +228,28 @@ void TakeDoorPictures(const FinishedTrials& finished, int threads, ReportPicture
 }
 
 }  // namespace
+
+std::vector<EpisodeFilm> TakeFilms(const FinishedTrials& finished, const TrialPolicies& policies,
+                                   int threads) {
+  std::vector<std::size_t> failed;
+  for (std::size_t i = 0; i < finished.rows.size(); ++i) {
+    if (finished.rows[i].outcome != EpisodeOutcome::kOpened) failed.push_back(i);
+  }
+  ObjectPool<PolicySet> pool(policies.make);
+  std::vector<std::optional<EpisodeFilm>> taken(failed.size());
+  Progress progress("films", failed.size());
+  ParallelFor(failed.size(), threads, [&](std::size_t i) {
+    Require(StopRequested() == 0, ErrorCode::kIncomplete, "evaluation interrupted");
+    const auto set = pool.Take();
+    taken[i] = FilmOfTrial(finished, failed[i], *set, policies);
+    progress.Advance();
+  });
+  std::vector<EpisodeFilm> films;
+  for (std::optional<EpisodeFilm>& film : taken) {
+    if (film) films.push_back(std::move(*film));
+  }
+  return films;
+}
 
 std::vector<ReportGrasp> TakeGraspPictures(const FinishedTrials& finished,
                                            const TrialPolicies& policies, int threads) {

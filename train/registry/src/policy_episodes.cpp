@@ -23,6 +23,8 @@ class WatchedCamera : public Observer {
   void Watch(const SceneSnapshot& snapshot) override {
     if (watcher_ != nullptr) watcher_->Watch(snapshot);
   }
+  bool Follows() const override { return watcher_ != nullptr && watcher_->Follows(); }
+  void Follow(const SceneSnapshot& snapshot) override { watcher_->Follow(snapshot); }
 
  private:
   CameraObserver& camera_;

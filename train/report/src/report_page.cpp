@@ -15,7 +15,7 @@ std::string ReportPage(const EvaluationReport& report, const ReportPictures& pic
   const std::string sections =
       SuccessSection(report) + AngleSection(report) + CauseSection(report, pictures) +
       GraspSection(pictures) + DoorSection(report, pictures) + SightSection(pictures) +
-      LossSection(report) + EpisodeSection(report) + ProvenanceSection(report);
+      LossSection(report) + EpisodeSection(report, pictures) + ProvenanceSection(report);
   // the policy keeps even a faulty page from asking the network for anything
   return Fill(
       R"(<!DOCTYPE html>

@@ -10,6 +10,7 @@
 #include "doorforge/core/json_file.h"
 #include "doorforge/report/html_numbers.h"
 #include "doorforge/report/outcome_text.h"
+#include "doorforge/schemas/episode_film.h"
 
 #include "report_charts.h"
 
@@ -104,6 +105,13 @@ std::string AngleRow(const std::string& name, Episodes episodes) {
   return "<tr><td>" + name + "</td>" + cells + "</tr>";
 }
 
+// to the film of a row, on the page beside the report
+std::string FilmLink(const EvaluatedEpisode& episode, const ReportPictures& pictures) {
+  const std::string address = FilmAddress(episode.door_id, episode.seed, episode.episode);
+  if (!pictures.filmed.contains(address)) return {};
+  return " <a href=\"films.html#" + Escape(address) + "\">film</a>";
+}
+
 // a way to fail, how often, where, and a film strip of one such episode
 std::string Cause(const EvaluationReport& report, const ReportPictures& pictures,
                   const FailureCause& cause) {
@@ -113,10 +121,11 @@ std::string Cause(const EvaluationReport& report, const ReportPictures& pictures
   // nothing moves in an episode without a grasp, and a policy that failed is not asked again
   const bool filmed = cause.name != kNoGraspInView && cause.name != kNoAction;
   const std::string film = filmed ? FilmFigure(pictures, example.outcome) : "";
-  const std::string text = Fill(R"(<p class="soft">{door}, seed {seed}: {detail}</p>)",
+  const std::string text = Fill(R"(<p class="soft">{door}, seed {seed}: {detail}{link}</p>)",
                                 {{"door", Escape(example.door_id)},
                                  {"seed", std::to_string(example.seed)},
-                                 {"detail", Escape(example.detail)}});
+                                 {"detail", Escape(example.detail)},
+                                 {"link", film.empty() ? FilmLink(example, pictures) : ""}});
   return Fill(
       R"(<div class="cause"><div class="head"><h3>{title}</h3><span>{count} of {all} episodes, {share}</span>)"
       R"(<span class="soft">{meaning}</span></div><div class="meter"><div style="width: {width}%"></div></div>{example}</div>)",
@@ -126,7 +135,7 @@ std::string Cause(const EvaluationReport& report, const ReportPictures& pictures
        {"share", Percent(share)},
        {"meaning", TextOf(cause.name).meaning},
        {"width", Fixed(100 * share, 1)},
-       {"example", film.empty() ? text : film}});
+       {"example", film.empty() ? text : film + "<p>" + FilmLink(example, pictures) + "</p>"}});
 }
 
 // which episodes on a door opened it, as filled and hollow dots
@@ -197,7 +206,7 @@ std::string TrainingGallery(const EvaluationReport& report, const ReportPictures
        {"tiles", tiles}});
 }
 
-std::string EpisodeRow(const EvaluatedEpisode& episode) {
+std::string EpisodeRow(const EvaluatedEpisode& episode, const ReportPictures& pictures) {
   return Fill(
       R"(<tr data-category="{category}" data-outcome="{outcome}"><td class="name">{door}</td><td>{category_title}</td>)"
       R"(<td class="number">{seed}</td><td class="number">{episode}</td><td>{outcome_title}</td><td class="number">{hinge}</td>)"
@@ -208,7 +217,7 @@ std::string EpisodeRow(const EvaluatedEpisode& episode) {
        {"category_title", TitleOf(episode.category)},
        {"seed", std::to_string(episode.seed)},
        {"episode", std::to_string(episode.episode)},
-       {"outcome_title", TextOf(CauseOf(episode)).title},
+       {"outcome_title", TextOf(CauseOf(episode)).title + FilmLink(episode, pictures)},
        {"hinge", Degrees(episode.peak_hinge_rad)},
        {"handle", Degrees(episode.peak_handle_rad)},
        {"actions", std::to_string(episode.opening_actions)},
@@ -456,9 +465,9 @@ std::string LossSection(const EvaluationReport& report) {
          charts + "</div></section>";
 }
 
-std::string EpisodeSection(const EvaluationReport& report) {
+std::string EpisodeSection(const EvaluationReport& report, const ReportPictures& pictures) {
   std::string rows;
-  for (const EvaluatedEpisode& episode : report.episodes) rows += EpisodeRow(episode);
+  for (const EvaluatedEpisode& episode : report.episodes) rows += EpisodeRow(episode, pictures);
   return Fill(
       R"(<section id="episodes"><h2>Every episode</h2>{filters}<div class="rows"><table><thead><tr><th>door</th><th>category</th><th class="number">seed</th>)"
       R"(<th class="number">episode</th><th>outcome</th><th class="number">door</th><th class="number">handle</th><th class="number">actions</th>)"

@@ -20,7 +20,7 @@ std::string GraspSection(const ReportPictures& pictures);
 std::string DoorSection(const EvaluationReport& report, const ReportPictures& pictures);
 std::string SightSection(const ReportPictures& pictures);
 std::string LossSection(const EvaluationReport& report);
-std::string EpisodeSection(const EvaluationReport& report);
+std::string EpisodeSection(const EvaluationReport& report, const ReportPictures& pictures);
 std::string ProvenanceSection(const EvaluationReport& report);
 
 }  // namespace doorforge::internal

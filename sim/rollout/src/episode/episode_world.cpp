@@ -33,6 +33,9 @@ void EpisodeWorld::Step(const RobotCommand& command) {
   if (diverged()) return;
   memory_.peak_hinge_rad = std::max(memory_.peak_hinge_rad, state().hinge_rad);
   memory_.peak_handle_rad = std::max(memory_.peak_handle_rad, state().handle_rad);
+  if (observer_ != nullptr && memory_.step % scene_.physics.steps_per_action == 0 &&
+      observer_->Follows())
+    observer_->Follow(Snapshot(EpisodePhase::kStart));
 }
 
 void EpisodeWorld::StepHand() {
@@ -105,7 +108,15 @@ PrivilegedState EpisodeWorld::Privileged() const {
 }
 
 SceneSnapshot EpisodeWorld::Snapshot(EpisodePhase phase) const {
-  return {world_.PoseOfRobot(), world_.WorldFromDoorLinks(), state().time_s, phase};
+  SceneSnapshot snapshot{world_.PoseOfRobot(), world_.WorldFromDoorLinks(), state().time_s, phase};
+  const DoorContacts contacts = world_.Contacts();
+  snapshot.robot_position = state().robot_position;
+  snapshot.hinge_rad = state().hinge_rad;
+  snapshot.handle_rad = state().handle_rad;
+  snapshot.bolt_m = state().bolt_m;
+  snapshot.force_n = contacts.pad_force_n[0] + contacts.pad_force_n[1] + contacts.arm_force_n;
+  snapshot.net_force_n = contacts.force_on_door_n.norm();
+  return snapshot;
 }
 
 void EpisodeWorld::Watch(EpisodePhase phase) const {

@@ -45,7 +45,7 @@ LabelledCloud ClosedDoorCloud(const Scene& scene, const DoorAsset& door, const R
                               const CloudConfig& cloud) {
   CameraObserver camera(scene, door, robot, cloud, /*sees_robot=*/false);
   const SceneSnapshot closed = ClosedDoor(scene, door, robot);
-  return SampleCloud(camera.Look(closed).visible, closed.door[kHandleLink].translation(),
+  return SampleCloud(camera.Render(closed).visible, closed.door[kHandleLink].translation(),
                      {.point_count = cloud.point_count})
       .cloud;
 }

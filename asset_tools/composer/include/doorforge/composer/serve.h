@@ -14,8 +14,10 @@ namespace doorforge {
 ///
 /// Other machines cannot reach it, and pages of others may not use it: a request whose Host is not
 /// 127.0.0.1 or localhost with this port, or whose Origin is another one, is refused (403), and so
-/// is a body of more than 64 KiB (413) or of another type than application/json (415). What is
-/// wrong with a request is answered as {"error": message} and ends nothing.
+/// is a body of more than 64 KiB (413), of another type than application/json (415), without a
+/// length (411), compressed or in chunks (415). A dropped file comes as application/octet-stream to
+/// /file?name=, of at most 64 MiB. What is wrong with a request is answered as {"error": message}
+/// and ends nothing.
 ///
 /// @param port 1024 to 65535; 0: any that is free.
 /// @param ready Called once with the address, such as "http://127.0.0.1:8765/".

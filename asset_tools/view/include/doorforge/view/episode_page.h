@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "doorforge/view/robot_source.h"
 #include "doorforge/view/view_page.h"
 
 namespace doorforge {
@@ -20,12 +21,13 @@ struct DatasetEpisodes {
   int most = 12;         ///< At most so many, at least 1.
   int points = 1024;     ///< Of each cloud, evenly drawn from those stored; 0: no clouds.
   int threads = 0;       ///< 0: all processors.
+  ShownRobot robot = {};
 };
 
 /// Shows episodes of a data set as they were stored: robot and door at each decision, the cloud in
 /// the colours of its labels, the action, hinge and handle over time, what was hidden. Episodes of
-/// which the door is not found, or has changed since, and those of robots other than the built-in
-/// one, are left out with a message.
+/// which the door is not found, or has changed since, and those of another robot than the one that
+/// is given, are left out with a message.
 ///
 /// @throws Error(kMissing) if there is no data set, no door of it, or no episode to show;
 /// Error(kFormat)
@@ -37,6 +39,7 @@ struct ExpertEpisodes {
   std::uint64_t seed = 1;
   int points = 1024;  ///< Of each cloud; 0: none.
   int threads = 0;    ///< 0: all processors.
+  ShownRobot robot = {};
 };
 
 /// Lets the rule-based expert open the door in each folder and shows how. Deterministic. A door

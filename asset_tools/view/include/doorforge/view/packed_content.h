@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "doorforge/core/triangle_mesh.h"
 #include "doorforge/schemas/part.h"
 
 // What pages hold, for who sends it to a page that is open already. docs/design/view.md has the
@@ -22,6 +24,9 @@ std::string PackRecord(const std::filesystem::path& folder, const nlohmann::orde
 /// The packed content of the rule-based expert's episode at the door, without clouds. Throws as
 /// ReadDoor() and RunEpisode().
 std::string PackExpertFilm(const std::filesystem::path& door_folder, std::uint64_t seed);
+
+/// The packed content of loose meshes, in their order, with `beside` as its further keys.
+std::string PackMeshes(std::span<const TriangleMesh> meshes, const nlohmann::ordered_json& beside);
 
 /// A page with the viewer and this document, which may ask the server that it came from, and nobody
 /// else. Throws Error(kMissing) where the viewer is not among the data.

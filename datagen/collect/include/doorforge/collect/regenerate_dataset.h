@@ -9,6 +9,7 @@
 #include "doorforge/collect/stage_policies.h"
 #include "doorforge/dataset/regenerate.h"
 #include "doorforge/physics/load_robot.h"
+#include "doorforge/schemas/episode_film.h"
 
 namespace doorforge {
 
@@ -31,5 +32,13 @@ struct RegenerateDatasetRequest {
 ///     dataset was made with, or it is of an early build that noted no plan; as StageRun and
 ///     RegenerateEpisodes().
 RegenerateResult RegenerateDataset(const RegenerateDatasetRequest& request);
+
+/// Films every planned episode that failed, made again in the same way; `fraction` is not looked
+/// at. At the stage "grasp", where failures are data, there are none. In the order of the plan.
+///
+/// @throws Error(kInvalidArgument) as RegenerateDataset(), or if an episode made again does not
+/// fail
+///     as it is recorded.
+std::vector<EpisodeFilm> FilmFailures(const RegenerateDatasetRequest& request);
 
 }  // namespace doorforge

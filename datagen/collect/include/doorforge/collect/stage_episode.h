@@ -8,6 +8,7 @@
 #include "doorforge/dataset/collection_plan.h"
 #include "doorforge/physics/robot_model.h"
 #include "doorforge/schemas/door_identity.h"
+#include "doorforge/schemas/episode_film.h"
 
 namespace doorforge {
 
@@ -16,5 +17,10 @@ namespace doorforge {
 CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const IdentifiedDoor& door,
                                  const RobotModel& robot, const StageConfig& config,
                                  StagePolicies& policies);
+
+/// The same episode as a film.
+EpisodeFilm FilmStageEpisode(const PlannedEpisode& planned, const IdentifiedDoor& door,
+                             const RobotModel& robot, const StageConfig& config,
+                             StagePolicies& policies);
 
 }  // namespace doorforge

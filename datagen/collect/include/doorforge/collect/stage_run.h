@@ -43,6 +43,8 @@ class StageRun {
   /// For Collect(): folder, threads and task are the caller's.
   CollectRequest Request() const;
   CollectedEpisode Run(const PlannedEpisode& planned);
+  /// The same episode, as a film.
+  EpisodeFilm Film(const PlannedEpisode& planned);
 
  private:
   std::string ConfigText() const;

@@ -53,10 +53,20 @@ struct ExampleEpisode {
   std::string png;
 };
 
+/// A planned episode that failed and was not written.
+struct UnwrittenEpisode {
+  std::string part;  ///< "open/train"
+  std::string key;
+  std::string door_id;
+  std::string outcome;
+  std::string detail;
+};
+
 struct EpisodeDescription {
   std::vector<StageEpisodes> stages;  ///< Sorted by name.
   std::vector<ExampleEpisode>
       examples;  ///< They are the first of every category that have a preview.
+  std::vector<UnwrittenEpisode> unwritten;  ///< By part and shard.
 };
 
 /// Reads the indices and every episode's meta.json. Does not depend on the number of threads.
@@ -72,11 +82,13 @@ nlohmann::ordered_json StagesToJson(const EpisodeDescription& description);
 /// Success by category and by mechanism as a table for people.
 std::string StagesText(const EpisodeDescription& description);
 
-/// One HTML page without any reference to other files or hosts: counts, success, angles, causes,
-/// pictures. Well-formed XML.
+/// One HTML page without any reference to hosts or, but for the films, to other files: counts,
+/// success, angles, causes, pictures, every failure. Well-formed XML.
 ///
 /// @param dataset DescribeDataset().
+/// @param films Address of a page of films, relative to where the page will be, to which every
+///     failure is linked; empty: there is none.
 std::string DatasetPage(const nlohmann::ordered_json& dataset,
-                        const EpisodeDescription& description);
+                        const EpisodeDescription& description, const std::string& films = {});
 
 }  // namespace doorforge

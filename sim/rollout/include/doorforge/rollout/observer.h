@@ -28,6 +28,13 @@ struct SceneSnapshot {
   std::array<RigidTransform, 3> door;  ///< Indexed by DoorLinkIndex.
   double time_s = 0;
   EpisodePhase phase = EpisodePhase::kStart;
+  // Of an episode that runs; of a scene that was put together they are not filled in.
+  JointVector robot_position = {};  ///< Joints of the robot in their order [m or rad].
+  double hinge_rad = 0;
+  double handle_rad = 0;
+  double bolt_m = 0;       ///< WorldState::bolt_m.
+  double force_n = 0;      ///< Sum of the normal forces between robot and door in this step.
+  double net_force_n = 0;  ///< Length of the sum of all forces of the robot on the door in it.
 };
 
 /// Looks at an episode while it runs. Episodes run without one as well: the physics does not
@@ -39,6 +46,10 @@ class Observer {
   virtual LabelledCloud Observe(const SceneSnapshot& snapshot) = 0;
   /// Called at the beginning, after each stage and at each decision.
   virtual void Watch(const SceneSnapshot& /*snapshot*/) {}
+  /// Whether Follow() is wanted.
+  virtual bool Follows() const { return false; }
+  /// Called as often as decisions are taken, also while none are; the phase is not told.
+  virtual void Follow(const SceneSnapshot& /*snapshot*/) {}
   /// What an observer remembers from look to look and a later look depends on, for
   /// EpisodeStepper::Save(); Restore() puts it back.
   virtual std::any Save() const { return {}; }

@@ -12,6 +12,7 @@
 #include "doorforge/report/report.h"
 #include "doorforge/report/report_page.h"
 #include "doorforge/schemas/door_set.h"
+#include "doorforge/schemas/episode_film.h"
 
 namespace doorforge {
 
@@ -24,6 +25,7 @@ struct EvaluationRequest {
   /// the doors. May be empty. Of an opener of one's own, nothing else says which doors it has seen.
   std::vector<std::filesystem::path> data;
   bool allow_seen = false;  ///< Doors with trained-on parts are evaluated, and marked as such.
+  bool films = false;       ///< Every failure is filmed, for which it is run once more.
   EvaluationConfig config;
   int threads = 0;      ///< 0: all processors. Does not change the result.
   std::string command;  ///< Goes into the report.
@@ -33,6 +35,7 @@ struct Evaluation {
   std::vector<std::string> notes;  ///< On the doors, see DoorSet.
   EvaluationReport report;
   ReportPictures pictures;
+  std::vector<EpisodeFilm> films;  ///< Of the failures, where they were asked for.
 };
 
 /// Closed-loop evaluation of the opening stage (UniDoorManip, Section 5): in every scene somebody

@@ -7,6 +7,7 @@
 
 #include "doorforge/evaluate/run_trials.h"
 #include "doorforge/report/report_page.h"
+#include "doorforge/schemas/episode_film.h"
 
 namespace doorforge {
 
@@ -29,6 +30,12 @@ inline constexpr std::size_t kMostDoorPictures = 30;
 /// Same arguments, same pictures, for any number of threads.
 ReportPictures TakePictures(const FinishedTrials& finished, const TrialPolicies& policies,
                             int threads = 0);
+
+/// The films of the trials that did not open their door, run again as for pictures; of policies
+/// that are Fallible without those that went otherwise. Same arguments, same films, for any number
+/// of threads.
+std::vector<EpisodeFilm> TakeFilms(const FinishedTrials& finished, const TrialPolicies& policies,
+                                   int threads = 0);
 
 /// Heat maps of a grasp policy that Explains() (none of others), by category: on the first
 /// door that was opened, then on the first that was not, of those with a handle in view.

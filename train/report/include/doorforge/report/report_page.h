@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,7 @@ struct ReportPictures {
   std::vector<ReportGrasp> grasps;  ///< By category, one that opened before one that failed.
   ReportPicture scene;              ///< What the policy's camera looks at, shaded.
   ReportPicture depth;              ///< It shows the depth image.
+  std::set<std::string> filmed;     ///< FilmAddress() of the rows that films.html beside has.
   ReportPicture cloud;              ///< It shows the cloud, coloured by label.
 };
 

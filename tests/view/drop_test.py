@@ -1,0 +1,321 @@
+# SPDX-FileCopyrightText: 2026 The doorforge authors
+# SPDX-License-Identifier: Apache-2.0
+"""Meshes of one's own dropped into the page of `doorforge serve`: what comes out is `doorforge compose`'s byte by byte, and what is
+too large, damaged or no mesh is refused by its name while the server goes on.
+
+usage: drop_test.py BUILD"""
+import concurrent.futures
+import gzip
+import hashlib
+import json
+import pathlib
+import shlex
+import socket
+import struct
+import subprocess
+import unittest
+
+from pages import BUILD
+from served import ServedTest, files_of, members_of
+
+BODY = "interior_flush_01"
+GIB = 1 << 30
+
+
+def box(low: tuple, high: tuple) -> list:
+    """Twelve triangles, outwards."""
+    corners = [tuple((low, high)[bit >> (2 - k) & 1][k] for k in range(3)) for bit in range(8)]
+    faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    return [(corners[a], corners[b], corners[c]) for a, b, c, d in faces] + [(corners[a], corners[c], corners[d]) for a, b, c, d in faces]
+
+
+def swapped(triangles: list, order: tuple) -> list:
+    return [tuple(tuple(sign * corner[axis] for axis, sign in order) for corner in triangle) for triangle in triangles]
+
+
+LEVER = box((-9, -9, 0), (9, 9, 45)) + box((-12, -9, 45), (60, 9, 60))  # [mm] y up, z out of the door, back at z = 0
+
+
+def stl(triangles: list, count: int | None = None) -> bytes:
+    return bytes(80) + struct.pack("<I", len(triangles) if count is None else count) + b"".join(struct.pack("<12fH", 0, 0, 0, *a, *b, *c, 0) for a, b, c in triangles)
+
+
+def obj(triangles: list, material: str = "") -> bytes:
+    lines = [f"mtllib {material}\nusemtl brass"] if material else []
+    lines += [f"v {x} {y} {z}" for triangle in triangles for x, y, z in triangle]
+    return "\n".join(lines + [f"f {3 * i + 1} {3 * i + 2} {3 * i + 3}" for i in range(len(triangles))]).encode() + b"\n"
+
+
+def glb(triangles: list) -> bytes:
+    """[m], as glTF has it."""
+    data = b"".join(struct.pack("<3f", *(0.001 * x for x in corner)) for triangle in triangles for corner in triangle)
+    corners = [corner for triangle in triangles for corner in triangle]
+    document = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+                "accessors": [{"bufferView": 0, "componentType": 5126, "count": len(corners), "type": "VEC3",
+                               "min": [0.001 * min(c[k] for c in corners) for k in range(3)], "max": [0.001 * max(c[k] for c in corners) for k in range(3)]}],
+                "bufferViews": [{"buffer": 0, "byteLength": len(data)}], "buffers": [{"byteLength": len(data)}]}
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    chunks = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(data), 0x004E4942) + data
+    return struct.pack("<III", 0x46546C67, 2, 12 + len(chunks)) + chunks
+
+
+class DroppedMeshes(ServedTest):
+    def file(self, name: str, content: bytes) -> pathlib.Path:
+        folder = self.folder / "mine"
+        folder.mkdir(exist_ok=True)
+        (folder / name).write_bytes(content)
+        return folder / name
+
+    def drop(self, *paths: pathlib.Path) -> None:
+        self.browser.choose_files("#file", *paths)
+        self.browser.wait("document.querySelector('dialog.own[open]') !== null || document.querySelector('.actions .asked').classList.contains('refused')")
+
+    def compose_page(self) -> None:
+        self.browser.open(self.address)
+        self.settled()
+        self.set("category", "interior")
+        self.settled()
+
+    def click_face(self, axis: int, value: float) -> None:
+        """Clicks, with the mouse, on the middle of the mesh's face where this coordinate has this value, looked at from before it."""
+        self.browser.js(f"""(() => {{
+          const own = doorforge.composer.offered, side = {value} > (own.box.min.getComponent({axis}) + own.box.max.getComponent({axis})) / 2 ? 1 : -1;
+          const camera = own.stage.camera, far = camera.position.length();
+          camera.position.set(0.02, 0.01, 0.02).setComponent({axis}, side * far);
+          own.stage.controls.target.set(0, 0, 0); own.stage.controls.update(); own.stage.draw();
+        }})()""")
+        x, y = self.browser.js(f"""(() => {{
+          const own = doorforge.composer.offered, mesh = own.meshes[0], p = mesh.positions;
+          for (let k = 0; k < mesh.indices.length; k += 3) {{
+            const corners = [0, 1, 2].map((i) => own.drawn[0].localToWorld(own.box.min.clone().fromArray(p, 3 * mesh.indices[k + i])));
+            if (![0, 1, 2].every((i) => Math.abs(p[3 * mesh.indices[k + i] + {axis}] - {value}) < 1e-2 * own.unit)) continue;
+            const middle = corners[0].add(corners[1]).add(corners[2]).divideScalar(3).project(own.stage.camera);
+            const b = own.canvas.getBoundingClientRect();
+            return [b.x + (middle.x + 1) / 2 * b.width, b.y + (1 - middle.y) / 2 * b.height];
+          }}
+        }})()""")
+        self.browser.click(x, y)
+
+    def put_on(self) -> None:
+        self.browser.click_on("#own-apply")
+        self.settled()
+
+    def downloaded(self) -> dict[str, bytes]:
+        self.browser.js("doorforge.composer.download()")
+        return members_of(bytes(self.browser.js("[...doorforge.composer.downloaded]")))
+
+    def by_command_line(self, arguments: list[str], folder: str) -> dict[str, bytes]:
+        """The files of `doorforge compose` run beside the user's own; errors that `validate` finds are no matter here."""
+        there = self.folder / folder
+        there.mkdir()
+        for path in (self.folder / "mine").iterdir():
+            (there / path.name).write_bytes(path.read_bytes())
+        result = subprocess.run([BUILD / "bin/doorforge", *arguments], cwd=there, capture_output=True, text=True, timeout=300, check=False)
+        self.assertIn(result.returncode, (0, 1), result.stderr)
+        return files_of(there / "doors/mine")
+
+    def check_equal(self, name: str, role: str = "handle") -> None:
+        got = self.downloaded()
+        self.assertIn(f"{role}/part.json", got)
+        self.assertIn("validation.json", got)
+        command = shlex.split(self.browser.js("document.querySelector('.command code').textContent"))
+        self.assertEqual(self.by_command_line(command[1:], f"{name}_command"), got)
+        yaml = self.browser.js("doorforge.composer.copyYaml.text")
+        (self.folder / "mine/door.yaml").write_text(yaml)
+        command = shlex.split(yaml.splitlines()[0].removeprefix("#"))
+        self.assertEqual(self.by_command_line(command[1:], f"{name}_yaml"), got)
+
+    def test_a_lever_whose_back_is_clicked_is_compose_s_folder(self) -> None:
+        self.compose_page()
+        self.drop(self.file("my_lever.stl", stl(LEVER)))
+        self.click_face(2, 0)
+        self.assertEqual(self.browser.js("[doorforge.composer.offered.front, doorforge.composer.offered.mesh.mount]"), ["z", [0, 0, 0]])
+        self.set("own-up", "y")
+        self.set("own-mechanism", "lever")
+        self.set("own-license", "CC0-1.0")
+        self.put_on()
+        self.set("hinge_side", "right")
+        self.set("latch", "bolt")
+        self.set("lock_effort_nm", 75)
+        self.set("license_allow", "CC0-1.0, MIT")
+        self.settled()
+        self.assertEqual(self.browser.js("doorforge.view.record.mechanism"), "lever")
+        self.assertIn("--handle-front=z", self.browser.js("document.querySelector('.command code').textContent"))
+        self.assertIn("mm along the door", self.browser.js("document.querySelector('.notes').textContent"))
+        self.check_equal("stl")
+        self.browser.js("doorforge.composer.open()")
+        self.browser.wait("document.querySelector('dialog[open]') !== null && !doorforge.composer.film.playing")
+        self.assertEqual(self.browser.js("document.querySelector('dialog[open] .chip').textContent"), "Opened")
+        self.assertEqual(self.browser.errors, [])
+
+    def test_an_obj_that_lies_otherwise_brings_its_material(self) -> None:
+        self.compose_page()
+        lying = swapped(LEVER, ((0, 1), (2, -1), (1, 1)))  # out of the door is -y, up is z
+        self.drop(self.file("brass lever.obj", obj(lying, "brass.mtl")), self.file("brass.mtl", b"newmtl brass\nKd 0.8 0.6 0.2\n"))
+        self.click_face(1, 0)
+        self.assertEqual(self.browser.js("doorforge.composer.offered.front"), "-y")
+        self.set("own-up", "z")
+        self.set("own-mechanism", "lever")
+        self.put_on()
+        self.assertIn("'brass lever.obj'", self.browser.js("document.querySelector('.command code').textContent"))
+        self.check_equal("obj")
+
+    def test_a_glb_stands_as_its_format_says(self) -> None:
+        self.compose_page()
+        self.drop(self.file("my_lever.glb", glb(LEVER)))
+        self.assertEqual(self.browser.js("[doorforge.composer.offered.front, doorforge.composer.offered.up]"), ["z", "y"])
+        self.set("own-mechanism", "lever")
+        self.put_on()
+        self.assertEqual(self.browser.js("Object.keys(JSON.parse(doorforge.composer.request).handle_mesh)"), ["mechanism"])
+        self.check_equal("glb")
+
+    def test_a_leaf_is_put_behind_a_handle(self) -> None:
+        self.compose_page()
+        self.drop(self.file("my_leaf.stl", stl(box((0, 0, 0), (40, 800, 1900)))))
+        self.set("own-role", "body")
+        self.click_face(0, 40)
+        self.assertEqual(self.browser.js("[doorforge.composer.offered.front, doorforge.composer.offered.mesh.mount]"), ["x", []])
+        self.set("own-hinge", "right")
+        self.put_on()
+        self.assertIn("--body my_leaf.stl", self.browser.js("document.querySelector('.command code').textContent"))
+        self.check_equal("leaf", "body")
+
+    def test_every_setting_of_compose_has_its_field(self) -> None:
+        self.compose_page()
+        self.assertEqual(self.browser.js("Object.keys(doorforge.document.settings).filter((key) => document.getElementById(key) === null)"), [])
+        self.assertEqual(self.browser.js("Object.keys(doorforge.document.settings).length"), 27)
+
+    def test_a_dropped_mesh_can_be_removed_and_by_keyboard_alone_be_turned(self) -> None:
+        self.compose_page()
+        self.drop(self.file("plate.stl", stl(LEVER)))
+        self.browser.js("document.getElementById('own-front').focus()")
+        for _ in range(3):
+            self.browser.key("ArrowDown")
+        self.assertEqual(self.browser.js("doorforge.composer.offered.mesh.front"), "z")
+        self.put_on()
+        self.assertIn("plate.stl", self.browser.js("document.querySelector('.command code').textContent"))
+        self.browser.click_on("#own-remove")
+        self.settled()
+        self.assertNotIn("plate.stl", self.browser.js("document.querySelector('.command code').textContent"))
+
+    def test_a_drag_is_a_drop(self) -> None:
+        self.compose_page()
+        path = self.file("dragged.stl", stl(LEVER))
+        for kind in ("dragEnter", "dragOver", "drop"):
+            self.browser.call("Input.dispatchDragEvent", type=kind, x=100, y=150, data={"items": [], "files": [str(path)], "dragOperationsMask": 1})
+        self.browser.wait("document.querySelector('dialog.own[open]') !== null")
+        self.assertEqual(self.browser.js("doorforge.composer.offered.name"), "dragged.stl")
+
+    def test_two_gigabytes_are_refused_by_name(self) -> None:
+        self.compose_page()
+        huge = self.folder / "huge.stl"
+        with huge.open("wb") as sparse:
+            sparse.truncate(2 * GIB)
+        self.drop(huge)
+        said = self.browser.js("document.querySelector('.actions .asked').textContent")
+        self.assertIn("huge.stl: has 2048 MiB", said)
+        # past the page: announced and sent
+        with socket.create_connection(("127.0.0.1", self.port), timeout=20) as raw:
+            raw.sendall(f"POST /file?name=huge.stl HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\nContent-Type: application/octet-stream\r\nContent-Length: {2 * GIB}\r\n\r\n".encode())
+            answer = raw.recv(4096)
+        self.assertIn(b"413", answer.splitlines()[0])
+        self.assertIn(b"huge.stl: has 2048 MiB", answer)
+        self.assertEqual(self.ask("GET", "/")[0], 200)
+
+    def upload(self, name: str, content: bytes, **headers: str) -> tuple[int, str]:
+        code, answer = self.ask("POST", f"/file?name={name}", content, **({"Content_Type": "application/octet-stream"} | headers))
+        return code, "" if code == 200 else json.loads(answer)["error"]
+
+    def test_bombs_are_refused_by_name(self) -> None:
+        deep = b"[" * 200_000
+        nested = struct.pack("<III", 0x46546C67, 2, 20 + len(deep)) + struct.pack("<II", len(deep), 0x4E4F534A) + deep
+        claims = glb(LEVER).replace(b'"count": 72', b'"count": 4000000000')
+        many = stl([((0, 0, 0), (1, 0, 0), (0, 1, 0))] * 1_050_000)
+        for name, content in (("claims.stl", stl(LEVER, 4_000_000_000)), ("nested.glb", nested), ("claims.glb", claims), ("many.stl", many),
+                              ("text.obj", b"no mesh"), ("empty.stl", b""), ("points.obj", b"v 1e308 nan inf\n" * 1000 + b"f 1 2 3\n")):
+            code, said = self.upload(name, content)
+            self.assertEqual(code, 400, (name, said))
+            self.assertIn(name, said)
+            self.assertNotIn("/doorforge-composer", said)
+            self.assertEqual(self.ask("GET", "/")[0], 200)
+
+    def test_compressed_bodies_are_not_unpacked(self) -> None:
+        for encoding in ("gzip", "br", "deflate"):
+            self.assertEqual(self.upload("a.stl", gzip.compress(bytes(50 << 20)), Content_Encoding=encoding)[0], 415)
+        self.assertEqual(self.ask("POST", "/compose", gzip.compress(b" " * (50 << 20)), Content_Encoding="gzip")[0], 415)
+        with socket.create_connection(("127.0.0.1", self.port), timeout=20) as raw:  # in chunks: no length
+            raw.sendall(f"POST /file?name=a.stl HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\nContent-Type: application/octet-stream\r\nTransfer-Encoding: chunked\r\n\r\n".encode())
+            self.assertIn(b"415", raw.recv(100))
+
+    def test_names_that_are_none_are_refused(self) -> None:
+        good = stl(LEVER)
+        for name in ("..%2Fa.stl", "..", "%2Fetc%2Fpasswd", ".hidden.stl", "a%2Fb.stl", "a%5Cb.stl", "a*.stl", "a%0A.stl", "-a.stl", "a.exe", "a", "", "x" * 200 + ".stl", "a.stl%00.glb"):
+            self.assertEqual(self.upload(name, good)[0], 400, name)
+        self.assertEqual(self.upload("a.stl", good)[0], 200)
+        digest = hashlib.sha256(good).hexdigest()
+        request = {"body": BODY, "handle": "a.stl", "files": {"a.stl": digest}, "handle_mesh": {"front": "z", "up": "y"}}
+        self.assertEqual(self.ask("POST", "/compose", json.dumps(request))[0], 200)
+        for change, code in (({"handle": "../a.stl", "files": {"../a.stl": digest}}, 400), ({"files": {"/elsewhere/a.stl": digest}}, 400), ({"files": {"a.stl": "../../etc/passwd"}}, 404),
+                             ({"files": {"a.stl": 3}}, 400), ({"files": [digest]}, 400), ({"files": {}}, 404), ({"handle": "/etc/passwd"}, 404), ({"files": {f"{i}.stl": digest for i in range(17)}}, 400),
+                             ({"handle_mesh": {"rose": "/etc/passwd"}}, 400), ({"body_mesh": {"frame": "../x.stl"}}, 400), ({"handle_mesh": {"front": "q"}}, 400)):
+            status, said = self.ask("POST", "/compose", json.dumps(request | change))
+            self.assertEqual(status, code, (change, said))
+            self.assertNotIn(b"/doorforge-composer", said)
+
+    def test_an_obj_names_no_file_elsewhere(self) -> None:
+        """A material file outside is not read: the mesh is, without it."""
+        secret = self.folder / "secret.mtl"
+        secret.write_text("newmtl brass\nKd 1 0 0\n")
+        for material, red in ((str(secret), False), ("../secret.mtl", False), ("beside.mtl", True)):
+            mesh = obj(LEVER, material)
+            files = {"a.obj": mesh, "beside.mtl": secret.read_bytes()}
+            for name, content in files.items():
+                self.assertEqual(self.upload(name, content)[0], 200)
+            request = {"body": BODY, "handle": "a.obj", "handle_mesh": {"front": "z", "up": "y"}, "files": {name: hashlib.sha256(content).hexdigest() for name, content in files.items()}}
+            code, archive = self.ask("POST", "/download", json.dumps(request))
+            self.assertEqual(code, 200)
+            materials = [text for name, text in members_of(archive).items() if name.startswith("handle/") and name.endswith(".mtl")]
+            self.assertEqual(any(b"Kd 1 0 0" in text for text in materials), red, (material, materials))
+
+    def test_two_tabs_drop_files_of_one_name(self) -> None:
+        def composed(mesh: bytes) -> bytes:
+            self.assertEqual(self.upload("a.stl", mesh)[0], 200)
+            request = {"body": BODY, "handle": "a.stl", "handle_mesh": {"front": "z", "up": "y"}, "files": {"a.stl": hashlib.sha256(mesh).hexdigest()}}
+            code, archive = self.ask("POST", "/download", json.dumps(request))
+            self.assertEqual(code, 200)
+            return archive
+        meshes = [stl(LEVER), stl(box((-9, -9, 0), (9, 9, 45)) + box((-12, -9, 45), (50, 9, 60)))]
+        alone = [composed(mesh) for mesh in meshes]
+        self.assertNotEqual(*alone)
+        with concurrent.futures.ThreadPoolExecutor(4) as pool:
+            self.assertEqual(list(pool.map(composed, meshes * 4)), alone * 4)
+
+    def test_files_that_were_long_not_asked_for_are_forgotten(self) -> None:
+        mesh = stl(LEVER)
+        self.assertEqual(self.upload("a.stl", mesh)[0], 200)
+        request = json.dumps({"body": BODY, "handle": "a.stl", "handle_mesh": {"front": "z", "up": "y"}, "files": {"a.stl": hashlib.sha256(mesh).hexdigest()}})
+        self.assertEqual(self.ask("POST", "/compose", request)[0], 200)
+        for number in range(5):  # 300 MiB
+            self.assertEqual(self.upload(f"{number}.png", bytes([number]) * (60 << 20))[0], 200)
+        code, said = self.ask("POST", "/compose", request)
+        self.assertEqual(code, 404)
+        self.assertIn(b"a.stl: is no longer kept; drop it again", said)
+        self.assertEqual(self.upload("a.stl", mesh)[0], 200)
+        self.assertEqual(self.ask("POST", "/compose", request)[0], 200)
+
+    def test_foreign_pages_may_not_drop(self) -> None:
+        for headers in ({"Host": "evil.example"}, {"Origin": "http://evil.example"}, {"Sec_Fetch_Site": "cross-site"}):
+            self.assertEqual(self.upload("a.stl", stl(LEVER), **headers)[0], 403)
+        self.assertEqual(self.upload("a.stl", stl(LEVER), Content_Type="multipart/form-data")[0], 415)
+
+    def test_small_screen(self) -> None:
+        self.compose_page()
+        self.browser.size(390, 844, mobile=True)
+        self.drop(self.file("small.stl", stl(LEVER)))
+        self.assertLessEqual(self.browser.js("document.documentElement.scrollWidth"), 390)
+        self.assertLessEqual(self.browser.js("document.querySelector('dialog.own').scrollWidth"), 390)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,260 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+
+// A mesh that was dropped, in its file's own axes: which face lies on the door, what points up, its unit.
+
+import { ArrowHelper, Box3, BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, MeshLambertMaterial, Vector3 } from 'three';
+
+import { geometryOf } from './geometry.js';
+import { label } from './model.js';
+import { Stage } from './stage.js';
+import { h, number } from './dom.js';
+
+const AXES = ['x', 'y', 'z', '-x', '-y', '-z'];
+const COLORS = { x: 0xc23b22, y: 0x2c8a3d, z: 0x2a62c4 };
+const SHOWN = 0.4; // [m] longest side on the screen, whatever the file's numbers are
+const SKEW = Math.cos((10 * Math.PI) / 180); // a face further from every axis is none
+const FLAT = 0.999; // cosine between faces of one plane
+
+const vectorOf = (axis) => new Vector3().setComponent('xyz'.indexOf(axis.at(-1)), axis[0] === '-' ? -1 : 1);
+const opposite = (axis) => (axis[0] === '-' ? axis[1] : `-${axis}`);
+const crossesOf = (axis) => AXES.filter((other) => other.at(-1) !== axis.at(-1));
+
+/** The axis nearest to a direction, or null where it is skew to all. */
+export const axisOf = (direction) => {
+  const best = AXES.reduce((a, b) => (vectorOf(b).dot(direction) > vectorOf(a).dot(direction) ? b : a));
+  return vectorOf(best).dot(direction) >= SKEW ? best : null;
+};
+
+/** The triangles that lie in one plane with a triangle of a mesh: their corners and the middle of their area. */
+export const planeWith = (meshes, triangle) => {
+  const corner = (mesh, k) => new Vector3().fromArray(mesh.positions, 3 * mesh.indices[k]);
+  const normalOf = (a, b, c) => b.clone().sub(a).cross(c.clone().sub(a));
+  const first = [0, 1, 2].map((k) => corner(triangle.mesh, 3 * triangle.face + k));
+  const normal = normalOf(...first).normalize();
+  const near = 1e-3 * triangle.size;
+  const corners = [];
+  const middle = new Vector3();
+  let area = 0;
+  for (const mesh of meshes) {
+    for (let k = 0; k < mesh.indices.length; k += 3) {
+      const [a, b, c] = [0, 1, 2].map((i) => corner(mesh, k + i));
+      const across = normalOf(a, b, c);
+      const size = across.length();
+      if (size === 0 || across.dot(normal) < FLAT * size || Math.abs(a.clone().sub(first[0]).dot(normal)) > near) continue;
+      corners.push(...a.toArray(), ...b.toArray(), ...c.toArray());
+      middle.addScaledVector(a.add(b).add(c), size / 3);
+      area += size;
+    }
+  }
+  return { corners, normal, middle: middle.divideScalar(area || 1) };
+};
+
+const field = (id, title, control) => h('div', {}, h('label', { for: id }, title), control);
+
+export class OwnMesh {
+  /** `content` is what the server gave of the file; `mesh` holds the settings of LooseMeshConfig that differ. */
+  constructor(content, { applied, closed }) {
+    this.content = content;
+    this.name = content.document.name;
+    this.unit = content.document.unit_m;
+    this.applied = applied;
+    this.closed = closed;
+    this.role = 'handle';
+    this.mesh = { mechanism: 'none', front: content.document.front || '', up: content.document.up || '' };
+    this.meshes = content.document.shown.map((place) => content.mesh(place));
+    this.canvas = h('canvas', { tabindex: 0, role: 'application', 'aria-label': 'The mesh in 3D. Arrow keys turn it, plus and minus zoom, Home shows all. A click chooses the face that lies on the door; so does the field Out of the door.' });
+    this.said = h('p', { role: 'status', class: 'asked' });
+    this.element = h('dialog', { class: 'own', 'aria-labelledby': 'own-title', onclose: () => this.end() }, h('div', { class: 'record' },
+      h('section', { class: 'stage', 'aria-label': 'the mesh in 3D' }, h('div', { class: 'canvas' }, this.canvas)),
+      h('div', { class: 'panel', tabindex: 0, role: 'region', 'aria-label': 'how it is meant' }, this.form())));
+  }
+
+  form() {
+    const pick = (key, title, values, changed) => field(`own-${key}`, title, (this[`field_${key}`] = h('select', { id: `own-${key}`, onchange: ({ target }) => changed(target.value) }, values.map(([value, text]) => h('option', { value }, text)))));
+    const numberField = (key, title, changed) => field(`own-${key}`, title, (this[`field_${key}`] = h('input', { type: 'number', id: `own-${key}`, step: 'any', oninput: ({ target }) => changed(target.value) })));
+    const axes = (standard) => [['', standard], ...AXES.map((axis) => [axis, axis])];
+    const { document } = this.content;
+    this.mountFields = h('div', { class: 'settings three' }, ['x', 'y', 'z'].map((axis) => numberField(`mount_${axis}`, `Mount ${axis}`, () => this.readMount())));
+    this.ofHandle = h('div', { class: 'settings' },
+      pick('mechanism', 'How it moves', [['none', 'fixed pull'], ['lever', 'lever'], ['round', 'round'], ['key', 'key'], ['valve', 'valve'], ['flap', 'flap']], (value) => this.set('mechanism', value)));
+    this.ofBody = h('div', { class: 'settings', hidden: true }, pick('hinge', 'Hinge, seen from the front', [['left', 'left'], ['right', 'right']], (value) => this.set('hinge', value)));
+    this.told = h('p', {});
+    const size = new Box3();
+    for (const mesh of this.meshes) for (let i = 0; i < mesh.positions.length; i += 3) size.expandByPoint(new Vector3().fromArray(mesh.positions, i));
+    this.box = size;
+    const sides = size.getSize(new Vector3()).toArray().map((side) => number(side / this.unit, 4)).join(' x ');
+    return h('form', { class: 'own-form', onsubmit: (event) => event.preventDefault() },
+      h('h1', { id: 'own-title' }, this.name), h('p', { class: 'soft' }, `${sides} along the file's x, y, z. ${document.states_unit ? 'The file says its unit.' : 'The file says no unit.'}`),
+      pick('role', 'It is a', [['handle', 'handle'], ['body', 'leaf']], (role) => this.setRole(role)),
+      this.told,
+      h('div', { class: 'settings' }, pick('front', 'Out of the door', axes(document.front ? `as the file says: ${document.front}` : 'x if not chosen'), (front) => this.setFront(front)),
+        pick('up', 'Up', axes(document.up ? `as the file says: ${document.up}` : 'z if not chosen'), (up) => this.setUp(up))),
+      this.ofHandle, this.ofBody,
+      h('div', { class: 'settings' }, pick('unit', 'Unit of its numbers', [['', 'told by the size'], ['m', 'm'], ['cm', 'cm'], ['mm', 'mm'], ['in', 'inch'], ['ft', 'foot']], (unit) => this.set('unit', unit)),
+        numberField('size', 'or its longest side [m]', (text) => this.set('size_m', Number(text) || 0))),
+      h('p', { class: 'soft' }, 'Where the handle goes, in the file\'s numbers; empty: found from the shape.'), this.mountFields,
+      field('own-license', 'Licence (SPDX)', h('input', { id: 'own-license', type: 'text', placeholder: 'NOASSERTION', oninput: ({ target }) => this.set('license', target.value) })),
+      this.said,
+      h('div', { class: 'actions' }, h('button', { type: 'button', id: 'own-apply', class: 'main', onclick: () => this.apply() }, 'Put it on the door'),
+        h('button', { type: 'button', onclick: () => this.element.close() }, 'Cancel')));
+  }
+
+  /** To be called once the element is in the page. */
+  show() {
+    this.element.showModal();
+    if (this.stage) return this.refresh();
+    this.stage = new Stage(this.canvas);
+    this.stage.floor.visible = false;
+    this.group = new Group();
+    const longest = Math.max(...this.box.getSize(new Vector3()).toArray()) || 1;
+    this.size = longest;
+    this.group.scale.setScalar(SHOWN / longest);
+    this.group.position.copy(this.box.getCenter(new Vector3())).multiplyScalar(-SHOWN / longest);
+    this.drawn = this.meshes.map((mesh) => new Mesh(geometryOf(mesh), new MeshLambertMaterial({ color: 0xb9c2ca, side: DoubleSide })));
+    this.group.add(...this.drawn);
+    this.stage.scene.add(this.group);
+    this.addAxes(longest);
+    this.stage.home = () => this.frame();
+    this.canvas.addEventListener('pointerdown', ({ offsetX, offsetY }) => (this.down = [offsetX, offsetY]));
+    this.canvas.addEventListener('click', (event) => this.click(event));
+    this.setRole(this.role);
+    this.frame();
+    this.refresh();
+  }
+
+  // The file's axes, at the least corner of its box.
+  addAxes(longest) {
+    for (const axis of ['x', 'y', 'z']) {
+      const from = this.box.min.clone().addScaledVector(new Vector3(1, 1, 1), -0.06 * longest);
+      this.addArrow(this.group, axis, from, 0.45 * longest, COLORS[axis], axis);
+    }
+  }
+
+  addArrow(group, axis, from, length, color, text) {
+    const arrow = new ArrowHelper(vectorOf(axis), from, length, color, 0.12 * length, 0.06 * length);
+    for (const part of [arrow.line, arrow.cone]) Object.assign(part.material, { depthTest: false, transparent: true }); // seen through the mesh
+    const name = label(text, color);
+    name.scale.multiplyScalar(text.length > 2 ? 2.2 * length : 1.3 * length);
+    name.position.copy(from).addScaledVector(vectorOf(axis), 1.14 * length);
+    group.add(arrow, name);
+  }
+
+  frame() {
+    this.stage.frame(new Box3(new Vector3(-1, -1, -1), new Vector3(1, 1, 1)).applyMatrix4(this.group.matrix.clone().makeScale(0.62 * SHOWN, 0.62 * SHOWN, 0.62 * SHOWN)));
+  }
+
+  get front() {
+    return this.mesh.front || this.content.document.front || 'x';
+  }
+
+  get up() {
+    return this.mesh.up || this.content.document.up || 'z';
+  }
+
+  set(key, value) {
+    this.mesh[key] = value;
+  }
+
+  setRole(role) {
+    this.role = role;
+    this.ofHandle.hidden = role !== 'handle';
+    this.ofBody.hidden = role !== 'body';
+    this.told.textContent = role === 'handle' ? 'Click the face that lies on the door.' : 'Click the face that one sees who opens the door.';
+    this.clearFace();
+  }
+
+  setFront(front) {
+    this.mesh.front = front;
+    if (this.up.at(-1) === this.front.at(-1)) this.mesh.up = crossesOf(this.front).find((axis) => axis === 'z' || axis === 'y');
+    this.clearFace();
+  }
+
+  setUp(up) {
+    this.mesh.up = up;
+    if (this.up.at(-1) === this.front.at(-1)) this.mesh.front = crossesOf(this.up)[0];
+    this.refresh();
+  }
+
+  readMount() {
+    const texts = ['x', 'y', 'z'].map((axis) => this[`field_mount_${axis}`].value);
+    this.mesh.mount = texts.every((text) => text === '') ? [] : texts.map(Number);
+  }
+
+  clearFace() {
+    this.mesh.mount = [];
+    this.face?.removeFromParent();
+    this.face = null;
+    this.refresh();
+  }
+
+  click({ offsetX, offsetY }) {
+    if (this.down && Math.hypot(offsetX - this.down[0], offsetY - this.down[1]) > 4) return; // it was a turn
+    const hit = this.stage.pick(offsetX, offsetY, this.drawn);
+    if (hit) this.chooseFace(this.drawn.indexOf(hit.object), hit.faceIndex);
+  }
+
+  /** The face lies on the door: out of the door is away from it, and the handle's axis goes through its middle. */
+  chooseFace(place, face) {
+    const plane = planeWith(this.meshes, { mesh: this.meshes[place], face, size: this.size });
+    const axis = axisOf(plane.normal);
+    if (axis === null) return this.say('This face is skew to the axes of the file: turn the mesh in the program that made it.', true);
+    this.setFront(this.role === 'handle' ? opposite(axis) : axis);
+    this.showFace(plane);
+    if (this.role === 'handle') this.mesh.mount = plane.middle.toArray().map((value) => Number((value / this.unit).toPrecision(5)) + 0).map((value) => (Math.abs(value) < (1e-5 * this.size) / this.unit ? 0 : value));
+    this.say(this.role === 'handle' ? `This face lies on the door: ${this.front} points out of it.` : `${this.front} points out of the door.`);
+    this.refresh();
+  }
+
+  showFace({ corners, normal }) {
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('position', new BufferAttribute(new Float32Array(corners), 3));
+    this.face = new Mesh(geometry, new MeshBasicMaterial({ color: 0xe08a1e, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: -4, polygonOffsetUnits: -4 }));
+    this.face.position.copy(normal).multiplyScalar(1e-3 * this.size);
+    this.group.add(this.face);
+  }
+
+  say(text, refused = false) {
+    this.said.textContent = text;
+    this.said.classList.toggle('refused', refused);
+  }
+
+  refresh() {
+    this.field_front.value = this.mesh.front;
+    this.field_up.value = this.mesh.up;
+    ['x', 'y', 'z'].forEach((axis, i) => (this[`field_mount_${axis}`].value = this.mesh.mount?.[i] ?? ''));
+    if (!this.stage) return;
+    this.meant?.removeFromParent();
+    this.meant = new Group();
+    const center = this.box.getCenter(new Vector3());
+    const half = this.box.getSize(new Vector3()).multiplyScalar(0.5);
+    for (const [axis, text] of [[this.front, 'out of the door'], [this.up, 'up']]) {
+      const reach = Math.abs(vectorOf(axis).dot(half));
+      this.addArrow(this.meant, axis, center.clone().addScaledVector(vectorOf(axis), reach), 0.28 * this.size, 0x5a3fa0, text);
+    }
+    this.group.add(this.meant);
+    this.stage.changed();
+  }
+
+  /** The settings that are not as they are where nothing is said. */
+  get settings() {
+    const plain = { mechanism: 'none', unit: '', size_m: 0, up: this.content.document.up || '', front: this.content.document.front || '', hinge: 'left', license: '' };
+    const said = Object.entries(this.mesh).filter(([key, value]) => (Array.isArray(value) ? value.length > 0 : value !== plain[key]));
+    return Object.fromEntries(said.filter(([key]) => !(key === 'hinge' && this.role === 'handle') && !(key === 'mechanism' && this.role === 'body')));
+  }
+
+  apply() {
+    this.element.close();
+    this.applied(this);
+  }
+
+  end() {
+    this.closed(this);
+  }
+
+  dispose() {
+    this.stage?.renderer.dispose();
+    this.stage?.renderer.forceContextLoss();
+    this.element.remove();
+  }
+}

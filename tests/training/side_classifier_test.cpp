@@ -92,7 +92,6 @@ TEST(SideClassifier, WantsTwentyDoorsAndAPoint) {
   EXPECT_FALSE(FitSideClassifier(Examples(19, rng)));
   EXPECT_TRUE(FitSideClassifier(Examples(20, rng)));
   EXPECT_THROW(SideNumbersOf({}, {0, 0, 0}), Error);
-  EXPECT_THROW(SideClassifier{{1}}.LogOddsOfLeft({1, 2}), Error);
 }
 
 class SideFile : public ::testing::Test {

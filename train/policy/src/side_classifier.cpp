@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <tuple>
 
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
-#include "doorforge/policy/familiarity.h"
-#include "doorforge/schemas/mirror.h"
 #include "doorforge/schemas/safetensors.h"
 
 #include "logistic_regression.h"
@@ -26,29 +24,8 @@ constexpr internal::CompanionKind kSideKind{kSideSchema, kSideSchemaVersion,
                                             "run the policy's training again with --resume"};
 constexpr std::size_t kLeastExamples = 20;
 constexpr double kSideRidge = 1;
+constexpr std::array<float, 3> kSideRadii = {0.12F, 0.3F, 0.8F};  // [m]
 constexpr double kLeastScale = 0.05;  // so that what hardly varies is not blown up
-
-LabelledCloud NearestFirst(std::span<const float> xyz, const Eigen::Vector3f& hand_m) {
-  LabelledCloud cloud;
-  cloud.xyz.assign(xyz.begin(), xyz.end());
-  std::size_t nearest = 0;
-  float least = std::numeric_limits<float>::infinity();
-  for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) {
-    const float distance = (Eigen::Vector3f(xyz[i], xyz[i + 1], xyz[i + 2]) - hand_m).squaredNorm();
-    if (distance < least) {
-      least = distance;
-      nearest = i;
-    }
-  }
-  for (std::size_t k = 0; k < 3; ++k) std::swap(cloud.xyz[k], cloud.xyz[nearest + k]);
-  return cloud;
-}
-
-SightNumbers SightFrom(const LabelledCloud& cloud, const Eigen::Vector3f& hand_m) {
-  Proprioception proprioception{};
-  std::copy(hand_m.begin(), hand_m.end(), proprioception.begin() + 25);
-  return SightNumbersOf({cloud.xyz, {}}, proprioception, NetworkFamily::kMotion);
-}
 
 Eigen::VectorXd ScalesOf(std::span<const SideExample> examples, Eigen::Index size) {
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(size);
@@ -62,27 +39,33 @@ Eigen::VectorXd ScalesOf(std::span<const SideExample> examples, Eigen::Index siz
 
 SideNumbers SideNumbersOf(std::span<const float> door_xyz, const Eigen::Vector3f& hand_m) {
   Require(door_xyz.size() >= 3, ErrorCode::kInvalidArgument, "a door without a point");
-  const LabelledCloud seen = NearestFirst(door_xyz, hand_m);
-  SideNumbers numbers = SightFrom(seen, hand_m);
-  const SightNumbers mirrored =
-      SightFrom(MirroredSideways(seen), hand_m.cwiseProduct(Eigen::Vector3f(1, -1, 1)));
-  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] -= mirrored[i];
+  SideNumbers numbers{};
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const float within_m = kSideRadii.at(k);
+    double sum = 0;
+    int count = 0;
+    for (std::size_t i = 0; i + 2 < door_xyz.size(); i += 3) {
+      const Eigen::Vector3f point(door_xyz[i], door_xyz[i + 1], door_xyz[i + 2]);
+      const Eigen::Vector3f from_hand = point - hand_m;
+      if (from_hand.squaredNorm() >= within_m * within_m) continue;
+      sum += static_cast<double>(from_hand.y());
+      ++count;
+    }
+    numbers.at(k) = static_cast<float>(sum / std::max(1, count)) / within_m;
+  }
   return numbers;
 }
 
 double SideClassifier::LogOddsOfLeft(const SideNumbers& numbers) const {
-  Require(numbers.size() == weight.size(), ErrorCode::kInvalidArgument,
-          std::to_string(numbers.size()) + " numbers about a door's side, expected " +
-              std::to_string(weight.size()));
   double sum = 0;
   for (std::size_t i = 0; i < weight.size(); ++i)
-    sum += static_cast<double>(weight[i]) * static_cast<double>(numbers[i]);
+    sum += static_cast<double>(weight.at(i)) * static_cast<double>(numbers.at(i));
   return sum;
 }
 
 std::optional<SideClassifier> FitSideClassifier(std::span<const SideExample> examples) {
   if (examples.size() < kLeastExamples) return std::nullopt;
-  const auto size = static_cast<Eigen::Index>(examples.front().numbers.size());
+  constexpr Eigen::Index size = std::tuple_size_v<SideNumbers>;
   const Eigen::VectorXd scales = ScalesOf(examples, size);
   internal::LogisticProblem problem;
   problem.ridge = Eigen::VectorXd::Constant(size, kSideRidge);
@@ -94,7 +77,9 @@ std::optional<SideClassifier> FitSideClassifier(std::span<const SideExample> exa
   }
   const Eigen::VectorXf weights =
       internal::FitLogistic(problem).cwiseQuotient(scales).cast<float>();
-  return SideClassifier{{weights.begin(), weights.end()}};
+  SideClassifier classifier;
+  std::copy(weights.begin(), weights.end(), classifier.weight.begin());
+  return classifier;
 }
 
 void WriteSideClassifier(const fs::path& folder, const std::optional<SideClassifier>& classifier,
@@ -118,8 +103,10 @@ std::optional<SideClassifier> ReadSideClassifier(const fs::path& folder) {
   const auto data = file.metadata.find("dataset_sha256");
   internal::RequireCompanion(file, kSideKind, data == file.metadata.end() ? "" : data->second,
                              path);
-  SideClassifier classifier{ValuesOf<float>(
-      TensorNamed(file, "weight", path), {SightSize(NetworkFamily::kMotion)}, path + ": weight")};
+  SideClassifier classifier;
+  const auto weight = ValuesOf<float>(TensorNamed(file, "weight", path), {classifier.weight.size()},
+                                      path + ": weight");
+  std::copy(weight.begin(), weight.end(), classifier.weight.begin());
   if (!std::ranges::all_of(classifier.weight, [](float one) { return std::isfinite(one); }))
     throw Error(ErrorCode::kFormat, path + ": weight holds a number that is not finite");
   return classifier;

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include <Eigen/Core>
 
@@ -14,10 +14,12 @@
 
 namespace doorforge {
 
-/// How a closed door lies about the hand that holds it, less how its mirror image lies about the
-/// hand's: the difference of both SightNumbersOf() a motion. The mirror image of a door has the
-/// same numbers with the opposite sign.
-using SideNumbers = std::vector<float>;
+/// Where the middle of a closed door lies beside the hand that holds it: the mean of y of what is
+/// within 0.12, 0.3 and 0.8 m of the hand, from the hand, in these units; 0 where nothing is. The
+/// mirror image of a door has the same numbers with the opposite sign. More numbers tell the sides
+/// of known categories apart better and those of others worse
+/// (docs/design/notes/2026-11-25-both-sides.md).
+using SideNumbers = std::array<float, 3>;
 
 /// @param door_xyz n x 3, world [m], without the robot, in any order.
 /// @throws Error(kInvalidArgument) without a point.
@@ -25,7 +27,7 @@ SideNumbers SideNumbersOf(std::span<const float> door_xyz, const Eigen::Vector3f
 
 /// A door that was seen closed, and where its hinge is.
 struct SideExample {
-  SideNumbers numbers;
+  SideNumbers numbers{};
   HingeSide side = HingeSide::kLeft;
 };
 
@@ -34,11 +36,9 @@ inline constexpr int kSideSchemaVersion = 1;
 /// Tells from a picture of the closed door on which side its hinge is. A logistic regression
 /// without a bias, so that a door and its mirror image never get the same answer.
 struct SideClassifier {
-  std::vector<float> weight;  ///< As many as there are side numbers.
+  SideNumbers weight{};
 
   /// The natural logarithm of p / (1 - p), with p the probability that the hinge is left.
-  ///
-  /// @throws Error(kInvalidArgument) on another number of numbers than there are weights.
   double LogOddsOfLeft(const SideNumbers& numbers) const;
 };
 

@@ -16,6 +16,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kLeafTriangles = 4;
+constexpr std::size_t kDeepest = 64;  // more than the levels of halves of any number of triangles
 
 // Nearest point of a triangle: Ericson, Real-Time Collision Detection (2005), section 5.1.5.
 Vector3d NearestPoint(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
@@ -139,28 +140,33 @@ void TriangleTree::Build(int node, int first, int count) {
 double TriangleTree::Distance(const Vector3d& point, double at_most) const {
   double best = at_most * at_most;
   if (triangles_.empty()) return at_most;
-  std::vector<std::pair<double, int>> pending{{0.0, 0}};
-  while (!pending.empty()) {
-    CheckWork(1);
-    const auto [bound, index] = pending.back();
-    pending.pop_back();
-    if (bound >= best) continue;
-    const Node& node = nodes_[static_cast<std::size_t>(index)];
+  struct Pending {
+    double bound;
+    int node;
+  };
+  std::array<Pending, kDeepest> pending;
+  std::size_t count = 0;
+  pending[count++] = {0, 0};
+  unsigned visited = 0;
+  while (count > 0) {
+    const Pending next = pending[--count];
+    if (next.bound >= best) continue;
+    ++visited;
+    const Node& node = nodes_[static_cast<std::size_t>(next.node)];
     for (int i = node.first; i < node.first + node.count; ++i) {
       const Triangle& t = triangles_[static_cast<std::size_t>(i)];
       best = std::min(best, (point - NearestPoint(point, t.a, t.b, t.c)).squaredNorm());
     }
     if (node.count > 0) continue;
-    std::pair<double, int> near{
-        nodes_[static_cast<std::size_t>(node.first)].box.squaredExteriorDistance(point),
-        node.first};
-    std::pair<double, int> far{
-        nodes_[static_cast<std::size_t>(node.first) + 1].box.squaredExteriorDistance(point),
-        node.first + 1};
-    if (far.first < near.first) std::swap(near, far);
-    pending.push_back(far);
-    pending.push_back(near);
+    Pending near{nodes_[static_cast<std::size_t>(node.first)].box.squaredExteriorDistance(point),
+                 node.first};
+    Pending far{nodes_[static_cast<std::size_t>(node.first) + 1].box.squaredExteriorDistance(point),
+                node.first + 1};
+    if (far.bound < near.bound) std::swap(near, far);
+    if (far.bound < best) pending[count++] = far;
+    if (near.bound < best) pending[count++] = near;
   }
+  CheckWork(visited);
   return std::sqrt(best);
 }
 

@@ -45,6 +45,7 @@ struct Region {
   CutSurface surface;
   TriangleMesh hull;  // but for what the search may leave out
   std::vector<HalfSpace> faces;  // of the hull
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // a point in it
   double volume_m3 = 0;          // the same
   Concavity concavity;           // of what is deeper than is allowed
   bool indivisible = false;      // no cut separates anything
@@ -78,6 +79,13 @@ std::vector<Candidate> Candidates(const Region& region, double bin_m) {
     candidates.push_back({{axis, region.concavity.at_m[axis]}});
   }
   return candidates;
+}
+
+Eigen::Vector3d MiddleOf(const TriangleMesh& hull) {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& vertex : hull.vertices)
+    middle += vertex / static_cast<double>(hull.vertices.size());
+  return middle;
 }
 
 class Decomposition {
@@ -163,6 +171,7 @@ class Decomposition {
     if (!(region.volume_m3 > smallest_m3_)) return false;
     region.hull = *std::move(hull);
     region.faces = HalfSpacesOf(region.hull);
+    region.middle = MiddleOf(region.hull);
     region.concavity = ConcavityOf(region.hull, solid_, {.above_m = allowed_m_});
     return true;
   }
@@ -568,6 +577,25 @@ class Decomposition {
     return SearchHull(points);
   }
 
+  // Whether there is so much air between the middles of two regions that their common hull, which
+  // holds the way from one to the other, is deeper than the bound. Regions need not touch: those on
+  // both sides of a bar go through it.
+  bool LieApart(const Region& a, const Region& b, double bound_m) const {
+    constexpr int kAsked = 8;
+    constexpr double kGap = 0.5;  // of the smaller region: what may lie between them
+    const double smaller_m = std::min(a.box.diagonal().norm(), b.box.diagonal().norm());
+    if (a.box.exteriorDistance(b.box) > std::max(solid_.grid().cell_m, kGap * smaller_m))
+      return true;
+    const Eigen::Vector3d from = a.middle;
+    const Eigen::Vector3d way = b.middle - from;
+    const double slack_m = std::sqrt(3.0) * solid_.grid().cell_m;
+    for (int i = 1; i < kAsked; ++i) {
+      const Eigen::Vector3i cell = solid_.grid().CellAt(from + way * i / kAsked);
+      if (solid_.DistanceAt(cell.x(), cell.y(), cell.z()) > bound_m + slack_m) return true;
+    }
+    return false;
+  }
+
   const Between& BetweenOf(const Region& a, const Region& b, double bound_m) {
     Between& between = between_[{a.id, b.id}];
     // what lies within the bound that was asked for is exact, what lies beyond stays beyond
@@ -575,7 +603,7 @@ class Decomposition {
       return between;
     between.asked_m = bound_m;
     CheckWork(500);
-    if (a.box.exteriorDistance(b.box) > solid_.grid().cell_m) return between;
+    if (LieApart(a, b, bound_m)) return between;
     const std::optional<TriangleMesh> hull = CommonHull(a, b);
     if (!hull) return between;
     between.depth_m =

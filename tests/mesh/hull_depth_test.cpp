@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
+#include "hull_depth.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -12,7 +14,6 @@
 
 #include "convex_region.h"
 #include "distance_grid.h"
-#include "hull_depth.h"
 #include "shapes.h"
 #include "triangle_tree.h"
 
@@ -20,7 +21,8 @@ namespace doorforge {
 namespace {
 
 Eigen::Vector3d Drawn(Rng& rng, const Eigen::Vector3d& size) {
-  return Eigen::Vector3d(rng.Uniform(0, 1), rng.Uniform(0, 1), rng.Uniform(0, 1)).cwiseProduct(size);
+  return Eigen::Vector3d(rng.Uniform(0, 1), rng.Uniform(0, 1), rng.Uniform(0, 1))
+      .cwiseProduct(size);
 }
 
 TriangleMesh DrawnHull(Rng& rng, const Eigen::Vector3d& size) {
@@ -33,7 +35,8 @@ ClosedMesh Posts() {
   TriangleMesh posts;
   for (const double x : {0.0, 0.4, 0.9}) {
     for (const double y : {0.0, 0.55})
-      posts = Together(posts, Box(Eigen::Vector3d(x, y, 0), Eigen::Vector3d(x + 0.1, y + 0.05, 0.7)));
+      posts =
+          Together(posts, Box(Eigen::Vector3d(x, y, 0), Eigen::Vector3d(x + 0.1, y + 0.05, 0.7)));
   }
   return *ClosedMesh::From(posts);
 }

@@ -24,13 +24,13 @@
 namespace doorforge {
 namespace {
 
-constexpr double kCoverShare = 0.5;      // of the concavity: what the parts may leave out
+constexpr double kCoverShare = 0.25;     // of the concavity: what the parts may leave out
 constexpr double kFineCoverShare = 0.1;  // the same after cuts that were measured
 constexpr double kCutShare = 0.875;      // of the parts: what those cuts may use in any case
 constexpr int kExchanges = 16;           // measured cuts and joins without gain before they end
 constexpr double kSearchHull = 0.01;     // of the concavity: what hulls of the search leave out
-constexpr double kFineStep = 0.75;    // cells: to within which protrusion is found
-constexpr double kCoarseStep = 2;        // the same where cuts are compared
+constexpr double kFineStep = 0.5;        // cells: to within which protrusion is found
+constexpr double kCoarseStep = 1.25;     // the same where cuts are compared
 constexpr double kHeldSkins = 2;         // how far surface may stand out of a hull that holds it
 constexpr int kRounds = 4;               // of cutting and joining
 constexpr double kSurplus = 2;           // regions, against those that may stay, to join from
@@ -43,13 +43,13 @@ struct Region {
   int id = 0;
   Eigen::AlignedBox3d box;
   CutSurface surface;
-  TriangleMesh hull;  // but for what the search may leave out
-  std::vector<HalfSpace> faces;  // of the hull
+  TriangleMesh hull;                                 // but for what the search may leave out
+  std::vector<HalfSpace> faces;                      // of the hull
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // a point in it
-  double volume_m3 = 0;          // the same
-  Concavity concavity;           // of what is deeper than is allowed
-  bool indivisible = false;      // no cut separates anything
-  bool trimmed = false;          // of what others hold as well
+  double volume_m3 = 0;                              // the same
+  Concavity concavity;                               // of what is deeper than is allowed
+  bool indivisible = false;                          // no cut separates anything
+  bool trimmed = false;                              // of what others hold as well
 };
 
 // Where a cut may separate something.
@@ -415,7 +415,8 @@ class Decomposition {
   }
 
   // Wholly in the hull, but for a skin.
-  bool IsHeldBy(const std::vector<HalfSpace>& hull, std::span<const Eigen::Vector3d> corners) const {
+  bool IsHeldBy(const std::vector<HalfSpace>& hull,
+                std::span<const Eigen::Vector3d> corners) const {
     return std::all_of(hull.begin(), hull.end(), [&](const HalfSpace& face) {
       return std::all_of(corners.begin(), corners.end(), [&](const Eigen::Vector3d& p) {
         return face.normal.dot(p) <= face.offset + kHeldSkins * SkinM();

@@ -166,7 +166,7 @@ class Cover {
     const double spacing_m = std::sqrt(MeasureTopology(mesh.mesh()).area_m2 / kCoverSamples);
     const Points probes = ProbesOf(mesh.mesh(), spacing_m);
     constexpr int kCoverRounds =
-        3;  // reduced to few vertices, a part may not cover all that it was for
+        5;  // reduced to few vertices, a part may not cover all that it was for
     for (int round = 0; round < kCoverRounds; ++round) {
       const Points left = LeftOut(probes, shapes_, limits_.tolerance_m);
       if (left.empty()) break;

@@ -51,9 +51,9 @@ class CutSurface {
   bool HasPolygons() const { return !polygons_.empty(); }
 
   /// What only ends the other side is left out: polygons that reach no more than `skin_m` into this
-  /// side, less than the wall behind them reaches into the other, and that are no face of a solid on
-  /// this side. Kept here, the ends of opposite walls would span the air between them; a thin wall
-  /// that is cut along its middle must keep both its faces.
+  /// side, less than the wall behind them reaches into the other, and that are no face of a solid
+  /// on this side. Kept here, the ends of opposite walls would span the air between them; a thin
+  /// wall that is cut along its middle must keep both its faces.
   CutSurface Side(const CutSide& side, double skin_m, const IsNotedFor& is_noted_for) const;
   /// The same without making it; `content` is emptied first.
   void FindSide(const CutSide& side, double skin_m, const IsNotedFor& is_noted_for,

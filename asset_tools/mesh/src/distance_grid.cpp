@@ -99,9 +99,9 @@ void DistanceGrid::MarkSurface(const TriangleMesh& mesh) {
     for (int k = 0; k < 3; ++k)
       p[static_cast<std::size_t>(k)] = mesh.vertices[static_cast<std::size_t>(t[k])];
     // from the corner opposite the shortest edge, so that needles take few points
-    for (int turn = 0; turn < 2 && (p[1] - p[2]).squaredNorm() >
-                                       std::min((p[0] - p[1]).squaredNorm(),
-                                                (p[0] - p[2]).squaredNorm());
+    for (int turn = 0;
+         turn < 2 && (p[1] - p[2]).squaredNorm() >
+                         std::min((p[0] - p[1]).squaredNorm(), (p[0] - p[2]).squaredNorm());
          ++turn)
       std::rotate(p.begin(), p.begin() + 1, p.end());
     const double longest = std::max((p[1] - p[0]).norm(), (p[2] - p[0]).norm());

@@ -21,7 +21,7 @@ constexpr int kNone = -1;
 /// A triangle of the growing hull, and the points that are above it and above no triangle before.
 struct HullFace {
   std::array<int, 3> corners{};
-  std::array<int, 3> beside{};  // across the edge from each corner to the next
+  std::array<int, 3> beside{};                       // across the edge from each corner to the next
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // as long as twice the area
   Eigen::Vector3d size = Eigen::Vector3d::Zero();    // for the error of a height, see kSideBound
   double tolerance = 0;                              // of heights, which are as much too long
@@ -115,9 +115,7 @@ class GrowingHull {
     if (c == kNone) return false;
     const HullFace base = FaceOf(a, b, c);
     int d = Farthest([&](int i) { return std::abs(HeightOver(base, i).value); });
-    const auto side = [&](int i) {
-      return SideOfPlane(Point(a), Point(b), Point(c), Point(i));
-    };
+    const auto side = [&](int i) { return SideOfPlane(Point(a), Point(b), Point(c), Point(i)); };
     if (d == kNone || side(d) == 0) d = Find([&](int i) { return side(i) != 0; });
     if (d == kNone || std::abs(HeightOver(base, d).value) < base.tolerance) return false;
     BeginWith(side(d) < 0 ? std::array{a, b, c, d} : std::array{a, c, b, d});

@@ -71,8 +71,8 @@ class DeepestCell {
     if (solid_->LargestInBlock(level, block) <= deepest_.depth_m || deepest_.depth_m > stop_m_)
       return;
     const Eigen::Vector3i low = (block * (1 << level)).cwiseMax(first_);
-    const Eigen::Vector3i high = (block * (1 << level) + Eigen::Vector3i::Constant((1 << level) - 1))
-                                     .cwiseMin(last_);
+    const Eigen::Vector3i high =
+        (block * (1 << level) + Eigen::Vector3i::Constant((1 << level) - 1)).cwiseMin(last_);
     if ((low.array() > high.array()).any()) return;
     CheckWork(static_cast<unsigned>(end - begin) + 1);
     const Grid& grid = solid_->grid();
@@ -100,12 +100,11 @@ class DeepestCell {
   // Whether the hull, whose faces through the cell are the active ones from `begin` on, has a point
   // in the cell: all but those that no face keeps apart from it are known to have none.
   bool Touches(const Eigen::Vector3d& center, std::size_t begin) const {
-    const bool holds_center =
-        std::all_of(active_.begin() + static_cast<std::ptrdiff_t>(begin), active_.end(),
-                    [&](int index) {
-                      const HalfSpace& face = faces_[static_cast<std::size_t>(index)];
-                      return face.normal.dot(center) <= face.offset;
-                    });
+    const bool holds_center = std::all_of(
+        active_.begin() + static_cast<std::ptrdiff_t>(begin), active_.end(), [&](int index) {
+          const HalfSpace& face = faces_[static_cast<std::size_t>(index)];
+          return face.normal.dot(center) <= face.offset;
+        });
     return holds_center ||
            std::any_of(hull_->triangles.begin(), hull_->triangles.end(),
                        [&](const Eigen::Vector3i& t) { return MeetsCell(t, center); });
@@ -161,7 +160,7 @@ class DeepestCell {
   double stop_m_;
   double margin_m_;  // around a cell's centre; 0 where centres alone count
   Concavity deepest_;
-  std::vector<int> active_;  // a stack
+  std::vector<int> active_;       // a stack
   Eigen::Vector3i first_, last_;  // cells of the hull's box
 };
 
@@ -169,19 +168,13 @@ class DeepestCell {
 
 struct Patch {
   std::array<Eigen::Vector3d, 3> corners;
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  double reach_m = 0;  // from there to the farthest corner
   double bound_m = 0;  // nothing in it is deeper
-
-  Eigen::Vector3d Center() const { return (corners[0] + corners[1] + corners[2]) / 3; }
-  double ReachFrom(const Eigen::Vector3d& center) const {
-    double squared = 0;
-    for (const Eigen::Vector3d& corner : corners)
-      squared = std::max(squared, (corner - center).squaredNorm());
-    return std::sqrt(squared);
-  }
 };
 
-// The deepest point of a hull's triangles, which are halved where they may hold it, that with the
-// highest bound first: depths change along the surface by no more than the way.
+// The deepest point of a hull's triangles, which are halved where they may hold it: depths change
+// along the surface by no more than the way.
 class DeepestOnSurface {
  public:
   // `slack_m` is how much deeper than the grid says a point may be.
@@ -193,53 +186,63 @@ class DeepestOnSurface {
   // To within `step_m` of its place and a part of its depth, or any that is deeper than `stop_m`.
   template <class DepthAt>
   Concavity Find(const TriangleMesh& hull, double step_m, double stop_m, const DepthAt& depth_at) {
-    constexpr double kAsked = 2;  // steps; larger patches are halved without asking for a depth
     const double known_m = deepest_.depth_m;
+    std::vector<Patch> triangles;
     for (const Eigen::Vector3i& t : hull.triangles) {
       Patch patch;
       for (int k = 0; k < 3; ++k)
         patch.corners[static_cast<std::size_t>(k)] = hull.vertices[static_cast<std::size_t>(t[k])];
-      Push(patch, 1e300);
+      if (SetBound(patch, 1e300)) triangles.push_back(patch);
     }
-    while (!patches_.empty()) {
-      CheckWork(5);
-      std::pop_heap(patches_.begin(), patches_.end(), IsLess);
-      const Patch patch = patches_.back();
-      patches_.pop_back();
-      if (patch.bound_m <= worthwhile_m_) break;
-      const Eigen::Vector3d center = patch.Center();
-      const double reach_m = patch.ReachFrom(center);
-      double bound_m = 1e300;
-      if (reach_m <= kAsked * step_m) {
-        const double depth_m = depth_at(center);
-        if (depth_m > deepest_.depth_m) {
-          deepest_ = {depth_m, center};
-          worthwhile_m_ = (1 + kWorthwhile) * depth_m;
-        }
-        if (deepest_.depth_m > stop_m) break;
-        if (depth_m > 0) bound_m = depth_m + reach_m;
+    // what a deep one holds lets most others be left out
+    std::stable_sort(triangles.begin(), triangles.end(),
+                     [](const Patch& a, const Patch& b) { return a.bound_m > b.bound_m; });
+    for (const Patch& triangle : triangles) {
+      patches_.assign(1, triangle);
+      while (!patches_.empty() && deepest_.depth_m <= stop_m) {
+        const Patch patch = patches_.back();
+        patches_.pop_back();
+        Visit(patch, step_m, depth_at);
       }
-      if (reach_m > step_m && bound_m > worthwhile_m_) Halve(patch, bound_m);
     }
     return deepest_.depth_m > known_m ? deepest_ : Concavity{};
   }
 
  private:
+  static constexpr double kAsked =
+      2;  // steps; larger patches are halved without asking for a depth
   static constexpr double kWorthwhile = 0.03;  // of a depth: what must be left to look further
 
-  static bool IsLess(const Patch& a, const Patch& b) { return a.bound_m < b.bound_m; }
-
-  void Push(Patch patch, double bound_m) {
-    const Eigen::Vector3d center = patch.Center();
-    const Eigen::Vector3i cell = solid_->grid().CellAt(center);
-    patch.bound_m = std::min(bound_m, solid_->DistanceAt(cell.x(), cell.y(), cell.z()) +
-                                          slack_m_ + patch.ReachFrom(center));
+  template <class DepthAt>
+  void Visit(const Patch& patch, double step_m, const DepthAt& depth_at) {
     if (patch.bound_m <= worthwhile_m_) return;
-    patches_.push_back(patch);
-    std::push_heap(patches_.begin(), patches_.end(), IsLess);
+    CheckWork(5);
+    double bound_m = patch.bound_m;
+    if (patch.reach_m <= kAsked * step_m) {
+      const double depth_m = depth_at(patch.center);
+      if (depth_m > deepest_.depth_m) {
+        deepest_ = {depth_m, patch.center};
+        worthwhile_m_ = (1 + kWorthwhile) * depth_m;
+      }
+      if (depth_m > 0) bound_m = std::min(bound_m, depth_m + patch.reach_m);
+    }
+    if (patch.reach_m > step_m && bound_m > worthwhile_m_) Halve(patch, bound_m);
   }
 
-  // across the longest side
+  // False where nothing in the patch is of interest; `bound_m` is what is known of it already.
+  bool SetBound(Patch& patch, double bound_m) const {
+    patch.center = (patch.corners[0] + patch.corners[1] + patch.corners[2]) / 3;
+    double squared = 0;
+    for (const Eigen::Vector3d& corner : patch.corners)
+      squared = std::max(squared, (corner - patch.center).squaredNorm());
+    patch.reach_m = std::sqrt(squared);
+    const Eigen::Vector3i cell = solid_->grid().CellAt(patch.center);
+    patch.bound_m = std::min(
+        bound_m, solid_->DistanceAt(cell.x(), cell.y(), cell.z()) + slack_m_ + patch.reach_m);
+    return patch.bound_m > worthwhile_m_;
+  }
+
+  // across the longest side; the half with the higher bound comes first
   void Halve(const Patch& patch, double bound_m) {
     std::size_t longest = 0;
     double most = -1;
@@ -249,18 +252,22 @@ class DeepestOnSurface {
     }
     const std::size_t next = (longest + 1) % 3;
     const Eigen::Vector3d middle = 0.5 * (patch.corners[longest] + patch.corners[next]);
-    for (const std::size_t moved : {longest, next}) {
-      Patch half = patch;
-      half.corners[moved] = middle;
-      Push(half, bound_m);
-    }
+    Patch low = patch;
+    Patch high = patch;
+    low.corners[longest] = middle;
+    high.corners[next] = middle;
+    const bool keeps_low = SetBound(low, bound_m);
+    const bool keeps_high = SetBound(high, bound_m);
+    if (low.bound_m > high.bound_m) std::swap(low, high);
+    if (keeps_low && keeps_high) patches_.push_back(low);
+    if (keeps_low || keeps_high) patches_.push_back(high);
   }
 
   const DistanceGrid* solid_;
   double slack_m_;
   Concavity deepest_;
-  double worthwhile_m_;  // what else is of interest is deeper
-  std::vector<Patch> patches_;  // a heap
+  double worthwhile_m_;         // what else is of interest is deeper
+  std::vector<Patch> patches_;  // a stack
 };
 
 }  // namespace

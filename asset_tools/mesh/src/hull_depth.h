@@ -19,8 +19,8 @@ struct Concavity {
 
 /// Which depths are of interest.
 struct DepthRange {
-  double above_m = 0;    ///< What is no deeper counts as depth 0.
-  double stop_m = 1e300; ///< Where there is something deeper than this, any such depth will do.
+  double above_m = 0;     ///< What is no deeper counts as depth 0.
+  double stop_m = 1e300;  ///< Where there is something deeper than this, any such depth will do.
 };
 
 /// The cell inside a hull that is farthest from the solid. Inside is what has its centre there; of
@@ -29,8 +29,8 @@ Concavity ConcavityOf(const TriangleMesh& hull, const DistanceGrid& solid,
                       const DepthRange& range = {});
 
 /// The point of the hull's surface in air that is farthest from the solid's surface, if it is
-/// farther than `range.above_m`, which must be positive. Found to within `step_m` of its place and a
-/// thirtieth of its depth.
+/// farther than `range.above_m`, which must be positive. Found to within `step_m` of its place and
+/// a thirtieth of its depth.
 Concavity ProtrusionOf(const TriangleMesh& hull, MeasuredDistances& distances,
                        const DepthRange& range, double step_m);
 

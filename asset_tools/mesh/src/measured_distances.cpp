@@ -10,7 +10,7 @@
 namespace doorforge {
 
 MeasuredDistances::MeasuredDistances(const DistanceGrid& solid, const TriangleTree& surface)
-    : solid_(&solid), surface_(&surface), distance_m_(solid.grid().count(), -1.0F) {}
+    : solid_(&solid), surface_(&surface) {}
 
 double MeasuredDistances::AtCell(int i, int j, int k) {
   float& distance_m = distance_m_[solid_->grid().IndexOf(i, j, k)];
@@ -23,6 +23,7 @@ double MeasuredDistances::AtCell(int i, int j, int k) {
 }
 
 double MeasuredDistances::At(const Eigen::Vector3d& point) {
+  if (distance_m_.empty()) distance_m_.assign(solid_->grid().count(), -1.0F);
   const Grid& grid = solid_->grid();
   Eigen::Vector3i low, high;
   Eigen::Vector3d share;

@@ -6,7 +6,8 @@
 
 namespace doorforge {
 
-/// The nearest point of a triangle to `p`: Ericson, Real-Time Collision Detection (2005), section 5.1.5.
+/// The nearest point of a triangle to `p`: Ericson, Real-Time Collision Detection (2005),
+/// section 5.1.5.
 inline Eigen::Vector3d NearestPoint(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
                                     const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
   const Eigen::Vector3d ab = b - a;

@@ -131,7 +131,11 @@ TriangleMesh WithoutCavities(const TriangleMesh& solid) {
 std::optional<TriangleMesh> SimpleUnion(const std::vector<TriangleMesh>& solids, double shift_m,
                                         int attempt) {
   constexpr int kRepeats = 6;
-  for (int repeat = 0; repeat < kRepeats; ++repeat) {
+  constexpr std::size_t kLarge = 10'000;  // triangles; a wrap is quicker than another draw
+  std::size_t triangles = 0;
+  for (const TriangleMesh& solid : solids) triangles += solid.triangles.size();
+  const int repeats = triangles > kLarge ? 1 : kRepeats;
+  for (int repeat = 0; repeat < repeats; ++repeat) {
     const std::optional<TriangleMesh> whole =
         United(solids, (1 + 0.5 * repeat) * shift_m, kRepeats * attempt + repeat);
     if (!whole) continue;

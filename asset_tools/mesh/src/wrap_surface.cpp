@@ -102,13 +102,15 @@ class FoundTriangles {
 };
 
 // What a wrap asks of its input, with the answers that CGAL's own function would be given; between
-// two questions a wrap that takes too long can be given up. CGAL 5.5 offers no other place for that.
+// two questions a wrap that takes too long can be given up. CGAL 5.5 offers no other place for
+// that.
 class SoupWithinBudget : public wraps::Triangle_soup_oracle<Kernel> {
  public:
   using Base = wraps::Triangle_soup_oracle<Kernel>;
   using Point_3 = Geom_traits::Point_3;
 
-  SoupWithinBudget(double alpha_m, const TriangleMesh& soup) : Base(alpha_m, Kernel()), found_(soup) {
+  SoupWithinBudget(double alpha_m, const TriangleMesh& soup)
+      : Base(alpha_m, Kernel()), found_(soup) {
     add_triangle_soup(PointsOf(soup), PolygonsOf(soup));
   }
 
@@ -137,11 +139,10 @@ class SoupWithinBudget : public wraps::Triangle_soup_oracle<Kernel> {
     const Eigen::AlignedBox3d around(
         Eigen::Vector3d(shape.m_bbox.xmin(), shape.m_bbox.ymin(), shape.m_bbox.zmin()),
         Eigen::Vector3d(shape.m_bbox.xmax(), shape.m_bbox.ymax(), shape.m_bbox.zmax()));
-    return found_.Any(
-        [&](const Eigen::AlignedBox3d& box) { return box.intersects(around); },
-        [&](const FoundTriangles::Triangle& t) {
-          return geom_traits().do_intersect_3_object()(shape, t.exact);
-        });
+    return found_.Any([&](const Eigen::AlignedBox3d& box) { return box.intersects(around); },
+                      [&](const FoundTriangles::Triangle& t) {
+                        return geom_traits().do_intersect_3_object()(shape, t.exact);
+                      });
   }
 
   Point_3 closest_point(const Point_3& point) const {

@@ -75,5 +75,35 @@ TEST(ConcavityOf, IsThatOfTheDeepestOfAllCells) {
   }
 }
 
+// The diagonal face of an angle's hull is farthest from the angle in its middle.
+TEST(ProtrusionOf, AnAngleIsHalfItsOpening) {
+  constexpr double kWall = 0.1;
+  const TriangleMesh angle =
+      Together(Box(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, kWall, 0.5)),
+               Box(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(kWall, 1, 0.5)));
+  const DistanceGrid solid(*ClosedMesh::From(angle), 0.02);
+  const TriangleTree tree(angle);
+  MeasuredDistances distances(solid, tree);
+  const TriangleMesh hull = ConvexHull(angle.vertices);
+  const Concavity found = ProtrusionOf(hull, distances, {.above_m = 0.02}, 0.005);
+  EXPECT_NEAR(found.depth_m, (1 - kWall) / 2, 0.03 * found.depth_m + 0.005);
+  EXPECT_NEAR(found.at_m.x(), (1 + kWall) / 2, 0.03);
+  EXPECT_NEAR(found.at_m.y(), (1 + kWall) / 2, 0.03);
+  EXPECT_EQ(ProtrusionOf(hull, distances, {.above_m = 0.5}, 0.005).depth_m, 0);
+}
+
+TEST(MeasuredDistances, AreOffByHalfACellsDiagonalAtMost) {
+  constexpr double kCell = 0.02;
+  const ClosedMesh posts = Posts();
+  const DistanceGrid solid(posts, kCell);
+  const TriangleTree tree(posts.mesh());
+  MeasuredDistances distances(solid, tree);
+  Rng rng(8, "distances");
+  for (int i = 0; i < 2000; ++i) {
+    const Eigen::Vector3d point = Drawn(rng, {1.0, 0.6, 0.7});
+    EXPECT_NEAR(distances.At(point), tree.Distance(point), std::sqrt(0.75) * kCell);
+  }
+}
+
 }  // namespace
 }  // namespace doorforge

@@ -13,7 +13,8 @@ namespace doorforge {
 
 /// Distances to the surface of a solid, measured at the centres of a grid's cells when they are
 /// first asked for, and between them linear along each axis. Above a plane that is the distance
-/// itself; elsewhere it is off by a fraction of a cell. For one thread.
+/// itself; elsewhere it is off by half a cell's diagonal at most, near edges of the surface. For
+/// one thread.
 class MeasuredDistances {
  public:
   /// Both must outlive this, and be of the same solid.

@@ -122,7 +122,7 @@ TEST(ConvexHull, OfAPrismHasNoVertexWithinAnEdge) {
 }
 
 // round, so that most points lie near the hull of a few of them
-TEST(GrownHull, LeavesNoPointOutByMuchMoreThanItsTolerance) {
+TEST(GrownHull, LeavesNoPointOutByTwiceItsTolerance) {
   Rng rng(13, "grown");
   for (int round = 0; round < 200; ++round) {
     std::vector<Eigen::Vector3d> points;
@@ -136,7 +136,7 @@ TEST(GrownHull, LeavesNoPointOutByMuchMoreThanItsTolerance) {
       ASSERT_TRUE(ClosedMesh::From(*hull).has_value());
       for (const HalfSpace& face : HalfSpacesOf(*hull)) {
         for (const Eigen::Vector3d& point : points)
-          ASSERT_LE(face.normal.dot(point) - face.offset, 1.2 * tolerance_m + 1e-12) << round;
+          ASSERT_LE(face.normal.dot(point) - face.offset, 2 * tolerance_m + 1e-12) << round;
       }
       if (tolerance_m == 5e-3) EXPECT_LT(hull->vertices.size(), 150U);
     }

@@ -24,7 +24,7 @@ namespace doorforge {
 namespace {
 
 // A union takes about a tenth of a millisecond for each pair of triangles that meet.
-constexpr std::size_t kManyPairs = 5'000;   // drawn once: a wrap is quicker than another draw
+constexpr std::size_t kManyPairs = 5'000;   // drawn twice: then a wrap is quicker than another draw
 constexpr std::size_t kMostPairs = 15'000;  // a wrap is quicker than the first
 
 struct Meetings {
@@ -137,8 +137,9 @@ TriangleMesh WithoutCavities(const TriangleMesh& solid) {
 std::optional<TriangleMesh> SimpleUnion(const std::vector<TriangleMesh>& solids, double shift_m,
                                         std::size_t pairs, int attempt) {
   constexpr int kRepeats = 6;
-  const int repeats = pairs > kManyPairs ? 1 : kRepeats;
-  for (int repeat = 0; repeat < repeats; ++repeat) {
+  // of many, the second draw is one that moves them farther
+  const int step = pairs > kManyPairs ? kRepeats - 2 : 1;
+  for (int repeat = 0; repeat < kRepeats; repeat += step) {
     const std::optional<TriangleMesh> whole =
         United(solids, (1 + 0.5 * repeat) * shift_m, kRepeats * attempt + repeat);
     if (!whole) continue;

@@ -31,9 +31,9 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/program.h"
 #include "doorforge/dataset/collect.h"
+#include "doorforge/rollout/base_placement.h"
 #include "doorforge/rollout/camera_observer.h"
 #include "doorforge/rollout/run_episode.h"
-#include "doorforge/rollout/standing_place.h"
 #include "doorforge/schemas/door_set.h"
 #include "doorforge/schemas/episode_arrays.h"
 
@@ -67,12 +67,12 @@ class TimedCamera : public Observer {
       : camera_(scene, door, robot, config), point_count_(config.point_count) {}
 
   LabelledCloud Observe(const SceneSnapshot& snapshot) override {
-    Sight sight;
-    look_s += SecondsOf([&] { sight = camera_.Look(snapshot); });
+    CameraFrame frame;
+    look_s += SecondsOf([&] { frame = camera_.Render(snapshot); });
     sampling_s += SecondsOf([&] {
-      SampleCloud(sight.visible, snapshot.robot.world_from_tcp.translation(), {point_count_});
+      SampleCloud(frame.visible, snapshot.robot.world_from_tcp.translation(), {point_count_});
     });
-    return std::move(sight.sampled.cloud);
+    return std::move(frame.sampled.cloud);
   }
 
   double look_s = 0;  // rendering and sampling

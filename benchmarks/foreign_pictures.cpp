@@ -28,10 +28,10 @@
 #include "doorforge/policy/grasp_policy.h"
 #include "doorforge/policy/policy_file.h"
 #include "doorforge/policy/stage_policy.h"
+#include "doorforge/rollout/base_placement.h"
 #include "doorforge/rollout/camera_observer.h"
-#include "doorforge/rollout/grasp_look.h"
+#include "doorforge/rollout/grasp_camera.h"
 #include "doorforge/rollout/run_episode.h"
-#include "doorforge/rollout/standing_place.h"
 #include "doorforge/schemas/door_set.h"
 
 #include "foreign_scenes.h"
@@ -129,10 +129,10 @@ class Photographer : public Observer {
   Photographer(const Scene& scene, const DoorAsset& door, const RobotModel& robot)
       : camera_(scene, door, robot) {}
   LabelledCloud Observe(const SceneSnapshot& snapshot) override {
-    Sight sight = camera_.Look(snapshot);
-    depth = std::move(sight.depth);
+    CameraFrame frame = camera_.Render(snapshot);
+    depth = std::move(frame.depth);
     tcp = snapshot.robot.world_from_tcp.translation();
-    return sight.sampled.cloud;
+    return frame.sampled.cloud;
   }
 
   DepthImage depth;
@@ -191,7 +191,7 @@ class Shown : public Policy {
 };
 
 /// ShownGrasp shows the judge foreign pictures where the grasp is chosen.
-class ShownGrasp : public GraspChooser {
+class ShownGrasp : public SnapshotGraspPolicy {
  public:
   ShownGrasp(Judge& judge, CameraObserver& camera, const PinholeView& view, Rng rng)
       : judge_(judge),
@@ -200,8 +200,8 @@ class ShownGrasp : public GraspChooser {
         rng_(std::move(rng)),
         policy_(MakeGraspPolicy(judge.record.networks)) {}
 
-  std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override {
-    const DepthImage depth = camera_.Look(snapshot).depth;
+  std::optional<GraspCommand> Choose(const SceneSnapshot& snapshot) override {
+    const DepthImage depth = camera_.Render(snapshot).depth;
     const Eigen::Vector3d approach = -snapshot.door[kHandleLink].linear().col(0);
     std::optional<GraspAction> grasp;
     for (const Shot& shot : ForeignLooks(depth, view_, rng_)) {
@@ -218,8 +218,8 @@ class ShownGrasp : public GraspChooser {
     GraspObservation view;
     view.visible = CropCloud(shot.depth, shot.view);
     view.approach = approach;
-    view.sample = [&](const Eigen::Vector3d& start, double within_m) {
-      return SampleCloud(view.visible, start, {kPoints, within_m}).cloud;
+    view.sample = [&](const Eigen::Vector3d& start, double crop_radius_m) {
+      return SampleCloud(view.visible, start, {kPoints, crop_radius_m}).cloud;
     };
     std::optional<GraspAction> choice;
     if (!view.visible.label.empty()) choice = policy_->Choose(view);

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -21,55 +20,31 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct CatalogOptions {
-  std::string category;
-  std::string split;
+  CatalogueSelection selection;
   std::string id;
   std::string out;
+  Existing existing = Existing::kRefuse;
   int threads = 0;
   bool json = false;
-  bool overwrite = false;
 };
 
-std::vector<CatalogueEntry> Chosen(const CatalogOptions& options) {
-  return SelectParts(DataFolder(), {.category = options.category, .split = options.split});
-}
-
 int List(const CatalogOptions& options) {
-  const std::vector<CatalogueEntry> entries = Chosen(options);
-  if (options.json) {
-    Json parts = Json::array();
-    for (const CatalogueEntry& entry : entries) parts.push_back(EntryToJson(entry));
-    PrintJson({{"schema", "doorforge.catalog"}, {"schema_version", 1}, {"parts", parts}});
-    return 0;
-  }
-  for (const CatalogueEntry& entry : entries)
-    std::printf("%-28s %-7s %-17s %-6s %s\n", entry.id.c_str(), NameOf(entry.role).data(),
-                NameOf(entry.category).data(), NameOf(entry.mechanism).data(),
-                entry.family.c_str());
+  const std::vector<CatalogueEntry> entries = SelectParts(DataFolder(), options.selection);
+  PrintAnswer(options.json, CatalogueToJson(entries), CatalogueText(entries));
   return 0;
 }
 
 int Show(const CatalogOptions& options) {
   const CatalogueEntry entry = FindCatalogueEntry(ListCatalogue(DataFolder()), options.id);
   const Part part = BuildCataloguePart(entry);
-  if (options.json) {
-    PrintJson(DescribePart(entry, part));
-    return 0;
-  }
-  std::printf("%s: %s of category %s, mechanism %s, family %s\n%s\n", part.id.c_str(),
-              NameOf(part.role).data(), NameOf(part.category).data(), NameOf(part.mechanism).data(),
-              entry.family.c_str(), entry.recipe.c_str());
-  for (const PartPiece& piece : part.pieces)
-    std::printf("  %-6s %5zu triangles, %2zu convex pieces, %.3f kg\n", piece.name.c_str(),
-                piece.mesh.triangles.size(), piece.hulls.size(), piece.mass.mass_kg);
+  PrintAnswer(options.json, DescribePart(entry, part), PartText(entry, part));
   return 0;
 }
 
 int Build(const CatalogOptions& options) {
-  const std::vector<CatalogueEntry> entries = Chosen(options);
+  const std::vector<CatalogueEntry> entries = SelectParts(DataFolder(), options.selection);
   const std::vector<std::string> problems =
-      BuildParts(entries, options.out, options.overwrite ? Existing::kReplace : Existing::kRefuse,
-                 options.threads);
+      BuildParts(entries, options.out, options.existing, options.threads);
   std::size_t failed = 0;
   Json parts = Json::array();
   for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -79,12 +54,11 @@ int Build(const CatalogOptions& options) {
     parts.push_back(part);
     if (problems[i].empty()) continue;
     ++failed;
-    std::fprintf(stderr, "doorforge: %s: %s\n", entries[i].id.c_str(), problems[i].c_str());
+    PrintNote(entries[i].id + ": " + problems[i]);
   }
-  if (options.json)
-    PrintJson({{"schema", "doorforge.catalog_build"}, {"schema_version", 1}, {"parts", parts}});
-  else
-    std::printf("%zu parts built in %s\n", entries.size() - failed, options.out.c_str());
+  PrintAnswer(options.json,
+              {{"schema", "doorforge.catalog_build"}, {"schema_version", 1}, {"parts", parts}},
+              std::to_string(entries.size() - failed) + " parts built in " + options.out + "\n");
   return ExitCodeOfBatch(failed);
 }
 
@@ -100,10 +74,10 @@ int RunCatalogVerb(int argc, char** argv) {
   show->add_option("ID", options.id, "id of a part")->required();
   build->add_option("--out", options.out, "folder of the parts")->required();
   AddThreads(*build, options.threads);
-  AddOverwrite(*build, options.overwrite, "replace parts that are there already");
+  AddOverwrite(*build, options.existing, "replace parts that are there already");
   for (CLI::App* verb : {list, build}) {
-    verb->add_option("--category", options.category, "only this category");
-    verb->add_option("--split", options.split,
+    verb->add_option("--category", options.selection.category, "only this category");
+    verb->add_option("--split", options.selection.split,
                      "only parts of this split: a name in data/splits or a file");
   }
   for (CLI::App* verb : {list, show, build}) AddJson(*verb, options.json);

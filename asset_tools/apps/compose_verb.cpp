@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +15,7 @@
 #include "doorforge/cli/answer.h"
 #include "doorforge/cli/command_line.h"
 #include "doorforge/core/config_file.h"
+#include "doorforge/core/config_io.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
 #ifdef DOORFORGE_WITH_PREVIEW
@@ -38,7 +39,7 @@ struct ComposeOptions {
   std::string parts;
   std::string category;
   std::string config;
-  std::string place;
+  std::optional<HandlePlace> place;
   std::vector<std::string> settings;
   LooseMeshConfig body_mesh = UnsetMeshOptions();
   LooseMeshConfig handle_mesh = UnsetMeshOptions();
@@ -49,7 +50,7 @@ struct ComposeOptions {
   bool standalone = false;
   bool preview = false;
   bool validate = false;
-  bool overwrite = false;
+  Existing existing = Existing::kRefuse;
   bool json = false;
   bool quiet = false;
   bool rules = false;
@@ -72,13 +73,12 @@ void AddOptions(CLI::App& app, ComposeOptions& options) {
   AddMeshOptions(app, "handle-", options.handle_mesh);
   AddBodyMeshOptions(app, "body-", options.body_mesh);
   AddMeshOptions(app, "body-", options.body_mesh);
-  app.add_option(
-         "--place", options.place,
-         "seat: the body's mount, the handle's back on the leaf; plane: the same with the "
-         "handle's own plane of mounting; author: as on the object that both were imported from; "
-         "axis: about the same axis, on the leaf; auto: axis for parts of one object, plane with "
-         "--handle-mount, else seat")
-      ->check(CLI::IsMember(NamesOf<HandlePlace>()));
+  AddChoice(
+      app, "--place", options.place,
+      "seat: the body's mount, the handle's back on the leaf; plane: the same with the "
+      "handle's own plane of mounting; author: as on the object that both were imported from; "
+      "axis: about the same axis, on the leaf; auto: axis for parts of one object, plane with "
+      "--handle-mount, else seat");
   AddConfig(app, options.config, "YAML file with body, handle and all settings");
   AddSettings(app, options.settings, "overrides one setting");
   app.add_flag("--standalone", options.standalone,
@@ -91,7 +91,7 @@ void AddOptions(CLI::App& app, ComposeOptions& options) {
 #endif
   AddThreads(app, options.threads, "0: all processors; no byte depends on it");
   AddMaxSeconds(app, options.max_seconds);
-  AddOverwrite(app, options.overwrite, "replace doors that are there already");
+  AddOverwrite(app, options.existing, "replace doors that are there already");
   AddJson(app, options.json);
   app.add_flag("--quiet", options.quiet, "print nothing but errors");
   app.add_flag("--rules", options.rules, "list the rules of pairs and the presets, and end");
@@ -117,9 +117,7 @@ void CheckOptions(const ComposeOptions& options) {
   if ((options.all || options.as_imported) && !(options.body.empty() && options.handle.empty()))
     fail("--all and --as-imported take no --body and --handle");
   if (options.as_imported && options.parts.empty()) fail("--as-imported needs --parts");
-  if (!options.category.empty() && !CategoryNamed(options.category))
-    fail("--category: unknown category \"" + options.category +
-         "\"; allowed are interior, window, car, safe, storagefurniture, refrigerator");
+  if (!options.category.empty()) RequireCategory("--category", options.category);
 }
 
 ComposeOptions ParseCompose(int argc, char** argv) {
@@ -135,10 +133,10 @@ ComposeRequest RequestOf(const ComposeOptions& options) {
   auto request = LoadConfig<ComposeRequest>(options.config, options.settings);
   if (!options.body.empty()) request.body = options.body;
   if (!options.handle.empty()) request.handle = options.handle;
-  if (!options.place.empty()) request.door.place = *ValueNamed<HandlePlace>(options.place);
+  if (options.place) request.door.place = *options.place;
   if (!options.category.empty()) request.category = options.category;
-  OverrideMesh(request.body_mesh, options.body_mesh);
-  OverrideMesh(request.handle_mesh, options.handle_mesh);
+  AssignGiven(options.body_mesh, UnsetMeshOptions(), request.body_mesh);
+  AssignGiven(options.handle_mesh, UnsetMeshOptions(), request.handle_mesh);
   if (options.all || options.as_imported) return request;
   if (request.body.empty() || request.handle.empty())
     throw Error(
@@ -155,10 +153,10 @@ ComposeRun RunOf(const ComposeOptions& options) {
   if (options.as_imported) run.pairs = PairChoice::kAsImported;
   run.category = options.category;
   run.standalone = options.standalone;
-  run.existing = options.overwrite ? Existing::kReplace : Existing::kRefuse;
+  run.existing = options.existing;
   run.threads = options.threads;
   run.max_seconds = options.max_seconds;
-  run.note = [](const std::string& line) { std::fprintf(stderr, "doorforge: %s\n", line.c_str()); };
+  run.note = PrintNote;
   // a name that no option gave is the settings file's
   if (!options.config.empty() && options.body.empty())
     run.body_named_by = options.config + ": body";
@@ -174,15 +172,15 @@ int Finish(const std::vector<ComposedDoor>& doors, const ComposeOptions& options
     kept += door.kept ? 1 : 0;
     if (door.problem.empty()) continue;
     ++failed;
-    std::fprintf(stderr, "doorforge: %s: %s\n", door.id.c_str(), door.problem.c_str());
+    PrintNote(door.id + ": " + door.problem);
   }
-  if (options.json)
-    PrintJson(ComposedToJson(doors));
-  else if (!options.quiet)
-    std::printf("%s composed in %s%s%s\n", Counted(doors.size() - failed, "door").c_str(),
-                options.out.c_str(),
-                kept == 0 ? "" : (", " + std::to_string(kept) + " of them there already").c_str(),
-                failed == 0 ? "" : (", " + std::to_string(failed) + " not").c_str());
+  const auto also = [](std::size_t count, const char* what) {
+    return count == 0 ? std::string() : ", " + std::to_string(count) + what;
+  };
+  if (options.json || !options.quiet)
+    PrintAnswer(options.json, ComposedToJson(doors),
+                Counted(doors.size() - failed, "door") + " composed in " + options.out +
+                    also(kept, " of them there already") + also(failed, " not") + "\n");
   return ExitCodeOfBatch(failed);
 }
 
@@ -196,19 +194,18 @@ int Check(const ComposeOptions& options, bool imported) {
     WriteJsonFile(fs::path(options.out) / "validation.json", ToJson(std::span(&report, 1)));
     errors = report.errors;
     for (const Finding& finding : report.findings)
-      std::fprintf(stderr, "doorforge: %s %s %s: measured %s; allowed %s; to fix: %s\n",
-                   finding.code.c_str(), std::string(NameOf(finding.severity)).c_str(),
-                   finding.where.c_str(), finding.measured.c_str(), finding.allowed.c_str(),
-                   finding.fix.c_str());
+      PrintNote(finding.code + " " + std::string(NameOf(finding.severity)) + " " + finding.where +
+                ": measured " + finding.measured + "; allowed " + finding.allowed +
+                "; to fix: " + finding.fix);
     if (!options.json && !options.quiet)
-      std::printf("validated: %s\n", CountedFindings(report.errors, report.warnings).c_str());
+      PrintText("validated: " + CountedFindings(report.errors, report.warnings) + "\n");
   }
 #ifdef DOORFORGE_WITH_PREVIEW
   if (options.preview) {
     const fs::path png = fs::path(options.out) / "thumb.png";
     const fs::path folder = options.out;
     WritePng(png, DrawRecords({&folder, 1}, {.focus = "all"}));
-    if (!options.json && !options.quiet) std::printf("picture: %s\n", png.c_str());
+    if (!options.json && !options.quiet) PrintText("picture: " + png.string() + "\n");
   }
 #endif
   return errors == 0 ? 0 : 1;
@@ -226,24 +223,14 @@ int Compose(const ComposeOptions& options, const ComposeRequest& request) {
   return std::max(code, Check(options, composed.imported));
 }
 
-int ListRules() {
-  for (const ComposeRule& rule : ComposeRules())
-    std::printf("%s %s\n", std::string(rule.code).c_str(), std::string(rule.text).c_str());
-  const auto list = [](const char* key, std::span<const ComposePreset> presets) {
-    for (const ComposePreset& preset : presets)
-      std::printf("%s: %s  %s\n", key, std::string(preset.name).c_str(),
-                  std::string(preset.source).c_str());
-  };
-  list("masses", MassPresets());
-  list("joints", JointPresets());
-  return 0;
-}
-
 }  // namespace
 
 int RunComposeVerb(int argc, char** argv) {
   const ComposeOptions options = ParseCompose(argc, argv);
-  if (options.rules) return ListRules();
+  if (options.rules) {
+    PrintText(ComposeRulesText());
+    return 0;
+  }
   const ComposeRequest request = RequestOf(options);
   return NamingConfig(options.config, [&] { return Compose(options, request); });
 }

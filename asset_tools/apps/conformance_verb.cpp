@@ -1,12 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cstdio>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include "doorforge/cli/answer.h"
 #include "doorforge/cli/command_line.h"
@@ -22,9 +20,7 @@ namespace {
 struct ConformanceOptions {
   std::vector<std::string> paths;
   ConformanceRun run;
-  std::string out;
-  std::string latch = "bolt";
-  std::string format = "text";
+  ConformanceFormat format = ConformanceFormat::kText;
 };
 
 ConformanceOptions ParseConformance(int argc, char** argv) {
@@ -42,18 +38,14 @@ ConformanceOptions ParseConformance(int argc, char** argv) {
       ->allow_extra_args(false)
       ->check(CLI::IsMember({"urdf", "mjcf", "sdf", "usda"}));
   app.add_option("--python", options.run.python, "interpreter that has the engines (python3)");
-  app.add_option("--latch", options.latch, "as of `doorforge export`")
-      ->check(CLI::IsMember({"bolt", "data"}));
-  app.add_option("--out", options.out, "folder that holds the exports afterwards")->required();
-  app.add_option("--format", options.format, "of the table")
-      ->check(CLI::IsMember({"text", "json", "html", "markdown"}));
+  AddChoice(app, "--latch", options.run.settings.latch, "as of `doorforge export`");
+  app.add_option("--out", options.run.out, "folder that holds the exports afterwards")->required();
+  AddChoice(app, "--format", options.format, "of the table");
   app.footer(
       "example:\n"
       "  doorforge conformance doors/mine --clients mujoco,pybullet --python venv/bin/python --out "
       "judged");
   ParseVerb(app, argc, argv);
-  options.run.out = options.out;
-  options.run.settings = {*ValueNamed<LatchExport>(options.latch)};
   return options;
 }
 
@@ -64,14 +56,7 @@ int RunConformanceVerb(int argc, char** argv) {
   const auto found = FindDoors({options.paths.begin(), options.paths.end()});
   const std::vector<std::filesystem::path> doors(found.begin(), found.end());
   const ConformanceReport report = RunConformance(doors, options.run);
-  if (options.format == "json")
-    PrintJson(ToJson(report));
-  else
-    std::fputs((options.format == "html"       ? ToHtml(report)
-                : options.format == "markdown" ? ToMarkdown(report)
-                                               : ToText(report))
-                   .c_str(),
-               stdout);
+  PrintText(DocumentOf(report, options.format));
   if (report.rows.empty()) return ExitCodeOf(ErrorCode::kMissing);
   return ExitCodeOfBatch(static_cast<std::size_t>(std::count_if(
       report.rows.begin(), report.rows.end(),

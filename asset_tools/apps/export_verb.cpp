@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -24,10 +23,7 @@ namespace fs = std::filesystem;
 struct ExportOptions {
   std::vector<std::string> paths;
   std::vector<std::string> formats;
-  std::string out;
-  std::string latch = "bolt";
-  int threads = 0;
-  bool overwrite = false;
+  ExportRun run;
   bool json = false;
 };
 
@@ -40,11 +36,11 @@ ExportOptions ParseExport(int argc, char** argv) {
       ->allow_extra_args(false)
       ->required()
       ->check(CLI::IsMember(DoorFormatNames()));
-  app.add_option("--out", options.out, "each door goes to OUT/<id>")->required();
-  app.add_option("--latch", options.latch, "bolt: bodies that hold; data: the law's numbers alone")
-      ->check(CLI::IsMember({"bolt", "data"}));
-  AddThreads(app, options.threads, "0: all processors; no byte depends on it");
-  AddOverwrite(app, options.overwrite, "replace what is there already");
+  app.add_option("--out", options.run.out, "each door goes to OUT/<id>")->required();
+  AddChoice(app, "--latch", options.run.settings.latch,
+            "bolt: bodies that hold; data: the law's numbers alone");
+  AddThreads(app, options.run.threads, "0: all processors; no byte depends on it");
+  AddOverwrite(app, options.run.existing, "replace what is there already");
   AddJson(app, options.json);
   app.footer(
       "example:\n"
@@ -71,26 +67,21 @@ int Finish(const std::vector<ExportedDoor>& doors, const ExportOptions& options)
   for (const ExportedDoor& door : doors) {
     if (door.problem.empty()) continue;
     ++failed;
-    std::fprintf(stderr, "doorforge: %s: %s\n", door.folder.c_str(), door.problem.c_str());
+    PrintNote(door.folder + ": " + door.problem);
   }
-  if (options.json)
-    PrintJson(ExportedToJson(doors));
-  else
-    std::printf("%zu doors exported to %s\n", doors.size() - failed, options.out.c_str());
+  PrintAnswer(options.json, ExportedToJson(doors),
+              std::to_string(doors.size() - failed) + " doors exported to " +
+                  options.run.out.string() + "\n");
   return ExitCodeOfBatch(failed);
 }
 
 }  // namespace
 
 int RunExportVerb(int argc, char** argv) {
-  const ExportOptions options = ParseExport(argc, argv);
-  ExportRun run{.out = options.out,
-                .formats = {},
-                .settings = {*ValueNamed<LatchExport>(options.latch)},
-                .existing = options.overwrite ? Existing::kReplace : Existing::kRefuse,
-                .threads = options.threads};
-  for (const std::string& name : options.formats) run.formats.push_back(*DoorFormatNamed(name));
-  return Finish(ExportDoors(DoorsOf(options), run), options);
+  ExportOptions options = ParseExport(argc, argv);
+  for (const std::string& name : options.formats)
+    options.run.formats.push_back(*DoorFormatNamed(name));
+  return Finish(ExportDoors(DoorsOf(options), options.run), options);
 }
 
 }  // namespace doorforge

@@ -3,14 +3,6 @@
 #include "mesh_options.h"
 
 namespace doorforge {
-namespace {
-
-template <class T>
-void Override(T& value, const T& flag) {
-  if (flag != T()) value = flag;
-}
-
-}  // namespace
 
 LooseMeshConfig UnsetMeshOptions() {
   return {.role = "", .mechanism = "", .unit = "", .hinge = "", .license = ""};
@@ -46,21 +38,6 @@ void AddBodyMeshOptions(CLI::App& app, const std::string& prefix, LooseMeshConfi
   app.add_option(p + "hinge", mesh.hinge,
                  "of a leaf's mesh file, as seen from the front: left or right");
   app.add_option(p + "frame", mesh.frame, "mesh file of a leaf's frame");
-}
-
-void OverrideMesh(LooseMeshConfig& config, const LooseMeshConfig& flags) {
-  Override(config.role, flags.role);
-  Override(config.mechanism, flags.mechanism);
-  Override(config.unit, flags.unit);
-  Override(config.size_m, flags.size_m);
-  Override(config.scale, flags.scale);
-  Override(config.up, flags.up);
-  Override(config.front, flags.front);
-  Override(config.hinge, flags.hinge);
-  Override(config.frame, flags.frame);
-  Override(config.rose, flags.rose);
-  Override(config.mount, flags.mount);
-  Override(config.license, flags.license);
 }
 
 }  // namespace doorforge

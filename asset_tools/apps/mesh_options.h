@@ -10,7 +10,7 @@
 
 namespace doorforge {
 
-/// A config whose every field says "not set", for flags.
+/// A config whose every field says "not set", for flags and AssignGiven().
 LooseMeshConfig UnsetMeshOptions();
 
 /// Flags of loose meshes: "--unit" and so on, or "--handle-unit" with the prefix "handle-". All
@@ -18,8 +18,5 @@ LooseMeshConfig UnsetMeshOptions();
 void AddMeshOptions(CLI::App& app, const std::string& prefix, LooseMeshConfig& mesh);
 void AddHandleMeshOptions(CLI::App& app, const std::string& prefix, LooseMeshConfig& mesh);
 void AddBodyMeshOptions(CLI::App& app, const std::string& prefix, LooseMeshConfig& mesh);
-
-/// What the flags set replaces what the config has.
-void OverrideMesh(LooseMeshConfig& config, const LooseMeshConfig& flags);
 
 }  // namespace doorforge

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,10 +30,10 @@ struct RepairOptions {
   std::string report;
   std::string config;
   std::vector<std::string> settings;
-  std::string wrap;
+  std::optional<WrapUse> wrap;
   double max_seconds = kObjectSeconds;
   bool json = false;
-  bool overwrite = false;
+  Existing existing = Existing::kRefuse;
 };
 
 RepairOptions OptionsOf(int argc, char** argv) {
@@ -45,12 +45,11 @@ RepairOptions OptionsOf(int argc, char** argv) {
   app.add_option("OUT", options.output, "closed mesh: .obj .stl .ply")->required();
   AddJson(app, options.json, "print the report as one JSON document");
   app.add_option("--report", options.report, "where to write the report (OUT.report.json)");
-  AddOverwrite(app, options.overwrite, "replace OUT and its report");
+  AddOverwrite(app, options.existing, "replace OUT and its report");
   AddConfig(app, options.config, "YAML file with settings of the repair");
   AddSettings(app, options.settings, "one setting, such as max_triangles=2000");
-  app.add_option("--wrap", options.wrap,
-                 "alpha wrap: never, auto (where exact repair fails) or always")
-      ->check(CLI::IsMember({"never", "auto", "always"}));
+  AddChoice(app, "--wrap", options.wrap,
+            "alpha wrap: never, auto (where exact repair fails) or always");
   AddMaxSeconds(app, options.max_seconds,
                 "processor time that it may take before it is given up (300)");
   app.footer(
@@ -65,37 +64,20 @@ RepairOptions OptionsOf(int argc, char** argv) {
 }
 
 RepairConfig ConfigOf(const RepairOptions& options) {
-  std::vector<std::string> settings = options.settings;
-  if (!options.wrap.empty()) settings.push_back("wrap=" + options.wrap);
-  return LoadConfig<RepairConfig>(options.config, settings);
+  auto config = LoadConfig<RepairConfig>(options.config, options.settings);
+  if (options.wrap) config.wrap = *options.wrap;
+  return config;
 }
 
 // Refuses before the work starts what would be refused after it.
 void CheckOutputs(const RepairOptions& options) {
   WriterFor(options.output);
   for (const std::string& path : {options.output, options.report}) {
-    if (!options.overwrite && fs::exists(fs::symlink_status(path)))
+    if (options.existing == Existing::kRefuse && fs::exists(fs::symlink_status(path)))
       throw Error(ErrorCode::kInvalidArgument,
                   path + ": already exists; pass --overwrite to replace it");
     RequireWritable(fs::absolute(path).parent_path());
   }
-}
-
-void Print(const RepairOptions& options, const RepairReport& report) {
-  const auto millimetres = [](double metres) { return 1000 * metres; };
-  std::printf("%s: %s", options.input.c_str(), std::string(NameOf(report.outcome)).c_str());
-  std::printf(report.reason.empty() ? "\n" : " (%s)\n", report.reason.c_str());
-  for (const std::string& step : report.steps) std::printf("  %s\n", step.c_str());
-  if (report.outcome == RepairOutcome::kFailed) return;
-  std::printf("  volume %.6g m3, area %.6g m2, %d pieces%s\n", report.after.volume_m3,
-              report.after.area_m2, report.after.components,
-              report.self_intersects ? ", which cross each other or themselves" : "");
-  std::printf("  output to input: mean %.3f mm, largest %.3f mm\n",
-              millimetres(report.output_to_input.mean_m),
-              millimetres(report.output_to_input.max_m));
-  std::printf("  visible input to output: mean %.3f mm, largest %.3f mm\n",
-              millimetres(report.visible_input_to_output.mean_m),
-              millimetres(report.visible_input_to_output.max_m));
 }
 
 }  // namespace
@@ -107,14 +89,10 @@ int RunRepairVerb(int argc, char** argv) {
   const auto [result, record] = NamingConfig(
       options.config, [&] { return RepairMeshFile(options.input, config, options.max_seconds); });
   if (result.mesh) {
-    const Existing existing = options.overwrite ? Existing::kReplace : Existing::kRefuse;
-    CommitFile(options.output, WriterFor(options.output)(result.mesh->mesh()), existing);
-    CommitFile(options.report, JsonText(record, 2) + "\n", existing);
+    CommitFile(options.output, WriterFor(options.output)(result.mesh->mesh()), options.existing);
+    CommitFile(options.report, JsonText(record, 2) + "\n", options.existing);
   }
-  if (options.json)
-    PrintJson(record);
-  else
-    Print(options, result.report);
+  PrintAnswer(options.json, record, options.input + ": " + RepairText(result.report));
   return result.mesh ? 0 : 1;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,8 @@ struct ValidateOptions {
   ValidationSettings given;  // on the command line; empty: what the file says
   std::string profile = "physics";
   std::string config;
-  std::string format;
-  std::string fail_on;
+  std::optional<FindingFormat> format;
+  std::optional<FailOn> fail_on;
   std::string out;
   bool json = false;
   bool rules = false;
@@ -39,11 +40,9 @@ struct ValidateOptions {
 };
 
 void AddProjectOptions(CLI::App& app, ValidateOptions& options) {
-  app.add_option("--format", options.format, "text (default), json, sarif, junit, github, html")
-      ->check(CLI::IsMember(NamesOf<FindingFormat>()));
+  AddChoice(app, "--format", options.format, "text (default), json, sarif, junit, github, html");
   app.add_option("--out", options.out, "write the report to this file");
-  app.add_option("--fail-on", options.fail_on, "exit code 1 from this severity on (error)")
-      ->check(CLI::IsMember(NamesOf<FailOn>()));
+  AddChoice(app, "--fail-on", options.fail_on, "exit code 1 from this severity on (error)");
   const auto list = [&](const char* name, std::vector<std::string>& values, const char* about) {
     app.add_option(name, values, about)->allow_extra_args(false);
   };
@@ -128,17 +127,14 @@ std::unique_ptr<DoorValidator> OpenableValidator() {
 int RunValidateVerb(int argc, char** argv) {
   ValidateOptions options = ParseValidate(argc, argv);
   if (options.rules) {
-    if (options.json)
-      PrintJson(AllRulesToJson());
-    else
-      PrintText(AllRulesText());
+    PrintAnswer(options.json, AllRulesToJson(), AllRulesText());
     return 0;
   }
   ValidationRequest& request = options.request;
-  request.format = ValueNamed<FindingFormat>(options.format)
-                       .value_or(options.json ? FindingFormat::kJson : FindingFormat::kText);
+  request.format =
+      options.format.value_or(options.json ? FindingFormat::kJson : FindingFormat::kText);
   request.settings = SettingsFor(options.config, request.paths.front(), options.given);
-  if (!options.fail_on.empty()) request.settings.fail_on = *ValueNamed<FailOn>(options.fail_on);
+  if (options.fail_on) request.settings.fail_on = *options.fail_on;
   const ValidationAnswer answer = RunValidation(*ValidatorFor(options.profile), request);
   if (options.out.empty())
     PrintText(answer.document);

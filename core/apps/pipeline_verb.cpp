@@ -46,9 +46,7 @@ void ParseOptions(int argc, char** argv, Options& options) {
       ->expected(1, 2);
   app.add_option("--out", options.run.out, "folder for everything that is made")->required();
   app.add_option("--doors", options.doors, "folders of composed doors, instead of the catalogue's");
-  AddThreads(app, options.run.threads, "threads, 0: all; changes no byte")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  AddThreads(app, options.run.threads, "threads, 0: all; changes no byte");
   AddSettings(app, options.settings, "changes one of the preset's settings");
   app.add_flag("--dry-run", options.dry_run,
                "print the steps, why each would run, and the expected time and space");

@@ -32,9 +32,7 @@ QuickstartRequest Parse(int argc, char** argv) {
   app.add_option("--epochs", request.epochs, "passes over the collected samples")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  AddThreads(app, request.threads, "threads, 0: all")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  AddThreads(app, request.threads, "threads, 0: all");
   AddSeed(app, request.seed, "decides every random choice");
   AddOverwrite(app, request.overwrite, "replace the folder --out");
   app.add_flag("--resume", request.resume, "keep the steps that are done in --out");
@@ -54,7 +52,7 @@ int RunDoors(int argc, char** argv) {
   app.add_option("--parts", parts, "folder of parts")->required()->check(CLI::ExistingDirectory);
   app.add_option("--out", out, "folder of the doors")->required();
   AddSeed(app, seed, "decides which pairs");
-  AddThreads(app, threads, "threads, 0: all")->check(CLI::Range(0, 1024));
+  AddThreads(app, threads, "threads, 0: all");
   ParseVerb(app, argc, argv);
   ComposeQuickstartDoors(parts, out, seed, threads);
   return 0;

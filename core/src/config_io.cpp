@@ -27,6 +27,17 @@ void ThrowUnknownName(const std::string& path, const std::string& name,
                              NearestName(name, allowed) + "\"?");
 }
 
+nlohmann::ordered_json Difference(const nlohmann::ordered_json& object,
+                                  const nlohmann::ordered_json& from) {
+  nlohmann::ordered_json difference = nlohmann::ordered_json::object();
+  for (const auto& [key, value] : object.items()) {
+    const nlohmann::ordered_json& other = from.at(key);
+    if (value == other) continue;
+    difference[key] = value.is_object() ? Difference(value, other) : value;
+  }
+  return difference;
+}
+
 }  // namespace internal
 
 void RequireRange(const std::string& path, const char* name, double value, double low,

@@ -1,21 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdio>
 #include <filesystem>
-#include <iostream>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "doorforge/cli/answer.h"
 #include "doorforge/cli/command_line.h"
 #include "doorforge/collect/collect_stage.h"
 #include "doorforge/collect/collection_script.h"
 #include "doorforge/collect/forecast.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/error.h"
-#include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/dataset/describe_dataset.h"
 #include "doorforge/dataset/task_number.h"
@@ -67,12 +65,10 @@ void AddOptions(CLI::App& app, DatagenOptions& options) {
                  "trained policy of this stage that drives and is corrected by the expert (open, "
                  "handle; config: learner_decisions), or whose grasps are tried (grasp)");
   app.add_option("--robot", options.robot, "URDF of the robot; the embedded one if left out");
-  app.add_option("--config", options.config, "YAML file with settings");
+  AddConfig(app, options.config, "YAML file with settings");
   AddSettings(app, options.settings, "a.b=c overrides one setting, e.g. cloud.point_count");
-  app.add_option("-j,--threads", options.threads, "threads, 0: all; does not change the bytes")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  app.add_flag("--json", options.json, "print one JSON document");
+  AddThreads(app, options.threads, "threads, 0: all; does not change the bytes");
+  AddJson(app, options.json);
 }
 
 // What gives a collection to Slurm instead of running it here.
@@ -136,30 +132,25 @@ CollectionTask TaskOf(const DatagenOptions& options) {
 
 int Finish(const CollectSummary& summary, const CollectionTask& task,
            const DatagenOptions& options) {
-  if (summary.stopped_by_signal != 0) {
-    std::fprintf(stderr,
-                 "doorforge: stopped; what is done is kept in %s, the same command goes on\n",
-                 options.out.c_str());
-    return 128 + summary.stopped_by_signal;
-  }
+  if (summary.stopped_by_signal != 0)
+    return ExitCodeOfStopped(summary.stopped_by_signal, "what is done is kept in " + options.out +
+                                                            ", the same command goes on");
   if (task.count > 1) {
-    std::cout << (options.json ? JsonText(TaskSummaryToJson(summary, task), 2) + "\n"
-                               : TaskSummaryText(summary, task, options.out));
+    PrintAnswer(options.json, TaskSummaryToJson(summary, task),
+                TaskSummaryText(summary, task, options.out));
     return 0;
   }
   const nlohmann::ordered_json description = DescribeDataset(options.out);
-  std::cout << (options.json ? JsonText(description, 2) + "\n" : DescriptionText(description));
+  PrintAnswer(options.json, description, DescriptionText(description));
   if (summary.written > 0) return 0;
-  std::fprintf(stderr, "doorforge: no episode succeeded; %s lists the causes\n",
-               (fs::path(options.out) / "failures.jsonl").c_str());
+  PrintNote("no episode succeeded; " + (fs::path(options.out) / "failures.jsonl").string() +
+            " lists the causes");
   return 1;
 }
 
 int CollectOrGoOn(const DatagenOptions& options) {
   const CollectionTask task = TaskOf(options);
-  const auto warn = [](const std::string& text) {
-    std::fprintf(stderr, "doorforge: warning: %s\n", text.c_str());
-  };
+  const auto warn = [](const std::string& text) { PrintNote("warning: " + text); };
   const CollectSummary summary =
       CollectStage({RequestOf(options), options.out, task, options.overwrite, warn});
   return Finish(summary, task, options);
@@ -178,18 +169,18 @@ int GiveToSlurm(const DatagenOptions& options, const std::vector<std::string>& a
   const std::string& file = options.script_file;
   const CollectionScript written =
       WriteCollectionScript({RequestOf(options), file, script, options.overwrite});
-  std::fprintf(stderr, "doorforge: %s: %d tasks of %zu shards in %zu arrays\n", file.c_str(),
-               written.tasks, written.shards, written.arrays);
+  PrintNote(file + ": " + std::to_string(written.tasks) + " tasks of " +
+            std::to_string(written.shards) + " shards in " + std::to_string(written.arrays) +
+            " arrays");
   if (options.submit) return RunChild({"/bin/bash", fs::absolute(file).string()});
-  std::printf("bash %s\n", file.c_str());
+  PrintText("bash " + file + "\n");
   return 0;
 }
 
 int PrintPlan(const DatagenOptions& options) {
   StageRun run(RequestOf(options));
   const CollectionForecast forecast = Forecast(run, options.probe, options.threads);
-  std::cout << (options.json ? JsonText(ForecastToJson(forecast), 2) + "\n"
-                             : ForecastText(forecast));
+  PrintAnswer(options.json, ForecastToJson(forecast), ForecastText(forecast));
   return 0;
 }
 

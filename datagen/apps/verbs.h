@@ -2,28 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
-
-#include <CLI/CLI.hpp>
-
 namespace doorforge {
 
 /// `doorforge datagen open ...`; argv[0] is "datagen". Returns the exit code.
 int RunDatagenVerb(int argc, char** argv);
-
-/// A subcommand of `doorforge dataset`.
-struct Subcommand {
-  CLI::App* app = nullptr;
-  std::function<int()> run;  ///< After it was parsed; returns the exit code.
-};
-
-// Each adds its subcommand to `doorforge dataset`.
-Subcommand AddVerify(CLI::App& dataset);
-Subcommand AddMerge(CLI::App& dataset);
-Subcommand AddReobserve(CLI::App& dataset);
-Subcommand AddStatus(CLI::App& dataset);
-Subcommand AddInfo(CLI::App& dataset);
-Subcommand AddExport(CLI::App& dataset);
-Subcommand AddCard(CLI::App& dataset);
+/// `doorforge dataset verify ...`; argv[0] is "dataset". Returns the exit code.
+int RunDatasetVerb(int argc, char** argv);
 
 }  // namespace doorforge

@@ -12,7 +12,7 @@
 #include "doorforge/physics/load_robot.h"
 #include "doorforge/physics/scene_sampling.h"
 #include "doorforge/robot_meshes/robot_meshes.h"
-#include "doorforge/rollout/standing_place.h"
+#include "doorforge/rollout/base_placement.h"
 
 #include "bindings.h"
 #include "convert.h"

@@ -34,7 +34,7 @@ Stage StageOf(const std::string& name) {
 struct StepperSettings {
   StepperOptions options;
   CloudConfig cloud;
-  RememberedViewConfig remembered{.finer = 0};
+  RememberedViewConfig remembered{.resolution_scale = 0};
 };
 
 /// A stepper with the door, robot and camera that it needs, one call at a time.

@@ -17,8 +17,8 @@
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/dataset/verify_dataset.h"
+#include "doorforge/rollout/base_placement.h"
 #include "doorforge/rollout/run_episode.h"
-#include "doorforge/rollout/standing_place.h"
 #include "doorforge/schemas/dataset.h"
 
 #include "../physics/primitive_door.h"

@@ -105,6 +105,46 @@ TEST(CommandLine, AnEmptyValueIsRefusedWhereItMustNotPassForNone) {
             "it");
 }
 
+enum class KnobShape { kRound, kFlat };
+constexpr NamedValue<KnobShape> kKnobShapes[] = {{KnobShape::kRound, "round"},
+                                                 {KnobShape::kFlat, "flat"}};
+constexpr std::span<const NamedValue<KnobShape>> ValuesOf(KnobShape) { return kKnobShapes; }
+
+TEST(CommandLine, AChoiceIsOneOfItsEnumsWordsAndTheHelpShowsTheDefault) {
+  const auto with = [](const std::vector<std::string>& words, KnobShape& shape) {
+    CLI::App app{"", "doorforge try"};
+    AddChoice(app, "--shape", shape, "of the knob");
+    const std::string refusal = RefusalOf(app, words);
+    return refusal.empty() ? app.help() : refusal;
+  };
+  KnobShape shape = KnobShape::kFlat;
+  EXPECT_NE(with({}, shape).find("=flat"), std::string::npos);
+  EXPECT_EQ(shape, KnobShape::kFlat);
+  with({"--shape", "round"}, shape);
+  EXPECT_EQ(shape, KnobShape::kRound);
+  EXPECT_NE(with({"--shape", "rund"}, shape).find("rund not in {round,flat}"), std::string::npos);
+}
+
+TEST(CommandLine, AChoiceThatIsNotGivenIsLeftToOthers) {
+  std::optional<KnobShape> shape;
+  CLI::App app{"", "doorforge try"};
+  AddChoice(app, "--shape", shape, "of the knob");
+  Parse(app, {});
+  EXPECT_FALSE(shape.has_value());
+  Parse(app, {"--shape", "flat"});
+  EXPECT_EQ(shape, KnobShape::kFlat);
+}
+
+TEST(CommandLine, OverwriteMeansThatWhatIsThereIsReplaced) {
+  Existing existing = Existing::kRefuse;
+  CLI::App app{"", "doorforge try"};
+  AddOverwrite(app, existing, "replace it");
+  Parse(app, {});
+  EXPECT_EQ(existing, Existing::kRefuse);
+  Parse(app, {"--overwrite"});
+  EXPECT_EQ(existing, Existing::kReplace);
+}
+
 TEST(CommandLine, WhatIsMissingIsStillTold) {
   Verb verb;
   const std::string refusal = RefusalOf(verb.app, {"x.stl"});

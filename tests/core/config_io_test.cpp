@@ -120,5 +120,19 @@ TEST(ConfigIo, AWordThatAnEnumHasNotIsRefusedWithThoseThatThereAre) {
   }
 }
 
+TEST(ConfigIo, WhatOptionsGiveGoesBeforeTheFileAndWhatTheyDoNotGiveIsTheFiles) {
+  Outer value = Load(R"({"count": 7, "inner": {"size_m": 0.25}, "ids": [1, 2]})");
+  const Outer unset{.count = 0, .inner = {0}, .ids = {}};
+  Outer given = unset;
+  given.inner.size_m = 0.75;
+  AssignGiven(given, unset, value);
+  EXPECT_EQ(value.count, 7);
+  EXPECT_EQ(value.inner.size_m, 0.75);
+  EXPECT_EQ(value.ids, (std::vector<int>{1, 2}));
+  given.ids = {3};
+  AssignGiven(given, unset, value);
+  EXPECT_EQ(value.ids, (std::vector<int>{3}));
+}
+
 }  // namespace
 }  // namespace doorforge

@@ -97,6 +97,21 @@ TEST_F(CollectionStatusTest, CountsWhatIsDoneBeingWrittenAndOpen) {
             std::string::npos);
 }
 
+TEST_F(CollectionStatusTest, WatchingEndsWithTheLastShard) {
+  CollectTask(0, 2);
+  std::vector<std::size_t> done;
+  const auto show = [&](const CollectionStatus& status, double now_s) {
+    EXPECT_NEAR(now_s, Now(), 60);
+    done.push_back(status.Count(ShardState::kDone));
+    if (done.size() == 1) CollectTask(1, 2);  // meanwhile
+  };
+  const std::optional<CollectionStatus> last =
+      WatchCollection({.folders = {folder_}}, std::chrono::milliseconds(1), show);
+  ASSERT_TRUE(last.has_value());
+  EXPECT_EQ(done, (std::vector<std::size_t>{3, 5}));
+  EXPECT_EQ(last->Count(ShardState::kDone), 5U);
+}
+
 TEST_F(CollectionStatusTest, AWriterGoesOnUnharmed) {
   CollectTask(0, 2);
   auto writer = Begin(1, 5);

@@ -52,7 +52,7 @@ inline void FillDecision(Decision& decision, Rng& rng) {
   for (std::size_t i = 28; i < 32; ++i) decision.proprioception[i] = i == 31 ? 1.0F : 0.0F;
   decision.action = {0.01F, 0, 0, 1, 0, 0, 0, 1, 0};
   decision.executed = decision.action;
-  decision.score_rad = rng.Uniform(0, 0.1);
+  decision.angle_gain_rad = rng.Uniform(0, 0.1);
 }
 
 /// Fails every seventh episode.

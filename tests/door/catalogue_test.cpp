@@ -363,6 +363,22 @@ TEST(Catalogue, RefusesAValueOutOfRangeWithFoundAndAllowed) {
     EXPECT_NE(message.find(words), std::string::npos) << message;
 }
 
+TEST(Catalogue, RefusesAWordThatASettingDoesNotHave) {
+  const auto refusal = [](const char* name, const char* family, const char* settings) {
+    const fs::path data = WithRecipe(name, "interior/handles/a.yaml", Head("a", family) + settings);
+    return MessageOf([&] { BuildCataloguePart(data, "a"); }, ErrorCode::kInvalidConfig);
+  };
+  const std::string shape = refusal("word", "knob_ball", "  rose: {shape: squar}\n");
+  EXPECT_NE(shape.find("rose.shape: found \"squar\", allowed round, square, octagon, oval, plate, "
+                       "stadium, tablet, lens, none; did you mean \"square\"?"),
+            std::string::npos)
+      << shape;
+  // of no matter for this rose, and refused all the same
+  const std::string lock =
+      refusal("unread_word", "knob_ball", "  rose: {shape: none, lock: yale}\n");
+  EXPECT_NE(lock.find("rose.lock: found \"yale\""), std::string::npos) << lock;
+}
+
 TEST(Catalogue, RefusesUnknownFamiliesFinishesAndMisplacedRecipes) {
   const auto list = [](const fs::path& data) { return [data] { ListCatalogue(data); }; };
   std::string message = MessageOf(

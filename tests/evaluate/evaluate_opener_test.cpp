@@ -206,7 +206,7 @@ TEST_F(EvaluateOpenerTest, AHandlePolicyThatSaysWhenItIsDoneIsBelieved) {
   const EvaluationReport report = EvaluateOpener(request).report;
   EXPECT_TRUE(IsSwitchPredicted(report.provenance));
   const EvaluatedEpisode& row = report.episodes.at(0);
-  EXPECT_FALSE(row.handle_done);
+  EXPECT_FALSE(row.handle_turned);
   EXPECT_EQ(row.outcome, EpisodeOutcome::kHandleStuck) << row.detail;
   EXPECT_NE(row.detail.find("the switch came with the handle at"), std::string::npos) << row.detail;
   fs::remove(handler / "turned.safetensors");

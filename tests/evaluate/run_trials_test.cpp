@@ -125,7 +125,7 @@ TEST(RunTrials, TheExpertOpensWhatAPolicyThatStopsDoesNot) {
   EXPECT_EQ(good.opened.successes, 3);
   EXPECT_EQ(bad.opened.successes, 0);
   EXPECT_EQ(bad.outcomes[static_cast<int>(EpisodeOutcome::kDoorStuck)], 3);
-  EXPECT_EQ(bad.handle_done.successes, 3) << "the same rule turns the handle";
+  EXPECT_EQ(bad.handle_turned.successes, 3) << "the same rule turns the handle";
   // two fingers that squeeze with 80 N each, and never a crash into the door
   EXPECT_GT(good.median_force_n, 80);
   EXPECT_LT(good.peak_force_n, 2000);

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "doorforge/core/error.h"
-#include "doorforge/physics/lone_door.h"
 #include "doorforge/physics/opening_trial.h"
+#include "doorforge/physics/robotless_door.h"
 
 #include "primitive_door.h"
 

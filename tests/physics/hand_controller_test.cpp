@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "doorforge/physics/door_world.h"
 #include "doorforge/physics/scene_sampling.h"
 
 #include "primitive_door.h"

@@ -19,8 +19,8 @@
 
 #include "doorforge/exporters/export_door.h"
 #include "doorforge/exporters/export_urdf.h"
-#include "doorforge/physics/lone_door.h"
 #include "doorforge/physics/opening_trial.h"
+#include "doorforge/physics/robotless_door.h"
 
 #include "primitive_door.h"
 

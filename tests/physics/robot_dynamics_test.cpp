@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "doorforge/core/error.h"
+#include "doorforge/physics/door_world.h"
 #include "doorforge/physics/hand_controller.h"
 #include "doorforge/physics/load_robot.h"
 #include "doorforge/physics/scene_sampling.h"

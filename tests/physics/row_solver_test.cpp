@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "row_solver.h"
+#include "collision/row_solver.h"
 
 #include <memory>
 #include <vector>

@@ -47,7 +47,7 @@ EvaluatedEpisode Row(const DoorIdentity& door, std::uint64_t seed, double skill)
   row.detail = "hinge " + std::to_string(row.peak_hinge_rad) + " rad < limit & \"grasp\" <held>";
   row.opening_actions = 12;
   row.simulated_s = 6.5;
-  row.handle_done = row.outcome == EpisodeOutcome::kOpened;
+  row.handle_turned = row.outcome == EpisodeOutcome::kOpened;
   row.peak_force_n = 160 + 40 * rng.Uniform();
   row.state_sha256 = Sha256Hex(row.detail);
   return row;

@@ -205,14 +205,14 @@ TEST(SuccessStatistics, TimeIsOfOpenedEpisodesForceAndHandleOfAll) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].simulated_s = seconds[i];
     rows[i].peak_force_n = newtons[i];
-    rows[i].handle_done = rows[i].outcome != EpisodeOutcome::kHandleStuck;
+    rows[i].handle_turned = rows[i].outcome != EpisodeOutcome::kHandleStuck;
   }
   const SuccessSummary summary = Summarise(rows);
   EXPECT_EQ(summary.median_opening_s, 6);
   EXPECT_EQ(summary.median_force_n, 80);
   EXPECT_EQ(summary.peak_force_n, 400);
-  EXPECT_EQ(summary.handle_done.successes, 4);
-  EXPECT_EQ(summary.handle_done.episodes, 5);
+  EXPECT_EQ(summary.handle_turned.successes, 4);
+  EXPECT_EQ(summary.handle_turned.episodes, 5);
 }
 
 // Rates 1/2, 1, 0: mean 1/2, unbiased variance ((0)^2 + (1/2)^2 + (1/2)^2) / 2 = 1/4.

@@ -78,7 +78,7 @@ void ExpectSameEnd(const Episode& a, const Episode& b) {
   EXPECT_EQ(a.peak_handle_rad, b.peak_handle_rad);
   EXPECT_EQ(a.peak_force_n, b.peak_force_n);
   EXPECT_EQ(a.simulated_s, b.simulated_s);
-  EXPECT_EQ(a.handle_done, b.handle_done);
+  EXPECT_EQ(a.handle_turned, b.handle_turned);
 }
 
 class EpisodeStepperTest : public testing::Test {
@@ -144,7 +144,7 @@ TEST_F(EpisodeStepperTest, DrivenByHandItOpensAsRunEpisodeDoesBitByBit) {
     ASSERT_EQ(rewards.size(), expected.decisions.size());
     EXPECT_EQ(rewards, worth);
     for (std::size_t t = 0; t < rewards.size(); ++t)
-      EXPECT_EQ(rewards[t], expected.decisions[t].score_rad);
+      EXPECT_EQ(rewards[t], expected.decisions[t].angle_gain_rad);
     EXPECT_EQ(stepper.now().cause, EpisodeOutcome::kOpened);
     EXPECT_TRUE(stepper.now().terminated);
     EXPECT_FALSE(stepper.now().truncated);
@@ -171,7 +171,7 @@ TEST_F(EpisodeStepperTest, FromTheGraspOnItIsRunStagesBitByBit) {
   const std::vector<Told> told = Finish(stepper, HandleExpert(), OpeningExpert());
   ExpectSameEnd(stepper.Summary(), expected);
   for (std::size_t t = 0; t < expected.decisions.size(); ++t)
-    EXPECT_EQ(told[t].result.reward, expected.decisions[t].score_rad);
+    EXPECT_EQ(told[t].result.reward, expected.decisions[t].angle_gain_rad);
 }
 
 TEST_F(EpisodeStepperTest, TheCloudsAreThoseThatRunEpisodeRecords) {
@@ -270,13 +270,13 @@ TEST_F(EpisodeStepperTest, ComesBackBeforeTheGraspAsWell) {
   stepper.Reset(scene);
   const EpisodeImage start = stepper.Save();
   ExpertGrasp takes(scene, door, robot_);
-  const std::optional<ChosenGrasp> grasp = takes.Choose(stepper.Snapshot());
+  const std::optional<GraspCommand> grasp = takes.Choose(stepper.Snapshot());
   stepper.Step(grasp);
   const Told held = Now(stepper);
   stepper.Step(stepper.Restore(start).over() ? std::nullopt : grasp);
   ExpectSame(Now(stepper), held, "grasped again");
   stepper.Restore(start);
-  stepper.Step(std::optional<ChosenGrasp>());
+  stepper.Step(std::optional<GraspCommand>());
   EXPECT_EQ(stepper.now().cause, EpisodeOutcome::kNotReached);
   EXPECT_TRUE(stepper.now().terminated);
 }
@@ -319,7 +319,7 @@ TEST_F(EpisodeStepperTest, RefusesStepsThatDoNotBelong) {
 
   stepper.Reset(scene);
   const EpisodeImage image = stepper.Save();
-  EXPECT_THROW(stepper.Step(std::optional<ChosenGrasp>()), Error);
+  EXPECT_THROW(stepper.Step(std::optional<GraspCommand>()), Error);
   EXPECT_THROW(stepper.Restore(EpisodeImage()), Error);
   OpeningExpert expert;
   while (!stepper.now().over()) stepper.Step(expert.Act(stepper.now().observation));

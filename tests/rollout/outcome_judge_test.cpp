@@ -142,7 +142,7 @@ TEST(JudgeOpening, IsStuckWhereTheGraspHeldAndLostWhereItDidNot) {
 
 TEST(JudgeOpening, ADoorThatCoastsIsLostAndALockedOneWasNotTurned) {
   OpeningEvidence evidence = Stuck();
-  evidence.handle_done = false;
+  evidence.handle_turned = false;
   evidence.early = "the switch came";
   EXPECT_EQ(JudgeOpening(evidence, kLimits).outcome, EpisodeOutcome::kDoorStuck);
   evidence.locked = true;

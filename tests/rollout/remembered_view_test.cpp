@@ -74,8 +74,8 @@ class RememberedViewTest : public testing::Test {
 };
 
 TEST_F(RememberedViewTest, ShowsTheKnobThatTheHandHides) {
-  const Episode now = Watched(Stage::kHandle, {.finer = 0});
-  const Episode joined = Watched(Stage::kHandle, {.finer = 2, .within_m = 0.25});
+  const Episode now = Watched(Stage::kHandle, {.resolution_scale = 0});
+  const Episode joined = Watched(Stage::kHandle, {.resolution_scale = 2, .crop_radius_m = 0.25});
   EXPECT_EQ(joined.state_sha256, now.state_sha256) << "the physics is the same";
   const LabelledCloud& hidden = now.decisions.at(0).cloud;
   const LabelledCloud& cloud = joined.decisions.at(0).cloud;
@@ -105,7 +105,7 @@ TEST_F(RememberedViewTest, PointZeroIsTheNearestOfBothToTheFingers) {
 }
 
 TEST_F(RememberedViewTest, OpeningIsSeenAsItIs) {
-  const Episode now = Watched(Stage::kOpen, {.finer = 0});
+  const Episode now = Watched(Stage::kOpen, {.resolution_scale = 0});
   const Episode joined = Watched(Stage::kOpen, {});
   ASSERT_EQ(joined.decisions.size(), now.decisions.size());
   for (std::size_t i = 0; i < now.decisions.size(); ++i)
@@ -121,10 +121,10 @@ TEST_F(RememberedViewTest, RefusesNumbersOutOfRangeByName) {
     }
     return "";
   };
-  EXPECT_NE(message_of({.finer = 9}).find("remembered.finer"), std::string::npos);
-  EXPECT_NE(message_of({.finer = -1}).find("remembered.finer"), std::string::npos);
-  EXPECT_NE(message_of({.finer = 0}).find("remembered.finer"), std::string::npos);
-  EXPECT_NE(message_of({.within_m = -0.1}).find("remembered.within_m"), std::string::npos);
+  EXPECT_NE(message_of({.resolution_scale = 9}).find("remembered.finer"), std::string::npos);
+  EXPECT_NE(message_of({.resolution_scale = -1}).find("remembered.finer"), std::string::npos);
+  EXPECT_NE(message_of({.resolution_scale = 0}).find("remembered.finer"), std::string::npos);
+  EXPECT_NE(message_of({.crop_radius_m = -0.1}).find("remembered.within_m"), std::string::npos);
   EXPECT_EQ(message_of({}), "");
 }
 

@@ -12,9 +12,10 @@
 #include "doorforge/physics/load_robot.h"
 #include "doorforge/physics/scene_sampling.h"
 #include "doorforge/robot_meshes/robot_meshes.h"
+#include "doorforge/rollout/base_placement.h"
 #include "doorforge/rollout/opening_expert.h"
+#include "doorforge/rollout/proprioception.h"
 #include "doorforge/rollout/run_episode.h"
-#include "doorforge/rollout/standing_place.h"
 
 #include "../physics/box_arm.h"
 #include "../physics/primitive_door.h"

@@ -11,6 +11,7 @@
 #include "doorforge/core/error.h"
 #include "doorforge/physics/scene_sampling.h"
 #include "doorforge/rollout/opening_expert.h"
+#include "doorforge/rollout/proprioception.h"
 
 #include "../physics/primitive_door.h"
 
@@ -100,7 +101,7 @@ TEST_F(RunEpisodeTest, DecisionsAddUpToTheDoorsAngleASixthOfASecondApart) {
   for (std::size_t i = 0; i < episode.decisions.size(); ++i) {
     const Decision& decision = episode.decisions[i];
     EXPECT_DOUBLE_EQ(decision.hinge_rad, hinge);
-    hinge += decision.score_rad;
+    hinge += decision.angle_gain_rad;
     if (i > 0) {
       EXPECT_NEAR(decision.time_s - episode.decisions[i - 1].time_s, 1.0 / 6, 1e-9);
     }

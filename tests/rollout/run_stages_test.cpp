@@ -25,7 +25,7 @@ class RunStagesTest : public testing::Test {
  protected:
   RunStagesTest() : robot_(LoadMobileFranka()) {}
 
-  Episode Run(const DoorAsset& door, const Scene& scene, EpisodeRoles roles) const {
+  Episode Run(const DoorAsset& door, const Scene& scene, EpisodePolicies roles) const {
     OpeningExpert opens;
     roles.open = &opens;
     return RunStages(scene, door, robot_, roles, nullptr);
@@ -48,7 +48,7 @@ TEST_F(RunStagesTest, TurnsOfTheHandleAddUpToDoneAndTheDoorOpens) {
       for (const Decision& decision : episode.decisions) {
         EXPECT_DOUBLE_EQ(decision.handle_rad, handle);
         EXPECT_LT(decision.hinge_rad, 1 * kDegree);
-        handle += decision.score_rad;
+        handle += decision.angle_gain_rad;
       }
       EXPECT_GE(handle, door.latch.handle_done_angle_rad);
     }
@@ -81,14 +81,14 @@ TEST_F(RunStagesTest, APredictedFlagThatComesInTimeChangesNothing) {
   const DoorAsset door = MakePrimitiveDoor({});
   const Scene scene = SampleScene(door, 1, 0);
   HandleExpert turns;
-  EpisodeRoles roles{.recorded = Stage::kHandle, .handle = &turns};
+  EpisodePolicies roles{.recorded = Stage::kHandle, .handle = &turns};
   const Episode told = Run(door, scene, roles);
   ASSERT_EQ(told.outcome, EpisodeOutcome::kOpened) << told.detail;
-  roles.predicted_turned = AfterQuestions(static_cast<int>(told.decisions.size()));
+  roles.handle_turned = AfterQuestions(static_cast<int>(told.decisions.size()));
   const Episode predicted = Run(door, scene, roles);
   EXPECT_EQ(predicted.state_sha256, told.state_sha256);
   EXPECT_EQ(predicted.decisions.size(), told.decisions.size());
-  EXPECT_TRUE(predicted.handle_done);
+  EXPECT_TRUE(predicted.handle_turned);
 }
 
 TEST_F(RunStagesTest, APredictedFlagThatComesTooEarlyLeavesTheHandleStuckAndIsNamed) {
@@ -96,10 +96,10 @@ TEST_F(RunStagesTest, APredictedFlagThatComesTooEarlyLeavesTheHandleStuckAndIsNa
   HandleExpert turns;
   const Episode episode =
       Run(door, SampleScene(door, 1, 0),
-          {.recorded = Stage::kHandle, .handle = &turns, .predicted_turned = AfterQuestions(1)});
+          {.recorded = Stage::kHandle, .handle = &turns, .handle_turned = AfterQuestions(1)});
   EXPECT_EQ(episode.decisions.size(), 1U);
   EXPECT_EQ(episode.outcome, EpisodeOutcome::kHandleStuck) << episode.detail;
-  EXPECT_FALSE(episode.handle_done);
+  EXPECT_FALSE(episode.handle_turned);
   EXPECT_NE(episode.detail.find("the switch came with the handle at"), std::string::npos)
       << episode.detail;
 }
@@ -108,20 +108,20 @@ TEST_F(RunStagesTest, WhereThePredictedFlagNeverComesOpeningIsTriedAllTheSame) {
   const DoorAsset door = MakePrimitiveDoor({});
   Scene scene = SampleScene(door, 1, 0);
   scene.physics.max_handle_actions = 6;
-  EpisodeRoles roles{.recorded = Stage::kHandle, .predicted_turned = [] { return false; }};
+  EpisodePolicies roles{.recorded = Stage::kHandle, .handle_turned = [] { return false; }};
   HandleExpert turns;
   roles.handle = &turns;
   const Episode turned = Run(door, scene, roles);
   EXPECT_EQ(turned.decisions.size(), 6U);
   EXPECT_EQ(turned.outcome, EpisodeOutcome::kOpened) << turned.detail;
-  EXPECT_TRUE(turned.handle_done);
+  EXPECT_TRUE(turned.handle_turned);
 
   Staying stays;
   roles.handle = &stays;
   const Episode still = Run(door, scene, roles);
   EXPECT_EQ(still.decisions.size(), 6U);
   EXPECT_EQ(still.outcome, EpisodeOutcome::kHandleStuck) << still.detail;
-  EXPECT_FALSE(still.handle_done);
+  EXPECT_FALSE(still.handle_turned);
   EXPECT_NE(still.detail.find("no switch came, opening was tried with the handle at"),
             std::string::npos)
       << still.detail;
@@ -142,7 +142,7 @@ TEST_F(RunStagesTest, ALearnerDrivesFirstAndTheRuleSaysWhatItWouldHaveDone) {
   for (std::size_t t = 0; t < 3; ++t) {
     EXPECT_EQ(way(episode.decisions[t].executed), 0.0F);
     EXPECT_GT(way(episode.decisions[t].action), 0.005F);
-    EXPECT_LT(episode.decisions[t].score_rad, 1 * kDegree);
+    EXPECT_LT(episode.decisions[t].angle_gain_rad, 1 * kDegree);
   }
   for (std::size_t t = 3; t < episode.decisions.size(); ++t) {
     const Decision& decision = episode.decisions[t];
@@ -172,16 +172,16 @@ TEST_F(RunStagesTest, TheRecordedJointsSayWhereTheHandIs) {
 }
 
 // Takes hold at a point given in the handle's grasp frame.
-class FixedGrasp : public GraspChooser {
+class FixedGrasp : public SnapshotGraspPolicy {
  public:
   FixedGrasp(const DoorAsset& door, const RobotModel& robot, const Eigen::Vector3d& offset_m)
       : handle_from_grasp_(door.handle_from_grasp),
         tcp_from_hand_(robot.hand_from_tcp().linear().transpose()),
         offset_m_(offset_m) {}
 
-  std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override {
+  std::optional<GraspCommand> Choose(const SceneSnapshot& snapshot) override {
     const RigidTransform grasp = snapshot.door[kHandleLink] * handle_from_grasp_;
-    ChosenGrasp chosen;
+    GraspCommand chosen;
     chosen.contact_m = grasp * (offset_m_ - kGraspInsertion * Eigen::Vector3d::UnitZ());
     chosen.world_from_hand_rotation = grasp.linear() * tcp_from_hand_;
     return chosen;
@@ -202,7 +202,7 @@ TEST_F(RunStagesTest, AGoodGraspScoresTheDoorsFinalAngleAndAnEmptyOneNothing) {
       Run(door, scene, {.recorded = Stage::kGrasp, .grasp = &good, .handle = &turns});
   EXPECT_EQ(opened.outcome, EpisodeOutcome::kOpened) << opened.detail;
   ASSERT_EQ(opened.decisions.size(), 1U);
-  EXPECT_GT(opened.decisions[0].score_rad, 45 * kDegree);
+  EXPECT_GT(opened.decisions[0].angle_gain_rad, 45 * kDegree);
   EXPECT_EQ(opened.decisions[0].time_s, 0);
 
   FixedGrasp empty(door, robot_, {0, 0, -0.12});
@@ -210,7 +210,7 @@ TEST_F(RunStagesTest, AGoodGraspScoresTheDoorsFinalAngleAndAnEmptyOneNothing) {
       Run(door, scene, {.recorded = Stage::kGrasp, .grasp = &empty, .handle = &turns});
   EXPECT_EQ(missed.outcome, EpisodeOutcome::kGraspMissed) << missed.detail;
   ASSERT_EQ(missed.decisions.size(), 1U);
-  EXPECT_LT(missed.decisions[0].score_rad, 0.01);
+  EXPECT_LT(missed.decisions[0].angle_gain_rad, 0.01);
 }
 
 TEST_F(RunStagesTest, ADoorWithoutALatchNeedsNoTurn) {
@@ -227,7 +227,7 @@ TEST_F(RunStagesTest, WhoSaysWhenTheHandleIsTurnedIsNotToldThatThereIsNoLatch) {
   HandleExpert turns;
   const Episode episode =
       Run(door, SampleScene(door, 1, 0),
-          {.recorded = Stage::kHandle, .handle = &turns, .predicted_turned = AfterQuestions(2)});
+          {.recorded = Stage::kHandle, .handle = &turns, .handle_turned = AfterQuestions(2)});
   EXPECT_EQ(episode.decisions.size(), 2U) << "as on a door with a latch";
   EXPECT_EQ(episode.outcome, EpisodeOutcome::kOpened) << episode.detail;
 }

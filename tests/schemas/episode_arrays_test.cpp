@@ -43,7 +43,7 @@ TEST_F(EpisodeArraysFile, HoldEveryDecisionInOrder) {
                            arrays.action.begin() + static_cast<std::ptrdiff_t>(t * 9)));
     EXPECT_EQ(arrays.joints[2 * t], static_cast<float>(decision.hinge_rad));
     EXPECT_EQ(arrays.joints[2 * t + 1], static_cast<float>(decision.handle_rad));
-    EXPECT_EQ(arrays.score[t], static_cast<float>(decision.score_rad));
+    EXPECT_EQ(arrays.score[t], static_cast<float>(decision.angle_gain_rad));
     EXPECT_TRUE(std::equal(decision.state.begin(), decision.state.end(),
                            arrays.state.begin() + static_cast<std::ptrdiff_t>(t * 14)));
   }

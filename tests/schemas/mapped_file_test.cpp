@@ -3,7 +3,7 @@
 
 // Files that another program cuts while they are mapped.
 
-#include "mapped_file.h"
+#include "datasets/mapped_file.h"
 
 #include <atomic>
 #include <numeric>

@@ -37,7 +37,7 @@ inline Episode MakeEpisode(std::uint64_t number, int decisions = 3, int points =
     decision.time_s = t / 6.0;
     decision.hinge_rad = 0.1 * t;
     decision.handle_rad = 0.5;
-    decision.score_rad = 0.1;
+    decision.angle_gain_rad = 0.1;
   }
   return episode;
 }

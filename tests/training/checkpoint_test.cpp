@@ -36,9 +36,8 @@ TrainerState SomeState() {
   state.actor_second_moment.assign(ActorLayout().size(), 0.5F);
   state.critic_first_moment.assign(CriticLayout().size(), -1.0F);
   state.critic_second_moment.assign(CriticLayout().size(), 1e-20F);
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   state.steps = {{0.1, 0.2, 0.3, 0.4}, {0.01, 1.0 / 3, 0.03, 0.04}};
-  state.epochs = {{{0.055, 0.25, 0.165, 0.22}, {kNone, kNone, kNone, kNone}}};
+  state.epochs = {{{0.055, 0.25, 0.165, 0.22}, {}}};
   state.best = {{0, 1}, state.networks};
   state.best.networks.actor.clear();
   state.best.networks.critic[3] = 0.125F;
@@ -176,7 +175,7 @@ TEST(Checkpoint, ATrainingStateComesBackExactly) {
   EXPECT_TRUE(back.best.networks.actor.empty());
   EXPECT_EQ(back.best.networks.critic, state.best.networks.critic);
   EXPECT_EQ(back.steps[1].rotation_rad, 1.0 / 3);
-  EXPECT_TRUE(std::isnan(back.epochs[0].validation.divergence));
+  EXPECT_FALSE(back.epochs[0].validation.divergence.has_value());
 }
 
 TEST(Checkpoint, AStateOfAnotherRunIsNotResumed) {
@@ -218,9 +217,9 @@ TEST(Checkpoint, TheGraspsLossesHaveTheirOwnNamesAndGapsUntilTheyAreKnown) {
   const fs::path folder = EmptyFolder("grasp_losses");
   TrainerState state = SomeState();
   state.networks.family = NetworkFamily::kGrasp;
-  state.steps = {UnknownLosses(), UnknownLosses()};
-  state.steps[0].score_rad = 0.5;
-  state.steps[1].score_rad = 0.25;
+  state.steps = {StageLosses{}, StageLosses{}};
+  state.steps[0].angle_gain_rad = 0.5;
+  state.steps[1].angle_gain_rad = 0.25;
   state.steps[1].affordance_rad = 0.125;
   TrainConfig config;
   config.family = NetworkFamily::kGrasp;

@@ -122,7 +122,7 @@ GraspSamples MakeGraspSamples(std::uint64_t seed, std::size_t count) {
     made.clouds.push_back(world.From(contact));
     TrainingSample sample;
     sample.action = ToVector({contact, rotation});
-    sample.score_rad = world.Angle(contact, rotation);
+    sample.angle_gain_rad = world.Angle(contact, rotation);
     sample.approach = {-1, 0, 0};
     made.samples.push_back(sample);
   }
@@ -157,9 +157,9 @@ TEST(TrainGrasp, GivesTheSameBitsForAnyNumberOfThreadsAndInterruptionsInBothPhas
   const TrainerState whole = TrainStage(train.samples, validation.samples, config, hooks);
   EXPECT_EQ(whole.step, 8U);
   ASSERT_EQ(whole.epochs.size(), 4U);
-  EXPECT_TRUE(std::isnan(whole.epochs[1].validation.affordance_rad));
-  EXPECT_FALSE(std::isnan(whole.epochs[2].validation.affordance_rad));
-  EXPECT_EQ(whole.epochs[3].validation.score_rad, whole.epochs[1].validation.score_rad);
+  EXPECT_FALSE(whole.epochs[1].validation.affordance_rad.has_value());
+  EXPECT_TRUE(whole.epochs[2].validation.affordance_rad.has_value());
+  EXPECT_EQ(whole.epochs[3].validation.angle_gain_rad, whole.epochs[1].validation.angle_gain_rad);
   for (const int stop_after : {1, 7}) {
     TrainHooks stopped;
     stopped.threads = 2;
@@ -256,7 +256,8 @@ TEST(TrainGrasp, LearnsFromNearPointsWhichPlacesAndTurnsOpenDoorsItHasNotSeen) {
   GraspSamples train = MakeGraspSamples(3, 128);
   for (TrainingSample& sample : train.samples) {
     const Action tried = FromVector(sample.action);
-    sample.score_rad = AngleByNearPoints(tried.position_delta_m, tried.world_from_hand_rotation);
+    sample.angle_gain_rad =
+        AngleByNearPoints(tried.position_delta_m, tried.world_from_hand_rotation);
   }
   TrainConfig config = GraspConfig();
   config.discriminator_epochs = 60;
@@ -291,7 +292,7 @@ TEST(GraspPolicy, InTheHandsFrameItChoosesAlikeWhereverTheDoorIsAndSeesNoFarther
   TrainConfig config = GraspConfig();
   config.epochs = 1;
   config.batch_size = 8;
-  config.context_m = 0.3;
+  config.crop_radius_m = 0.3;
   const Eigen::Vector3f by(0.5F, -0.25F, -0.5F);
   for (const ViewFrame frame : {ViewFrame::kHand, ViewFrame::kWorld}) {
     config.frame = frame;
@@ -328,19 +329,19 @@ TEST(GraspPolicy, InTheHandsFrameItChoosesAlikeWhereverTheDoorIsAndSeesNoFarther
 
 TEST(GraspPolicy, AsksForCloudsOfTheExtentThatItLearnedFrom) {
   GraspSamples train = MakeGraspSamples(6, 8);
-  for (TrainingSample& sample : train.samples) sample.cloud_within_m = 0.5F;
+  for (TrainingSample& sample : train.samples) sample.cloud_crop_radius_m = 0.5F;
   TrainConfig config = GraspConfig();
   config.epochs = 1;
   config.batch_size = 8;
   const auto policy = MakeGraspPolicy(TrainStage(train.samples, {}, config, {}).networks);
   const GraspWorld world(17);
   std::set<double> asked;
-  policy->Choose({world.cloud, kApproach, [&](const Eigen::Vector3d& start, double within_m) {
-                    asked.insert(within_m);
+  policy->Choose({world.cloud, kApproach, [&](const Eigen::Vector3d& start, double crop_radius_m) {
+                    asked.insert(crop_radius_m);
                     return world.From(start);
                   }});
   EXPECT_EQ(asked, std::set<double>{0.5});
-  train.samples[3].cloud_within_m = 0.25F;
+  train.samples[3].cloud_crop_radius_m = 0.25F;
   EXPECT_THROW(TrainStage(train.samples, {}, config, {}), Error) << "two extents";
 }
 

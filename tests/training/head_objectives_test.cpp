@@ -123,8 +123,9 @@ TEST(HeadNetworks, TheDiscriminatorsGradientIsThatOfFiniteDifferencesForBothLoss
     if (!by_near_points) f.batch.near.clear();
     std::vector<float> gradient(CriticLayout(NetworkFamily::kGrasp).size());
     // angles of doors, not of single actions, so that the loss has something to differ in
-    for (std::size_t i = 0; i < f.batch.gains.size(); ++i) f.batch.gains[i] = i % 2 ? 0.8F : 0.0F;
-    f.networks.normalisation.score_rad.deviation = {0.4F};
+    for (std::size_t i = 0; i < f.batch.angle_gains_rad.size(); ++i)
+      f.batch.angle_gains_rad[i] = i % 2 ? 0.8F : 0.0F;
+    f.networks.normalisation.angle_gain_rad.deviation = {0.4F};
     const auto value = [&] {
       return DiscriminatorObjective(f.networks, f.batch, f.config, {}).objective;
     };
@@ -146,7 +147,7 @@ TEST(HeadNetworks, TheDiscriminatorsGradientIsThatOfFiniteDifferencesForBothLoss
 TEST(HeadNetworks, TheAffordancesGradientIsThatOfFiniteDifferences) {
   GraspFixture f;
   std::vector<float> gradient(ActorLayout(NetworkFamily::kGrasp).size());
-  for (float& gain : f.batch.gains) gain += 0.5F;
+  for (float& gain : f.batch.angle_gains_rad) gain += 0.5F;
   const auto value = [&] { return AffordanceObjective(f.networks, f.batch, {}).objective; };
   EXPECT_EQ(AffordanceObjective(f.networks, f.batch, gradient).objective, value());
   ExpectGradientOfLayers(ActorLayout(NetworkFamily::kGrasp), f.networks.actor, gradient, value);
@@ -211,7 +212,7 @@ void ExpectDiscriminatorByHand(const GraspFixture& f) {
     std::vector<double> hidden = DenseByHand(layout, f.networks.critic, "score.0", joined);
     for (double& v : hidden) v = v > 0 ? v : 0.01 * v;
     const double score = DenseByHand(layout, f.networks.critic, "score.1", hidden)[0];
-    const auto& normaliser = f.networks.normalisation.score_rad;
+    const auto& normaliser = f.networks.normalisation.angle_gain_rad;
     EXPECT_NEAR(scores[n], score * normaliser.deviation[0] + normaliser.mean[0], 1e-5);
   }
 }
@@ -227,7 +228,7 @@ TEST(HeadNetworks, TheDiscriminatorIsThePapersTableAndTheMaximumOverNearPoints) 
 double MeanError(const std::vector<float>& scores, const HeadBatch& batch) {
   double sum = 0;
   for (std::size_t i = 0; i < scores.size(); ++i)
-    sum += std::abs(static_cast<double>(scores[i]) - static_cast<double>(batch.gains[i]));
+    sum += std::abs(static_cast<double>(scores[i]) - static_cast<double>(batch.angle_gains_rad[i]));
   return sum / static_cast<double>(scores.size());
 }
 
@@ -241,15 +242,15 @@ TEST(Heads, APolicyScoresAsTrainingDoesOnEveryInstructionSet) {
     if (!IsSupported(set)) continue;
     const auto critic = internal::CriticHead(motion.networks, set).Score(motion.batch);
     EXPECT_NEAR(MeanError(critic, motion.batch),
-                CriticObjective(motion.networks, motion.batch, {}).losses.score_rad, 1e-6);
+                *CriticObjective(motion.networks, motion.batch, {}).losses.angle_gain_rad, 1e-6);
     const auto affordance = internal::AffordanceHead(grasp.networks, set).Score(grasp.batch);
     EXPECT_NEAR(MeanError(affordance, grasp.batch),
-                AffordanceObjective(grasp.networks, grasp.batch, {}).losses.affordance_rad, 1e-6);
+                *AffordanceObjective(grasp.networks, grasp.batch, {}).losses.affordance_rad, 1e-6);
     const auto near = internal::DiscriminatorHead(grasp.networks, set).Score(grasp.batch);
-    EXPECT_NEAR(
-        MeanError(near, grasp.batch),
-        DiscriminatorObjective(grasp.networks, grasp.batch, grasp.config, {}).losses.score_rad,
-        1e-6);
+    EXPECT_NEAR(MeanError(near, grasp.batch),
+                *DiscriminatorObjective(grasp.networks, grasp.batch, grasp.config, {})
+                     .losses.angle_gain_rad,
+                1e-6);
   }
 }
 
@@ -265,7 +266,7 @@ TEST(Heads, APolicyDecodesAsTrainingDoesWithEitherKindOfBranches) {
         error += std::abs(static_cast<double>(decoded[9 * i + k]) -
                           static_cast<double>(f.made.samples[i].action[k]));
     EXPECT_NEAR(error / static_cast<double>(3 * f.made.samples.size()),
-                ActorObjective(f.networks, f.batch, f.config, {}).losses.position_m, 1e-6);
+                *ActorObjective(f.networks, f.batch, f.config, {}).losses.position_m, 1e-6);
   }
 }
 
@@ -300,8 +301,8 @@ TEST(HeadNetworks, LossesOfAKnownPredictionAreTheClosedForm) {
   }
   const auto count = static_cast<double>(f.made.samples.size());
   const auto result = ActorObjective(f.networks, f.batch, f.config, {});
-  EXPECT_NEAR(result.losses.position_m, position / (3 * count), 1e-6);
-  EXPECT_NEAR(result.losses.rotation_rad, angle / count, 1e-4);
+  EXPECT_NEAR(*result.losses.position_m, position / (3 * count), 1e-6);
+  EXPECT_NEAR(*result.losses.rotation_rad, angle / count, 1e-4);
 }
 
 TEST(HeadNetworks, RotationGradientsStayFiniteAtTheTargetAndOppositeIt) {
@@ -324,7 +325,7 @@ TEST(HeadNetworks, RotationGradientsStayFiniteAtTheTargetAndOppositeIt) {
     }
     std::vector<float> gradient(ActorLayout().size());
     const auto result = ActorObjective(f.networks, f.batch, f.config, gradient);
-    EXPECT_NEAR(result.losses.rotation_rad, turn, 0.03);
+    EXPECT_NEAR(*result.losses.rotation_rad, turn, 0.03);
     for (const float g : gradient) ASSERT_TRUE(std::isfinite(g));
   }
 }

@@ -52,7 +52,7 @@ TEST(NearPoints, TellTurnsOfTheHandApartAndNeitherTheDoorsPlaceNorItsTurn) {
   StageNormalisation normalisation;
   normalisation.view.frame = ViewFrame::kHand;
   normalisation.action.deviation.fill(1);
-  normalisation.score_rad.deviation.fill(1);
+  normalisation.angle_gain_rad.deviation.fill(1);
   normalisation.view.near_points = 64;
   const StageNetworks networks = InitialNetworks(normalisation, false, 3, NetworkFamily::kGrasp);
   std::vector<float> cloud = testing::DoorCloud(5, 0);

@@ -69,7 +69,7 @@ testing::SyntheticSamples WriteDataset(const fs::path& folder, const std::string
         decision.proprioception[i] = 1e-3F * static_cast<float>(100 * e + 40 * t + i);
       decision.action = sample.action;
       decision.executed = sample.executed;
-      decision.score_rad = sample.score_rad;  // 0.05 to 0.07
+      decision.angle_gain_rad = sample.angle_gain_rad;  // 0.05 to 0.07
       decision.handle_rad = 0.2 * static_cast<double>(t);
       episode.decisions.push_back(decision);
     }
@@ -102,7 +102,7 @@ TEST(StageDataset, HoldsTheDecisionsOfTheShards) {
   EXPECT_EQ(sample.action, made.samples[5].action);
   EXPECT_EQ(sample.executed, made.samples[5].executed);
   EXPECT_NE(sample.executed, sample.action);
-  EXPECT_EQ(sample.score_rad, made.samples[5].score_rad);
+  EXPECT_EQ(sample.angle_gain_rad, made.samples[5].angle_gain_rad);
   EXPECT_EQ(sample.way, MotionWay::kOther);
   EXPECT_EQ(dataset.train[0].way, MotionWay::kUsual);
   EXPECT_FLOAT_EQ(sample.proprioception[0], 0.180F);   // first joint position
@@ -143,7 +143,7 @@ std::vector<bool> TurnedOf(EpisodeOutcome outcome, double simulated_s) {
     decision.action.fill(0.1F);
     decision.executed.fill(0.1F);
     decision.handle_rad = handle_rad;
-    decision.score_rad = 7 - 10 * handle_rad;
+    decision.angle_gain_rad = 7 - 10 * handle_rad;
     decision.time_s = 2 + static_cast<double>(episode.decisions.size()) / 6;
     episode.decisions.push_back(decision);
   }

@@ -32,7 +32,7 @@ TrainingSample MakeSample(double hinge_rad, Rng& rng) {
   sample.action = ToVector(action);
   sample.executed = sample.action;
   sample.executed[1] += 0.004F;
-  sample.score_rad = static_cast<float>(0.05 + 0.02 * s);
+  sample.angle_gain_rad = static_cast<float>(0.05 + 0.02 * s);
   return sample;
 }
 

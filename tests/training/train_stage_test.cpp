@@ -40,7 +40,7 @@ void ExpectEqual(const TrainerState& a, const TrainerState& b) {
   ASSERT_EQ(a.steps.size(), b.steps.size());
   for (std::size_t i = 0; i < a.steps.size(); ++i) {
     EXPECT_EQ(a.steps[i].position_m, b.steps[i].position_m);
-    EXPECT_EQ(a.steps[i].score_rad, b.steps[i].score_rad);
+    EXPECT_EQ(a.steps[i].angle_gain_rad, b.steps[i].angle_gain_rad);
   }
   ASSERT_EQ(a.epochs.size(), b.epochs.size());
   for (std::size_t i = 0; i < a.epochs.size(); ++i)
@@ -86,7 +86,7 @@ TEST(TrainStage, LearnsTheMirrorImagesOfWhatItIsShown) {
   config.epochs = 40;
   config.learning_rate = 2e-3;
   const double without =
-      TrainStage(train.samples, images.samples, config, {}).epochs.back().validation.position_m;
+      *TrainStage(train.samples, images.samples, config, {}).epochs.back().validation.position_m;
   config.augment_mirror = true;
   const TrainerState state = TrainStage(train.samples, images.samples, config, {});
   EXPECT_LT(state.epochs.back().validation.position_m, 0.5 * without);
@@ -197,7 +197,7 @@ TEST(TrainStage, LearnsToReadTheHingeFromTheCloud) {
   // the mean action of the training set is off by 13 degrees on average
   EXPECT_GT(state.epochs.front().train.rotation_rad, 0.15);
   EXPECT_LT(state.epochs.back().validation.rotation_rad, 0.08);
-  EXPECT_LT(state.epochs.back().validation.score_rad, 0.005);
+  EXPECT_LT(state.epochs.back().validation.angle_gain_rad, 0.005);
 }
 
 TEST(TrainStage, TheCriticLearnsFromWhatWasExecutedAndTheActorFromWhatWasRight) {
@@ -229,8 +229,8 @@ TEST(TrainStage, InTheHandsFrameItLearnsTurnsThatDoNotDependOnTheHandsRotation) 
   const TrainerState b = TrainStage(turned, {}, config, {});
   ASSERT_EQ(a.steps.size(), b.steps.size());
   EXPECT_EQ(a.networks.normalisation.view.frame, ViewFrame::kHand);
-  EXPECT_NEAR(a.steps[0].rotation_rad, b.steps[0].rotation_rad, 1e-4);
-  EXPECT_NEAR(a.steps.back().position_m, b.steps.back().position_m, 1e-3);
+  EXPECT_NEAR(*a.steps[0].rotation_rad, *b.steps[0].rotation_rad, 1e-4);
+  EXPECT_NEAR(*a.steps.back().position_m, *b.steps.back().position_m, 1e-3);
 
   config.frame = ViewFrame::kWorld;
   EXPECT_EQ(TrainStage(train.samples, {}, config, {}).networks.normalisation.view.frame,
@@ -242,13 +242,14 @@ TEST(TrainStage, InTheHandsFrameItLearnsTurnsThatDoNotDependOnTheHandsRotation) 
   EXPECT_THROW(TrainStage(train.samples, {}, config, hooks), Error) << "another state";
   config.state = StateKind::kJoints;
   EXPECT_NO_THROW(TrainStage(train.samples, {}, config, hooks));
-  config.context_m = 0.3;
+  config.crop_radius_m = 0.3;
   EXPECT_THROW(TrainStage(train.samples, {}, config, hooks), Error) << "another context";
-  config.context_m = 0;
-  config.zoom = 2;
+  config.crop_radius_m = 0;
+  config.point_scale = 2;
   EXPECT_THROW(TrainStage(train.samples, {}, config, hooks), Error) << "another zoom";
   for (const auto& change : std::initializer_list<std::function<void(TrainConfig&)>>{
-           [](TrainConfig& c) { c.context_m = -1; }, [](TrainConfig& c) { c.zoom = 0; }}) {
+           [](TrainConfig& c) { c.crop_radius_m = -1; },
+           [](TrainConfig& c) { c.point_scale = 0; }}) {
     TrainConfig bad = SmallConfig();
     change(bad);
     EXPECT_THROW(TrainStage(train.samples, {}, bad, {}), Error);
@@ -260,16 +261,17 @@ TEST(TrainStage, InLibtorchsOperatorsItLearnsTheSame) {
   const auto validation = testing::MakeSyntheticSamples(2, 3);
   TrainConfig config = SmallConfig();
   config.epochs = 2;
-  config.context_m = 0.6;
+  config.crop_radius_m = 0.6;
   const TrainerState own = TrainStage(train.samples, validation.samples, config, {});
   config.device = "libtorch";
   const TrainerState torch = TrainStage(train.samples, validation.samples, config, {});
   ASSERT_EQ(torch.steps.size(), own.steps.size());
   for (std::size_t i = 0; i < own.steps.size(); ++i) {
-    EXPECT_NEAR(torch.steps[i].rotation_rad, own.steps[i].rotation_rad, 1e-4);
-    EXPECT_NEAR(torch.steps[i].score_rad, own.steps[i].score_rad, 1e-4);
+    EXPECT_NEAR(*torch.steps[i].rotation_rad, *own.steps[i].rotation_rad, 1e-4);
+    EXPECT_NEAR(*torch.steps[i].angle_gain_rad, *own.steps[i].angle_gain_rad, 1e-4);
   }
-  EXPECT_NEAR(torch.epochs[1].validation.rotation_rad, own.epochs[1].validation.rotation_rad, 1e-3);
+  EXPECT_NEAR(*torch.epochs[1].validation.rotation_rad, *own.epochs[1].validation.rotation_rad,
+              1e-3);
   for (const char* none : {"gpu", "", "cuda:99"}) {
     config.device = none;
     EXPECT_THROW(TrainStage(train.samples, {}, config, {}), Error) << none;
@@ -281,15 +283,16 @@ TEST(BestNetworks, AreEachOfTheEpochInWhichTheyErredLeast) {
   const TrainConfig config = SmallConfig();
   TrainerState state;
   state.networks = InitialNetworks(MeasureNormalisation(made.samples), false, 9);
-  const StageLosses unknown = UnknownLosses();
-  const auto end_epoch = [&](double position_m, double rotation_rad, double score_rad) {
+  const StageLosses unknown;
+  const auto end_epoch = [&](std::optional<double> position_m, std::optional<double> rotation_rad,
+                             std::optional<double> angle_gain_rad) {
     const auto mark = static_cast<float>(state.epochs.size() + 1);
     state.networks.actor[0] = mark;
     state.networks.critic[0] = -mark;
-    state.epochs.push_back({unknown, {position_m, rotation_rad, 0, score_rad, unknown.score_rad}});
+    state.epochs.push_back({unknown, {position_m, rotation_rad, 0, angle_gain_rad, {}}});
     internal::UpdateBest(config, state);
   };
-  end_epoch(unknown.position_m, unknown.rotation_rad, unknown.score_rad);
+  end_epoch(unknown.position_m, unknown.rotation_rad, unknown.angle_gain_rad);
   EXPECT_EQ(state.best.epochs, BestEpochs{});
   end_epoch(0.02, 0.2, 0.3);   // 100 x 0.02 + 5 x 0.2 = 3
   end_epoch(0.01, 0.5, 0.1);   // 3.5
@@ -331,12 +334,12 @@ TEST(TrainStage, ASetSmallerThanABatchIsOneBatchWithoutValidation) {
   config.epochs = 1;
   const TrainerState state = TrainStage(train.samples, {}, config, {});
   EXPECT_EQ(state.step, 1U);
-  EXPECT_TRUE(std::isnan(state.epochs[0].validation.position_m));
+  EXPECT_FALSE(state.epochs[0].validation.position_m.has_value());
 }
 
 TEST(TrainStage, StopsWhenALossIsNotFinite) {
   auto train = testing::MakeSyntheticSamples(1, 8);
-  train.samples[3].score_rad = std::numeric_limits<float>::infinity();
+  train.samples[3].angle_gain_rad = std::numeric_limits<float>::infinity();
   EXPECT_THROW(TrainStage(train.samples, {}, SmallConfig(), {}), Error);
 }
 
@@ -358,14 +361,14 @@ TEST(TrainStage, RefusesCloudsThatAreMadeInTwoWaysAndRecordsTheOne) {
   auto train = testing::MakeSyntheticSamples(3, 8);
   for (TrainingSample& sample : train.samples) {
     sample.remembered_finer = 2;
-    sample.cloud_within_m = 0.25F;
+    sample.cloud_crop_radius_m = 0.25F;
   }
   TrainConfig config;
   config.epochs = 1;
   config.batch_size = 4;
   const NetworkView view = TrainStage(train.samples, {}, config, {}).networks.normalisation.view;
   EXPECT_EQ(view.remembered_finer, 2);
-  EXPECT_EQ(view.cloud_within_m, 0.25F);
+  EXPECT_EQ(view.cloud_crop_radius_m, 0.25F);
   train.samples[5].remembered_finer = 0;
   try {
     TrainStage(train.samples, {}, config, {});

@@ -4,37 +4,34 @@
 // From a real depth picture and a robot's state to the hand's next pose.
 
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <iostream>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "doorforge/cli/answer.h"
 #include "doorforge/cli/command_line.h"
+#include "doorforge/cli/verb_table.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/error.h"
-#include "doorforge/core/json_file.h"
 #include "doorforge/core/output_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/deploy/act_answer.h"
 #include "doorforge/deploy/answer_picture.h"
+#include "doorforge/deploy/decision_stream.h"
 #include "doorforge/deploy/online_controller.h"
 #include "doorforge/registry/policy_options.h"
 
 namespace doorforge {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 struct Options {
   OnlineControllerSetup setup;
   std::string camera;
   std::string stage = "auto";
-  std::string base = "sliders";
   std::string depth;
   std::string state;
   std::string before;
@@ -76,9 +73,10 @@ void AddPolicies(CLI::App& app, Options& options) {
                  "which of them acts: open, handle, or auto: as the state says (unlocked)")
       ->check(CLI::IsMember({"auto", "open", "handle"}))
       ->capture_default_str();
-  app.add_option("--base", options.base, "what the robot stands on")
-      ->check(CLI::IsMember({"sliders", "fixed"}))
-      ->capture_default_str();
+  AddChoice(app, "--base", "what the robot stands on",
+            {{"sliders", "fixed"}, "sliders", [&setup = options.setup](const std::string& word) {
+               setup.base = *ValueNamed<RobotBase>(word);
+             }});
   app.add_option("--candidates", options.candidates,
                  "actions among which the critic chooses (config: policy.candidates, 1)");
 }
@@ -163,80 +161,31 @@ Options Parse(int argc, char** argv) {
   return options;
 }
 
-ActAnswer AnswerLine(OnlineController& controller, const std::string& camera,
-                     const std::string& line) {
-  const Json request = ParseJson(line, "line");
-  if (!request.is_object())
-    throw Error(ErrorCode::kFormat, "expected a line {\"depth\": FILE, \"state\": FILE}");
-  if (request.contains("before"))
-    RememberFromFile(controller, ValueOf<std::string>(request, "before", "line"), camera);
-  if (request.contains("handle"))
-    return DecideGraspFromFiles(controller, ValueOf<std::string>(request, "depth", "line"),
-                                ValueOf<std::string>(request, "handle", "line"), camera);
-  return DecideFromFiles(controller, ValueOf<std::string>(request, "depth", "line"),
-                         ValueOf<std::string>(request, "state", "line"), camera);
-}
-
-// A picture that cannot be used is answered and the loop goes on: the robot holds still meanwhile.
-Json Refusal(const Error& error) {
-  return {{"schema", "doorforge.decision"},
-          {"schema_version", kDecisionSchemaVersion},
-          {"hold", true},
-          {"error", error.what()}};
-}
-
-int Stream(OnlineController& controller, const Options& options) {
-  bool held = false;
-  for (std::string line; StopRequested() == 0 && std::getline(std::cin, line);) {
-    if (line.empty()) continue;
-    std::string shown;
-    try {
-      const ActAnswer answer = AnswerLine(controller, options.camera, line);
-      held = held || !answer.hold_reasons.empty();
-      shown = options.text ? AnswerText(answer) : JsonText(AnswerToJson(answer));
-    } catch (const Error& error) {
-      held = true;
-      shown =
-          options.text ? "hold:     " + std::string(error.what()) + "\n" : JsonText(Refusal(error));
-    }
-    std::cout << shown << std::endl;  // flushed: a robot waits for it
-  }
-  if (StopRequested() != 0) return 128 + StopRequested();
-  return held ? 1 : 0;
-}
-
 int Act(Options options) {
   options.setup.config = ConfigOf(options);
-  options.setup.base = *ValueNamed<RobotBase>(options.base);
   if (options.stage != "auto") options.setup.stage = StageNamed(options.stage);
   RequireNoFile(options.picture, options.overwrite);
   options.setup.camera = ReadCalibratedCamera(options.camera);
   RequireTrainedPolicies({options.setup.opener, options.setup.handler, options.setup.grasper},
                          "rules read what only the simulator knows, and no robot does");
   OnlineController controller(options.setup);
-  for (const std::string& note : controller.notes())
-    std::fprintf(stderr, "doorforge: note: %s\n", note.c_str());
+  for (const std::string& note : controller.notes()) PrintNote("note: " + note);
   if (!options.before.empty()) RememberFromFile(controller, options.before, options.camera);
-  if (options.setup.sees_every_decision) return Stream(controller, options);
+  if (options.setup.sees_every_decision) {
+    const bool held = AnswerStream(controller, {std::cin, options.camera, options.text, PrintText});
+    return StopRequested() != 0 ? 128 + StopRequested() : held ? 1 : 0;
+  }
   const ActAnswer answer =
       options.handle.empty()
           ? DecideFromFiles(controller, options.depth, options.state, options.camera)
           : DecideGraspFromFiles(controller, options.depth, options.handle, options.camera);
-  if (options.text)
-    std::cout << AnswerText(answer);
-  else
-    std::cout << JsonText(AnswerToJson(answer), 2) << "\n";
+  PrintAnswer(!options.text, AnswerToJson(answer), AnswerText(answer));
   if (!options.picture.empty())
     WritePng(options.picture, AnswerPicture(answer, controller, options.setup.config.cloud));
   return answer.hold_reasons.empty() ? 0 : 1;
 }
 
-// `doorforge act ...` starts this program with the verb as first argument
-int Run(int argc, char** argv) {
-  if (argc > 1 && std::string_view(argv[1]) == "act") {
-    --argc;
-    ++argv;
-  }
+int RunActVerb(int argc, char** argv) {
   const Options options = Parse(argc, argv);
   return NamingConfig(options.config, [&] { return Act(options); });
 }
@@ -245,5 +194,5 @@ int Run(int argc, char** argv) {
 }  // namespace doorforge
 
 int main(int argc, char** argv) {
-  return doorforge::RunProgram([&] { return doorforge::Run(argc, argv); });
+  return doorforge::RunOneVerb({"act", doorforge::RunActVerb}, argc, argv);
 }

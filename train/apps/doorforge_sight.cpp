@@ -4,19 +4,17 @@
 // A simulated episode as the files that `doorforge act` reads.
 
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "doorforge/cli/command_line.h"
+#include "doorforge/cli/verb_table.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/output_file.h"
-#include "doorforge/core/program.h"
 #include "doorforge/deploy/record_sight.h"
 #include "doorforge/schemas/door_set.h"
 
@@ -78,12 +76,7 @@ int Record(Options options) {
   return 0;
 }
 
-// `doorforge sight ...` starts this program with the verb as first argument
-int Run(int argc, char** argv) {
-  if (argc > 1 && std::string_view(argv[1]) == "sight") {
-    --argc;
-    ++argv;
-  }
+int RunSightVerb(int argc, char** argv) {
   const Options options = Parse(argc, argv);
   return NamingConfig(options.config, [&] { return Record(options); });
 }
@@ -92,5 +85,5 @@ int Run(int argc, char** argv) {
 }  // namespace doorforge
 
 int main(int argc, char** argv) {
-  return doorforge::RunProgram([&] { return doorforge::Run(argc, argv); });
+  return doorforge::RunOneVerb({"sight", doorforge::RunSightVerb}, argc, argv);
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/catalogue/describe_catalogue.h"
 
+#include <cstdio>
+
 #include <nlohmann/json.hpp>
 
 #include "doorforge/core/error.h"
@@ -29,10 +31,7 @@ Json PieceToJson(const PartPiece& piece) {
 
 std::vector<CatalogueEntry> SelectParts(const fs::path& data_folder,
                                         const CatalogueSelection& selection) {
-  if (!selection.category.empty() && !CategoryNamed(selection.category))
-    throw Error(ErrorCode::kInvalidArgument,
-                "--category: unknown category \"" + selection.category +
-                    "\"; allowed are interior, window, car, safe, storagefurniture, refrigerator");
+  if (!selection.category.empty()) RequireCategory("--category", selection.category);
   const std::vector<CatalogueEntry> catalogue = ListCatalogue(data_folder);
   std::vector<CatalogueEntry> chosen;
   if (selection.split.empty()) {
@@ -73,6 +72,39 @@ Json DescribePart(const CatalogueEntry& entry, const Part& part) {
   json["pieces"] = Json::array();
   for (const PartPiece& piece : part.pieces) json["pieces"].push_back(PieceToJson(piece));
   return json;
+}
+
+Json CatalogueToJson(const std::vector<CatalogueEntry>& entries) {
+  Json parts = Json::array();
+  for (const CatalogueEntry& entry : entries) parts.push_back(EntryToJson(entry));
+  return {{"schema", "doorforge.catalog"}, {"schema_version", 1}, {"parts", parts}};
+}
+
+std::string CatalogueText(const std::vector<CatalogueEntry>& entries) {
+  std::string text;
+  for (const CatalogueEntry& entry : entries) {
+    char line[256];
+    std::snprintf(line, sizeof line, "%-28s %-7s %-17s %-6s %s\n", entry.id.c_str(),
+                  NameOf(entry.role).data(), NameOf(entry.category).data(),
+                  NameOf(entry.mechanism).data(), entry.family.c_str());
+    text += line;
+  }
+  return text;
+}
+
+std::string PartText(const CatalogueEntry& entry, const Part& part) {
+  std::string text = part.id + ": " + std::string(NameOf(part.role)) + " of category " +
+                     std::string(NameOf(part.category)) + ", mechanism " +
+                     std::string(NameOf(part.mechanism)) + ", family " + entry.family + "\n" +
+                     entry.recipe.string() + "\n";
+  for (const PartPiece& piece : part.pieces) {
+    char line[256];
+    std::snprintf(line, sizeof line, "  %-6s %5zu triangles, %2zu convex pieces, %.3f kg\n",
+                  piece.name.c_str(), piece.mesh.triangles.size(), piece.hulls.size(),
+                  piece.mass.mass_kg);
+    text += line;
+  }
+  return text;
 }
 
 }  // namespace doorforge

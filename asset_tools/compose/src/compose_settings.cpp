@@ -136,6 +136,19 @@ std::span<const ComposeRule> ComposeRules() { return kRules; }
 std::span<const ComposePreset> JointPresets() { return kJointPresets; }
 std::span<const ComposePreset> MassPresets() { return kMassPresets; }
 
+std::string ComposeRulesText() {
+  std::string text;
+  for (const ComposeRule& rule : ComposeRules())
+    text += std::string(rule.code) + " " + std::string(rule.text) + "\n";
+  const auto list = [&](const std::string& key, std::span<const ComposePreset> presets) {
+    for (const ComposePreset& preset : presets)
+      text += key + ": " + std::string(preset.name) + "  " + std::string(preset.source) + "\n";
+  };
+  list("masses", MassPresets());
+  list("joints", JointPresets());
+  return text;
+}
+
 namespace internal {
 
 void CheckComposeConfig(const ComposeConfig& config) {

@@ -5,6 +5,7 @@
 
 #include "doorforge/conformance/conformance.h"
 #include "doorforge/core/html_text.h"
+#include "doorforge/core/json_file.h"
 #include "doorforge/core/page_style.h"
 
 namespace doorforge {
@@ -207,6 +208,20 @@ std::string ToHtml(const ConformanceReport& report) {
   text += "<ul>\n";
   for (const std::string& line : LoadersOf(report)) text += "<li>" + page::Escape(line) + "</li>\n";
   return text + "</ul>\n</body></html>\n";
+}
+
+std::string DocumentOf(const ConformanceReport& report, ConformanceFormat format) {
+  switch (format) {
+    case ConformanceFormat::kText:
+      break;
+    case ConformanceFormat::kJson:
+      return JsonText(ToJson(report), 2) + "\n";
+    case ConformanceFormat::kHtml:
+      return ToHtml(report);
+    case ConformanceFormat::kMarkdown:
+      return ToMarkdown(report);
+  }
+  return ToText(report);
 }
 
 }  // namespace doorforge

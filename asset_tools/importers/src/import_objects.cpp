@@ -381,6 +381,19 @@ class Import {
   std::mutex mutex_;
 };
 
+std::string LineOf(const ImportedObject& object) {
+  std::string notes;
+  if (!object.handle_id.empty() && !object.grasp_holds) notes = "no grasp that holds was found";
+  for (const std::string& note : object.notes) notes += (notes.empty() ? "" : "; ") + note;
+  const auto padded = [](std::string word, std::size_t width) {
+    if (word.empty()) word = "-";
+    return word + std::string(word.size() < width ? width - word.size() : 0, ' ') + ' ';
+  };
+  return padded(object.name, 26) + padded(object.category, 16) + padded(object.body_id, 14) +
+         (object.handle_id.empty() ? "-" : object.handle_id) +
+         (notes.empty() ? "" : "  (" + notes + ")") + "\n";
+}
+
 }  // namespace
 
 std::string_view NameOf(ImportOutcome outcome) {
@@ -413,6 +426,35 @@ nlohmann::ordered_json ToJson(const ImportReport& report) {
                        {"grasp_holds", object.grasp_holds}});
   }
   return {{"schema", "doorforge.import"}, {"schema_version", 1}, {"objects", objects}};
+}
+
+std::string ImportText(const ImportReport& report) {
+  std::string text;
+  std::map<ImportOutcome, int> counts;
+  for (const ImportedObject& object : report.objects) {
+    ++counts[object.outcome];
+    if (object.outcome == ImportOutcome::kImported) text += LineOf(object);
+  }
+  const auto counted = [](std::size_t count) {
+    return std::to_string(count) + (count == 1 ? " object" : " objects");
+  };
+  text += counted(report.objects.size()) + ":";
+  for (const auto& [outcome, count] : counts)
+    text += " " + std::to_string(count) + " " + std::string(NameOf(outcome));
+  text += "\n";
+  if (report.left_out > 0)
+    text += counted(static_cast<std::size_t>(report.left_out)) + " of other categories left out\n";
+  return text;
+}
+
+std::vector<std::string> FaultsOf(const ImportReport& report) {
+  std::vector<std::string> faults;
+  for (const ImportedObject& object : report.objects) {
+    if (object.outcome != ImportOutcome::kImported)
+      faults.push_back(object.name + ": " + std::string(NameOf(object.outcome)) + ": " +
+                       object.message);
+  }
+  return faults;
 }
 
 }  // namespace doorforge

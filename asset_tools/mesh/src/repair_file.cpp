@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/mesh/repair_file.h"
 
+#include <cstdio>
 #include <new>
 
 #include "doorforge/core/config_file.h"
@@ -46,6 +47,29 @@ RepairedFile RepairMeshFile(const fs::path& input, const RepairConfig& config, d
   repaired.result = Repaired(input, config, max_seconds);
   repaired.record = RecordOf(input, config, repaired.result.report);
   return repaired;
+}
+
+std::string RepairText(const RepairReport& report) {
+  std::string text(NameOf(report.outcome));
+  if (!report.reason.empty()) text += " (" + report.reason + ")";
+  for (const std::string& step : report.steps) text += "\n  " + step;
+  text += "\n";
+  if (report.outcome == RepairOutcome::kFailed) return text;
+  const auto add = [&](const char* format, auto... values) {
+    char line[160];
+    std::snprintf(line, sizeof line, format, values...);
+    text += line;
+  };
+  add("  volume %.6g m3, area %.6g m2, %d pieces%s\n", report.after.volume_m3, report.after.area_m2,
+      report.after.components,
+      report.self_intersects ? ", which cross each other or themselves" : "");
+  const auto add_deviation = [&](const char* which, const SurfaceDeviation& deviation) {
+    add("  %s: mean %.3f mm, largest %.3f mm\n", which, 1000 * deviation.mean_m,
+        1000 * deviation.max_m);
+  };
+  add_deviation("output to input", report.output_to_input);
+  add_deviation("visible input to output", report.visible_input_to_output);
+  return text;
 }
 
 }  // namespace doorforge

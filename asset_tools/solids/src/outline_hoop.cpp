@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "doorforge/core/config_io.h"
-#include "doorforge/core/error.h"
 
 namespace doorforge::internal {
 namespace {
@@ -18,13 +17,13 @@ constexpr int kHalfArcSteps = 5;
 
 // Points of a head from its right to its left springing, both included, in the unit of half the
 // width and of the rise: (1, 0) over (0, 1) to (-1, 0).
-Polygon UnitHead(const std::string& shape, double rise_in_halves) {
+Polygon UnitHead(HeadKind shape, double rise_in_halves) {
   Polygon head;
   for (int i = -kHalfArcSteps; i <= kHalfArcSteps; ++i) {
     const double t = -static_cast<double>(i) / kHalfArcSteps;
-    if (shape == "round") {
+    if (shape == HeadKind::kRound) {
       head.emplace_back(std::sin(std::numbers::pi / 2 * t), std::cos(std::numbers::pi / 2 * t));
-    } else if (shape == "segment") {
+    } else if (shape == HeadKind::kSegment) {
       // on the circle through both springings and the crown
       const double r = (1 + rise_in_halves * rise_in_halves) / (2 * rise_in_halves);
       const double reach = std::atan2(1, r - rise_in_halves);
@@ -80,18 +79,15 @@ Bounds BoundsOfPolygon(const Polygon& polygon) {
 Polygon OutlineWithHead(const Rectangle& box, const HeadShape& head, const std::string& path) {
   const Eigen::Vector2d& low = box.min_m;
   const Eigen::Vector2d& high = box.max_m;
-  if (head.shape == "flat") return BoxPolygon(low, high);
+  if (head.shape == HeadKind::kFlat) return BoxPolygon(low, high);
   RequireRange(path, "rise_m", head.rise_m, 0.03, 0.6 * (high.y() - low.y()));
   const double spring = high.y() - head.rise_m;
-  if (head.shape == "slant_left") return {low, {high.x(), low.y()}, high, {low.x(), spring}};
-  if (head.shape == "slant_right")
+  if (head.shape == HeadKind::kSlantLeft)
+    return {low, {high.x(), low.y()}, high, {low.x(), spring}};
+  if (head.shape == HeadKind::kSlantRight)
     return {low, {high.x(), low.y()}, {high.x(), spring}, {low.x(), high.y()}};
-  if (head.shape != "round" && head.shape != "segment" && head.shape != "pointed")
-    throw Error(ErrorCode::kInvalidConfig,
-                path + ".shape: found \"" + head.shape +
-                    "\", allowed flat, segment, round, pointed, slant_left, slant_right");
   const double half = (high.x() - low.x()) / 2;
-  if (head.shape == "segment") RequireRange(path, "rise_m", head.rise_m, 0.03, 0.9 * half);
+  if (head.shape == HeadKind::kSegment) RequireRange(path, "rise_m", head.rise_m, 0.03, 0.9 * half);
   Polygon outline = {low, {high.x(), low.y()}};
   for (const Eigen::Vector2d& p : UnitHead(head.shape, head.rise_m / half))
     outline.emplace_back(low.x() + half * (1 + p.x()), spring + head.rise_m * p.y());

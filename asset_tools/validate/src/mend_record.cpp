@@ -15,6 +15,7 @@
 #include "doorforge/core/inside_folder.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/mass_properties.h"
+#include "doorforge/core/mesh_transform.h"
 #include "doorforge/exporters/expected_urdf.h"
 #include "doorforge/exporters/export_urdf.h"
 #include "doorforge/mesh/convex_parts.h"
@@ -75,8 +76,7 @@ std::optional<TriangleMesh> WithoutDegenerate(TriangleMesh mesh) {
 // The convex hull of a collision shape, if it is nearly the same body.
 std::optional<TriangleMesh> Convex(const TriangleMesh& hull) {
   constexpr double kMostAdded = 1.05;
-  TriangleMesh convex = ConvexHull(hull.vertices);
-  for (Eigen::Vector3d& vertex : convex.vertices) vertex = vertex.cast<float>().cast<double>();
+  const TriangleMesh convex = RoundedToFloat(ConvexHull(hull.vertices));
   const double volume = std::abs(MeasureTopology(hull).volume_m3);
   if (!ClosedMesh::From(convex) || MeasureTopology(convex).volume_m3 > kMostAdded * volume)
     return std::nullopt;

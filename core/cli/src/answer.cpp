@@ -24,9 +24,20 @@ void PrintProgress(const std::string& text) { std::cerr << text << std::flush; }
 
 void PrintJson(const nlohmann::ordered_json& json) { std::cout << JsonText(json, 2) << '\n'; }
 
+void PrintAnswer(bool as_json, const nlohmann::ordered_json& json, const std::string& text) {
+  as_json ? PrintJson(json) : PrintText(text);
+}
+
+void PrintNote(const std::string& line) { PrintProgress("doorforge: " + line + "\n"); }
+
 int ExitCodeOfBatch(std::size_t failed) {
   if (const int signal = StopRequested()) return 128 + signal;
   return failed == 0 ? 0 : 1;
+}
+
+int ExitCodeOfStopped(int signal, const std::string& what_is_kept) {
+  PrintNote("stopped; " + what_is_kept);
+  return 128 + signal;
 }
 
 }  // namespace doorforge

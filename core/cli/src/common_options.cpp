@@ -25,11 +25,25 @@ CLI::Option* AddSeed(CLI::App& app, std::uint64_t& seed, const std::string& abou
 }
 
 CLI::Option* AddThreads(CLI::App& app, int& threads, const std::string& about) {
-  return app.add_option("--threads", threads, about);
+  return app.add_option("-j,--threads", threads, about)
+      ->check(CLI::Range(0, 4096))
+      ->capture_default_str();
 }
 
 CLI::Option* AddOverwrite(CLI::App& app, bool& overwrite, const std::string& about) {
   return app.add_flag("--overwrite", overwrite, about);
+}
+
+CLI::Option* AddOverwrite(CLI::App& app, Existing& existing, const std::string& about) {
+  return app.add_flag_callback(
+      "--overwrite", [&existing] { existing = Existing::kReplace; }, about);
+}
+
+CLI::Option* AddChoice(CLI::App& app, const std::string& name, const std::string& about,
+                       const Choice& choice) {
+  CLI::Option* option = app.add_option_function<std::string>(name, choice.take, about)
+                            ->check(CLI::IsMember(choice.words));
+  return choice.given.empty() ? option : option->default_str(choice.given);
 }
 
 CLI::Option* AddJson(CLI::App& app, bool& json, const std::string& about) {

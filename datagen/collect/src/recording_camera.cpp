@@ -23,19 +23,19 @@ RecordingCamera::RecordingCamera(const Scene& scene, const DoorAsset& door, cons
       occlusion_(door) {}
 
 LabelledCloud RecordingCamera::Observe(const SceneSnapshot& snapshot) {
-  return Look(snapshot).sampled.cloud;
+  return Render(snapshot).sampled.cloud;
 }
 
 LabelledCloud RecordingCamera::LookAtAll(const SceneSnapshot& snapshot) {
-  return Look(snapshot).visible;
+  return Render(snapshot).visible;
 }
 
-Sight RecordingCamera::Look(const SceneSnapshot& snapshot) {
-  Sight sight = camera_.Look(snapshot);
-  visible_.push_back(sight.sampled.visible_count);
-  hidden_.push_back(occlusion_.Measure(sight.ideal, model_, snapshot));
-  depth_.push_back(sight.depth);
-  return sight;
+CameraFrame RecordingCamera::Render(const SceneSnapshot& snapshot) {
+  CameraFrame frame = camera_.Render(snapshot);
+  visible_.push_back(frame.sampled.visible_count);
+  hidden_.push_back(occlusion_.Measure(frame.ideal, model_, snapshot));
+  depth_.push_back(frame.depth);
+  return frame;
 }
 
 std::vector<int> RecordingCamera::Visible(std::size_t looks) const {

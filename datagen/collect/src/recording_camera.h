@@ -38,7 +38,7 @@ class RecordingCamera : public Observer {
   std::string PreviewPng(std::size_t looks) const;
 
  private:
-  Sight Look(const SceneSnapshot& snapshot);
+  CameraFrame Render(const SceneSnapshot& snapshot);
 
   CameraModel model_;
   double max_depth_m_;

@@ -59,7 +59,7 @@ Decision DecisionOf(const EpisodeArrays& arrays, std::size_t t, double time_s) {
   decision.time_s = time_s;
   decision.hinge_rad = static_cast<double>(arrays.joints[2 * t]);
   decision.handle_rad = static_cast<double>(arrays.joints[2 * t + 1]);
-  decision.score_rad = static_cast<double>(arrays.score[t]);
+  decision.angle_gain_rad = static_cast<double>(arrays.score[t]);
   return decision;
 }
 
@@ -235,9 +235,9 @@ class Reobservation {
     const bool sees_robot = config_.robot && (!collected.meta.contains("robot_seen") ||
                                               ValueOf<bool>(collected.meta, "robot_seen", where));
     const bool at_grasp = source_.stage() == NameOf(Stage::kGrasp);
-    const Scene seen = at_grasp ? SceneOf(config_.grasp_look, episode.scene) : episode.scene;
+    const Scene seen = at_grasp ? SceneOf(config_.grasp_camera, episode.scene) : episode.scene;
     const CloudExtent extent{config_.cloud.point_count,
-                             at_grasp ? config_.grasp_look.crop_radius_m : 0};
+                             at_grasp ? config_.grasp_camera.crop_radius_m : 0};
     RecordingCamera camera(seen, door, robot, config_.cloud, sees_robot);
     std::optional<RememberedView> before;
     if (source_.stage() == NameOf(Stage::kHandle) && config_.remembered.IsOn())
@@ -254,10 +254,10 @@ class Reobservation {
                              : SampleCloud(visible, start, extent).cloud;
       episode.decisions[t] = std::move(decision);
     }
-    if (at_grasp) collected.meta["cloud_within_m"] = extent.within_m;
+    if (at_grasp) collected.meta["cloud_within_m"] = extent.crop_radius_m;
     if (before) {
-      collected.meta["remembered_finer"] = config_.remembered.finer;
-      collected.meta["cloud_within_m"] = config_.remembered.within_m;
+      collected.meta["remembered_finer"] = config_.remembered.resolution_scale;
+      collected.meta["cloud_within_m"] = config_.remembered.crop_radius_m;
     } else if (!at_grasp) {
       collected.meta.erase("remembered_finer");
       collected.meta.erase("cloud_within_m");
@@ -302,12 +302,12 @@ SourceConfig ReadSourceConfig(const fs::path& folder, const std::string& robot) 
   SourceConfig source;
   if (json.contains("cloud")) Assign(json["cloud"], source.config.cloud, path.string() + ".cloud");
   // a data set of an earlier build has none: its clouds were of the whole door as it was seen then
-  source.config.grasp_look = {.resolution_scale = 1, .crop_radius_m = 0};
-  source.config.remembered = {.finer = 0};
+  source.config.grasp_camera = {.resolution_scale = 1, .crop_radius_m = 0};
+  source.config.remembered = {.resolution_scale = 0};
   if (json.contains("remembered"))
     Assign(json["remembered"], source.config.remembered, path.string() + ".remembered");
   if (json.contains("grasp_look"))
-    Assign(json["grasp_look"], source.config.grasp_look, path.string() + ".grasp_look");
+    Assign(json["grasp_look"], source.config.grasp_camera, path.string() + ".grasp_look");
   if (json.contains("preview"))
     source.config.preview = ValueOf<bool>(json, "preview", path.string());
   if (json.contains("robot") && json["robot"].is_boolean())
@@ -323,7 +323,7 @@ ReobserveConfig ConfigOf(const ReobserveRequest& request, const ReobserveConfig&
   if (request.without_robot) config.robot = false;
   config.own_camera = config.own_camera || ToJson(config.camera) != ToJson(CameraConfig{});
   CheckDepthNoise(config.cloud.noise);
-  CheckGraspCamera(config.grasp_look);
+  CheckGraspCamera(config.grasp_camera);
   CheckRememberedView(config.remembered);
   if (config.own_camera) CameraOf(config.camera);
   return config;

@@ -47,7 +47,7 @@ void CheckStageConfig(const StageConfig& config) {
           ErrorCode::kInvalidConfig, "config.cloud.point_count: out of 1..1000000");
   CheckDepthNoise(config.cloud.noise);
   CheckRandomGrasp(config.grasp);
-  CheckGraspCamera(config.grasp_look);
+  CheckGraspCamera(config.grasp_camera);
   CheckRememberedView(config.remembered);
   Require(config.sampled_grasps >= 0 && config.sampled_grasps <= 1, ErrorCode::kInvalidConfig,
           "config.sampled_grasps: out of 0..1");

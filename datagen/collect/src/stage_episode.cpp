@@ -5,10 +5,10 @@
 #include <memory>
 #include <optional>
 
+#include "doorforge/rollout/base_placement.h"
 #include "doorforge/rollout/camera_observer.h"
 #include "doorforge/rollout/grasp_from_policy.h"
 #include "doorforge/rollout/run_episode.h"
-#include "doorforge/rollout/standing_place.h"
 #include "doorforge/schemas/motion_way.h"
 
 #include "episode_records.h"
@@ -42,8 +42,8 @@ CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const Identified
   const auto set = policies.Take();
   const bool at_grasp = config.stage == Stage::kGrasp;
   const bool samples_grasp = SamplesGrasp(config, planned);
-  const Scene recorded_scene = at_grasp ? SceneOf(config.grasp_look, scene) : scene;
-  const double within_m = at_grasp ? config.grasp_look.crop_radius_m : 0;
+  const Scene recorded_scene = at_grasp ? SceneOf(config.grasp_camera, scene) : scene;
+  const double crop_radius_m = at_grasp ? config.grasp_camera.crop_radius_m : 0;
   // the grasp is chosen before the robot stands between camera and handle
   std::optional<RecordingCamera> before;
   if (samples_grasp)
@@ -59,9 +59,9 @@ CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const Identified
     if (policies.remembered().IsOn())
       policies_camera->Remember({scene, door, robot, config.cloud, policies.remembered()});
   }
-  const CloudExtent extent{config.cloud.point_count, within_m};
+  const CloudExtent extent{config.cloud.point_count, crop_radius_m};
   const auto look = [&](const SceneSnapshot& snapshot) { return before->LookAtAll(snapshot); };
-  EpisodeRoles roles{.recorded = config.stage, .open = set->open.get()};
+  EpisodePolicies roles{.recorded = config.stage, .open = set->open.get()};
   if (config.stage != Stage::kOpen) roles.handle = set->handle.get();
   std::optional<GraspFromPolicy> grasp;
   if (samples_grasp) {
@@ -93,11 +93,11 @@ CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const Identified
   collected.meta["policies"] = policies.Record(samples_grasp);
   if (at_grasp) {
     collected.meta["robot_seen"] = false;
-    collected.meta["cloud_within_m"] = within_m;
+    collected.meta["cloud_within_m"] = crop_radius_m;
   }
   if (remembers) {
-    collected.meta["remembered_finer"] = config.remembered.finer;
-    collected.meta["cloud_within_m"] = config.remembered.within_m;
+    collected.meta["remembered_finer"] = config.remembered.resolution_scale;
+    collected.meta["cloud_within_m"] = config.remembered.crop_radius_m;
   }
   collected.keep_failed = at_grasp;
   const bool is_kept = episode.outcome == EpisodeOutcome::kOpened || collected.keep_failed;

@@ -63,11 +63,11 @@ void CheckLearnersClouds(const std::optional<TrainedPolicy>& learner, const Stag
   if (!learner || config.stage != Stage::kHandle) return;
   const RememberedViewConfig& its = learner->remembered;
   const RememberedViewConfig& recorded = config.remembered;
-  const bool alike = its.finer == recorded.finer &&
-                     (!its.IsOn() || std::abs(its.within_m - recorded.within_m) < 1e-6);
+  const bool alike = its.resolution_scale == recorded.resolution_scale &&
+                     (!its.IsOn() || std::abs(its.crop_radius_m - recorded.crop_radius_m) < 1e-6);
   char settings[120];
   std::snprintf(settings, sizeof settings, "--set remembered.finer=%d --set remembered.within_m=%g",
-                its.finer, its.within_m);
+                its.resolution_scale, its.crop_radius_m);
   Require(alike, ErrorCode::kInvalidArgument,
           learner->folder.string() +
               ": the learner takes clouds that remember something else than those that are "

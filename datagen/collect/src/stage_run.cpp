@@ -11,7 +11,7 @@
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
-#include "doorforge/rollout/run_episode.h"
+#include "doorforge/rollout/proprioception.h"
 
 namespace doorforge {
 namespace {

@@ -22,12 +22,12 @@ int CloudPointsOf(const nlohmann::ordered_json& json, const std::string& path) {
 
 // Policies of the stage "handle" may remember; their record says what.
 RememberedViewConfig RememberedOf(const nlohmann::ordered_json& json, const std::string& path) {
-  RememberedViewConfig remembered{.finer = 0};
+  RememberedViewConfig remembered{.resolution_scale = 0};
   if (!json.contains("normalisation") || !json["normalisation"].contains("remembered_finer"))
     return remembered;
   const nlohmann::ordered_json& view = json["normalisation"];
-  remembered.finer = ValueOf<int>(view, "remembered_finer", path + ".normalisation");
-  remembered.within_m = ValueOf<double>(view, "cloud_within_m", path + ".normalisation");
+  remembered.resolution_scale = ValueOf<int>(view, "remembered_finer", path + ".normalisation");
+  remembered.crop_radius_m = ValueOf<double>(view, "cloud_within_m", path + ".normalisation");
   CheckRememberedView(remembered);
   return remembered;
 }

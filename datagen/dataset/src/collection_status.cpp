@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <thread>
 
 #include <fcntl.h>
 #include <sys/stat.h>
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
+#include "doorforge/core/program.h"
 #include "doorforge/schemas/dataset.h"
 #include "doorforge/schemas/names.h"
 #include "doorforge/schemas/shard_progress.h"
@@ -186,6 +188,15 @@ double SecondsLeftOf(const ShardStatus& shard) {
   return pace * (static_cast<double>(shard.planned) - run);
 }
 
+// False if a signal asked to stop.
+bool PausedFor(std::chrono::duration<double> pause) {
+  constexpr std::chrono::milliseconds kStep(100);
+  const auto end = std::chrono::steady_clock::now() + pause;
+  while (StopRequested() == 0 && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(kStep);
+  return StopRequested() == 0;
+}
+
 }  // namespace
 
 std::string_view NameOf(ShardState state) {
@@ -261,6 +272,25 @@ const TaskStatus* CollectionStatus::SlowestTask() const {
 CollectionStatus StatusOfCollection(const StatusRequest& request) {
   Require(!request.folders.empty(), ErrorCode::kInvalidArgument, "status: no folder");
   return Look(request).Take();
+}
+
+CollectionStatus LookAtCollection(StatusRequest request, const ShowStatus& show) {
+  using Seconds = std::chrono::duration<double>;
+  request.now_s = Seconds(std::chrono::system_clock::now().time_since_epoch()).count();
+  CollectionStatus status = StatusOfCollection(request);
+  show(status, request.now_s);
+  return status;
+}
+
+std::optional<CollectionStatus> WatchCollection(const StatusRequest& request,
+                                                std::chrono::duration<double> every,
+                                                const ShowStatus& show) {
+  CollectionStatus status = LookAtCollection(request, show);
+  while (status.Count(ShardState::kDone) < status.shards.size()) {
+    if (!PausedFor(every)) return std::nullopt;
+    status = LookAtCollection(request, show);
+  }
+  return status;
 }
 
 }  // namespace doorforge

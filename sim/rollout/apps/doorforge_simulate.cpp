@@ -3,8 +3,6 @@
 
 // The program that lets the expert, or policies by name, open doors.
 
-#include <cmath>
-#include <iostream>
 #include <string>
 #include <vector>
 
@@ -53,7 +51,7 @@ Options Parse(int argc, char** argv) {
       ->check(CLI::ExistingFile);
   app.add_option("--film", run.film, "folder for a PNG of each episode");
   AddOverwrite(app, run.overwrite, "replace pictures that are in --film");
-  AddThreads(app, run.threads)->check(CLI::Range(0, 4096));
+  AddThreads(app, run.threads);
   AddConfig(app, options.config, "YAML file with the settings of scene and expert");
   AddSettings(app, settings, "a.b=c overrides one setting");
   AddJson(app, options.json);
@@ -64,26 +62,12 @@ Options Parse(int argc, char** argv) {
   return options;
 }
 
-void PrintText(const std::vector<SimulatedEpisode>& episodes) {
-  for (const SimulatedEpisode& simulated : episodes)
-    std::cout << NameOf(simulated) << ": " << NameOf(simulated.episode.outcome) << " ("
-              << simulated.episode.detail << ")\n";
-  for (const auto& [group, tally] : TallyOutcomes(episodes)) {
-    const auto percent = [](double part) { return std::to_string(std::lround(100 * part)); };
-    std::cout << group << ": opened " << tally.opened << " of " << tally.episodes
-              << " (95 %: " << percent(tally.low) << " to " << percent(tally.high) << " %)";
-    for (const auto& [outcome, count] : tally.outcomes)
-      std::cout << ", " << outcome << " " << count;
-    std::cout << "\n";
-  }
-}
-
 // 0 if all doors were opened.
 int RunSimulateVerb(int argc, char** argv) {
   const Options options = Parse(argc, argv);
   const std::vector<SimulatedEpisode> episodes = NamingConfig(
       options.config, [&] { return SimulateDoorsWith(options.policies, options.run); });
-  options.json ? PrintJson(SimulatedToJson(episodes)) : PrintText(episodes);
+  PrintAnswer(options.json, SimulatedToJson(episodes), SimulatedText(episodes));
   std::size_t closed = 0;
   for (const SimulatedEpisode& simulated : episodes)
     closed += simulated.episode.outcome == EpisodeOutcome::kOpened ? 0 : 1;

@@ -34,12 +34,12 @@ void AppendPoint(const LabelledCloud& from, std::size_t index, LabelledCloud& to
 }
 
 // The points near point `centre`, in their order.
-LabelledCloud PointsWithin(const LabelledCloud& cloud, std::size_t centre, double within_m) {
+LabelledCloud PointsWithin(const LabelledCloud& cloud, std::size_t centre, double crop_radius_m) {
   LabelledCloud near;
   const Eigen::Map<const Eigen::Vector3f> middle(&cloud.xyz[3 * centre]);
   for (std::size_t i = 0; i < cloud.label.size(); ++i) {
     const Eigen::Map<const Eigen::Vector3f> point(&cloud.xyz[3 * i]);
-    if (static_cast<double>((point - middle).norm()) <= within_m) AppendPoint(cloud, i, near);
+    if (static_cast<double>((point - middle).norm()) <= crop_radius_m) AppendPoint(cloud, i, near);
   }
   return near;
 }
@@ -84,13 +84,13 @@ SampledCloud SampleCloud(const LabelledCloud& visible, const Eigen::Vector3d& st
                          const CloudExtent& extent) {
   Require(extent.point_count >= 1 && extent.point_count <= 1000000, ErrorCode::kInvalidArgument,
           "point cloud: point_count out of 1..1000000");
-  Require(extent.within_m >= 0 && std::isfinite(extent.within_m), ErrorCode::kInvalidArgument,
-          "point cloud: within_m must be at least 0");
+  Require(extent.crop_radius_m >= 0 && std::isfinite(extent.crop_radius_m),
+          ErrorCode::kInvalidArgument, "point cloud: within_m must be at least 0");
   Require(start_m.allFinite(), ErrorCode::kInvalidArgument,
           "point cloud: the start position is not finite");
-  if (extent.within_m > 0 && !visible.label.empty()) {
+  if (extent.crop_radius_m > 0 && !visible.label.empty()) {
     const auto nearest = static_cast<std::size_t>(NearestPoint(visible.xyz, start_m));
-    return SampleCloud(PointsWithin(visible, nearest, extent.within_m), start_m,
+    return SampleCloud(PointsWithin(visible, nearest, extent.crop_radius_m), start_m,
                        {extent.point_count});
   }
   SampledCloud result;

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/verbs/eval_verb.h"
 
-#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -10,11 +9,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include "doorforge/cli/answer.h"
 #include "doorforge/cli/command_line.h"
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/error.h"
-#include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/evaluate/evaluate_opener.h"
 #include "doorforge/registry/policy_options.h"
@@ -36,12 +35,12 @@ struct Options {
   std::string out;
   std::string config;
   std::vector<std::string> settings;
-  std::optional<std::string> unlock_switch;
+  std::optional<SwitchSource> unlock_switch;
   std::optional<int> seeds;
   std::optional<std::uint64_t> first_seed;
   std::optional<int> episodes_per_door;
+  Existing existing = Existing::kRefuse;
   bool json = false;
-  bool overwrite = false;
 };
 
 void AddOptions(CLI::App& app, Options& options) {
@@ -63,23 +62,20 @@ void AddOptions(CLI::App& app, Options& options) {
   app.add_option("--data", options.request.data,
                  "data sets that the opener was trained from: the report lists and shows their "
                  "doors");
-  app.add_option("--switch", options.unlock_switch,
-                 "who says that the handle is turned: a trained handler itself "
-                 "(predicted), or the simulator (privileged); (config: switch, predicted)")
-      ->check(CLI::IsMember(NamesOf<SwitchSource>()));
+  AddChoice(app, "--switch", options.unlock_switch,
+            "who says that the handle is turned: a trained handler itself "
+            "(predicted), or the simulator (privileged); (config: switch, predicted)");
   app.add_option("--seeds", options.seeds, "repetitions with other scenes (config: seeds, 3)");
   app.add_option("--seed", options.first_seed, "the first of them (config: first_seed, 1)");
   app.add_option("--episodes-per-door", options.episodes_per_door,
                  "in each seed (config: episodes_per_door, 1)");
-  app.add_option("--threads", options.request.threads,
-                 "0: all processors; the result does not depend on it")
-      ->check(CLI::Range(0, 1024));
-  app.add_option("--config", options.config, "YAML file with settings")->check(CLI::ExistingFile);
+  AddThreads(app, options.request.threads, "0: all processors; the result does not depend on it");
+  AddConfig(app, options.config, "YAML file with settings")->check(CLI::ExistingFile);
   AddSettings(app, options.settings, "a.b=c overrides one setting");
   app.add_flag("--allow-seen", options.request.allow_seen,
                "evaluate on doors with parts that the policy was trained on, too");
-  app.add_flag("--json", options.json, "print report.json's document instead of a table");
-  app.add_flag("--overwrite", options.overwrite, "replace the report in --out");
+  AddJson(app, options.json, "print report.json's document instead of a table");
+  AddOverwrite(app, options.existing, "replace the report in --out");
 }
 
 Options Parse(int argc, char** argv, const EvalVerbSetup& setup) {
@@ -108,9 +104,9 @@ Options Parse(int argc, char** argv, const EvalVerbSetup& setup) {
 
 EvaluationConfig ConfigOf(const Options& options) {
   auto config = LoadConfig<EvaluationConfig>(options.config, options.settings);
-  if (options.unlock_switch)
-    config.unlock_switch = *ValueNamed<SwitchSource>(*options.unlock_switch);
-  Require(options.unlock_switch != "predicted" || options.request.policies.handler != kExpertPolicy,
+  if (options.unlock_switch) config.unlock_switch = *options.unlock_switch;
+  Require(options.unlock_switch != SwitchSource::kPolicy ||
+              options.request.policies.handler != kExpertPolicy,
           ErrorCode::kInvalidArgument,
           "--switch predicted: a policy that turns the handle says when it is turned; give one "
           "with --handler");
@@ -123,26 +119,22 @@ EvaluationConfig ConfigOf(const Options& options) {
 int Evaluate(Options& options) {
   // refused before hours of work, not after
   std::optional<StagedFolder> staged;
-  if (!options.out.empty())
-    staged.emplace(options.out, kReportFolder,
-                   options.overwrite ? Existing::kReplace : Existing::kRefuse);
+  if (!options.out.empty()) staged.emplace(options.out, kReportFolder, options.existing);
   Evaluation evaluation;
   try {
     evaluation = EvaluateOpener(options.request);
   } catch (const Error&) {
     if (StopRequested() == 0) throw;
-    std::fprintf(stderr, "doorforge: interrupted; nothing was written\n");
+    PrintNote("interrupted; nothing was written");
     return 128 + StopRequested();
   }
-  for (const std::string& note : evaluation.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
+  for (const std::string& note : evaluation.notes) PrintProgress("note: " + note + "\n");
   if (staged) {
     WriteReportFolder(evaluation.report, evaluation.pictures, *staged);
-    std::fprintf(stderr, "report: %s\n",
-                 fs::absolute(fs::path(options.out) / "report.html").lexically_normal().c_str());
+    const fs::path page = fs::absolute(fs::path(options.out) / "report.html").lexically_normal();
+    PrintProgress("report: " + page.string() + "\n");
   }
-  const std::string text = options.json ? JsonText(ReportToJson(evaluation.report), 2) + "\n"
-                                        : ReportTable(evaluation.report);
-  std::fwrite(text.data(), 1, text.size(), stdout);
+  PrintAnswer(options.json, ReportToJson(evaluation.report), ReportTable(evaluation.report));
   return 0;
 }
 

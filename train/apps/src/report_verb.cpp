@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/verbs/report_verb.h"
 
-#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "doorforge/cli/answer.h"
 #include "doorforge/cli/command_line.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
@@ -34,7 +34,7 @@ ReportOptions Parse(int argc, char** argv) {
   app.add_option("reports", options.reports, "folders of `doorforge eval --out`, or report.json")
       ->required()
       ->check(CLI::ExistingPath);
-  app.add_flag("--json", options.json, "print one JSON document");
+  AddJson(app, options.json);
   app.footer("example:\n  doorforge report run1/report run2/report run3/report");
   ParseVerb(app, argc, argv);
   return options;
@@ -53,9 +53,7 @@ int RunReportVerb(int argc, char** argv) {
     std::vector<EvaluationReport> reports;
     for (const fs::path& place : options.reports) reports.push_back(ReadReport(place));
     const TrainingsSummary summary = SummariseTrainings(reports);
-    const std::string text =
-        options.json ? JsonText(TrainingsToJson(summary), 2) + "\n" : TrainingsTable(summary);
-    std::fwrite(text.data(), 1, text.size(), stdout);
+    PrintAnswer(options.json, TrainingsToJson(summary), TrainingsTable(summary));
     return 0;
   });
 }

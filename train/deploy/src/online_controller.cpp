@@ -76,7 +76,7 @@ std::optional<OnlineController::Actor> OnlineController::LoadActor(const std::st
               std::move(critic), std::move(familiarity)};
   actor.policy->Reset();
   actor.remembers = view.remembered_finer > 0;
-  actor.within_m = static_cast<double>(view.cloud_within_m);
+  actor.crop_radius_m = static_cast<double>(view.cloud_crop_radius_m);
   return actor;
 }
 
@@ -107,17 +107,19 @@ ActAnswer OnlineController::DecideGrasp(DepthImage depth, PixelMask handle,
                 "a grasp is to be chosen, and --grasper, which chooses it, was not given");
   const double yaw = setup_.config.door_yaw_rad;
   seen_ = {std::move(depth), std::move(handle)};
-  HandleSight sight = NamingInputs(names.depth + ", " + names.handle + " and " + names.camera, [&] {
-    return ObserveHandle(seen_.depth, *seen_.handle, setup_.camera,
-                         -Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0), setup_.config.cloud);
-  });
-  before_ = sight.view.visible;
+  HandleObservation seen =
+      NamingInputs(names.depth + ", " + names.handle + " and " + names.camera, [&] {
+        return ObserveHandle(seen_.depth, *seen_.handle, setup_.camera,
+                             -Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0),
+                             setup_.config.cloud);
+      });
+  before_ = seen.view.visible;
   const GripperClearance clearance(robot_);
-  sight.view.hand_from_tcp = robot_.hand_from_tcp();
-  sight.view.fits = [&](const Eigen::Vector3d& contact_m, const Eigen::Matrix3d& rotation) {
-    return clearance.Fits(sight.view.visible, contact_m, rotation);
+  seen.view.hand_from_tcp = robot_.hand_from_tcp();
+  seen.view.fits = [&](const Eigen::Vector3d& contact_m, const Eigen::Matrix3d& rotation) {
+    return clearance.Fits(seen.view.visible, contact_m, rotation);
   };
-  return Answer(*grasper_->policy->Choose(sight.view), sight);
+  return Answer(*grasper_->policy->Choose(seen.view), seen);
 }
 
 ActAnswer OnlineController::Decide(DepthImage depth, const RobotState& state,
@@ -125,9 +127,9 @@ ActAnswer OnlineController::Decide(DepthImage depth, const RobotState& state,
   seen_ = {std::move(depth), {}};
   const Stage stage = StageOf(state, names.state);
   Actor& actor = ActorOf(stage);
-  const RobotSight sight =
-      NamingInputs(names.depth + " and " + names.camera, [&] { return SightOf(actor, state); });
-  return Answer(stage, actor, state, sight);
+  const RobotObservation seen = NamingInputs(names.depth + " and " + names.camera,
+                                             [&] { return ObservationOf(actor, state); });
+  return Answer(stage, actor, state, seen);
 }
 
 void OnlineController::Remember(const DepthImage& before, const InputNames& names) {
@@ -135,7 +137,8 @@ void OnlineController::Remember(const DepthImage& before, const InputNames& name
                          [&] { return ObserveBefore(before, setup_.camera, setup_.config.cloud); });
 }
 
-RobotSight OnlineController::SightOf(const Actor& actor, const RobotState& state) const {
+RobotObservation OnlineController::ObservationOf(const Actor& actor,
+                                                 const RobotState& state) const {
   const CloudConfig& cloud = setup_.config.cloud;
   if (!actor.remembers) return ObserveDepth(seen_.depth, setup_.camera, state, cloud);
   if (!before_)
@@ -143,7 +146,7 @@ RobotSight OnlineController::SightOf(const Actor& actor, const RobotState& state
                 "the policy that turns the handle remembers what the camera saw before the robot "
                 "came, and there is no such picture; pass it as --before, in a stream as "
                 "\"before\"");
-  return ObserveDepth(seen_.depth, setup_.camera, state, {*before_, actor.within_m}, cloud);
+  return ObserveDepth(seen_.depth, setup_.camera, state, {*before_, actor.crop_radius_m}, cloud);
 }
 
 std::optional<Foreignness> OnlineController::ForeignnessOf(
@@ -154,7 +157,7 @@ std::optional<Foreignness> OnlineController::ForeignnessOf(
                      familiarity->DistanceAt(setup_.config.hold.foreign_percentile)};
 }
 
-ActAnswer OnlineController::Answer(const GraspAction& choice, const HandleSight& sight) const {
+ActAnswer OnlineController::Answer(const GraspAction& choice, const HandleObservation& seen) const {
   RigidTransform world_from_tcp = RigidTransform::Identity();
   world_from_tcp.linear() = choice.world_from_hand_rotation * robot_.hand_from_tcp().linear();
   world_from_tcp.translation() =
@@ -168,8 +171,8 @@ ActAnswer OnlineController::Answer(const GraspAction& choice, const HandleSight&
       grasper_->familiarity,
       SightNumbersOf({choice.cloud.xyz, choice.cloud.label}, {}, NetworkFamily::kGrasp));
   answer.candidates = setup_.config.grasp.points * setup_.config.grasp.orientations;
-  answer.visible_points = sight.visible_count;
-  answer.handle_points = sight.handle_count;
+  answer.visible_points = seen.visible_count;
+  answer.handle_points = seen.handle_count;
   answer.weights_sha256 = grasper_->weights_sha256;
   Judge(setup_.config.hold, answer);
   return answer;
@@ -204,8 +207,8 @@ OnlineController::Actor& OnlineController::ActorOf(Stage stage) {
 }
 
 ActAnswer OnlineController::Answer(Stage stage, Actor& actor, const RobotState& state,
-                                   const RobotSight& sight) {
-  const Observation& observation = sight.observation;
+                                   const RobotObservation& seen) {
+  const Observation& observation = seen.observation;
   const Action action = actor.policy->Act(observation);
   ActAnswer answer;
   answer.stage = stage;
@@ -218,7 +221,7 @@ ActAnswer OnlineController::Answer(Stage stage, Actor& actor, const RobotState& 
       actor.familiarity, SightNumbersOf({observation.cloud.xyz, observation.cloud.label},
                                         observation.proprioception, NetworkFamily::kMotion));
   answer.candidates = setup_.config.policy.candidates;
-  answer.visible_points = sight.visible_count;
+  answer.visible_points = seen.visible_count;
   answer.weights_sha256 = actor.weights_sha256;
   Judge(setup_.config.hold, answer);
   if (stage == Stage::kHandle && Predicts()) {

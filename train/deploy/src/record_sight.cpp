@@ -13,12 +13,12 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/physics/load_robot.h"
+#include "doorforge/rollout/base_placement.h"
 #include "doorforge/rollout/camera_observer.h"
-#include "doorforge/rollout/grasp_look.h"
+#include "doorforge/rollout/grasp_camera.h"
 #include "doorforge/rollout/handle_expert.h"
 #include "doorforge/rollout/opening_expert.h"
 #include "doorforge/rollout/run_episode.h"
-#include "doorforge/rollout/standing_place.h"
 #include "doorforge/sensor/picture.h"
 #include "doorforge/sensor/pinhole_view.h"
 
@@ -70,12 +70,12 @@ std::string StateText(const Decision& decision, const Scene& scene, bool unlocke
 }
 
 // The door closed and the robot out of view, as an episode begins.
-class Onlooker : public GraspChooser {
+class Onlooker : public SnapshotGraspPolicy {
  public:
   Onlooker(const Scene& scene, const DoorAsset& door, const RobotModel& robot)
       : camera_(scene, door, robot, {}, /*sees_robot=*/false) {}
-  std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override {
-    depth = camera_.Look(snapshot).depth;
+  std::optional<GraspCommand> Choose(const SceneSnapshot& snapshot) override {
+    depth = camera_.Render(snapshot).depth;
     return std::nullopt;  // nothing more of this episode is wanted
   }
 
@@ -91,9 +91,9 @@ class Photographer : public Observer {
   Photographer(const Scene& scene, const DoorAsset& door, const RobotModel& robot)
       : camera_(scene, door, robot) {}
   LabelledCloud Observe(const SceneSnapshot& snapshot) override {
-    Sight sight = camera_.Look(snapshot);
-    depths.push_back(std::move(sight.depth));
-    return std::move(sight.sampled.cloud);
+    CameraFrame frame = camera_.Render(snapshot);
+    depths.push_back(std::move(frame.depth));
+    return std::move(frame.sampled.cloud);
   }
 
   std::vector<DepthImage> depths;

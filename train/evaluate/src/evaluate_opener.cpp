@@ -17,7 +17,7 @@
 #include "doorforge/policy/policy_file.h"
 #include "doorforge/registry/run_policy_set.h"
 #include "doorforge/rollout/opening_expert.h"
-#include "doorforge/rollout/run_episode.h"
+#include "doorforge/rollout/proprioception.h"
 #include "doorforge/schemas/door_set.h"
 #include "doorforge/schemas/stage_content.h"
 

@@ -12,7 +12,7 @@
 #include "doorforge/physics/load_robot.h"
 #include "doorforge/physics/scene_sampling.h"
 #include "doorforge/registry/run_policy_set.h"
-#include "doorforge/rollout/standing_place.h"
+#include "doorforge/rollout/base_placement.h"
 
 namespace doorforge {
 namespace {

@@ -118,11 +118,11 @@ void AddSight(const FinishedTrials& finished, std::size_t index, const SceneSnap
 }
 
 // Remembers the beginning of an episode and the grasp that was chosen then; there the episode ends.
-class Onlooker : public GraspChooser {
+class Onlooker : public SnapshotGraspPolicy {
  public:
   explicit Onlooker(GraspFromPolicy& grasp) : grasp_(grasp) {}
 
-  std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override {
+  std::optional<GraspCommand> Choose(const SceneSnapshot& snapshot) override {
     start = snapshot;
     action = grasp_.ActionAt(snapshot);
     return std::nullopt;

@@ -49,10 +49,10 @@ Indices InWindow(const PointColumns& points, float radius_m) {
   return inside;
 }
 
-void Magnify(PointColumns& points, float zoom) {
-  if (zoom == 1) return;
+void Magnify(PointColumns& points, float point_scale) {
+  if (point_scale == 1) return;
   for (auto* coordinates : {&points.x, &points.y, &points.z}) {
-    for (float& coordinate : *coordinates) coordinate *= zoom;
+    for (float& coordinate : *coordinates) coordinate *= point_scale;
   }
 }
 
@@ -126,9 +126,9 @@ SampledLevels SampleLevels(std::span<const float> xyz, const CloudWindow& window
   SampledLevels levels;
   std::array<PointColumns, 5>& points = levels.points;
   points[0] = ToColumns(xyz, window.centre);
-  levels.inside = InWindow(points[0], window.radius_m);
+  levels.inside = InWindow(points[0], window.crop_radius_m);
   points[0] = points[0].Select(levels.inside);
-  Magnify(points[0], window.zoom);
+  Magnify(points[0], window.point_scale);
   for (std::size_t level = 0; level < 4; ++level) {
     points[level + 1] =
         points[level].Select(FarthestPoints(points[level], kSetAbstractions[level].points, set));

@@ -63,7 +63,7 @@ std::vector<std::size_t> PointsInWindow(std::span<const float> xyz, const CloudW
     for (std::size_t k = 0; k < 3; ++k)
       squared += (xyz[3 * point + k] - xyz[k]) * (xyz[3 * point + k] - xyz[k]);
     // a little less than the radius: the geometry's own distances are rounded otherwise
-    if (window.radius_m <= 0 || squared < 0.999F * window.radius_m * window.radius_m)
+    if (window.crop_radius_m <= 0 || squared < 0.999F * window.crop_radius_m * window.crop_radius_m)
       inside.push_back(point);
   }
   return inside;

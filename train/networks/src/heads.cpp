@@ -79,7 +79,8 @@ std::vector<float> ActorHead::Decode(const HeadInputs& inputs,
 }
 
 CriticHead::CriticHead(const StageNetworks& networks, InstructionSet set)
-    : layers_(CriticLayers(networks, set)), score_rad_(networks.normalisation.score_rad) {}
+    : layers_(CriticLayers(networks, set)),
+      angle_gain_rad_(networks.normalisation.angle_gain_rad) {}
 
 std::vector<float> CriticHead::Score(const HeadInputs& inputs) const {
   const auto branch = [&](const char* name, const std::vector<float>& values, int columns) {
@@ -91,11 +92,13 @@ std::vector<float> CriticHead::Score(const HeadInputs& inputs) const {
   const Table base = branch("base", inputs.bases, 3);
   const Table joined = SideBySide({ViewOf(inputs.features, kFeatureSize), state.View(),
                                    action.View(), hand.View(), base.View()});
-  return Denormalised(score_rad_, layers_->Branch("score", Activation::kRectified, joined.View()));
+  return Denormalised(angle_gain_rad_,
+                      layers_->Branch("score", Activation::kRectified, joined.View()));
 }
 
 DiscriminatorHead::DiscriminatorHead(const StageNetworks& networks, InstructionSet set)
-    : layers_(CriticLayers(networks, set)), score_rad_(networks.normalisation.score_rad) {}
+    : layers_(CriticLayers(networks, set)),
+      angle_gain_rad_(networks.normalisation.angle_gain_rad) {}
 
 // The layer behind the branches reads three: features, actions and near points. What a network does
 // not look at is zero there, and the near points come last.
@@ -112,17 +115,17 @@ std::vector<float> DiscriminatorHead::Score(const HeadInputs& inputs) const {
     hidden =
         layers_->ApplyToLast("score.0", NearFeatures(*layers_, inputs).View(), Activation::kLeaky);
   }
-  return Denormalised(score_rad_, layers_->Apply("score.1", hidden.View(), Activation::kNone));
+  return Denormalised(angle_gain_rad_, layers_->Apply("score.1", hidden.View(), Activation::kNone));
 }
 
 AffordanceHead::AffordanceHead(const StageNetworks& networks, InstructionSet set)
-    : layers_(ActorLayers(networks, set)), score_rad_(networks.normalisation.score_rad) {}
+    : layers_(ActorLayers(networks, set)), angle_gain_rad_(networks.normalisation.angle_gain_rad) {}
 
 std::vector<float> AffordanceHead::Score(const HeadInputs& inputs) const {
   const Table point = layers_->Branch("point", Activation::kRectified, ViewOf(inputs.points, 3));
   const Table joined = SideBySide({ViewOf(inputs.features, kFeatureSize), point.View()});
   const Table hidden = layers_->Apply("score.0", joined.View(), Activation::kLeaky);
-  return Denormalised(score_rad_, layers_->Apply("score.1", hidden.View(), Activation::kNone));
+  return Denormalised(angle_gain_rad_, layers_->Apply("score.1", hidden.View(), Activation::kNone));
 }
 
 }  // namespace doorforge::internal

@@ -191,10 +191,11 @@ NetworkView ViewFromJson(const Json& json, const std::string& path) {
         json, "state_of",
         {StateKind::kHand, StateKind::kJoints, StateKind::kNone, StateKind::kGripper}, path);
   if (json.contains("context_m"))
-    view.context_m = static_cast<float>(ValueOf<double>(json, "context_m", path));
-  if (json.contains("zoom")) view.zoom = static_cast<float>(ValueOf<double>(json, "zoom", path));
+    view.crop_radius_m = static_cast<float>(ValueOf<double>(json, "context_m", path));
+  if (json.contains("zoom"))
+    view.point_scale = static_cast<float>(ValueOf<double>(json, "zoom", path));
   if (json.contains("cloud_within_m"))
-    view.cloud_within_m = static_cast<float>(ValueOf<double>(json, "cloud_within_m", path));
+    view.cloud_crop_radius_m = static_cast<float>(ValueOf<double>(json, "cloud_within_m", path));
   if (json.contains("remembered_finer"))
     view.remembered_finer = ValueOf<int>(json, "remembered_finer", path);
   if (json.contains("near_points")) view.near_points = ValueOf<int>(json, "near_points", path);
@@ -247,8 +248,8 @@ bool KnowsBothWays(const StageNormalisation& normalisation) {
 
 CloudWindow WindowOf(const StageNormalisation& normalisation,
                      const std::array<float, 3>& hand_or_point_m) {
-  CloudWindow window{normalisation.cloud_centre_m, normalisation.view.context_m,
-                     normalisation.view.zoom};
+  CloudWindow window{normalisation.cloud_centre_m, normalisation.view.crop_radius_m,
+                     normalisation.view.point_scale};
   if (normalisation.view.frame == ViewFrame::kHand) {
     for (std::size_t k = 0; k < 3; ++k) window.centre[k] += hand_or_point_m[k];
   }
@@ -276,17 +277,18 @@ StageNormalisation MeasureNormalisation(std::span<const TrainingSample> samples,
   normalisation.base_m = Measure<3>(samples, Filled<3>(0.02F), [](const TrainingSample& s) {
     return ToArray(BasePositionOf(s.proprioception));
   });
-  normalisation.score_rad = Measure<1>(
-      samples, {0.005F}, [](const TrainingSample& s) { return std::array<float, 1>{s.score_rad}; });
+  normalisation.angle_gain_rad = Measure<1>(samples, {0.005F}, [](const TrainingSample& s) {
+    return std::array<float, 1>{s.angle_gain_rad};
+  });
   return normalisation;
 }
 
 Json NormalisationToJson(const StageNormalisation& normalisation) {
   return {{"frame", NameOf(normalisation.view.frame)},
           {"state_of", NameOf(normalisation.view.state)},
-          {"context_m", normalisation.view.context_m},
-          {"zoom", normalisation.view.zoom},
-          {"cloud_within_m", normalisation.view.cloud_within_m},
+          {"context_m", normalisation.view.crop_radius_m},
+          {"zoom", normalisation.view.point_scale},
+          {"cloud_within_m", normalisation.view.cloud_crop_radius_m},
           {"remembered_finer", normalisation.view.remembered_finer},
           {"near_points", normalisation.view.near_points},
           {"cloud_centre_m", normalisation.cloud_centre_m},
@@ -295,7 +297,7 @@ Json NormalisationToJson(const StageNormalisation& normalisation) {
           {"action", NormaliserToJson(normalisation.action)},
           {"hand_m", NormaliserToJson(normalisation.hand_m)},
           {"base_m", NormaliserToJson(normalisation.base_m)},
-          {"score_rad", NormaliserToJson(normalisation.score_rad)}};
+          {"score_rad", NormaliserToJson(normalisation.angle_gain_rad)}};
 }
 
 StageNormalisation NormalisationFromJson(const Json& json, const std::string& path) {
@@ -307,7 +309,7 @@ StageNormalisation NormalisationFromJson(const Json& json, const std::string& pa
   normalisation.action = NormaliserFromJson<9>(json, "action", path);
   normalisation.hand_m = NormaliserFromJson<3>(json, "hand_m", path);
   normalisation.base_m = NormaliserFromJson<3>(json, "base_m", path);
-  normalisation.score_rad = NormaliserFromJson<1>(json, "score_rad", path);
+  normalisation.angle_gain_rad = NormaliserFromJson<1>(json, "score_rad", path);
   return normalisation;
 }
 

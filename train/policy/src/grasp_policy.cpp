@@ -54,7 +54,8 @@ class NetworkGraspPolicy : public GraspPolicy {
  private:
   // As the clouds were sampled that the networks learned from.
   LabelledCloud Sample(const GraspObservation& seen, const Eigen::Vector3d& start) const {
-    return seen.sample(start, static_cast<double>(networks_.normalisation.view.cloud_within_m));
+    return seen.sample(start,
+                       static_cast<double>(networks_.normalisation.view.cloud_crop_radius_m));
   }
 
   // The affordance of the cloud's handle points.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "doorforge/core/error.h"
+#include "doorforge/rollout/proprioception.h"
 
 namespace doorforge {
 namespace {

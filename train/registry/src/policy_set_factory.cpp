@@ -35,10 +35,10 @@ bool PolicySetFactory::PredictsSwitch() const {
 }
 
 RememberedViewConfig PolicySetFactory::Remembered() const {
-  if (!handler_.IsFolder()) return {.finer = 0};
+  if (!handler_.IsFolder()) return {.resolution_scale = 0};
   const NetworkView view =
       ReadPolicy(handler_.folder, NameOf(Stage::kHandle)).networks.normalisation.view;
-  return {view.remembered_finer, static_cast<double>(view.cloud_within_m)};
+  return {view.remembered_finer, static_cast<double>(view.cloud_crop_radius_m)};
 }
 
 void PolicySetFactory::AddOpener(PolicySet& set) const {

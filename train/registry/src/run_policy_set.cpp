@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "doorforge/rollout/grasp_look.h"
+#include "doorforge/rollout/grasp_camera.h"
 #include "doorforge/schemas/fallible.h"
 
 namespace doorforge {
@@ -39,7 +39,7 @@ std::unique_ptr<GraspFromPolicy> GraspOf(const PolicySet& set, const EpisodePlac
                                                        /*sees_robot=*/false);
   return std::make_unique<GraspFromPolicy>(
       *set.grasp, scene, place.door, place.robot,
-      [camera](const SceneSnapshot& snapshot) { return camera->Look(snapshot).visible; });
+      [camera](const SceneSnapshot& snapshot) { return camera->Render(snapshot).visible; });
 }
 
 std::unique_ptr<CameraObserver> CameraOf(const EpisodePlace& place,
@@ -52,9 +52,9 @@ std::unique_ptr<CameraObserver> CameraOf(const EpisodePlace& place,
 
 Episode RunPolicySet(const EpisodePlace& place, const PolicySet& set, Observer* observer) {
   const std::unique_ptr<GraspFromPolicy> grasp = GraspOf(set, place);
-  EpisodeRoles roles{.grasp = grasp.get(), .handle = set.handle.get(), .open = set.open.get()};
+  EpisodePolicies roles{.grasp = grasp.get(), .handle = set.handle.get(), .open = set.open.get()};
   if (set.handle_turned != nullptr)
-    roles.predicted_turned = [turned = set.handle_turned] { return turned->Turned(); };
+    roles.handle_turned = [turned = set.handle_turned] { return turned->Turned(); };
   for (Fallible* policy : FallibleOf(set)) policy->ForgetFailure();
   Episode episode = RunStages(place.scene, place.door, place.robot, roles, observer);
   if (const std::string failure = FailureOf(set); !failure.empty()) {

@@ -37,7 +37,7 @@ EvaluatedEpisode RowOf(const Episode& episode, const DoorAsset& door) {
           .peak_hinge_rad = episode.peak_hinge_rad,
           .peak_handle_rad = episode.peak_handle_rad,
           .simulated_s = episode.simulated_s,
-          .handle_done = episode.handle_done,
+          .handle_turned = episode.handle_turned,
           .peak_force_n = episode.peak_force_n,
           .peak_net_force_n = episode.peak_net_force_n,
           .state_sha256 = episode.state_sha256};
@@ -64,7 +64,7 @@ nlohmann::ordered_json EvaluatedEpisodeToJson(const EvaluatedEpisode& episode) {
           {"peak_hinge_rad", episode.peak_hinge_rad},
           {"peak_handle_rad", episode.peak_handle_rad},
           {"simulated_s", episode.simulated_s},
-          {"handle_done", episode.handle_done},
+          {"handle_done", episode.handle_turned},
           {"peak_force_n", episode.peak_force_n},
           {"peak_net_force_n", episode.peak_net_force_n},
           {"state_sha256", episode.state_sha256}};
@@ -89,7 +89,7 @@ EvaluatedEpisode EvaluatedEpisodeFromJson(const nlohmann::ordered_json& json,
           .peak_hinge_rad = ValueOf<double>(json, "peak_hinge_rad", path),
           .peak_handle_rad = ValueOf<double>(json, "peak_handle_rad", path),
           .simulated_s = ValueOf<double>(json, "simulated_s", path),
-          .handle_done = ValueOf<bool>(json, "handle_done", path),
+          .handle_turned = ValueOf<bool>(json, "handle_done", path),
           .peak_force_n = ValueOf<double>(json, "peak_force_n", path),
           .peak_net_force_n = json.contains("peak_net_force_n")  // earlier builds had none
                                   ? ValueOf<double>(json, "peak_net_force_n", path)

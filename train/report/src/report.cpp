@@ -79,7 +79,8 @@ Json CausesToJson(Episodes episodes) {
 void AddSuccess(Episodes episodes, Json& json) {
   const std::vector<GroupSummary> groups = SummariesOf(episodes);
   json["success"] = ByGroup(groups, [](const auto& s) { return RateToJson(s.opened); });
-  json["handle_success"] = ByGroup(groups, [](const auto& s) { return RateToJson(s.handle_done); });
+  json["handle_success"] =
+      ByGroup(groups, [](const auto& s) { return RateToJson(s.handle_turned); });
   json["effort"] = ByGroup(groups, [](const auto& s) {
     return Json{
         {"median_opening_s", s.median_opening_s}, {"median_force_n", s.median_force_n},

@@ -65,8 +65,8 @@ std::string EffortRow(const std::string& name, Episodes episodes) {
       R"(<tr><td>{name}</td><td class="number">{handle} <span class="soft">[{interval}]</span></td>)"
       R"(<td class="number">{time}</td><td class="number">{force}</td><td class="number">{peak}</td></tr>)",
       {{"name", name},
-       {"handle", Percent(summary.handle_done.rate)},
-       {"interval", IntervalText(summary.handle_done)},
+       {"handle", Percent(summary.handle_turned.rate)},
+       {"interval", IntervalText(summary.handle_turned)},
        {"time", time},
        {"force", Fixed(summary.median_force_n, 0) + "\u00a0N"},
        {"peak", Fixed(summary.peak_force_n, 0) + "\u00a0N"}});

@@ -40,7 +40,7 @@ std::string EffortLine(const SuccessSummary& summary) {
   return Format(
       "handle turned: %.1f %%; median time to open %.1f s; greatest force %.0f N (median), %.0f "
       "N\n",
-      100 * summary.handle_done.rate, summary.median_opening_s, summary.median_force_n,
+      100 * summary.handle_turned.rate, summary.median_opening_s, summary.median_force_n,
       summary.peak_force_n);
 }
 

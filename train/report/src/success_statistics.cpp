@@ -87,7 +87,8 @@ SuccessSummary Summarise(std::span<const EvaluatedEpisode> episodes) {
   }
   summary.opened = RateOf(
       episodes, [](const auto& episode) { return episode.outcome == EpisodeOutcome::kOpened; });
-  summary.handle_done = RateOf(episodes, [](const auto& episode) { return episode.handle_done; });
+  summary.handle_turned =
+      RateOf(episodes, [](const auto& episode) { return episode.handle_turned; });
   summary.over_seeds = SpreadOf(episodes);
   summary.median_opening_s = MedianOf(times);
   summary.median_force_n = MedianOf(forces);

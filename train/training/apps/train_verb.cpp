@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdint>
-#include <cstdio>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "doorforge/cli/answer.h"
 #include "doorforge/cli/command_line.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/program.h"
@@ -19,56 +18,45 @@
 namespace doorforge {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct Options {
-  std::string stage;
-  std::vector<std::string> data;
-  std::string from;
-  std::string out;
+  TrainingRequest request;
   std::string config;
   std::vector<std::string> settings;
   std::optional<int> epochs;
   std::optional<std::uint64_t> seed;
   std::optional<std::string> device;
-  double minutes = 0;
-  int threads = 0;
-  bool resume = false;
-  bool overwrite = false;
-  bool nodes = false;
 };
 
 Options Parse(int argc, char** argv) {
   Options options;
   CLI::App app("Trains a stage's policy from the shards of `doorforge datagen`.",
                "doorforge train");
-  app.add_option("stage", options.stage, "open, handle or grasp")
+  app.add_option("stage", options.request.stage, "open, handle or grasp")
       ->required()
       ->check(CLI::IsMember({"open", "handle", "grasp"}));
-  app.add_option("--data", options.data, "data set, or several of the same stage")
+  app.add_option("--data", options.request.data, "data set, or several of the same stage")
       ->required()
       ->check(CLI::ExistingDirectory);
-  app.add_option("--from", options.from,
+  app.add_option("--from", options.request.from,
                  "begin with the weights and the normalisation of this trained policy")
       ->check(CLI::ExistingDirectory);
-  app.add_option("--out", options.out, "folder of the policy")->required();
+  app.add_option("--out", options.request.out, "folder of the policy")->required();
   app.add_option("--epochs", options.epochs,
                  "passes over the samples, for each of the two networks of grasp (config: epochs)");
-  app.add_option("--minutes", options.minutes,
+  app.add_option("--minutes", options.request.minutes,
                  "stop after this time, at the end of a step; --resume goes on")
       ->check(CLI::PositiveNumber);
   AddConfig(app, options.config, "YAML file with training settings")->check(CLI::ExistingFile);
   AddSettings(app, options.settings, "overrides one setting");
   app.add_option("--seed", options.seed, "decides every random choice (config: seed)");
-  AddThreads(app, options.threads, "threads, 0: all; the result does not depend on it")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  AddThreads(app, options.request.threads, "threads, 0: all; the result does not depend on it");
   app.add_option("--device", options.device,
                  "cpu, cuda or cuda:N, where libtorch has CUDA, or libtorch: its operators on the\n"
                  "processor (config: device)");
-  app.add_flag("--resume", options.resume, "go on from the state in --out, if there is one");
-  AddOverwrite(app, options.overwrite, "start anew where --out holds a training");
-  app.add_flag("--nodes", options.nodes,
+  app.add_flag("--resume", options.request.resume,
+               "go on from the state in --out, if there is one");
+  AddOverwrite(app, options.request.overwrite, "start anew where --out holds a training");
+  app.add_flag("--nodes", options.request.nodes,
                "one of 2, 4 or 8 processes that share the batches: RANK, WORLD_SIZE, MASTER_ADDR\n"
                "and MASTER_PORT say which, as torchrun sets them; the result is that of one. They\n"
                "talk in clear text and ask nobody who he is: for a network that you trust alone");
@@ -89,7 +77,7 @@ Options Parse(int argc, char** argv) {
 
 TrainConfig ConfigOf(const Options& options) {
   TrainConfig defaults;
-  defaults.family = FamilyOf(options.stage);
+  defaults.family = FamilyOf(options.request.stage);
   auto config = LoadConfig<TrainConfig>(options.config, options.settings, defaults);
   if (options.epochs) config.epochs = *options.epochs;
   if (options.seed) config.seed = *options.seed;
@@ -98,57 +86,26 @@ TrainConfig ConfigOf(const Options& options) {
   return config;
 }
 
-TrainingRequest RequestOf(const Options& options) {
-  TrainingRequest request{.stage = options.stage,
-                          .data = {options.data.begin(), options.data.end()},
-                          .from = options.from,
-                          .out = options.out,
-                          .config = ConfigOf(options)};
-  request.minutes = options.minutes;
-  request.threads = options.threads;
-  request.resume = options.resume;
-  request.overwrite = options.overwrite;
-  request.nodes = options.nodes;
-  request.warn = [](const std::string& warning) {
-    std::fprintf(stderr, "doorforge: warning: %s\n", warning.c_str());
-  };
-  return request;
-}
-
-void PrintSummary(const TrainingOutcome& outcome, const TrainingRequest& request) {
-  std::printf("policy:     %s\n", fs::absolute(request.out).lexically_normal().c_str());
-  std::printf("curves:     %s\n",
-              fs::absolute(request.out / kCurvesPage).lexically_normal().c_str());
-  std::printf("samples:    %zu for training, %zu for validation\n", outcome.train_samples,
-              outcome.validation_samples);
-  if (const auto& turned = outcome.turned)
-    std::printf("turned:     %d of %d last actions told, %d of %d calls too early (validation)\n",
-                turned->correct, turned->turned, turned->called - turned->correct, turned->called);
-  if (!outcome.last_epoch) return;
-  const NetworkFamily family = request.config.family;
-  std::printf("training:   %s\n", LossText(outcome.last_epoch->train, family).c_str());
-  if (outcome.validation_samples > 0)
-    std::printf("validation: %s\n", LossText(outcome.last_epoch->validation, family).c_str());
-}
-
-int Train(const Options& options) {
-  const TrainingRequest request = RequestOf(options);
+int Train(TrainingRequest request) {
+  request.warn = [](const std::string& warning) { PrintNote("warning: " + warning); };
   const TrainingOutcome outcome = TrainIntoFolder(request);
   const bool finished = outcome.steps_done >= outcome.steps_total;
   if (outcome.writes && !finished)
-    std::fprintf(stderr, "doorforge: stopped after %llu of %llu steps; --resume goes on\n",
-                 static_cast<unsigned long long>(outcome.steps_done),
-                 static_cast<unsigned long long>(outcome.steps_total));
+    PrintNote("stopped after " + std::to_string(outcome.steps_done) + " of " +
+              std::to_string(outcome.steps_total) + " steps; --resume goes on");
   if (!finished && StopRequested() != 0) return 128 + StopRequested();
-  if (outcome.writes) PrintSummary(outcome, request);
+  if (outcome.writes) PrintText(OutcomeText(outcome, request));
   return 0;
 }
 
 }  // namespace
 
 int RunTrainVerb(int argc, char** argv) {
-  const Options options = Parse(argc, argv);
-  return NamingConfig(options.config, [&] { return Train(options); });
+  Options options = Parse(argc, argv);
+  return NamingConfig(options.config, [&] {
+    options.request.config = ConfigOf(options);
+    return Train(options.request);
+  });
 }
 
 }  // namespace doorforge

@@ -3,28 +3,31 @@
 #include "best_networks.h"
 
 #include <limits>
+#include <optional>
 
 namespace doorforge::internal {
 namespace {
 
-double ActorError(const StageLosses& losses, const TrainConfig& config) {
+std::optional<double> ActorError(const StageLosses& losses, const TrainConfig& config) {
   if (config.family == NetworkFamily::kGrasp) return losses.affordance_rad;
-  return config.lambda_position * losses.position_m + config.lambda_rotation * losses.rotation_rad;
+  if (!losses.position_m || !losses.rotation_rad) return std::nullopt;
+  return config.lambda_position * *losses.position_m +
+         config.lambda_rotation * *losses.rotation_rad;
 }
 
-double CriticError(const StageLosses& losses, const TrainConfig& /*config*/) {
-  return losses.score_rad;
+std::optional<double> CriticError(const StageLosses& losses, const TrainConfig& /*config*/) {
+  return losses.angle_gain_rad;
 }
 
 // From 1, the first of equals; 0 without a number.
 int BestEpoch(const TrainerState& state, const TrainConfig& config,
-              double (*error_of)(const StageLosses&, const TrainConfig&)) {
+              std::optional<double> (*error_of)(const StageLosses&, const TrainConfig&)) {
   int best = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t e = 0; e < state.epochs.size(); ++e) {
-    const double error = error_of(state.epochs[e].validation, config);
-    if (!(error < least)) continue;
-    least = error;
+    const std::optional<double> error = error_of(state.epochs[e].validation, config);
+    if (!error || !(*error < least)) continue;
+    least = *error;
     best = static_cast<int>(e) + 1;
   }
   return best;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/training/examine_installation.h"
 
+#include <cstdio>
 #include <string>
 #include <thread>
 #include <vector>
@@ -48,6 +49,27 @@ Json ExamineInstallation() {
                {"healthy", fast},
                {"remedy", fast ? "" : LinearAlgebraRemedy()}};
   return json;
+}
+
+std::string InstallationText(const Json& found) {
+  const auto word = [&](const char* key) { return found[key].get<std::string>(); };
+  std::string sets;
+  for (const Json& set : found["instruction_sets"]) sets += " " + set.get<std::string>();
+  char product[96];
+  std::snprintf(product, sizeof product, "%.1f GFLOP/s on one thread (at least %.0f wanted)",
+                found["gflops"].get<double>(), kLeastGflops);
+  const int landlock = found["landlock"].get<int>();
+  std::string text = "doorforge           " + word("code_version") + "\nprocessors          " +
+                     std::to_string(found["processors"].get<int>()) + "\ninstruction sets   " +
+                     sets + " (the encoder uses " + word("instruction_set") +
+                     ")\nlibtorch            " + word("torch_version") + "\nBLAS                " +
+                     word("blas_library") + "\nmatrix product      " + product +
+                     "\nconfinement         " +
+                     (landlock > 0 ? "Landlock " + std::to_string(landlock) : "no Landlock") +
+                     (found["seccomp"].get<bool>() ? ", seccomp" : ", no seccomp") +
+                     ": how far foreign files are kept from the rest\n";
+  if (found["healthy"].get<bool>()) return text + "all well\n";
+  return text + "\nlibtorch runs on a slow BLAS. As root:\n" + word("remedy") + "\n";
 }
 
 }  // namespace doorforge

@@ -143,9 +143,10 @@ class GraspTask : public StageTask {
       const Eigen::Matrix3d augmentation = AugmentationOf(batch, index);
       for (const std::uint16_t point : rated.points)
         AppendPoint(cloud, point, augmentation, head.points);
-      head.gains.insert(head.gains.end(), rated.targets.begin(), rated.targets.end());
+      head.angle_gains_rad.insert(head.angle_gains_rad.end(), rated.targets.begin(),
+                                  rated.targets.end());
     }
-    head.size = static_cast<int>(head.gains.size());
+    head.size = static_cast<int>(head.angle_gains_rad.size());
     return head;
   }
 

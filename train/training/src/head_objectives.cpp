@@ -166,7 +166,7 @@ Tensor CriticScore(const HeadParameters& parameters, const StageNetworks& networ
       torch::cat({features, branch("state", batch.states, 18), branch("action", batch.actions, 9),
                   branch("hand", batch.hands, 3), branch("base", batch.bases, 3)},
                  1);
-  return Denormalise(networks.normalisation.score_rad,
+  return Denormalise(networks.normalisation.angle_gain_rad,
                      parameters.Branch("score", Activation::kRectified, joined));
 }
 
@@ -174,7 +174,7 @@ Tensor CriticScore(const HeadParameters& parameters, const StageNetworks& networ
 Tensor GraspScore(const HeadParameters& parameters, const StageNetworks& networks,
                   const std::vector<Tensor>& joined) {
   const Tensor hidden = parameters.Dense("score.0", torch::cat(joined, 1));
-  return Denormalise(networks.normalisation.score_rad,
+  return Denormalise(networks.normalisation.angle_gain_rad,
                      parameters.Dense("score.1", torch::leaky_relu(hidden, kLeakySlope)));
 }
 
@@ -212,11 +212,12 @@ std::vector<float> ToVector(const Tensor& tensor) {
 // What a head gives for a batch: what is minimised, and what is reported.
 struct Loss {
   Tensor objective;
-  StageLosses losses = UnknownLosses();
+  StageLosses losses = {};
 };
 
-Loss MeanAbsolute(const Tensor& score, const HeadBatch& batch, double StageLosses::*reported) {
-  Loss loss{(score - View(batch.gains, 1)).abs().mean()};
+Loss MeanAbsolute(const Tensor& score, const HeadBatch& batch,
+                  std::optional<double> StageLosses::*reported) {
+  Loss loss{(score - View(batch.angle_gains_rad, 1)).abs().mean()};
   loss.losses.*reported = loss.objective.item<double>();
   return loss;
 }
@@ -282,7 +283,7 @@ HeadResult CriticObjective(const StageNetworks& networks, const HeadBatch& batch
   return Evaluate({CriticLayout(networks.family, networks.norm), networks.critic, gradient}, batch,
                   [&](const HeadParameters& parameters, const Tensor& features) {
                     return MeanAbsolute(CriticScore(parameters, networks, batch, features), batch,
-                                        &StageLosses::score_rad);
+                                        &StageLosses::angle_gain_rad);
                   });
 }
 
@@ -290,9 +291,9 @@ HeadResult DiscriminatorObjective(const StageNetworks& networks, const HeadBatch
                                   const TrainConfig& config, std::span<float> gradient) {
   const auto loss_of = [&](const HeadParameters& parameters, const Tensor& features) {
     const Tensor score = DiscriminatorScore(parameters, networks, batch, features);
-    Loss loss = MeanAbsolute(score, batch, &StageLosses::score_rad);
+    Loss loss = MeanAbsolute(score, batch, &StageLosses::angle_gain_rad);
     if (config.score_loss == ScoreLoss::kSquared)
-      loss.objective = (score - View(batch.gains, 1)).square().mean();
+      loss.objective = (score - View(batch.angle_gains_rad, 1)).square().mean();
     return loss;
   };
   return Evaluate({CriticLayout(networks.family, networks.norm), networks.critic, gradient}, batch,

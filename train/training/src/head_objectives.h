@@ -17,14 +17,14 @@ namespace doorforge::internal {
 
 /// What both networks of n samples read, and what they learn from.
 struct HeadBatch : HeadInputs {
-  std::vector<float> gains;  ///< n, [rad].
-  std::vector<float> noise;  ///< n x 128, N(0, 1): the actor's latent draws.
+  std::vector<float> angle_gains_rad;  ///< n, [rad].
+  std::vector<float> noise;            ///< n x 128, N(0, 1): the actor's latent draws.
 };
 
 struct HeadResult {
-  StageLosses losses = UnknownLosses();  ///< The network's own; the rest NaN.
-  double objective = 0;                  ///< What is minimised.
-  std::vector<float> feature_gradient;   ///< n x 128; empty if no gradient was asked for.
+  StageLosses losses;                   ///< The network's own.
+  double objective = 0;                 ///< What is minimised.
+  std::vector<float> feature_gradient;  ///< n x 128; empty if no gradient was asked for.
 };
 
 /// Uses one thread for libtorch in this process, whatever the machine has. Idempotent.
@@ -40,11 +40,11 @@ HeadResult CriticObjective(const StageNetworks& networks, const HeadBatch& batch
                            std::span<float> gradient);
 
 /// Objective of the grasp's discriminator (5.4): contact point and rotation are `actions`, and
-/// `gains` the door's final angle.
+/// `angle_gains_rad` the door's final angle.
 HeadResult DiscriminatorObjective(const StageNetworks& networks, const HeadBatch& batch,
                                   const TrainConfig& config, std::span<float> gradient);
 
-/// Objective of the affordance (5.4): L1 of the score of `points` to `gains`.
+/// Objective of the affordance (5.4): L1 of the score of `points` to `angle_gains_rad`.
 HeadResult AffordanceObjective(const StageNetworks& networks, const HeadBatch& batch,
                                std::span<float> gradient);
 

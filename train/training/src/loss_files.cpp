@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <optional>
 #include <string>
 
 #include "doorforge/core/committed_file.h"
@@ -26,8 +28,8 @@ std::string LossLines(const TrainerState& state, const TrainingPace& pace) {
             ", \"epoch\": " + std::to_string(i / pace.steps_per_epoch + 1);
     add("learning_rate", LearningRateAt(pace.config, {i, pace.steps_per_epoch}));
     for (const LossColumn& column : columns) {
-      const double value = state.steps[i].*(column.value);
-      if (std::isfinite(value)) add(column.name, value);
+      const std::optional<double> value = state.steps[i].*(column.value);
+      if (value && std::isfinite(*value)) add(column.name, *value);
     }
     text += "}\n";
   }
@@ -40,8 +42,9 @@ std::vector<ScalarEvent> EventsOf(const TrainerState& state) {
   std::vector<ScalarEvent> events;
   const auto add = [&](const char* kind, std::size_t step, const StageLosses& losses) {
     for (const LossColumn& column : LossColumnsOf(state.networks.family)) {
-      const double value = losses.*(column.value);
-      if (std::isfinite(value)) events.push_back({step, std::string(kind) + column.name, value});
+      const std::optional<double> value = losses.*(column.value);
+      if (value && std::isfinite(*value))
+        events.push_back({step, std::string(kind) + column.name, *value});
     }
   };
   for (std::size_t i = 0; i < state.steps.size(); ++i) add("train/", i + 1, state.steps[i]);
@@ -53,14 +56,15 @@ std::vector<ScalarEvent> EventsOf(const TrainerState& state) {
 }  // namespace
 
 std::vector<TrainingCurve> CurvesOf(const TrainerState& state) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   std::vector<TrainingCurve> curves;
   for (const LossColumn& column : LossColumnsOf(state.networks.family)) {
     TrainingCurve& curve = curves.emplace_back();
     curve.name = column.name;
     for (std::size_t e = 0; e < state.epochs.size(); ++e) {
       curve.epoch.push_back(static_cast<double>(e + 1));
-      curve.train.push_back(state.epochs[e].train.*(column.value));
-      curve.validation.push_back(state.epochs[e].validation.*(column.value));
+      curve.train.push_back((state.epochs[e].train.*(column.value)).value_or(kUnknown));
+      curve.validation.push_back((state.epochs[e].validation.*(column.value)).value_or(kUnknown));
     }
   }
   return curves;

@@ -43,7 +43,7 @@ HeadBatch MakeHeadBatch(std::span<const TrainingSample> samples,
   for (const TrainingSample& sample : samples) {
     AppendRobotState(normalisation, {sample.proprioception, sample.way}, batch);
     Append(normalisation.action.Apply(sample.action), batch.actions);
-    batch.gains.push_back(sample.score_rad);
+    batch.angle_gains_rad.push_back(sample.angle_gain_rad);
   }
   return batch;
 }

@@ -51,7 +51,8 @@ void AddWhatTheRecordSays(const DatasetReader& reader, std::size_t episode,
   const nlohmann::ordered_json meta = reader.Meta(episode);
   for (TrainingSample& sample : samples) {
     if (meta.contains("cloud_within_m"))
-      sample.cloud_within_m = static_cast<float>(ValueOf<double>(meta, "cloud_within_m", path));
+      sample.cloud_crop_radius_m =
+          static_cast<float>(ValueOf<double>(meta, "cloud_within_m", path));
     if (meta.contains("remembered_finer"))
       sample.remembered_finer = ValueOf<int>(meta, "remembered_finer", path);
     if (meta.contains("way")) sample.way = WayIn(meta, path);
@@ -83,7 +84,7 @@ void AppendEpisode(const EpisodeArrays& arrays, std::vector<TrainingSample>& sam
     sample.executed = arrays.executed.empty()
                           ? sample.action
                           : RowOf<std::tuple_size_v<ActionVector>>(arrays.executed, t);
-    sample.score_rad = arrays.score[t];
+    sample.angle_gain_rad = arrays.score[t];
     samples.push_back(sample);
   }
 }

@@ -7,7 +7,7 @@
 namespace doorforge::internal {
 
 CloudGeometry GeometryFor(const TrainConfig& config, SampleSet set, std::span<const float> cloud,
-                          const Reading& reading) {
+                          const EncoderQuery& reading) {
   const bool whole = set == SampleSet::kTrain && config.encoder_norm == EncoderNorm::kBatch;
   const InstructionSet instructions = BestInstructionSet();
   return whole ? BuildWholeGeometry(cloud, reading.window, reading.points, instructions)

@@ -23,7 +23,7 @@ enum class NetworkRole { kActor, kCritic };
 enum class SampleSet { kTrain, kValidation };
 
 /// Where of a cloud features are read.
-struct Reading {
+struct EncoderQuery {
   CloudWindow window;
   std::vector<std::uint16_t> points;
 };
@@ -31,7 +31,7 @@ struct Reading {
 /// What the encoder needs to know of a cloud: no more than what is read depends on, but all of it
 /// where training reads statistics over all rows.
 CloudGeometry GeometryFor(const TrainConfig& config, SampleSet set, std::span<const float> cloud,
-                          const Reading& reading);
+                          const EncoderQuery& reading);
 
 /// Some samples on their way through a network.
 struct Minibatch {

@@ -54,8 +54,9 @@ void CheckTrainConfig(const TrainConfig& config) {
                     !config.augment_mirror,
                 "augment_mirror",
                 "false with the state \"joints\": the mirror image of an arm is another arm");
-  RequireConfig(config.zoom > 0 && config.zoom <= 100, "zoom", "in (0, 100]");
-  RequireConfig(config.context_m >= 0 && config.context_m < 100, "context_m", "in [0, 100)");
+  RequireConfig(config.point_scale > 0 && config.point_scale <= 100, "zoom", "in (0, 100]");
+  RequireConfig(config.crop_radius_m >= 0 && config.crop_radius_m < 100, "context_m",
+                "in [0, 100)");
   internal::RequireDevice(config.device);
   RequireConfig(config.critic_interval >= 1, "critic_interval", "at least 1");
   RequireConfig(config.sampled_points >= 1 && config.sampled_points <= kCloudPoints,
@@ -94,19 +95,14 @@ double LearningRateAt(const TrainConfig& config, TrainingPlace place) {
   return 0;
 }
 
-StageLosses UnknownLosses() {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  return {kNone, kNone, kNone, kNone, kNone};
-}
-
 std::vector<LossColumn> LossColumnsOf(NetworkFamily family) {
   if (family == NetworkFamily::kGrasp)
-    return {{"discriminator.score_rad", &StageLosses::score_rad},
+    return {{"discriminator.score_rad", &StageLosses::angle_gain_rad},
             {"affordance.score_rad", &StageLosses::affordance_rad}};
   return {{"actor.position_m", &StageLosses::position_m},
           {"actor.rotation_rad", &StageLosses::rotation_rad},
           {"actor.divergence", &StageLosses::divergence},
-          {"critic.score_rad", &StageLosses::score_rad}};
+          {"critic.score_rad", &StageLosses::angle_gain_rad}};
 }
 
 }  // namespace doorforge

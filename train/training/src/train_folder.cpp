@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -262,19 +263,20 @@ class FolderTraining {
 std::string LossText(const StageLosses& losses, NetworkFamily family) {
   struct Shown {
     const char* format;
-    double value;
+    double unit;
+    std::optional<double> value;
   };
   const double to_degrees = 57.29578;
-  const std::vector<Shown> motion = {{"position %.2f mm", 1e3 * losses.position_m},
-                                     {"rotation %.2f deg", to_degrees * losses.rotation_rad},
-                                     {"critic %.2f deg", to_degrees * losses.score_rad}};
-  const std::vector<Shown> grasp = {{"discriminator %.2f deg", to_degrees * losses.score_rad},
-                                    {"affordance %.2f deg", to_degrees * losses.affordance_rad}};
+  const std::vector<Shown> motion = {{"position %.2f mm", 1e3, losses.position_m},
+                                     {"rotation %.2f deg", to_degrees, losses.rotation_rad},
+                                     {"critic %.2f deg", to_degrees, losses.angle_gain_rad}};
+  const std::vector<Shown> grasp = {{"discriminator %.2f deg", to_degrees, losses.angle_gain_rad},
+                                    {"affordance %.2f deg", to_degrees, losses.affordance_rad}};
   std::string text;
   for (const Shown& shown : family == NetworkFamily::kGrasp ? grasp : motion) {
-    if (std::isnan(shown.value)) continue;
+    if (!shown.value) continue;
     char part[64];
-    std::snprintf(part, sizeof part, shown.format, shown.value);
+    std::snprintf(part, sizeof part, shown.format, shown.unit * *shown.value);
     text += (text.empty() ? "" : ", ") + std::string(part);
   }
   return text;
@@ -295,6 +297,27 @@ TrainingOutcome TrainIntoFolder(const TrainingRequest& request) {
   const StageDataset dataset =
       ReadStageDataset(request.data, request.stage, request.config.validation_share);
   return FolderTraining(request, *group, dataset).Run();
+}
+
+std::string OutcomeText(const TrainingOutcome& outcome, const TrainingRequest& request) {
+  const auto place = [](const fs::path& path) {
+    return fs::absolute(path).lexically_normal().string() + "\n";
+  };
+  std::string text = "policy:     " + place(request.out) +
+                     "curves:     " + place(request.out / kCurvesPage) +
+                     "samples:    " + std::to_string(outcome.train_samples) + " for training, " +
+                     std::to_string(outcome.validation_samples) + " for validation\n";
+  if (const auto& turned = outcome.turned)
+    text += "turned:     " + std::to_string(turned->correct) + " of " +
+            std::to_string(turned->turned) + " last actions told, " +
+            std::to_string(turned->called - turned->correct) + " of " +
+            std::to_string(turned->called) + " calls too early (validation)\n";
+  if (!outcome.last_epoch) return text;
+  const NetworkFamily family = request.config.family;
+  text += "training:   " + LossText(outcome.last_epoch->train, family) + "\n";
+  if (outcome.validation_samples > 0)
+    text += "validation: " + LossText(outcome.last_epoch->validation, family) + "\n";
+  return text;
 }
 
 }  // namespace doorforge

@@ -61,26 +61,37 @@ void SumAsTree(std::span<std::span<float>> parts) {
   }
 }
 
-constexpr std::array<double StageLosses::*, 5> kLosses = {
+constexpr std::array<std::optional<double> StageLosses::*, 5> kLosses = {
     &StageLosses::position_m, &StageLosses::rotation_rad, &StageLosses::divergence,
-    &StageLosses::score_rad, &StageLosses::affordance_rad};
+    &StageLosses::angle_gain_rad, &StageLosses::affordance_rad};
 
 // `losses` with those values of `newer` that are known.
 StageLosses Updated(StageLosses losses, const StageLosses& newer) {
   for (const auto value : kLosses) {
-    if (!std::isnan(newer.*value)) losses.*value = newer.*value;
+    if (newer.*value) losses.*value = newer.*value;
   }
   return losses;
 }
 
+StageLosses ZeroLosses() {
+  StageLosses zero;
+  for (const auto value : kLosses) zero.*value = 0;
+  return zero;
+}
+
+// A sum of which one addend is not known is not known.
 void AddScaled(const StageLosses& losses, double factor, StageLosses& sum) {
-  for (const auto value : kLosses) sum.*value += factor * losses.*value;
+  for (const auto value : kLosses) {
+    if (!(losses.*value)) sum.*value = std::nullopt;
+    if (sum.*value) *(sum.*value) += factor * *(losses.*value);
+  }
 }
 
 // All clouds are made in one way, which the policy's record tells whoever lets it act.
 void RequireLikeClouds(std::span<const TrainingSample> samples) {
   for (const TrainingSample& sample : samples) {
-    Require(sample.cloud_within_m == samples.front().cloud_within_m, ErrorCode::kInvalidArgument,
+    Require(sample.cloud_crop_radius_m == samples.front().cloud_crop_radius_m,
+            ErrorCode::kInvalidArgument,
             "the data sets' clouds have different extents (cloud_within_m in meta.json); train "
             "from those with the same");
     Require(sample.remembered_finer == samples.front().remembered_finer,
@@ -95,10 +106,10 @@ NetworkView ViewOf(const TrainConfig& config, std::span<const TrainingSample> sa
   NetworkView view;
   view.frame = config.frame;
   if (config.family == NetworkFamily::kMotion) view.state = config.state;
-  view.context_m = static_cast<float>(config.context_m);
-  view.zoom = static_cast<float>(config.zoom);
+  view.crop_radius_m = static_cast<float>(config.crop_radius_m);
+  view.point_scale = static_cast<float>(config.point_scale);
   RequireLikeClouds(samples);
-  view.cloud_within_m = samples.front().cloud_within_m;
+  view.cloud_crop_radius_m = samples.front().cloud_crop_radius_m;
   view.remembered_finer = samples.front().remembered_finer;
   if (config.family == NetworkFamily::kGrasp) view.near_points = config.near_points;
   return view;
@@ -269,7 +280,7 @@ class Trainer {
 
   // A step without a network repeats its last loss in the record.
   StageLosses LastLosses() const {
-    return state_.steps.empty() ? UnknownLosses() : state_.steps.back();
+    return state_.steps.empty() ? StageLosses{} : state_.steps.back();
   }
 
   std::uint64_t Interval(const Network& network) const {
@@ -329,7 +340,7 @@ class Trainer {
 
   // Leaves the gradients of networks that read no clouds, which every process finds by itself.
   StageLosses HeadsAlone(const Phase& phase, const std::vector<Network*>& learning) {
-    StageLosses losses = UnknownLosses();
+    StageLosses losses;
     for (Network* network : learning) {
       const HeadResult result =
           task_->Objective(network->role, BatchAt(phase, state_.step), {}, network->gradient);
@@ -365,7 +376,7 @@ class Trainer {
     for (std::size_t n = 0; n < learning.size(); ++n)
       features.push_back(
           StartGathering(FeaturesInKernels(*learning[n], At(encoders, n), geometries)));
-    StageLosses losses = UnknownLosses();
+    StageLosses losses;
     for (std::size_t n = 0; n < learning.size(); ++n) {
       Network& network = *learning[n];
       losses = Updated(losses, Head(network, batch, features[n].get()));
@@ -388,7 +399,7 @@ class Trainer {
       own[n] = network.torch_encoder->Forward(geometries, true);
       MoveTowards(network.torch_encoder->Statistics(), *network.statistics);
     });
-    StageLosses losses = UnknownLosses();
+    StageLosses losses;
     for (std::size_t n = 0; n < learning.size(); ++n)
       losses = Updated(losses, Head(*learning[n], batch, StartGathering(std::move(own[n])).get()));
     ParallelFor(learning.size(), threads_, [&](std::size_t n) {
@@ -524,11 +535,11 @@ class Trainer {
   }
 
   void EndEpoch(int phase, std::uint64_t per_epoch) {
-    EpochLosses epoch;
+    EpochLosses epoch{.train = ZeroLosses(), .validation = {}};
     for (std::uint64_t i = state_.step - per_epoch; i < state_.step; ++i)
       AddScaled(state_.steps[i], 1.0 / static_cast<double>(per_epoch), epoch.train);
     const StageLosses before =
-        state_.epochs.empty() ? UnknownLosses() : state_.epochs.back().validation;
+        state_.epochs.empty() ? StageLosses{} : state_.epochs.back().validation;
     epoch.validation = Updated(before, Validate(phase));
     RequireSoundSamples();
     state_.epochs.push_back(epoch);
@@ -547,9 +558,9 @@ class Trainer {
 
   // Mean over the validation set of what the phase teaches.
   StageLosses Validate(int phase) {
-    if (validation_.empty()) return UnknownLosses();
+    if (validation_.empty()) return StageLosses{};
     constexpr std::size_t kChunk = 64;
-    StageLosses sum;
+    StageLosses sum = ZeroLosses();
     for (std::size_t begin = 0; begin < validation_.size(); begin += kChunk) {
       Minibatch batch{SampleSet::kValidation, {}, 0};
       batch.indices.resize(std::min(kChunk, validation_.size() - begin));
@@ -558,7 +569,7 @@ class Trainer {
       const bool reads = task_->ReadsClouds(phase);
       const Geometries geometries =
           reads ? task_->GeometriesOf(phase, OwnShare(batch)) : Geometries{};
-      StageLosses losses = UnknownLosses();
+      StageLosses losses;
       for (Network* network : taught) {
         std::vector<float> features;
         if (reads) features = StartGathering(ValidationFeatures(*network, geometries)).get().all;
@@ -568,7 +579,7 @@ class Trainer {
       }
       AddScaled(losses, static_cast<double>(batch.indices.size()), sum);
     }
-    StageLosses mean;
+    StageLosses mean = ZeroLosses();
     AddScaled(sum, 1.0 / static_cast<double>(validation_.size()), mean);
     return mean;
   }
@@ -611,7 +622,7 @@ TrainerState TrainStage(std::span<const TrainingSample> train,
           "the networks to begin with were trained with other settings of frame, state, "
           "context_m, zoom or near_points, or from clouds of another extent, than \"" +
               std::string(NameOf(config.frame)) + "\", \"" + std::string(NameOf(config.state)) +
-              "\", " + std::to_string(config.context_m));
+              "\", " + std::to_string(config.crop_radius_m));
   if (config.encoder_norm == EncoderNorm::kBatch) {
     Require(
         !hooks.initial, ErrorCode::kInvalidArgument,

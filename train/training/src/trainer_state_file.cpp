@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/training/trainer_state_file.h"
 
+#include <cmath>
+#include <limits>
+
 #include <nlohmann/json.hpp>
 
 #include "doorforge/core/committed_file.h"
@@ -77,12 +80,15 @@ BestNetworks ReadBest(const TensorFile& file, const std::string& path,
 
 std::string ConfigText(const TrainConfig& config) { return JsonText(ToJson(config)); }
 
+constexpr double kUnknownLoss = std::numeric_limits<double>::quiet_NaN();  // in the file
+
 void AddLosses(const TrainerState& state, TensorFile& file) {
   const std::vector<LossColumn> columns = LossColumnsOf(state.networks.family);
   std::vector<double> steps;
   std::vector<double> epochs;
   const auto append = [&](const StageLosses& losses, std::vector<double>& out) {
-    for (const LossColumn& column : columns) out.push_back(losses.*(column.value));
+    for (const LossColumn& column : columns)
+      out.push_back((losses.*(column.value)).value_or(kUnknownLoss));
   };
   for (const StageLosses& losses : state.steps) append(losses, steps);
   for (const EpochLosses& epoch : state.epochs) {
@@ -104,9 +110,11 @@ void ReadLosses(const TensorFile& file, const std::string& path, TrainerState& s
   const auto of_steps = ValuesOf<double>(steps, {LengthOf(steps), columns.size()}, path);
   const auto of_epochs = ValuesOf<double>(epochs, {LengthOf(epochs), 2, columns.size()}, path);
   const auto losses_at = [&](const std::vector<double>& values, std::size_t row) {
-    StageLosses losses = UnknownLosses();
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      losses.*(columns[i].value) = values[row * columns.size() + i];
+    StageLosses losses;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const double value = values[row * columns.size() + i];
+      if (!std::isnan(value)) losses.*(columns[i].value) = value;
+    }
     return losses;
   };
   for (std::size_t i = 0; i < LengthOf(steps); ++i) state.steps.push_back(losses_at(of_steps, i));

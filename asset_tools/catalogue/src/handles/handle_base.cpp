@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 #include <vector>
-
-#include "doorforge/core/error.h"
 
 namespace doorforge::internal {
 namespace {
@@ -23,25 +22,35 @@ struct Outline {
   bool elliptic = false;  ///< An ellipse; the radius does not count.
 };
 
-bool IsLong(const std::string& shape) {
-  return shape == "plate" || shape == "stadium" || shape == "tablet" || shape == "lens";
+bool IsLong(RoseShape shape) {
+  return shape == RoseShape::kPlate || shape == RoseShape::kStadium ||
+         shape == RoseShape::kTablet || shape == RoseShape::kLens;
 }
 
-Outline OutlineOf(const RoseParameters& rose, const std::string& path) {
+Outline OutlineOf(const RoseParameters& rose) {
   const double half = rose.width_m / 2;
   const Eigen::Vector2d square(half, half);
   const Eigen::Vector2d upright(half, rose.height_m / 2);
-  if (rose.shape == "round") return {square, half};
-  if (rose.shape == "square") return {square, 0.005};
-  if (rose.shape == "octagon") return {square, 0.5858 * half, true};
-  if (rose.shape == "oval") return {{half, 0.68 * half}, 0, false, true};
-  if (rose.shape == "plate") return {upright, half * 0.45};
-  if (rose.shape == "stadium") return {upright, half};
-  if (rose.shape == "tablet") return {upright, half * 0.6, true};
-  if (rose.shape == "lens") return {upright, 0, false, true};
-  throw Error(ErrorCode::kInvalidConfig,
-              path + ".shape: found \"" + rose.shape +
-                  "\", allowed round, square, octagon, oval, plate, stadium, tablet, lens, none");
+  switch (rose.shape) {
+    case RoseShape::kNone:  // AddRose() makes nothing of it
+    case RoseShape::kRound:
+      return {square, half};
+    case RoseShape::kSquare:
+      return {square, 0.005};
+    case RoseShape::kOctagon:
+      return {square, 0.5858 * half, true};
+    case RoseShape::kOval:
+      return {{half, 0.68 * half}, 0, false, true};
+    case RoseShape::kPlate:
+      return {upright, half * 0.45};
+    case RoseShape::kStadium:
+      return {upright, half};
+    case RoseShape::kTablet:
+      return {upright, half * 0.6, true};
+    case RoseShape::kLens:
+      return {upright, 0, false, true};
+  }
+  throw std::logic_error("a rose of no shape");
 }
 
 // Points of an inset outline at height x above the leaf, around (y, z) = center.
@@ -66,21 +75,11 @@ Ring OutlineRing(const Outline& outline, double inset_m, double x, const Eigen::
 }
 
 // How the face comes in from the outline, as (inset, height).
-std::vector<Eigen::Vector2d> FaceProfile(const RoseParameters& rose, double narrowest_m,
-                                         const std::string& path) {
+std::vector<Eigen::Vector2d> FaceProfile(const RoseParameters& rose, double narrowest_m) {
   const double top = rose.thickness_m;
   std::vector<Eigen::Vector2d> profile = {{0, 0}};
   const double edge = 0.35 * top;
-  if (rose.face == "flat" || rose.face == "domed") {
-    const double inset = rose.face == "flat" ? edge : 0.55 * narrowest_m;
-    const double rise = rose.face == "flat" ? edge : 0.75 * top;
-    for (const double degrees : {0.0, 30.0, 60.0, 90.0}) {
-      const double angle = degrees * std::numbers::pi / 180;
-      profile.emplace_back(inset * (1 - std::cos(angle)), top - rise + rise * std::sin(angle));
-    }
-    return profile;
-  }
-  if (rose.face == "stepped") {
+  if (rose.face == RoseFace::kStepped) {
     const double low = 0.5 * top;
     profile.insert(profile.end(), {{0, low - 0.001},
                                    {0.001, low},
@@ -89,8 +88,13 @@ std::vector<Eigen::Vector2d> FaceProfile(const RoseParameters& rose, double narr
                                    {0.25 * narrowest_m + 0.0015, top}});
     return profile;
   }
-  throw Error(ErrorCode::kInvalidConfig,
-              path + ".face: found \"" + rose.face + "\", allowed flat, domed, stepped");
+  const double inset = rose.face == RoseFace::kFlat ? edge : 0.55 * narrowest_m;
+  const double rise = rose.face == RoseFace::kFlat ? edge : 0.75 * top;
+  for (const double degrees : {0.0, 30.0, 60.0, 90.0}) {
+    const double angle = degrees * std::numbers::pi / 180;
+    profile.emplace_back(inset * (1 - std::cos(angle)), top - rise + rise * std::sin(angle));
+  }
+  return profile;
 }
 
 Solid Escutcheon(const Outline& outline, const std::vector<Eigen::Vector2d>& face,
@@ -123,38 +127,32 @@ Solid LockBelow(const RoseParameters& rose, const std::string& path) {
     RequireRange(path, "lock_drop_m (distance)", std::abs(z), nearest, 0.14);
     RoseParameters own = rose;
     own.width_m = std::max(0.038, 0.85 * rose.width_m);
-    const Outline outline = OutlineOf(own, path);
-    solids.push_back(
-        Escutcheon(outline, FaceProfile(own, outline.half_size_m.minCoeff(), path), {0, z}));
+    const Outline outline = OutlineOf(own);
+    solids.push_back(Escutcheon(outline, FaceProfile(own, outline.half_size_m.minCoeff()), {0, z}));
   } else {
     const double low = (rose.center - 0.5) * rose.height_m;
     RequireRange(path, "lock_drop_m", rose.lock_drop_m, 0.045, -low - 0.02);
   }
-  if (rose.lock == "cylinder")
-    solids.push_back(CylinderBoss(z, rose.thickness_m));
-  else if (rose.lock == "thumb_turn")
-    solids.push_back(ThumbTurn(z, rose.thickness_m));
-  else
-    throw Error(ErrorCode::kInvalidConfig,
-                path + ".lock: found \"" + rose.lock + "\", allowed none, cylinder, thumb_turn");
+  solids.push_back(rose.lock == RoseLock::kCylinder ? CylinderBoss(z, rose.thickness_m)
+                                                    : ThumbTurn(z, rose.thickness_m));
   return Joined(solids);
 }
 
 }  // namespace
 
 double AddRose(const RoseParameters& rose, const std::string& path, Part& part) {
-  if (rose.shape == "none") return 0;
+  if (rose.shape == RoseShape::kNone) return 0;
   RequireRange(path, "width_m", rose.width_m, 0.02, 0.07);
   RequireRange(path, "height_m", rose.height_m, 0.06, 0.28);
   RequireRange(path, "thickness_m", rose.thickness_m, 0.004, 0.016);
   RequireRange(path, "center", rose.center, -0.36, 0.36);
   const double center_z = IsLong(rose.shape) ? rose.height_m * rose.center : 0;
-  const Outline outline = OutlineOf(rose, path);
+  const Outline outline = OutlineOf(rose);
   std::vector<Solid> solids = {
-      Escutcheon(outline, FaceProfile(rose, outline.half_size_m.minCoeff(), path), {0, center_z})};
-  if (rose.keyhole && rose.shape == "plate")
+      Escutcheon(outline, FaceProfile(rose, outline.half_size_m.minCoeff()), {0, center_z})};
+  if (rose.keyhole && rose.shape == RoseShape::kPlate)
     solids.push_back(CylinderBoss(-rose.height_m * 0.32, rose.thickness_m));
-  if (rose.lock != "none") solids.push_back(LockBelow(rose, path));
+  if (rose.lock != RoseLock::kNone) solids.push_back(LockBelow(rose, path));
   part.pieces.push_back(MakePiece("rose", Joined(solids), rose.finish, path));
   return rose.thickness_m + kGapToGripM;
 }

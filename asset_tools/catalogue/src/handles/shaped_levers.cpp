@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "doorforge/core/error.h"
+#include <span>
 
 #include "handles/lever_base.h"
 
@@ -35,10 +34,20 @@ struct SquareLever : Lever {
   }
 };
 
+/// Outline of a blade, seen from the front.
+enum class BladeForm {
+  kTapered,  ///< Its ends are round.
+  kSquare,
+  kLeaf,  ///< It is widest in the middle.
+};
+inline constexpr NamedValue<BladeForm> kBladeFormWords[] = {
+    {BladeForm::kTapered, "tapered"}, {BladeForm::kSquare, "square"}, {BladeForm::kLeaf, "leaf"}};
+constexpr std::span<const NamedValue<BladeForm>> ValuesOf(BladeForm) { return kBladeFormWords; }
+
 struct BladeLever : Lever {
   double root_height_m = 0.036;  ///< Of the blade at the handle's axis.
   double tip_height_m = 0.022;
-  std::string outline = "tapered";  ///< "tapered" (round ends), "square" or "leaf".
+  BladeForm outline = BladeForm::kTapered;
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -140,14 +149,14 @@ Part BuildSquare(const nlohmann::ordered_json& json, const std::string& path) {
 double BladeHalfHeight(const BladeLever& lever, double t) {
   const double root = lever.root_height_m / 2;
   const double tip = lever.tip_height_m / 2;
-  if (lever.outline == "leaf")
+  if (lever.outline == BladeForm::kLeaf)
     return tip + (root - tip) * std::sin(std::numbers::pi * (0.08 + 0.84 * t));
   return root + (tip - root) * t;
 }
 
 // The blade's outline in the plane of the leaf, counter-clockwise as seen from the front.
 std::vector<Eigen::Vector2d> BladeOutline(const BladeLever& lever, double inset_m) {
-  const bool square = lever.outline == "square";
+  const bool square = lever.outline == BladeForm::kSquare;
   const double root = BladeHalfHeight(lever, 0) - inset_m;
   const double tip = BladeHalfHeight(lever, 1) - inset_m;
   // round ends bulge by their own half height
@@ -195,9 +204,6 @@ Part BuildBlade(const nlohmann::ordered_json& json, const std::string& path) {
   CheckLever(lever, path);
   RequireRange(path, "root_height_m", lever.root_height_m, 0.016, 0.056);
   RequireRange(path, "tip_height_m", lever.tip_height_m, 0.012, 0.056);
-  if (lever.outline != "tapered" && lever.outline != "square" && lever.outline != "leaf")
-    throw Error(ErrorCode::kInvalidConfig,
-                path + ".outline: found \"" + lever.outline + "\", allowed tapered, square, leaf");
   Part part;
   const double start_x = AddRose(lever.rose, path + ".rose", part);
   const double back = lever.projection_m - lever.bar_depth_m / 2;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "doorforge/core/error.h"
 #include "doorforge/mesh/convex_parts.h"
 
 namespace doorforge::internal {
@@ -20,33 +19,29 @@ constexpr double kMountHeightM = 0.8;   // UniDoorManip: 0.8 m above the leaf's 
 constexpr double kMountToEdgeM = 0.08;  // and 8 cm from its free edge
 
 // The casing's face from its outer to its inner edge, as (distance outwards, height).
-std::vector<Eigen::Vector2d> CasingFace(const DoorFrame& frame, const std::string& path) {
+std::vector<Eigen::Vector2d> CasingFace(const DoorFrame& frame) {
   const double width = frame.casing_width_m;
   const double depth = frame.casing_depth_m;
-  if (frame.casing == "flat")
+  if (frame.casing == CasingFaceKind::kFlat)
     return {{width, depth - 0.002}, {width - 0.002, depth}, {0.002, depth}, {0, depth - 0.002}};
-  if (frame.casing == "stepped")
+  if (frame.casing == CasingFaceKind::kStepped)
     return {{width, depth - 0.002},      {width - 0.002, depth},      {0.62 * width, depth},
             {0.6 * width, 0.72 * depth}, {0.2 * width, 0.68 * depth}, {0.17 * width, 0.45 * depth},
             {0.002, 0.45 * depth},       {0, 0.45 * depth - 0.002}};
-  if (frame.casing == "rounded") {
-    std::vector<Eigen::Vector2d> face;
-    for (int i = 0; i <= 8; ++i) {
-      const double t = i / 8.0;
-      face.emplace_back(width * (1 - t), depth * (0.4 + 0.6 * std::sin(0.45 + 2.5 * t)));
-    }
-    return face;
+  std::vector<Eigen::Vector2d> rounded;
+  for (int i = 0; i <= 8; ++i) {
+    const double t = i / 8.0;
+    rounded.emplace_back(width * (1 - t), depth * (0.4 + 0.6 * std::sin(0.45 + 2.5 * t)));
   }
-  throw Error(ErrorCode::kInvalidConfig, path + ".frame.casing: found \"" + frame.casing +
-                                             "\", allowed flat, rounded, stepped");
+  return rounded;
 }
 
 // Cross-section of the frame: (u, x) with u outwards from the leaf's gap; counter-clockwise.
-std::vector<Eigen::Vector2d> FrameProfile(const InteriorBody& body, const std::string& path) {
+std::vector<Eigen::Vector2d> FrameProfile(const InteriorBody& body) {
   const double back = -body.frame.wall_m;
   const double outer = kRevealM + body.frame.casing_width_m;
   const double stop = -body.thickness_m - kInteriorGapM;
-  const std::vector<Eigen::Vector2d> face = CasingFace(body.frame, path);
+  const std::vector<Eigen::Vector2d> face = CasingFace(body.frame);
   std::vector<Eigen::Vector2d> profile = {{0, back}, {kRevealM, back}};
   for (auto p = face.rbegin(); p != face.rend(); ++p)
     profile.emplace_back(kRevealM + p->x(), back - p->y());
@@ -214,7 +209,7 @@ ReliefSlab PanelledSlab(const PanelledBody& body, const Rectangle& outline,
 }
 
 Solid FrameAround(const InteriorBody& body, const FrameOpening& opening, const std::string& path) {
-  const std::vector<Eigen::Vector2d> profile = FrameProfile(body, path);
+  const std::vector<Eigen::Vector2d> profile = FrameProfile(body);
   const std::vector<EdgePoint> edge = MitredEdge(opening);
   Solid frame{LoftProfile(AroundOpening(edge, profile), profile), FrameHulls(body, edge)};
   if (body.frame.cap_m <= 0) return frame;

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 
+#include "doorforge/core/named_enum.h"
 #include "doorforge/solids/relief.h"
 
 #include "family.h"
@@ -16,13 +18,27 @@ inline constexpr double kInteriorGapM = 0.004;       ///< Between leaf and jamb,
 inline constexpr double kInteriorFloorGapM = 0.006;  ///< Under the leaf.
 inline constexpr double kInteriorHullToleranceM = 0.006;
 
+/// Cross-section of a casing.
+enum class CasingFaceKind {
+  kFlat,
+  kRounded,
+  kStepped,
+};
+inline constexpr NamedValue<CasingFaceKind> kCasingFaceKindWords[] = {
+    {CasingFaceKind::kFlat, "flat"},
+    {CasingFaceKind::kRounded, "rounded"},
+    {CasingFaceKind::kStepped, "stepped"}};
+constexpr std::span<const NamedValue<CasingFaceKind>> ValuesOf(CasingFaceKind) {
+  return kCasingFaceKindWords;
+}
+
 /// The jambs and the head around the leaf, with casings on both sides of the wall.
 struct DoorFrame {
   double casing_width_m = 0.065;
   double casing_depth_m = 0.014;
-  double wall_m = 0.11;            ///< Depth of the jamb.
-  std::string casing = "rounded";  ///< "flat", "rounded" or "stepped".
-  double cap_m = 0;                ///< Height of a board on top of the head's casings; 0: none.
+  double wall_m = 0.11;  ///< Depth of the jamb.
+  CasingFaceKind casing = CasingFaceKind::kRounded;
+  double cap_m = 0;  ///< Height of a board on top of the head's casings; 0: none.
   std::string finish = "white_lacquer";
 
   template <class Self, class Visitor>

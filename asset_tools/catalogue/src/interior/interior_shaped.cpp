@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "doorforge/core/error.h"
 #include "doorforge/mesh/convex_parts.h"
 
 #include "interior/interior_body.h"
@@ -14,9 +14,18 @@
 namespace doorforge::internal {
 namespace {
 
+/// What follows the arch.
+enum class ArchedPart {
+  kHead,    ///< Leaf and frame do.
+  kFields,  ///< The top fields do, within a rectangular leaf.
+};
+inline constexpr NamedValue<ArchedPart> kArchedPartWords[] = {{ArchedPart::kHead, "head"},
+                                                              {ArchedPart::kFields, "fields"}};
+constexpr std::span<const NamedValue<ArchedPart>> ValuesOf(ArchedPart) { return kArchedPartWords; }
+
 struct ArchedBody : PanelledBody {
-  double rise_m = 0.1;        ///< Of the arch over the leaf's width.
-  std::string arch = "head";  ///< "head": leaf and frame are arched; "fields": the top fields.
+  double rise_m = 0.1;  ///< Of the arch over the leaf's width.
+  ArchedPart arch = ArchedPart::kHead;
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -26,10 +35,19 @@ struct ArchedBody : PanelledBody {
   }
 };
 
+/// The leaf that stays.
+enum class FixedLeaf {
+  kLeaf,   ///< It looks as the moving one.
+  kLight,  ///< It has one column of openings.
+};
+inline constexpr NamedValue<FixedLeaf> kFixedLeafWords[] = {{FixedLeaf::kLeaf, "leaf"},
+                                                            {FixedLeaf::kLight, "light"}};
+constexpr std::span<const NamedValue<FixedLeaf>> ValuesOf(FixedLeaf) { return kFixedLeafWords; }
+
 struct DoubleBody : PanelledBody {
   double fixed_width_m = 0.6;  ///< Of the leaf beside the moving one.
-  std::string fixed = "leaf";  ///< "leaf": as the moving one; "light": one column of openings.
-  int fixed_rows = 1;          ///< Openings of a light.
+  FixedLeaf fixed = FixedLeaf::kLeaf;
+  int fixed_rows = 1;  ///< Openings of a light.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -119,10 +137,7 @@ Part BuildArched(const nlohmann::ordered_json& json, const std::string& path) {
   const auto body = ReadParameters<ArchedBody>(json, path);
   CheckPanelled(body, path);
   RequireRange(path, "rise_m", body.rise_m, 0.03, 0.2);
-  const bool head = body.arch == "head";
-  if (!head && body.arch != "fields")
-    throw Error(ErrorCode::kInvalidConfig,
-                path + ".arch: found \"" + body.arch + "\", allowed head, fields");
+  const bool head = body.arch == ArchedPart::kHead;
   ReliefSlab slab = PanelledSlab(body, LeafOutline(body), path);
   const double top = slab.outline.max_m.y();
   const double full = top - body.fields.top_rail_m;
@@ -148,10 +163,7 @@ ReliefSlab FixedSlab(const DoubleBody& body, const std::string& path) {
   Rectangle outline = LeafOutline(body);
   outline.min_m.x() = body.leaf_width_m + kInteriorGapM;
   outline.max_m.x() = outline.min_m.x() + body.fixed_width_m;
-  if (body.fixed == "leaf") return PanelledSlab(body, outline, path);
-  if (body.fixed != "light")
-    throw Error(ErrorCode::kInvalidConfig,
-                path + ".fixed: found \"" + body.fixed + "\", allowed leaf, light");
+  if (body.fixed == FixedLeaf::kLeaf) return PanelledSlab(body, outline, path);
   RequireRange(path, "fixed_rows", body.fixed_rows, 1, 6);
   ReliefSlab slab = FlatSlab(body, outline);
   FieldGrid lights = body.fields;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "doorforge/core/error.h"
 #include "doorforge/solids/prism.h"
@@ -20,6 +21,35 @@ constexpr double kLeafToCabinetM = 0.004;       // the seal behind the leaf
 constexpr double kBetweenLeavesM = 0.01;
 constexpr double kBinDepthM = 0.08;
 
+/// Where a second front is, as seen from the leaf.
+enum class SecondFront {
+  kNone,
+  kAbove,
+  kBelow,
+  kBeside,
+};
+inline constexpr NamedValue<SecondFront> kSecondFrontWords[] = {{SecondFront::kNone, "none"},
+                                                                {SecondFront::kAbove, "above"},
+                                                                {SecondFront::kBelow, "below"},
+                                                                {SecondFront::kBeside, "beside"}};
+constexpr std::span<const NamedValue<SecondFront>> ValuesOf(SecondFront) {
+  return kSecondFrontWords;
+}
+
+/// What a refrigerator stands on.
+enum class RefrigeratorBase {
+  kPlinth,
+  kFeet,
+  kLegs,  ///< They are cabrioles.
+};
+inline constexpr NamedValue<RefrigeratorBase> kRefrigeratorBaseWords[] = {
+    {RefrigeratorBase::kPlinth, "plinth"},
+    {RefrigeratorBase::kFeet, "feet"},
+    {RefrigeratorBase::kLegs, "legs"}};
+constexpr std::span<const NamedValue<RefrigeratorBase>> ValuesOf(RefrigeratorBase) {
+  return kRefrigeratorBaseWords;
+}
+
 /// What all refrigerators share: an insulated cabinet with a cavity, and a thick leaf before it.
 struct Refrigerator {
   double leaf_width_m = 0.55;
@@ -33,14 +63,14 @@ struct Refrigerator {
   double mount_height = 0.55;      ///< Of the leaf's height.
   double mount_to_edge_m = 0.055;  ///< From the free edge.
   int shelves = 3;
-  std::string other = "none";   ///< A second front: "none", "above", "below", "beside".
-  double other_m = 0.3;         ///< Its height or width.
-  int drawers = 0;              ///< Across the whole front, below everything else.
-  double drawers_m = 0.3;       ///< Height of all of them.
-  int bins = 0;                 ///< Trays on the leaf's inner side.
-  bool dispenser = false;       ///< A niche for ice and water in the front beside the leaf.
-  bool condenser = false;       ///< Tubes behind the cabinet.
-  std::string base = "plinth";  ///< "plinth", "feet", "legs".
+  SecondFront other = SecondFront::kNone;
+  double other_m = 0.3;    ///< Its height or width.
+  int drawers = 0;         ///< Across the whole front, below everything else.
+  double drawers_m = 0.3;  ///< Height of all of them.
+  int bins = 0;            ///< Trays on the leaf's inner side.
+  bool dispenser = false;  ///< A niche for ice and water in the front beside the leaf.
+  bool condenser = false;  ///< Tubes behind the cabinet.
+  RefrigeratorBase base = RefrigeratorBase::kPlinth;
   double base_height_m = 0.05;
   std::string finish = "sheet_white";
   std::string leaf_finish = "sheet_white";
@@ -107,7 +137,7 @@ void Check(const Refrigerator& body, const std::string& path) {
   RequireRange(path, "mount_to_edge_m", body.mount_to_edge_m, body.edge_radius_m + 0.032, 0.12);
   RequireRange(path, "shelves", body.shelves, 0, 5);
   RequireRange(path, "base_height_m", body.base_height_m, 0.02, 0.3);
-  if (body.other != "none") RequireRange(path, "other_m", body.other_m, 0.15, 0.5);
+  if (body.other != SecondFront::kNone) RequireRange(path, "other_m", body.other_m, 0.15, 0.5);
   RequireRange(path, "drawers", body.drawers, 0, 3);
   if (body.drawers > 0) RequireRange(path, "drawers_m", body.drawers_m, 0.14 * body.drawers, 0.6);
   RequireRange(path, "bins", body.bins, 0, 4);
@@ -122,36 +152,33 @@ struct FrontLayout {
   std::vector<double> uprights_m;  ///< Likewise, places along y.
 };
 
-void AddOther(const Refrigerator& body, const std::string& path, FrontLayout& front) {
+void AddOther(const Refrigerator& body, FrontLayout& front) {
   const double more = body.other_m + kBetweenLeavesM;
   const double z = front.leaf.min_m.y();
   Rectangle other = front.leaf;
-  if (body.other == "below") {
+  if (body.other == SecondFront::kBelow) {
     front.leaf.min_m.y() += more;
     front.leaf.max_m.y() += more;
     other.max_m.y() = z + body.other_m;
     front.levels_m.push_back(other.max_m.y() + kBetweenLeavesM / 2);
-  } else if (body.other == "above") {
+  } else if (body.other == SecondFront::kAbove) {
     other.min_m.y() = front.leaf.max_m.y() + kBetweenLeavesM;
     other.max_m.y() = other.min_m.y() + body.other_m;
     front.levels_m.push_back(other.min_m.y() - kBetweenLeavesM / 2);
-  } else if (body.other == "beside") {
+  } else {
     other.min_m.x() = front.leaf.max_m.x() + kBetweenLeavesM;
     other.max_m.x() = other.min_m.x() + body.other_m;
     front.uprights_m.push_back(other.min_m.x() - kBetweenLeavesM / 2);
-  } else {
-    throw Error(ErrorCode::kInvalidConfig,
-                path + ".other: found \"" + body.other + "\", allowed none, above, below, beside");
   }
   front.others.push_back(other);
 }
 
-FrontLayout LayoutOf(const Refrigerator& body, const std::string& path) {
+FrontLayout LayoutOf(const Refrigerator& body) {
   const double base = body.base_height_m;
   const double z = base + (body.drawers > 0 ? body.drawers_m + kBetweenLeavesM : 0);
   FrontLayout front;
   front.leaf = {{0, z}, {body.leaf_width_m, z + body.leaf_height_m}};
-  if (body.other != "none") AddOther(body, path, front);
+  if (body.other != SecondFront::kNone) AddOther(body, front);
   front.whole = {{0, base}, front.leaf.max_m};
   for (const Rectangle& other : front.others)
     front.whole.max_m = front.whole.max_m.cwiseMax(other.max_m);
@@ -287,20 +314,16 @@ void AddDrawerPull(const Rectangle& front, std::vector<Solid>& solids) {
                                PrismAxis::kY, {y - half, y + half}, 0.002));
 }
 
-void AddBase(const Refrigerator& body, const std::string& path, const FrontLayout& front,
-             std::vector<Solid>& solids) {
+void AddBase(const Refrigerator& body, const FrontLayout& front, std::vector<Solid>& solids) {
   const double x1 = -body.thickness_m - 0.04;
   const double x0 = x1 + 0.04 - body.depth_m + 0.02;
   const double y0 = front.whole.min_m.x() + 0.02 + 0.3 * body.corner_radius_m;
   const double y1 = front.whole.max_m.x() - 0.02 - 0.3 * body.corner_radius_m;
   const double top = body.base_height_m - kRefrigeratorJointM;
-  if (body.base == "plinth") {
+  if (body.base == RefrigeratorBase::kPlinth) {
     solids.push_back(ChamferedBox({x0, y0, 0}, {x1, y1, top}, 0.004));
     return;
   }
-  if (body.base != "feet" && body.base != "legs")
-    throw Error(ErrorCode::kInvalidConfig,
-                path + ".base: found \"" + body.base + "\", allowed plinth, feet, legs");
   for (const double x : {x0 + 0.03, x1 - 0.03}) {
     for (const double y : {y0 + 0.03, y1 - 0.03}) {
       const auto ring = [&](double half, double out, double z) {
@@ -310,7 +333,7 @@ void AddBase(const Refrigerator& body, const std::string& path, const FrontLayou
           points.emplace_back(p.x(), p.y(), z);
         return points;
       };
-      if (body.base == "feet")
+      if (body.base == RefrigeratorBase::kFeet)
         solids.push_back(
             LoftSolid({ring(0.02, 0, 0), ring(0.022, 0, 0.003), ring(0.018, 0, top)}, 0.003));
       else  // a cabriole: out at the knee, in at the ankle
@@ -334,7 +357,7 @@ void AddFronts(const Refrigerator& body, const FrontLayout& front, std::vector<S
         std::min(body.corner_radius_m, 0.3 * (other.max_m - other.min_m).minCoeff());
     solids.push_back(Slab(RoundedBoxPolygon(other.min_m, other.max_m, radius), body.thickness_m,
                           body.edge_radius_m));
-    const bool beside = body.other == "beside" && i == 0;
+    const bool beside = body.other == SecondFront::kBeside && i == 0;
     if (beside && body.dispenser) AddDispenser(other, solids);
     if (other.max_m.y() < front.leaf.min_m.y()) AddDrawerPull(other, solids);
   }
@@ -345,7 +368,7 @@ Part RefrigeratorPart(const Refrigerator& body, const std::string& path, const F
   const Polygon cavity = CavityOf(body, front);
   std::vector<Solid> frame = {Cabinet(body, shapes.outline, cavity)};
   AddInside(body, front, cavity, frame);
-  AddBase(body, path, front, frame);
+  AddBase(body, front, frame);
   AddFronts(body, front, frame);
   if (body.condenser) AddCondenser(body, front, frame);
   frame.insert(frame.end(), more.begin(), more.end());
@@ -374,7 +397,7 @@ BuiltShapes RoundedShapes(const Refrigerator& body, const FrontLayout& front) {
 Part BuildRefrigeratorBox(const nlohmann::ordered_json& json, const std::string& path) {
   const auto body = ReadParameters<Refrigerator>(json, path);
   Check(body, path);
-  const FrontLayout front = LayoutOf(body, path);
+  const FrontLayout front = LayoutOf(body);
   return RefrigeratorPart(body, path, front, RoundedShapes(body, front), {});
 }
 
@@ -401,10 +424,11 @@ Part BuildRefrigeratorArched(const nlohmann::ordered_json& json, const std::stri
   const auto body = ReadParameters<ArchedRefrigerator>(json, path);
   Check(body, path);
   RequireRange(path, "rise_m", body.rise_m, 0.04, 0.25);
-  if (body.other == "above" || body.other == "beside")
-    throw Error(ErrorCode::kInvalidConfig,
-                path + ".other: found \"" + body.other + "\", allowed none, below under an arch");
-  FrontLayout front = LayoutOf(body, path);
+  if (body.other == SecondFront::kAbove || body.other == SecondFront::kBeside)
+    throw Error(ErrorCode::kInvalidConfig, path + ".other: found \"" +
+                                               std::string(NameOf(body.other)) +
+                                               "\", allowed none, below under an arch");
+  FrontLayout front = LayoutOf(body);
   const BuiltShapes shapes = {
       Arched(front.whole.min_m, front.whole.max_m, body.rise_m, body.corner_radius_m),
       Arched(front.leaf.min_m, front.leaf.max_m, body.rise_m, body.corner_radius_m)};
@@ -418,7 +442,7 @@ Part BuildIcebox(const nlohmann::ordered_json& json, const std::string& path) {
   Check(body, path);
   RequireRange(path, "drum_diameter_m", body.drum_diameter_m, 0.12, 0.4);
   RequireRange(path, "drum_height_m", body.drum_height_m, 0.04, 0.25);
-  const FrontLayout front = LayoutOf(body, path);
+  const FrontLayout front = LayoutOf(body);
   const double x = -body.thickness_m - kLeafToCabinetM - body.depth_m / 2;
   const double y = (front.whole.min_m.x() + front.whole.max_m.x()) / 2;
   const double z = front.whole.max_m.y() + kRefrigeratorJointM;
@@ -440,7 +464,7 @@ Part BuildIcebox(const nlohmann::ordered_json& json, const std::string& path) {
 Part BuildRefrigeratorFramed(const nlohmann::ordered_json& json, const std::string& path) {
   const auto body = ReadParameters<Refrigerator>(json, path);
   Check(body, path);
-  const FrontLayout front = LayoutOf(body, path);
+  const FrontLayout front = LayoutOf(body);
   constexpr double kBorderM = 0.03;
   const Eigen::Vector2d low(-kBorderM, front.whole.min_m.y());
   const Eigen::Vector2d high = front.whole.max_m.array() + kBorderM;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "doorforge/core/error.h"
 #include "doorforge/solids/prism.h"
@@ -20,6 +21,66 @@ constexpr double kSafeJointM = 0.0002;  // between solids that touch
 constexpr double kHingeAxisM = 0.0075;
 constexpr double kHandleRoomM = 0.132;  // half the width of the largest handle
 
+/// Mouldings on a safe's leaf.
+enum class SafeFace {
+  kPlain,
+  kSunk,
+  kRaised,
+  kFramed,
+  kSplit,  ///< One field lies above and one below the handle.
+};
+inline constexpr NamedValue<SafeFace> kSafeFaceWords[] = {{SafeFace::kPlain, "plain"},
+                                                          {SafeFace::kSunk, "sunk"},
+                                                          {SafeFace::kRaised, "raised"},
+                                                          {SafeFace::kFramed, "framed"},
+                                                          {SafeFace::kSplit, "split"}};
+constexpr std::span<const NamedValue<SafeFace>> ValuesOf(SafeFace) { return kSafeFaceWords; }
+
+/// Shape of a safe's box, seen from the front.
+enum class SafeOutline {
+  kBox,
+  kArched,     ///< Its top is a flat arch.
+  kOctagon,    ///< Its corners are cut.
+  kTrapezoid,  ///< It is wider below.
+};
+inline constexpr NamedValue<SafeOutline> kSafeOutlineWords[] = {
+    {SafeOutline::kBox, "box"},
+    {SafeOutline::kArched, "arched"},
+    {SafeOutline::kOctagon, "octagon"},
+    {SafeOutline::kTrapezoid, "trapezoid"}};
+constexpr std::span<const NamedValue<SafeOutline>> ValuesOf(SafeOutline) {
+  return kSafeOutlineWords;
+}
+
+/// What stands on a safe.
+enum class SafeTop {
+  kNone,
+  kHopper,  ///< Deposits go through it.
+  kDome,
+  kLid,
+  kHandle,
+};
+inline constexpr NamedValue<SafeTop> kSafeTopWords[] = {{SafeTop::kNone, "none"},
+                                                        {SafeTop::kHopper, "hopper"},
+                                                        {SafeTop::kDome, "dome"},
+                                                        {SafeTop::kLid, "lid"},
+                                                        {SafeTop::kHandle, "handle"}};
+constexpr std::span<const NamedValue<SafeTop>> ValuesOf(SafeTop) { return kSafeTopWords; }
+
+/// What a safe stands on.
+enum class SafeBase {
+  kFeet,
+  kLegs,
+  kStand,  ///< Legs have a shelf between them.
+  kPlinth,
+  kWheels,
+  kNone,
+};
+inline constexpr NamedValue<SafeBase> kSafeBaseWords[] = {
+    {SafeBase::kFeet, "feet"},     {SafeBase::kLegs, "legs"},     {SafeBase::kStand, "stand"},
+    {SafeBase::kPlinth, "plinth"}, {SafeBase::kWheels, "wheels"}, {SafeBase::kNone, "none"}};
+constexpr std::span<const NamedValue<SafeBase>> ValuesOf(SafeBase) { return kSafeBaseWords; }
+
 /// What all safes share: a thick-walled box with a leaf set into its front.
 struct SafeBody {
   double leaf_width_m = 0.36;
@@ -31,16 +92,13 @@ struct SafeBody {
   double leaf_mass_kg = 14;     ///< With its filling and bolt work.
   double mount_forward = 0.55;  ///< Of the leaf's width, from the hinge.
   double mount_height = 0.5;    ///< Of the leaf's height.
-  std::string face = "sunk";    ///< Of the leaf: "plain", "sunk", "raised", "framed".
-  /// Names the box's shape as it is seen from the front: "box", "arched" (its top is a flat arch),
-  /// "octagon" (its corners are cut) or "trapezoid" (it is wider below).
-  std::string outline = "box";
-  double outline_m = 0.05;   ///< Rise of the arch, cut of a corner, lean of a side.
-  std::string top = "none";  ///< "none", "hopper" (for deposits), "dome", "lid", "handle".
+  SafeFace face = SafeFace::kSunk;
+  SafeOutline outline = SafeOutline::kBox;
+  double outline_m = 0.05;  ///< Rise of the arch, cut of a corner, lean of a side.
+  SafeTop top = SafeTop::kNone;
   int shelves = 1;
   bool till = false;  ///< A locked drawer below the cavity's top.
-  std::string base =
-      "feet";  ///< "feet", "legs", "stand" (legs with a shelf), "plinth", "wheels", "none".
+  SafeBase base = SafeBase::kFeet;
   double base_height_m = 0.04;
   double hinges_apart = 0.64;  ///< Of the leaf's height.
   std::string finish = "sheet_grey";
@@ -97,10 +155,20 @@ struct VaultSafe : SafeBody {
   }
 };
 
+/// What the tier beside the leaf holds; none of it opens.
+enum class SafeTier {
+  kDoor,  ///< It has a dial.
+  kDrawers,
+  kBoxes,  ///< They are a wall of deposit boxes.
+};
+inline constexpr NamedValue<SafeTier> kSafeTierWords[] = {
+    {SafeTier::kDoor, "door"}, {SafeTier::kDrawers, "drawers"}, {SafeTier::kBoxes, "boxes"}};
+constexpr std::span<const NamedValue<SafeTier>> ValuesOf(SafeTier) { return kSafeTierWords; }
+
 struct TieredSafe : SafeBody {
   double tier_m = 0.3;  ///< Height of the other tier.
   bool tier_below = true;
-  std::string tier = "door";  ///< "door" (with a dial), "drawers", "boxes".
+  SafeTier tier = SafeTier::kDoor;
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -151,7 +219,9 @@ void Check(const SafeBody& body, const std::string& path) {
   RequireRange(path, "mount_height", body.mount_height, up, 1 - up);
 }
 
-double BaseHeight(const SafeBody& body) { return body.base == "none" ? 0 : body.base_height_m; }
+double BaseHeight(const SafeBody& body) {
+  return body.base == SafeBase::kNone ? 0 : body.base_height_m;
+}
 
 // The far edge of a leaf that turns about a line in front of it comes out farther than its width.
 double Gap(const SafeBody& body) {
@@ -191,18 +261,15 @@ Polygon OuterPolygon(const SafeBody& body, const Rectangle& box, const std::stri
   const double by = body.outline_m;
   const Eigen::Vector2d& low = box.min_m;
   const Eigen::Vector2d& high = box.max_m;
-  if (body.outline == "box") return PolygonOf(box, body.corner_radius_m);
-  if (body.outline == "trapezoid")
+  if (body.outline == SafeOutline::kBox) return PolygonOf(box, body.corner_radius_m);
+  if (body.outline == SafeOutline::kTrapezoid)
     return {{low.x() - by, low.y()}, {high.x() + by, low.y()}, high, {low.x(), high.y()}};
-  if (body.outline == "octagon") {
+  if (body.outline == SafeOutline::kOctagon) {
     RequireRange(path, "outline_m (of an octagon)", by, 0.01, 1.2 * body.wall_m);
     return {{low.x() + by, low.y()},   {high.x() - by, low.y()},  {high.x(), low.y() + by},
             {high.x(), high.y() - by}, {high.x() - by, high.y()}, {low.x() + by, high.y()},
             {low.x(), high.y() - by},  {low.x(), low.y() + by}};
   }
-  if (body.outline != "arched")
-    throw Error(ErrorCode::kInvalidConfig, path + ".outline: found \"" + body.outline +
-                                               "\", allowed box, arched, octagon, trapezoid");
   constexpr int kSteps = 14;
   Polygon arch = {low, {high.x(), low.y()}};
   const double half = (high.x() - low.x()) / 2;
@@ -247,22 +314,23 @@ void AddShelves(const SafeBody& body, const Rectangle& room, double front_x_m,
 // What stands on a box with a flat top.
 void AddTop(const SafeBody& body, const std::string& path, const Rectangle& box, double front_x_m,
             std::vector<Solid>& solids) {
-  if (body.top == "none") return;
-  if (body.outline == "arched")
-    throw Error(ErrorCode::kInvalidConfig,
-                path + ".top: found \"" + body.top + "\", allowed none on an arch");
+  if (body.top == SafeTop::kNone) return;
+  if (body.outline == SafeOutline::kArched)
+    throw Error(ErrorCode::kInvalidConfig, path + ".top: found \"" + std::string(NameOf(body.top)) +
+                                               "\", allowed none on an arch");
   const double z = box.max_m.y() + kSafeJointM;
   const double x0 = front_x_m - body.depth_m;
   const double y = (box.min_m.x() + box.max_m.x()) / 2;
   const double width = box.max_m.x() - box.min_m.x();
-  const double in = 0.012 + (body.outline == "octagon" ? body.outline_m : body.corner_radius_m);
-  if (body.top == "hopper") {
+  const double in =
+      0.012 + (body.outline == SafeOutline::kOctagon ? body.outline_m : body.corner_radius_m);
+  if (body.top == SafeTop::kHopper) {
     const double x1 = front_x_m - 0.2 * body.depth_m;
     const double x_back = x0 + 0.012;
     solids.push_back(ConvexPrism(
         {{z, x_back}, {z + 0.11, x_back}, {z + 0.11, 0.5 * (x_back + x1)}, {z + 0.04, x1}, {z, x1}},
         PrismAxis::kY, {y - 0.36 * width, y + 0.36 * width}, 0.004));
-  } else if (body.top == "dome") {
+  } else if (body.top == SafeTop::kDome) {
     std::vector<Ring> rings;
     const Eigen::Vector2d low(x0 + 0.012, box.min_m.x() + in);
     const Eigen::Vector2d high(front_x_m - 0.012, box.max_m.x() - in);
@@ -275,10 +343,10 @@ void AddTop(const SafeBody& body, const std::string& path, const Rectangle& box,
       rings.push_back(ring);
     }
     solids.push_back(LoftSolid(rings, 0.004));
-  } else if (body.top == "lid") {
+  } else if (body.top == SafeTop::kLid) {
     solids.push_back(ChamferedBox({x0 - 0.012, box.min_m.x() - 0.015, z},
                                   {front_x_m - 0.004, box.max_m.x() + 0.015, z + 0.03}, 0.006));
-  } else if (body.top == "handle") {
+  } else {
     const double half = std::min(0.09, 0.3 * width);
     const double x = front_x_m - body.depth_m / 2;
     for (const double side : {-1.0, 1.0})
@@ -286,9 +354,6 @@ void AddTop(const SafeBody& body, const std::string& path, const Rectangle& box,
                                     {x + 0.012, y + side * half + 0.009, z + 0.05}, 0.002));
     solids.push_back(ChamferedBox({x - 0.012, y - half - 0.009, z + 0.05 + kSafeJointM},
                                   {x + 0.012, y + half + 0.009, z + 0.07}, 0.006));
-  } else {
-    throw Error(ErrorCode::kInvalidConfig,
-                path + ".top: found \"" + body.top + "\", allowed none, hopper, dome, lid, handle");
   }
 }
 
@@ -297,63 +362,59 @@ Solid Wheel(const Eigen::Vector3d& center, double radius) {
   return ConvexPrism(circle, PrismAxis::kY, {center.y() - 0.012, center.y() + 0.012}, 0.002);
 }
 
-void AddBase(const SafeBody& body, const std::string& path, const Rectangle& box, double front_x_m,
+void AddBase(const SafeBody& body, const Rectangle& box, double front_x_m,
              std::vector<Solid>& solids) {
-  if (body.base == "none") return;
+  if (body.base == SafeBase::kNone) return;
   const double h = body.base_height_m;
   const double x1 = front_x_m - 0.012;
   const double x0 = front_x_m - body.depth_m + 0.012;
   const double y0 = box.min_m.x() + 0.012;
   const double y1 = box.max_m.x() - 0.012;
-  if (body.base == "plinth") {
+  if (body.base == SafeBase::kPlinth) {
     solids.push_back(ChamferedBox({x0, y0, 0}, {x1 - 0.02, y1, h - kSafeJointM}, 0.003));
     return;
   }
   const double size = std::min(0.045, 0.3 * (y1 - y0));
-  if (body.base == "stand")
+  if (body.base == SafeBase::kStand)
     solids.push_back(ChamferedBox({x0 + 0.004, y0 + 0.004, 0.3 * h},
                                   {x1 - 0.004, y1 - 0.004, 0.3 * h + 0.016}, 0.002));
   for (const double x : {x0, x1 - size}) {
     for (const double y : {y0, y1 - size}) {
       const Eigen::Vector3d middle(x + size / 2, y + size / 2, 0);
-      if (body.base == "feet") {
+      if (body.base == SafeBase::kFeet) {
         const Polygon circle = CirclePolygon({middle.x(), middle.y()}, size / 2, 20);
         solids.push_back(ConvexPrism(circle, PrismAxis::kZ, {0, h - kSafeJointM}, 0.004));
-      } else if (body.base == "legs") {
+      } else if (body.base == SafeBase::kLegs) {
         solids.push_back(ChamferedBox({x, y, 0}, {x + size, y + size, h - kSafeJointM}, 0.006));
-      } else if (body.base == "stand") {
+      } else if (body.base == SafeBase::kStand) {
         // below and above the shelf
         solids.push_back(
             ChamferedBox({x, y, 0}, {x + size, y + size, 0.3 * h - kSafeJointM}, 0.003));
         solids.push_back(ChamferedBox({x, y, 0.3 * h + 0.016 + kSafeJointM},
                                       {x + size, y + size, h - kSafeJointM}, 0.003));
-      } else if (body.base == "wheels") {
+      } else {
         const double r = std::max(0.012, 0.5 * h - 0.004);
         solids.push_back(Wheel({middle.x(), middle.y(), r}, r));
         solids.push_back(ChamferedBox({x, y, 2 * r + kSafeJointM},
                                       {x + size, y + size, h - kSafeJointM}, 0.001));
-      } else {
-        throw Error(ErrorCode::kInvalidConfig,
-                    path + ".base: found \"" + body.base +
-                        "\", allowed feet, legs, stand, plinth, wheels, none");
       }
     }
   }
 }
 
 // Mouldings of a rectangular leaf; the middle stays plain for the handle.
-void AddFace(const SafeBody& body, const std::string& path, ReliefSlab& slab) {
+void AddFace(const SafeBody& body, ReliefSlab& slab) {
   const auto inner = [&](double by) {
     return Rectangle{slab.outline.min_m.array() + by, slab.outline.max_m.array() - by};
   };
-  if (body.face == "sunk") {
+  if (body.face == SafeFace::kSunk) {
     slab.fields = {{inner(0.022), SunkPanel(0.005, 0.004), ReliefSide::kFront}};
-  } else if (body.face == "raised") {
+  } else if (body.face == SafeFace::kRaised) {
     slab.fields = {{inner(0.014), {{0, 0}, {0.006, 0.005}}, ReliefSide::kFront}};
-  } else if (body.face == "framed") {
+  } else if (body.face == SafeFace::kFramed) {
     slab.fields = {
         {inner(0.016), {{0, 0}, {0.003, -0.005}, {0.009, -0.005}, {0.012, 0}}, ReliefSide::kFront}};
-  } else if (body.face == "split") {
+  } else if (body.face == SafeFace::kSplit) {
     // two fields, one above and one below the handle
     const Rectangle all = inner(0.02);
     const double z = slab.outline.min_m.y() +
@@ -365,18 +426,15 @@ void AddFace(const SafeBody& body, const std::string& path, ReliefSlab& slab) {
                                SunkPanel(0.006, 0.004),
                                ReliefSide::kFront});
     }
-  } else if (body.face != "plain") {
-    throw Error(ErrorCode::kInvalidConfig, path + ".face: found \"" + body.face +
-                                               "\", allowed plain, sunk, raised, framed, split");
   }
 }
 
-Solid LeafSolid(const SafeBody& body, const std::string& path, const Rectangle& outline) {
+Solid LeafSolid(const SafeBody& body, const Rectangle& outline) {
   ReliefSlab slab;
   slab.outline = outline;
   slab.thickness_m = body.thickness_m;
   slab.edge_radius_m = 0.003;
-  AddFace(body, path, slab);
+  AddFace(body, slab);
   return ReliefSolid(slab, kSafeHullToleranceM);
 }
 
@@ -410,8 +468,8 @@ Part BuildSafeBox(const nlohmann::ordered_json& json, const std::string& path) {
   std::vector<Solid> frame = {Shell(body, layout, 0, path)};
   AddShelves(body, layout.opening, 0, frame);
   AddTop(body, path, layout.box, 0, frame);
-  AddBase(body, path, layout.box, 0, frame);
-  return SafePart(body, path, layout.leaf, frame, LeafSolid(body, path, layout.leaf));
+  AddBase(body, layout.box, 0, frame);
+  return SafePart(body, path, layout.leaf, frame, LeafSolid(body, layout.leaf));
 }
 
 Part BuildWall(const nlohmann::ordered_json& json, const std::string& path) {
@@ -432,7 +490,7 @@ Part BuildWall(const nlohmann::ordered_json& json, const std::string& path) {
   std::vector<Solid> frame = {ReliefSolid(flange, kSafeHullToleranceM),
                               Shell(body, layout, front, path)};
   AddShelves(body, layout.opening, front, frame);
-  return SafePart(body, path, layout.leaf, frame, LeafSolid(body, path, layout.leaf));
+  return SafePart(body, path, layout.leaf, frame, LeafSolid(body, layout.leaf));
 }
 
 // A plug that tapers to the back, with a rim of bosses.
@@ -496,7 +554,7 @@ Part BuildVault(const nlohmann::ordered_json& json, const std::string& path) {
   const HoopShape collar{opening + 0.004 + body.collar_m / 2, body.collar_m / 2, 0.0033, 6, 48};
   std::vector<Solid> frame = {{CupSolid(cup).mesh, hulls},
                               {HoopSolid(collar, {-0.0035, center.x(), center.y()}).mesh, {}}};
-  AddBase(body, path, square, 0, frame);
+  AddBase(body, square, 0, frame);
   return SafePart(body, path, layout.leaf, frame, RoundLeaf(body, center));
 }
 
@@ -512,17 +570,10 @@ Solid Dial(const Eigen::Vector2d& at, double radius, double x) {
 }
 
 // What does not open: a door with a dial, drawers or a wall of deposit boxes.
-void AddFixedFronts(const std::string& kind, const Rectangle& area, const std::string& path,
-                    std::vector<Solid>& solids) {
+void AddFixedFronts(SafeTier kind, const Rectangle& area, std::vector<Solid>& solids) {
   const double gap = 0.004;
-  int rows = 1;
-  int columns = 1;
-  if (kind == "drawers") rows = 2;
-  if (kind == "boxes") columns = 3;
-  if (kind == "boxes") rows = 2;
-  if (kind != "door" && kind != "drawers" && kind != "boxes")
-    throw Error(ErrorCode::kInvalidConfig,
-                path + ".tier: found \"" + kind + "\", allowed door, drawers, boxes");
+  const int rows = kind == SafeTier::kDoor ? 1 : 2;
+  const int columns = kind == SafeTier::kBoxes ? 3 : 1;
   const Eigen::Vector2d size = area.max_m - area.min_m;
   const Eigen::Vector2d cell((size.x() - gap * (columns - 1)) / columns,
                              (size.y() - gap * (rows - 1)) / rows);
@@ -541,7 +592,7 @@ void AddFixedFronts(const std::string& kind, const Rectangle& area, const std::s
       solids.push_back(Moved(ReliefSolid(slab, kSafeHullToleranceM), {0.012 + kSafeJointM, 0, 0}));
     }
   }
-  if (kind == "door") solids.push_back(Dial(CenterOf(area), 0.032, 0.0095));
+  if (kind == SafeTier::kDoor) solids.push_back(Dial(CenterOf(area), 0.032, 0.0095));
 }
 
 Part BuildTiered(const nlohmann::ordered_json& json, const std::string& path) {
@@ -556,11 +607,11 @@ Part BuildTiered(const nlohmann::ordered_json& json, const std::string& path) {
       body.tier_below ? layout.box.min_m.y() + body.wall_m : layout.opening.max_m.y() + body.wall_m;
   AddFixedFronts(body.tier,
                  {{layout.opening.min_m.x(), z0}, {layout.opening.max_m.x(), z0 + body.tier_m}},
-                 path, frame);
+                 frame);
   AddShelves(body, layout.opening, 0, frame);
   AddTop(body, path, layout.box, 0, frame);
-  AddBase(body, path, layout.box, 0, frame);
-  return SafePart(body, path, layout.leaf, frame, LeafSolid(body, path, layout.leaf));
+  AddBase(body, layout.box, 0, frame);
+  return SafePart(body, path, layout.leaf, frame, LeafSolid(body, layout.leaf));
 }
 
 Part BuildHotel(const nlohmann::ordered_json& json, const std::string& path) {
@@ -584,8 +635,8 @@ Part BuildHotel(const nlohmann::ordered_json& json, const std::string& path) {
   }
   AddShelves(body, layout.opening, 0, frame);
   AddTop(body, path, layout.box, 0, frame);
-  AddBase(body, path, layout.box, 0, frame);
-  return SafePart(body, path, layout.leaf, frame, LeafSolid(body, path, layout.leaf));
+  AddBase(body, layout.box, 0, frame);
+  return SafePart(body, path, layout.leaf, frame, LeafSolid(body, layout.leaf));
 }
 
 Part BuildAntique(const nlohmann::ordered_json& json, const std::string& path) {
@@ -612,8 +663,8 @@ Part BuildAntique(const nlohmann::ordered_json& json, const std::string& path) {
                                    0.003));
   }
   AddShelves(body, layout.opening, 0, frame);
-  AddBase(body, path, outside, 0, frame);
-  return SafePart(body, path, layout.leaf, frame, LeafSolid(body, path, layout.leaf));
+  AddBase(body, outside, 0, frame);
+  return SafePart(body, path, layout.leaf, frame, LeafSolid(body, layout.leaf));
 }
 
 }  // namespace

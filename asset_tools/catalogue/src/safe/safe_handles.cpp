@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
-#include "doorforge/core/error.h"
 #include "doorforge/solids/prism.h"
 #include "doorforge/solids/sweep.h"
 
@@ -19,11 +19,27 @@ namespace {
 constexpr double kSafeHandleHullToleranceM = 0.001;
 constexpr double kSafeHandleJointM = 0.0002;  // between solids that touch
 
+/// Outline of the plate under a safe's handle.
+enum class PlateOutline {
+  kRound,  ///< It is a stadium if it is not as high as wide.
+  kSquare,
+  kShield,  ///< It is tall and rounded.
+  kOctagon,
+  kDiamond,
+};
+inline constexpr NamedValue<PlateOutline> kPlateOutlineWords[] = {
+    {PlateOutline::kRound, "round"},
+    {PlateOutline::kSquare, "square"},
+    {PlateOutline::kShield, "shield"},
+    {PlateOutline::kOctagon, "octagon"},
+    {PlateOutline::kDiamond, "diamond"}};
+constexpr std::span<const NamedValue<PlateOutline>> ValuesOf(PlateOutline) {
+  return kPlateOutlineWords;
+}
+
 /// The plate on the leaf under every handle of a safe.
 struct SafePlate {
-  /// "round" (a stadium if it is not as high as wide), "square", "shield" (tall, rounded),
-  /// "octagon", "diamond".
-  std::string shape = "round";
+  PlateOutline shape = PlateOutline::kRound;
   double width_m = 0.106;
   double height_m = 0;   ///< 0: as high as wide; a shield 1.25 times.
   bool stepped = false;  ///< A smaller plate of half the thickness lies on it.
@@ -41,12 +57,27 @@ struct SafePlate {
   }
 };
 
+/// Outline of what fingers turn a key by.
+enum class KeyBow {
+  kOval,
+  kSquare,
+  kClover,
+  kTriangle,
+  kButterfly,
+};
+inline constexpr NamedValue<KeyBow> kKeyBowWords[] = {{KeyBow::kOval, "oval"},
+                                                      {KeyBow::kSquare, "square"},
+                                                      {KeyBow::kClover, "clover"},
+                                                      {KeyBow::kTriangle, "triangle"},
+                                                      {KeyBow::kButterfly, "butterfly"}};
+constexpr std::span<const NamedValue<KeyBow>> ValuesOf(KeyBow) { return kKeyBowWords; }
+
 struct SafeKey {
   double bow_height_m = 0.04;  ///< Along z.
   double bow_depth_m = 0.034;  ///< Along x.
   double bow_thickness_m = 0.006;
-  double reach_m = 0.042;    ///< From the leaf to the middle of the bow.
-  std::string bow = "oval";  ///< "oval", "square", "clover", "triangle", "butterfly".
+  double reach_m = 0.042;  ///< From the leaf to the middle of the bow.
+  KeyBow bow = KeyBow::kOval;
   double barrel_radius_m = 0.013;
   double barrel_m = 0.012;  ///< Of the lock's barrel, along x, in front of the plate.
   SafePlate plate;
@@ -178,23 +209,21 @@ void Check(const SafeBars& bars, const std::string& path) {
 }
 
 // A plate of this half size and thickness.
-Solid PlateOf(const SafePlate& plate, const std::string& path, const Eigen::Vector2d& half,
-              double thickness) {
+Solid PlateOf(const SafePlate& plate, const Eigen::Vector2d& half, double thickness) {
   const double edge = 0.4 * thickness;
   const double least = half.minCoeff();
-  if (plate.shape == "square") return PlateSolid({half, 0.008, thickness, edge}, {0, 0});
-  if (plate.shape == "shield") return PlateSolid({half, 0.5 * least, thickness, edge}, {0, 0});
-  if (plate.shape == "round") return PlateSolid({half, least, thickness, edge}, {0, 0});
+  if (plate.shape == PlateOutline::kSquare)
+    return PlateSolid({half, 0.008, thickness, edge}, {0, 0});
+  if (plate.shape == PlateOutline::kShield)
+    return PlateSolid({half, 0.5 * least, thickness, edge}, {0, 0});
+  if (plate.shape == PlateOutline::kRound)
+    return PlateSolid({half, least, thickness, edge}, {0, 0});
   Polygon outline;
-  if (plate.shape == "diamond") {
+  if (plate.shape == PlateOutline::kDiamond) {
     outline = {{half.x(), 0}, {0, half.y()}, {-half.x(), 0}, {0, -half.y()}};
-  } else if (plate.shape == "octagon") {
+  } else {
     for (const Eigen::Vector2d& p : CirclePolygon({0, 0}, 1 / std::cos(std::numbers::pi / 8), 8))
       outline.emplace_back(p.cwiseProduct(half));
-  } else {
-    throw Error(ErrorCode::kInvalidConfig,
-                path + ".shape: found \"" + plate.shape +
-                    "\", allowed round, square, shield, octagon, diamond");
   }
   // its one hull has no chamfer, so a sharp corner allows only a small one
   return ConvexPrism(outline, PrismAxis::kX, {0, thickness}, 0.2 * thickness);
@@ -207,11 +236,11 @@ double AddPlate(const SafePlate& plate, const std::string& path, const std::vect
   if (plate.height_m != 0) RequireRange(path, "height_m", plate.height_m, 0.04, 0.21);
   RequireRange(path, "thickness_m", plate.thickness_m, 0.003, 0.012);
   Eigen::Vector2d half(plate.width_m / 2, plate.height_m / 2);
-  if (plate.height_m == 0) half.y() = (plate.shape == "shield" ? 1.25 : 1) * half.x();
-  std::vector<Solid> solids = {PlateOf(plate, path, half, plate.thickness_m)};
+  if (plate.height_m == 0) half.y() = (plate.shape == PlateOutline::kShield ? 1.25 : 1) * half.x();
+  std::vector<Solid> solids = {PlateOf(plate, half, plate.thickness_m)};
   double top = plate.thickness_m + kSafeHandleJointM;
   if (plate.stepped) {
-    solids.push_back(Moved(PlateOf(plate, path, 0.72 * half, plate.thickness_m / 2), {top, 0, 0}));
+    solids.push_back(Moved(PlateOf(plate, 0.72 * half, plate.thickness_m / 2), {top, 0, 0}));
     top += plate.thickness_m / 2 + kSafeHandleJointM;
   }
   for (const Solid& solid : on_it) solids.push_back(Moved(solid, {top, 0, 0}));
@@ -303,21 +332,17 @@ void CheckBall(const SafeBars& bars, double ball_m, const std::string& path) {
   if (ball_m > 0) RequireRange(path, "ball_m", ball_m, bars.bar_width_m, 0.034);
 }
 
-Polygon BowOutline(const SafeKey& key, const std::string& path) {
+Polygon BowOutline(const SafeKey& key) {
   // in (z, x) around the origin
   const Eigen::Vector2d half(key.bow_height_m / 2, key.bow_depth_m / 2);
-  if (key.bow == "square") return RoundedRectangle(half, 0.006, 3);
-  if (key.bow == "triangle") {
+  if (key.bow == KeyBow::kSquare) return RoundedRectangle(half, 0.006, 3);
+  if (key.bow == KeyBow::kTriangle) {
     // wide in front
     return {{-0.35 * half.x(), -half.y()}, {0.35 * half.x(), -half.y()},
             {half.x(), 0.6 * half.y()},    {0.7 * half.x(), half.y()},
             {-0.7 * half.x(), half.y()},   {-half.x(), 0.6 * half.y()}};
   }
-  if (key.bow == "clover") return RoundedRectangle(half, 0.85 * half.minCoeff(), 6);
-  if (key.bow != "oval")
-    throw Error(ErrorCode::kInvalidConfig,
-                path + ".bow: found \"" + key.bow +
-                    "\", allowed oval, square, clover, triangle, butterfly");
+  if (key.bow == KeyBow::kClover) return RoundedRectangle(half, 0.85 * half.minCoeff(), 6);
   Polygon oval;
   for (const Eigen::Vector2d& p : CirclePolygon({0, 0}, 1, 24))
     oval.emplace_back(p.cwiseProduct(half));
@@ -325,8 +350,8 @@ Polygon BowOutline(const SafeKey& key, const std::string& path) {
 }
 
 // Two round wings beside a waist; the polygons are in (z, x).
-std::vector<Polygon> BowPolygons(const SafeKey& key, const std::string& path) {
-  if (key.bow != "butterfly") return {BowOutline(key, path)};
+std::vector<Polygon> BowPolygons(const SafeKey& key) {
+  if (key.bow != KeyBow::kButterfly) return {BowOutline(key)};
   const double waist = 0.1 * key.bow_height_m;
   const double depth = 0.3 * key.bow_depth_m;
   std::vector<Polygon> bow = {BoxPolygon({-waist, -depth}, {waist, depth})};
@@ -361,12 +386,13 @@ Part BuildKey(const nlohmann::ordered_json& json, const std::string& path) {
                     {key.barrel_m, r - 0.001}})},
            part);
   const double half = key.bow_thickness_m / 2;
-  const double bow_begin = key.reach_m - key.bow_depth_m * (key.bow == "butterfly" ? 0.3 : 0.5);
+  const double bow_begin =
+      key.reach_m - key.bow_depth_m * (key.bow == KeyBow::kButterfly ? 0.3 : 0.5);
   const double shaft = 0.55 * half + 0.0015;
   std::vector<Solid> solids = {Lathed(
       {{barrel_end + 4 * kSafeHandleJointM, shaft}, {bow_begin - 2 * kSafeHandleJointM, shaft}},
       16)};
-  for (Polygon bow : BowPolygons(key, path)) {
+  for (Polygon bow : BowPolygons(key)) {
     for (Eigen::Vector2d& p : bow) p.y() += key.reach_m;
     solids.push_back(ConvexPrism(bow, PrismAxis::kY, {-half, half}, 0.3 * half));
   }

@@ -27,20 +27,22 @@ constexpr double kCarcassJointM =
 constexpr double kBoardEdgeM = 0.001;
 constexpr double kBackM = 0.008;
 
-void RequireOneOf(const std::string& path, const std::string& found,
-                  std::initializer_list<std::string_view> allowed) {
-  std::string list;
-  for (const std::string_view name : allowed) {
-    if (name == found) return;
-    list += (list.empty() ? "" : ", ") + std::string(name);
-  }
-  throw Error(ErrorCode::kInvalidConfig, path + ": found \"" + found + "\", allowed " + list);
+void RequireBox(const Carcass& carcass, const std::string& path, const std::string& why) {
+  if (carcass.form == CarcassForm::kBox) return;
+  throw Error(ErrorCode::kInvalidConfig, path + ".form (" + why + "): found \"" +
+                                             std::string(NameOf(carcass.form)) + "\", allowed box");
 }
 
-bool Has(const Bay& bay) { return bay.kind != "none"; }
+// What lies on a straight back, or is as wide as the cabinet there.
+bool NeedsBox(CarcassTop top) {
+  constexpr CarcassTop kOnBoxes[] = {CarcassTop::kGallery, CarcassTop::kSlope, CarcassTop::kHutch,
+                                     CarcassTop::kMirror,  CarcassTop::kRail,  CarcassTop::kBarrel};
+  return std::ranges::find(kOnBoxes, top) != std::end(kOnBoxes);
+}
+
+bool Has(const Bay& bay) { return bay.kind != BayKind::kNone; }
 
 void CheckBay(const Bay& bay, const std::string& path, double least_m, double most_m) {
-  RequireOneOf(path + ".kind", bay.kind, {"none", "drawers", "doors", "niche", "grid"});
   if (!Has(bay)) return;
   RequireRange(path, "size_m", bay.size_m, least_m, most_m);
   RequireRange(path, "count", bay.count, 1, 5);
@@ -107,7 +109,7 @@ Frame::Frame(const Carcass& carcass, const CarcassLeaf& leaf)
       thickness_(leaf.thickness_m),
       front_x_(leaf.front_x_m),
       x1_(leaf.front_x_m - leaf.thickness_m - kLeafToCarcassM),
-      base_(carcass.base == "none" ? 0 : carcass.base_height_m) {
+      base_(carcass.base == CarcassBase::kNone ? 0 : carcass.base_height_m) {
   const auto size = [](const Bay& bay) { return Has(bay) ? bay.size_m + kLeafToBayM : 0; };
   below_z_ = {base_ + kMarginM, base_ + kMarginM + size(carcass.below)};
   leaf_z_ = {below_z_.high, below_z_.high + leaf.height_m};
@@ -131,12 +133,13 @@ Polygon Frame::Plan() const {
   const double x0 = x1_ - carcass_.depth_m;
   const double width = y_.size();
   const double by = carcass_.form_m;
-  if (carcass_.form == "box") return {{x1_, y_.low}, {x1_, y_.high}, {x0, y_.high}, {x0, y_.low}};
-  if (carcass_.form == "tapered" || carcass_.form == "flared") {
-    const double in = carcass_.form == "tapered" ? by : -by;
+  if (carcass_.form == CarcassForm::kBox)
+    return {{x1_, y_.low}, {x1_, y_.high}, {x0, y_.high}, {x0, y_.low}};
+  if (carcass_.form == CarcassForm::kTapered || carcass_.form == CarcassForm::kFlared) {
+    const double in = carcass_.form == CarcassForm::kTapered ? by : -by;
     return {{x1_, y_.low}, {x1_, y_.high}, {x0, y_.high - in}, {x0, y_.low + in}};
   }
-  if (carcass_.form == "corner") {
+  if (carcass_.form == CarcassForm::kCorner) {
     const double step = by / std::numbers::sqrt2;
     return {{x1_, y_.low},
             {x1_, y_.high},
@@ -167,7 +170,7 @@ void Frame::AddOpenSide(double y0) {
   const double rear = carcass_.back ? x0 + kBackM + kCarcassJointM : x0;
   for (const double x : {rear, x1_ - b})
     Add(ChamferedBox({x, y0, z_.low}, {x + b, y0 + b, z_.high}, kBoardEdgeM));
-  const int bars = carcass_.sides == "slatted" ? 6 : 2;
+  const int bars = carcass_.sides == CarcassSides::kSlatted ? 6 : 2;
   const double high = 0.045;
   for (int i = 0; i < bars; ++i) {
     const double z = z_.low + (z_.size() - high) * i / (bars - 1);
@@ -177,14 +180,14 @@ void Frame::AddOpenSide(double y0) {
 }
 
 void Frame::AddWalls() {
-  if (carcass_.sides != "panel") {
+  if (carcass_.sides != CarcassSides::kPanel) {
     AddOpenSide(y_.low);
     AddOpenSide(y_.high - carcass_.board_m + kCarcassJointM);
   }
   for (std::size_t i = 1; i < plan_.size(); ++i) {
     const std::size_t next = (i + 1) % plan_.size();
     const bool is_back = std::abs(plan_[next].x() - plan_[i].x()) < 1e-9;
-    if (is_back ? !carcass_.back : carcass_.sides != "panel") continue;
+    if (is_back ? !carcass_.back : carcass_.sides != CarcassSides::kPanel) continue;
     const Polygon wall = {plan_[i], plan_[next], inner_[next], inner_[i]};
     Add(ConvexPrism(Inset(wall, kCarcassJointM), PrismAxis::kZ, {z_.low, z_.high}, kBoardEdgeM));
   }
@@ -216,7 +219,7 @@ void Frame::AddFront(const Interval& y, const Interval& z) {
   slab.edge_radius_m = 0.002;
   const double border = std::min(0.05, 0.22 * std::min(y.size(), z.size()));
   const Rectangle field{slab.outline.min_m.array() + border, slab.outline.max_m.array() - border};
-  if (carcass_.fronts == "sunk")
+  if (carcass_.fronts == CarcassFronts::kSunk)
     slab.fields = {{field, SunkPanel(0.005, 0.003), ReliefSide::kFront}};
   Add(Moved(ReliefSolid(slab, kCarcassHullToleranceM), {front_x_, 0, 0}));
 }
@@ -237,10 +240,10 @@ void Frame::AddSideBay(const Bay& bay, const Interval& y) {
                                   : Interval{leaf_width_ + kLeafToBayM / 2 + half, y_.high};
   for (int i = 0; i < bay.count; ++i) {
     const Interval z = Share(leaf_z_, i, bay.count, kBetweenFrontsM);
-    const bool open = bay.kind == "niche" || bay.kind == "grid";
+    const bool open = bay.kind == BayKind::kNiche || bay.kind == BayKind::kGrid;
     if (!open) AddFront(y, z);
     if (open && i > 0) AddLevel(z.low - kBetweenFrontsM / 2, inside);
-    if (bay.kind == "grid") {
+    if (bay.kind == BayKind::kGrid) {
       const double clear = half + kCarcassJointM;
       const bool lowest = i == 0;
       const bool highest = i == bay.count - 1;
@@ -259,16 +262,16 @@ void Frame::AddWideBay(const Bay& bay, const Interval& z) {
   for (int i = 0; i < bay.count; ++i) {
     const Interval y =
         Share({y_.low + kMarginM, y_.high - kMarginM}, i, bay.count, kBetweenFrontsM);
-    const bool open = bay.kind == "niche" || bay.kind == "grid";
+    const bool open = bay.kind == BayKind::kNiche || bay.kind == BayKind::kGrid;
     if (!open) AddFront(y, fronts);
     if (!open || i == 0) continue;
     const double middle = (z.low + z.high) / 2;
-    const double clear = bay.kind == "grid" ? board / 2 : 0;
+    const double clear = bay.kind == BayKind::kGrid ? board / 2 : 0;
     const double at = y.low - kBetweenFrontsM / 2;
     AddUpright(at, {z.low + board, clear > 0 ? middle - clear : z.high - board});
     if (clear > 0) AddUpright(at, {middle + clear, z.high - board});
   }
-  if (bay.kind == "grid") AddLevel((z.low + z.high) / 2, y_);
+  if (bay.kind == BayKind::kGrid) AddLevel((z.low + z.high) / 2, y_);
 }
 
 // Bottom, top, the boards between the zones and the shelves behind the leaf.
@@ -320,21 +323,21 @@ Ring SquareRing(const Eigen::Vector2d& at, double half, double z) {
 
 void Frame::AddLeg(const Eigen::Vector2d& at) {
   const double top = base_ - kCarcassJointM;
-  if (carcass_.base == "stand") {
+  if (carcass_.base == CarcassBase::kStand) {
     const double half = 0.02;
     const double shelf = 0.28 * base_;
     Add(ChamferedBox({at.x() - half, at.y() - half, 0},
                      {at.x() + half, at.y() + half, shelf - kCarcassJointM}, 0.002));
     Add(ChamferedBox({at.x() - half, at.y() - half, shelf + 0.018 + kCarcassJointM},
                      {at.x() + half, at.y() + half, top}, 0.002));
-  } else if (carcass_.base == "legs") {
+  } else if (carcass_.base == CarcassBase::kLegs) {
     const double half = 0.0225;
     Add(ChamferedBox({at.x() - half, at.y() - half, 0}, {at.x() + half, at.y() + half, top},
                      0.006));
-  } else if (carcass_.base == "feet") {
+  } else if (carcass_.base == CarcassBase::kFeet) {
     const double half = 0.04;
     Add(ChamferedBox({at.x() - half, at.y() - half, 0}, {at.x() + half, at.y() + half, top}, 0.01));
-  } else if (carcass_.base == "tapered") {
+  } else if (carcass_.base == CarcassBase::kTapered) {
     Eigen::Vector2d middle = Eigen::Vector2d::Zero();
     for (const Eigen::Vector2d& p : plan_) middle += p / static_cast<double>(plan_.size());
     // splayed outwards as far as the leg stands in
@@ -375,7 +378,7 @@ void Frame::AddEnds() {
   const double top = base_ - kCarcassJointM;
   const double half = 0.014;
   for (const double y : {y_.low + 0.04, y_.high - 0.04}) {
-    if (carcass_.base == "panels") {
+    if (carcass_.base == CarcassBase::kPanels) {
       Add(ChamferedBox({x0 + 0.01, y - half, 0}, {x1_ - 0.03, y + half, top}, 0.002));
       continue;
     }
@@ -385,7 +388,7 @@ void Frame::AddEnds() {
                      {middle + 0.09, y + half, top - 0.03 - kCarcassJointM}, 0.004));
     Add(ChamferedBox({x0 + 0.04, y - 0.02, top - 0.03}, {x1_ - 0.04, y + 0.02, top}, 0.004));
   }
-  if (carcass_.base == "trestle") {
+  if (carcass_.base == CarcassBase::kTrestle) {
     const double middle = (x0 + x1_) / 2;
     const double z = 0.04 + 0.5 * (top - 0.07);
     Add(ChamferedBox({middle - 0.012, y_.low + 0.04 + half + kCarcassJointM, z - 0.02},
@@ -409,21 +412,21 @@ void Frame::AddPedestal() {
 }
 
 void Frame::AddBase() {
-  if (carcass_.base == "none") return;
-  if (carcass_.base == "plinth") {
+  if (carcass_.base == CarcassBase::kNone) return;
+  if (carcass_.base == CarcassBase::kPlinth) {
     std::vector<double> in(plan_.size(), 0.012);
     in[0] = 0.05;
     Add(ConvexPrism(InsetEach(plan_, in), PrismAxis::kZ, {0, base_ - kCarcassJointM}, 0.002));
-  } else if (carcass_.base == "sled") {
+  } else if (carcass_.base == CarcassBase::kSled) {
     AddSled();
-  } else if (carcass_.base == "panels" || carcass_.base == "trestle") {
+  } else if (carcass_.base == CarcassBase::kPanels || carcass_.base == CarcassBase::kTrestle) {
     AddEnds();
-  } else if (carcass_.base == "pedestal") {
+  } else if (carcass_.base == CarcassBase::kPedestal) {
     AddPedestal();
   } else {
     for (const Eigen::Vector2d& at : FootPlaces(Inset(plan_, 0.045))) AddLeg(at);
     const double shelf = 0.28 * base_;
-    if (carcass_.base == "stand")
+    if (carcass_.base == CarcassBase::kStand)
       Add(ConvexPrism(Inset(plan_, 0.02), PrismAxis::kZ, {shelf, shelf + 0.018}, kBoardEdgeM));
   }
 }
@@ -546,19 +549,29 @@ void Frame::AddBarrel() {
 }
 
 void Frame::AddTop() {
-  const std::string& top = carcass_.top;
-  if (top == "board") AddBoardOnTop(0.015, {z_.high, z_.high + 0.026});
-  if (top == "cornice") {
-    AddBoardOnTop(0.012, {z_.high, z_.high + 0.02});
-    AddBoardOnTop(0.03, {z_.high + 0.02, z_.high + 0.045});
+  switch (carcass_.top) {
+    case CarcassTop::kFlush:
+      return;
+    case CarcassTop::kBoard:
+      return AddBoardOnTop(0.015, {z_.high, z_.high + 0.026});
+    case CarcassTop::kCornice:
+      AddBoardOnTop(0.012, {z_.high, z_.high + 0.02});
+      return AddBoardOnTop(0.03, {z_.high + 0.02, z_.high + 0.045});
+    case CarcassTop::kGallery:
+      return AddGallery();
+    case CarcassTop::kSlope:
+      return AddSlope();
+    case CarcassTop::kPediment:
+      return AddPediment();
+    case CarcassTop::kHutch:
+      return AddHutch();
+    case CarcassTop::kMirror:
+      return AddMirror();
+    case CarcassTop::kRail:
+      return AddRail();
+    case CarcassTop::kBarrel:
+      return AddBarrel();
   }
-  if (top == "gallery") AddGallery();
-  if (top == "slope") AddSlope();
-  if (top == "pediment") AddPediment();
-  if (top == "hutch") AddHutch();
-  if (top == "mirror") AddMirror();
-  if (top == "rail") AddRail();
-  if (top == "barrel") AddBarrel();
 }
 
 Solid Frame::Build() {
@@ -582,25 +595,13 @@ void CheckCarcass(const Carcass& carcass, const std::string& path) {
   RequireRange(path, "shelf_depth", carcass.shelf_depth, 0.3, 1);
   RequireRange(path, "shelf_grading", carcass.shelf_grading, 0.6, 1.6);
   RequireRange(path, "dividers", carcass.dividers, 0, 3);
-  RequireOneOf(path + ".sides", carcass.sides, {"panel", "open", "slatted"});
   RequireRange(path, "base_height_m", carcass.base_height_m, 0.03, 0.55);
   RequireRange(path, "form_m", carcass.form_m, 0.02, 0.4);
   RequireRange(path, "top_height_m", carcass.top_height_m, 0.03, 0.6);
-  RequireOneOf(path + ".form", carcass.form, {"box", "corner", "tapered", "flared", "rounded"});
-  RequireOneOf(path + ".base", carcass.base,
-               {"plinth", "legs", "tapered", "buns", "sled", "feet", "stand", "panels", "trestle",
-                "pedestal", "none"});
-  RequireOneOf(path + ".top", carcass.top,
-               {"flush", "board", "cornice", "gallery", "slope", "pediment", "hutch", "mirror",
-                "rail", "barrel"});
-  RequireOneOf(path + ".fronts", carcass.fronts, {"plain", "sunk"});
-  const bool needs_box = carcass.top == "gallery" || carcass.top == "slope" ||
-                         carcass.top == "hutch" || carcass.top == "mirror" ||
-                         carcass.top == "rail" || carcass.top == "barrel";
-  if (needs_box)
-    RequireOneOf(path + ".form (under top " + carcass.top + ")", carcass.form, {"box"});
-  if (carcass.sides != "panel" || !carcass.back)
-    RequireOneOf(path + ".form (with open sides or back)", carcass.form, {"box"});
+  if (NeedsBox(carcass.top))
+    RequireBox(carcass, path, "under top " + std::string(NameOf(carcass.top)));
+  if (carcass.sides != CarcassSides::kPanel || !carcass.back)
+    RequireBox(carcass, path, "with open sides or back");
   CheckBay(carcass.left, path + ".left", 0.18, 0.8);
   CheckBay(carcass.right, path + ".right", 0.18, 0.8);
   CheckBay(carcass.below, path + ".below", 0.12, 0.5);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/core/error.h"
+#include <span>
 
 #include "family.h"
 #include "leaf_layout.h"
@@ -36,9 +36,19 @@ struct StorageBody {
   }
 };
 
+/// What fills the frame of a leaf.
+enum class PanelField {
+  kSunk,
+  kRaised,
+  kOpen,  ///< The frame can be looked through.
+};
+inline constexpr NamedValue<PanelField> kPanelFieldWords[] = {
+    {PanelField::kSunk, "sunk"}, {PanelField::kRaised, "raised"}, {PanelField::kOpen, "open"}};
+constexpr std::span<const NamedValue<PanelField>> ValuesOf(PanelField) { return kPanelFieldWords; }
+
 struct FramedStorage : StorageBody {
   FieldGrid fields{0.09, 0.09, 0.09, 0.06, 1, {1.0}};
-  std::string field = "sunk";  ///< "sunk", "raised" or "open" (right through).
+  PanelField field = PanelField::kSunk;
   double panel_depth_m = 0.006;
 
   template <class Self, class Visitor>
@@ -205,17 +215,15 @@ Part BuildStorageFramed(const nlohmann::ordered_json& json, const std::string& p
   RequireRange(path, "panel_depth_m", body.panel_depth_m, 0.002, 0.4 * body.thickness_m);
   ReliefSlab slab = SlabOf(body);
   const std::vector<Rectangle> fields = FieldsOf(body.fields, slab.outline, path + ".fields");
-  if (body.field == "open") {
+  if (body.field == PanelField::kOpen) {
     slab.openings = fields;
-  } else if (body.field == "sunk" || body.field == "raised") {
+  } else {
     const double depth = body.panel_depth_m;
-    const ReliefProfile profile =
-        body.field == "sunk" ? SunkPanel(depth, 0.003) : RaisedPanel(depth, 0.2 * depth, 0.025);
+    const ReliefProfile profile = body.field == PanelField::kSunk
+                                      ? SunkPanel(depth, 0.003)
+                                      : RaisedPanel(depth, 0.2 * depth, 0.025);
     for (const Rectangle& field : fields)
       slab.fields.push_back({field, profile, ReliefSide::kFront});
-  } else {
-    throw Error(ErrorCode::kInvalidConfig,
-                path + ".field: found \"" + body.field + "\", allowed sunk, raised, open");
   }
   return BodyPart(body, path, ReliefSolid(slab, kStorageHullToleranceM));
 }

@@ -259,10 +259,10 @@ Solid FrameSolid(const WindowBody& body, const std::string& path, const Polygon&
     all.min_m.y() -= body.below.size_m;
   }
   if (body.frame.casing_m > 0) {
-    if (body.head.shape != "flat")
+    if (body.head.shape != HeadKind::kFlat)
       throw Error(ErrorCode::kInvalidConfig,
                   path + ".frame.casing_m: found a casing on a window whose head is \"" +
-                      body.head.shape + "\", allowed on flat ones");
+                      std::string(NameOf(body.head.shape)) + "\", allowed on flat ones");
     solids.push_back(Casing(body, all));
     all.min_m.array() -= body.frame.casing_m;
     all.max_m.array() += body.frame.casing_m;
@@ -294,7 +294,7 @@ Part BodyPart(const WindowBody& body, const std::string& path, const Solid& leaf
   part.joint = BodyHinge(0);
   const double bottom = LeafBottom(body);
   const double upright =
-      body.leaf_height_m - (LeafHead(body).shape == "flat" ? 0 : LeafHead(body).rise_m);
+      body.leaf_height_m - (LeafHead(body).shape == HeadKind::kFlat ? 0 : LeafHead(body).rise_m);
   const Solid knuckles =
       HingeKnuckles(part.joint, {bottom + 0.15 * upright, bottom + 0.85 * upright});
   const Solid frame = FrameSolid(body, path, LeafOutline(body, path));
@@ -313,9 +313,10 @@ LeafShape ShapeOf(const WindowBody& body) {
 }
 
 void RequireFlatLeaf(const WindowBody& body, const std::string& path) {
-  if (LeafHead(body).shape == "flat") return;
-  throw Error(ErrorCode::kInvalidConfig,
-              path + ".head.shape: found \"" + body.head.shape + "\", allowed for this leaf flat");
+  if (LeafHead(body).shape == HeadKind::kFlat) return;
+  throw Error(ErrorCode::kInvalidConfig, path + ".head.shape: found \"" +
+                                             std::string(NameOf(body.head.shape)) +
+                                             "\", allowed for this leaf flat");
 }
 
 Part BuildDivided(const nlohmann::ordered_json& json, const std::string& path) {

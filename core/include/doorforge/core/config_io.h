@@ -43,6 +43,9 @@ struct IsVector<std::vector<T>> : std::true_type {};
                                   const std::vector<std::string>& known);
 [[noreturn]] void ThrowUnknownName(const std::string& path, const std::string& name,
                                    const std::vector<std::string>& allowed);
+// The entries of one object that another of the same keys has otherwise, of objects in it likewise.
+nlohmann::ordered_json Difference(const nlohmann::ordered_json& object,
+                                  const nlohmann::ordered_json& from);
 
 }  // namespace internal
 
@@ -118,6 +121,13 @@ void Assign(const nlohmann::ordered_json& json, T& value, const std::string& pat
       internal::ThrowConfigError(path, "wrong type");
     }
   }
+}
+
+/// Overwrites the fields of `value` that `given` has otherwise than `unset`, a value whose fields
+/// all say "not given": how the options of a command line go before a file of settings.
+template <class T>
+void AssignGiven(const T& given, const T& unset, T& value) {
+  Assign(internal::Difference(ToJson(given), ToJson(unset)), value, "options");
 }
 
 }  // namespace doorforge

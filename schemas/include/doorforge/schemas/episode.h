@@ -66,7 +66,7 @@ struct Decision {
   /// The critic's target (UniDoorManip, Section 4) [rad]: the angle that the executed action
   /// gained, of the hinge at the stage "open", of the handle at "handle"; at "grasp" the door's
   /// final angle, at least 0.
-  double score_rad = 0;
+  double angle_gain_rad = 0;
 };
 
 struct Episode {
@@ -77,7 +77,7 @@ struct Episode {
   double peak_hinge_rad = 0;
   double peak_handle_rad = 0;
   double simulated_s = 0;
-  bool handle_done = false;  ///< The stages before opening succeeded: held, turned, unlocked.
+  bool handle_turned = false;  ///< The stages before opening succeeded: held, turned, unlocked.
   /// Greatest sum of the normal forces between robot and door in one step, from the grasp on [N].
   double peak_force_n = 0;
   /// Greatest sum of all forces of the robot on the door, as a vector, behind a low-pass filter of
@@ -87,7 +87,7 @@ struct Episode {
 };
 
 /// The record in a shard's .meta.json: scene, outcome, peaks, per-decision times. No arrays,
-/// and none of `handle_done`, `peak_force_n` and `peak_net_force_n`, which are for those who run
+/// and none of `handle_turned`, `peak_force_n` and `peak_net_force_n`, which are for those who run
 /// the episode.
 nlohmann::ordered_json EpisodeMetaToJson(const Episode& episode);
 Episode EpisodeFromMeta(const nlohmann::ordered_json& json, const std::string& path);

@@ -48,7 +48,7 @@ struct EpisodeArrays {
   std::span<const float> action;        ///< T x 9, see ActionVector
   std::span<const float> executed;      ///< T x 9, Decision::executed; empty in shards of before
   std::span<const float> joints;        ///< T x 2, hinge and handle angle before the action [rad]
-  std::span<const float> score;         ///< T x 1, Decision::score_rad
+  std::span<const float> score;         ///< T x 1, Decision::angle_gain_rad
   std::span<const double> state;        ///< T x 14, JointState; empty in shards of before
 };
 

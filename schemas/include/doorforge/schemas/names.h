@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "doorforge/core/named_enum.h"
@@ -56,6 +57,8 @@ constexpr std::span<const NamedValue<Opening>> ValuesOf(Opening) { return kOpeni
 inline std::optional<Category> CategoryNamed(std::string_view name) {
   return ValueNamed<Category>(name);
 }
+/// Throws Error(kInvalidArgument) that names `option` and the categories, unless `word` is one.
+void RequireCategory(const std::string& option, const std::string& word);
 inline std::optional<PartRole> PartRoleNamed(std::string_view name) {
   return ValueNamed<PartRole>(name);
 }

@@ -27,8 +27,15 @@ std::vector<CatalogueEntry> SelectParts(const std::filesystem::path& data_folder
 /// {"id", "role", "category", "mechanism", "family"}.
 nlohmann::ordered_json EntryToJson(const CatalogueEntry& entry);
 
+/// {"schema": "doorforge.catalog", "parts": [EntryToJson()]}.
+nlohmann::ordered_json CatalogueToJson(const std::vector<CatalogueEntry>& entries);
+/// Says it for people, in one line an entry.
+std::string CatalogueText(const std::vector<CatalogueEntry>& entries);
+
 /// {"schema": "doorforge.catalog_part"}: the entry, its recipe and hash, where the handle or the
 /// grasp goes, and name, triangles, hulls, mass and size of each piece.
 nlohmann::ordered_json DescribePart(const CatalogueEntry& entry, const Part& part);
+/// Says it for people, without size and grasp.
+std::string PartText(const CatalogueEntry& entry, const Part& part);
 
 }  // namespace doorforge

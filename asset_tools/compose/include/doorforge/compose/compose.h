@@ -140,6 +140,9 @@ struct ComposePreset {
 std::span<const ComposePreset> JointPresets();
 std::span<const ComposePreset> MassPresets();
 
+/// The rules of pairs and the presets for people, one a line.
+std::string ComposeRulesText();
+
 /// A part with everything that composing needs of it alone, worked out once: its content hash, the
 /// part as the config changes it, the leaf's surface or the handle's back, the meshes as doors
 /// share them. Copies share what they hold.

@@ -12,6 +12,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "doorforge/core/named_enum.h"
 #include "doorforge/exporters/export_door.h"
 
 namespace doorforge {
@@ -87,5 +88,17 @@ nlohmann::ordered_json ToJson(const ConformanceReport& report);
 std::string ToText(const ConformanceReport& report);
 std::string ToMarkdown(const ConformanceReport& report);
 std::string ToHtml(const ConformanceReport& report);
+
+/// What a report may be written as.
+enum class ConformanceFormat { kText, kJson, kHtml, kMarkdown };
+inline constexpr NamedValue<ConformanceFormat> kConformanceFormats[] = {
+    {ConformanceFormat::kText, "text"},
+    {ConformanceFormat::kJson, "json"},
+    {ConformanceFormat::kHtml, "html"},
+    {ConformanceFormat::kMarkdown, "markdown"}};
+constexpr std::span<const NamedValue<ConformanceFormat>> ValuesOf(ConformanceFormat) {
+  return kConformanceFormats;
+}
+std::string DocumentOf(const ConformanceReport& report, ConformanceFormat format);
 
 }  // namespace doorforge

@@ -90,5 +90,9 @@ ImportReport ImportObjects(const std::vector<ForeignSource>& sources,
 
 /// A record of schema "doorforge.import", version 1.
 nlohmann::ordered_json ToJson(const ImportReport& report);
+/// Says for people what was imported, an object a line, and how many came to what.
+std::string ImportText(const ImportReport& report);
+/// "NAME: OUTCOME: why" of each object that was not imported.
+std::vector<std::string> FaultsOf(const ImportReport& report);
 
 }  // namespace doorforge

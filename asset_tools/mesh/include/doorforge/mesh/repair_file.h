@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include <nlohmann/json.hpp>
 
@@ -25,5 +26,8 @@ struct RepairedFile {
 ///     Error(kFormat) where time or memory do not suffice.
 RepairedFile RepairMeshFile(const std::filesystem::path& input, const RepairConfig& config,
                             double max_seconds = kObjectSeconds);
+
+/// The report for people: the outcome, the steps on lines of their own, sizes and deviations.
+std::string RepairText(const RepairReport& report);
 
 }  // namespace doorforge

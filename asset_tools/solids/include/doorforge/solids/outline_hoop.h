@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
+#include "doorforge/core/named_enum.h"
 #include "doorforge/solids/prism.h"
 #include "doorforge/solids/relief.h"
 
@@ -12,10 +14,26 @@
 
 namespace doorforge::internal {
 
-/// The upper end of a window: "flat", "segment" (an arc that rises by `rise_m`), "round" (half an
-/// ellipse), "pointed" (two arcs), "slant_left" or "slant_right" (that side is lower by the rise).
+/// How an outline ends above.
+enum class HeadKind {
+  kFlat,
+  kSegment,     ///< It is an arc that rises by `rise_m`.
+  kRound,       ///< It is half an ellipse.
+  kPointed,     ///< Two arcs meet.
+  kSlantLeft,   ///< The left side is lower by the rise.
+  kSlantRight,  ///< The right side is lower by the rise.
+};
+inline constexpr NamedValue<HeadKind> kHeadKindWords[] = {{HeadKind::kFlat, "flat"},
+                                                          {HeadKind::kSegment, "segment"},
+                                                          {HeadKind::kRound, "round"},
+                                                          {HeadKind::kPointed, "pointed"},
+                                                          {HeadKind::kSlantLeft, "slant_left"},
+                                                          {HeadKind::kSlantRight, "slant_right"}};
+constexpr std::span<const NamedValue<HeadKind>> ValuesOf(HeadKind) { return kHeadKindWords; }
+
+/// The upper end of a window.
 struct HeadShape {
-  std::string shape = "flat";
+  HeadKind shape = HeadKind::kFlat;
   double rise_m = 0;
 
   template <class Self, class Visitor>
@@ -26,7 +44,7 @@ struct HeadShape {
 };
 
 /// Counter-clockwise in (y, z); the head's highest point touches the rectangle's upper side. Throws
-/// Error(kInvalidConfig) on another shape or a rise of more than 0.6 of the height.
+/// Error(kInvalidConfig) on a rise of more than 0.6 of the height.
 Polygon OutlineWithHead(const Rectangle& box, const HeadShape& head, const std::string& path);
 
 /// What stands for a section in hulls: a rectangle in (u, x), and how far the hulls of a curved

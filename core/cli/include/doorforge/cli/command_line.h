@@ -3,8 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/named_enum.h"
 
 namespace CLI {
 class App;
@@ -52,12 +57,13 @@ CLI::Option* AddSettings(CLI::App& app, std::vector<std::string>& settings,
 /// Adds `--seed N`. The help shows the default.
 CLI::Option* AddSeed(CLI::App& app, std::uint64_t& seed, const std::string& about);
 
-/// Adds `--threads N`, where 0 stands for all processors.
+/// Adds `-j`, `--threads N`, where 0 stands for all processors. The help shows the default.
 CLI::Option* AddThreads(CLI::App& app, int& threads,
                         const std::string& about = "0: all processors");
 
 /// Adds `--overwrite`.
 CLI::Option* AddOverwrite(CLI::App& app, bool& overwrite, const std::string& about);
+CLI::Option* AddOverwrite(CLI::App& app, Existing& existing, const std::string& about);
 
 /// Adds `--json`.
 CLI::Option* AddJson(CLI::App& app, bool& json,
@@ -70,6 +76,36 @@ CLI::Option* AddMaxSeconds(CLI::App& app, double& max_seconds,
                                "processor time that one object may take before it is given up "
                                "(300)");
 /// @}
+
+/// What AddChoice() adds: the words that are allowed, the one that holds if none is given (empty:
+/// the help shows none), and what takes the word.
+struct Choice {
+  std::vector<std::string> words;
+  std::string given;
+  std::function<void(const std::string&)> take;
+};
+
+/// Adds an option that is one of several words.
+CLI::Option* AddChoice(CLI::App& app, const std::string& name, const std::string& about,
+                       const Choice& choice);
+
+/// The same for an enum with a table of words; the help shows the default.
+template <NamedEnum Enum>
+CLI::Option* AddChoice(CLI::App& app, const std::string& name, Enum& value,
+                       const std::string& about) {
+  return AddChoice(app, name, about,
+                   {NamesOf<Enum>(), std::string(NameOf(value)),
+                    [&value](const std::string& word) { value = *ValueNamed<Enum>(word); }});
+}
+
+/// The same where nothing given leaves it to somebody else, such as a file of settings.
+template <NamedEnum Enum>
+CLI::Option* AddChoice(CLI::App& app, const std::string& name, std::optional<Enum>& value,
+                       const std::string& about) {
+  return AddChoice(app, name, about, {NamesOf<Enum>(), "", [&value](const std::string& word) {
+                                        value = ValueNamed<Enum>(word);
+                                      }});
+}
 
 /// Adds an option of one word, for rooms whose options several verbs have, and which see no more of
 /// CLI11 than this. The help shows a default that is not empty.

@@ -9,7 +9,7 @@
 #include "doorforge/dataset/collect.h"
 #include "doorforge/physics/load_robot.h"
 #include "doorforge/physics/scene_sampling.h"
-#include "doorforge/rollout/grasp_look.h"
+#include "doorforge/rollout/grasp_camera.h"
 #include "doorforge/rollout/remembered_view.h"
 #include "doorforge/sensor/point_cloud.h"
 
@@ -22,7 +22,7 @@ struct ReobserveConfig {
   bool robot = true;
   bool own_camera = false;  ///< True: `camera` for all episodes; false: each episode's own.
   CameraConfig camera;
-  GraspCameraConfig grasp_look;     ///< At "grasp".
+  GraspCameraConfig grasp_camera;   ///< At "grasp".
   RememberedViewConfig remembered;  ///< At "handle".
   CloudConfig cloud;
   bool preview = true;
@@ -32,7 +32,7 @@ struct ReobserveConfig {
     visit("robot", self.robot);
     visit("own_camera", self.own_camera);
     visit("camera", self.camera);
-    visit("grasp_look", self.grasp_look);
+    visit("grasp_look", self.grasp_camera);
     visit("remembered", self.remembered);
     visit("cloud", self.cloud);
     visit("preview", self.preview);

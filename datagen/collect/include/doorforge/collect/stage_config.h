@@ -6,7 +6,7 @@
 
 #include "doorforge/dataset/collection_plan.h"
 #include "doorforge/physics/scene_sampling.h"
-#include "doorforge/rollout/grasp_look.h"
+#include "doorforge/rollout/grasp_camera.h"
 #include "doorforge/rollout/handle_expert.h"
 #include "doorforge/rollout/opening_expert.h"
 #include "doorforge/rollout/random_grasp.h"
@@ -31,7 +31,7 @@ struct StageConfig {
   RandomGraspConfig grasp;  ///< How grasps are sampled.
   /// With a learner: it drives 1 to this many decisions, drawn for each episode, then the expert.
   int learner_decisions = 16;
-  GraspCameraConfig grasp_look;     ///< At "grasp": what the recorded cloud is seen with.
+  GraspCameraConfig grasp_camera;   ///< At "grasp": what the recorded cloud is seen with.
   RememberedViewConfig remembered;  ///< At "handle": what the recorded clouds are joined with.
   CloudConfig cloud;
   /// Adds preview.png to each episode: depth at the first and at the last look.
@@ -50,7 +50,7 @@ struct StageConfig {
       visit("learner_decisions", self.learner_decisions);
     }
     visit("grasp", self.grasp);
-    if (self.stage == Stage::kGrasp) visit("grasp_look", self.grasp_look);
+    if (self.stage == Stage::kGrasp) visit("grasp_look", self.grasp_camera);
     if (self.stage == Stage::kHandle) visit("remembered", self.remembered);
     visit("cloud", self.cloud);
     visit("preview", self.preview);

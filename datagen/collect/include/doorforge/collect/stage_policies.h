@@ -66,7 +66,7 @@ class StagePolicies {
   PolicySetFactory factory_;
   std::optional<TrainedPolicy> handler_;
   std::optional<TrainedPolicy> opener_;
-  RememberedViewConfig remembered_{.finer = 0};
+  RememberedViewConfig remembered_{.resolution_scale = 0};
   ObjectPool<PolicySet> sets_;
   std::unique_ptr<ObjectPool<std::unique_ptr<Policy>>> drivers_;
 };

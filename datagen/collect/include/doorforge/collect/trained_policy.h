@@ -18,7 +18,8 @@ struct TrainedPolicy {
   DatasetPolicy identity;
   std::string role;      ///< handler, opener or learner, as its option is called.
   int cloud_points = 0;  ///< It takes clouds of so many; 0: its record does not say.
-  RememberedViewConfig remembered{.finer = 0};  ///< At the stage "handle" it remembers this.
+  RememberedViewConfig remembered{.resolution_scale =
+                                      0};  ///< At the stage "handle" it remembers this.
 };
 
 /// Reads the record and checks the weights against it, so that a policy that does not fit is

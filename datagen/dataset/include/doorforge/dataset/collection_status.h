@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -86,6 +88,18 @@ struct StatusRequest {
 /// @throws Error(kMissing) if no folder holds a collection, Error(kFormat) on a damaged record,
 ///     Error(kInvalidArgument) if the dataset is of an early build that noted no plan.
 CollectionStatus StatusOfCollection(const StatusRequest& request);
+
+/// Shows a look at a collection; the second argument is when it was taken, in seconds since 1970.
+using ShowStatus = std::function<void(const CollectionStatus&, double)>;
+
+/// Looks as StatusOfCollection() does, now, whatever `request.now_s` says, and shows what it saw.
+CollectionStatus LookAtCollection(StatusRequest request, const ShowStatus& show);
+
+/// Looks again and again, so long apart, until all shards are there: what is left to do then is no
+/// matter of waiting. Returns the last look; nothing if a signal asked to stop.
+std::optional<CollectionStatus> WatchCollection(const StatusRequest& request,
+                                                std::chrono::duration<double> every,
+                                                const ShowStatus& show);
 
 /// {"schema": "doorforge.collection_status", ...}
 nlohmann::ordered_json StatusToJson(const CollectionStatus& status, double now_s);

@@ -8,21 +8,13 @@
 #include <optional>
 #include <string>
 
+#include "doorforge/physics/divergence_detector.h"
+#include "doorforge/physics/robot_command.h"
 #include "doorforge/physics/robot_model.h"
-#include "doorforge/physics/state_watch.h"
 #include "doorforge/schemas/door_asset.h"
 #include "doorforge/schemas/scene.h"
 
 namespace doorforge {
-
-/// What the robot's drives are asked for during one step.
-struct RobotCommand {
-  ArmVector arm_position;      ///< Position targets of sliders and arm.
-  bool close_fingers = false;  ///< Squeeze with finger_force_n, or open.
-  /// Where the tool centre is to be; ArmController::kOperationalSpace alone looks at it. Without
-  /// it, and with kJointMotors, the joints follow arm_position.
-  std::optional<RigidTransform> world_from_tcp = std::nullopt;
-};
 
 struct WorldState {
   JointVector robot_position;

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "doorforge/physics/door_world.h"
 #include "doorforge/physics/inverse_kinematics.h"
+#include "doorforge/physics/robot_command.h"
 #include "doorforge/physics/robot_model.h"
 
 namespace doorforge {

@@ -22,7 +22,7 @@ std::vector<VisibleMesh> VisibleMeshesOf(const DoorAsset& door, const RobotModel
 std::vector<RigidTransform> LinkPosesOf(const SceneSnapshot& snapshot);
 
 /// What the policy's camera makes of an instant.
-struct Sight {
+struct CameraFrame {
   DepthImage ideal;       ///< Without noise.
   DepthImage depth;       ///< The sensor gives it; without noise it is `ideal`.
   LabelledCloud visible;  ///< Every point inside the crop.
@@ -45,7 +45,7 @@ class CameraObserver : public Observer {
   /// From now on the clouds of the stage "unlock" are joined with what is remembered.
   void Remember(RememberedView before);
 
-  Sight Look(const SceneSnapshot& snapshot);
+  CameraFrame Render(const SceneSnapshot& snapshot);
   LabelledCloud Observe(const SceneSnapshot& snapshot) override;
   std::any Save() const override { return looks_; }
   void Restore(const std::any& memory) override { looks_ = std::any_cast<int>(memory); }

@@ -32,14 +32,14 @@ struct StepperOptions {
   /// The first stage that is the caller's; those before it are run within Reset().
   Stage first = Stage::kOpen;
   /// At the stages before, in the place of the rules ExpertGrasp and ExpertUnlock.
-  GraspChooser* grasp = nullptr;
+  SnapshotGraspPolicy* grasp = nullptr;
   /// Turns the handle in one go, wherever the stage comes: within Reset() or within Step().
   HandleRule* turn = nullptr;
   Policy* handle = nullptr;  ///< It turns the handle action by action where no such rule is given.
   Policy* open = nullptr;    ///< Runs the opening within Step(); null: it is the caller's.
-  /// Means what EpisodeRoles::predicted_turned does, and is asked after each action at the stage
+  /// Means what EpisodePolicies::handle_turned does, and is asked after each action at the stage
   /// "handle".
-  std::function<bool()> predicted_turned = nullptr;
+  std::function<bool()> handle_turned = nullptr;
   /// Stages whose observations have a cloud; at all others no picture is made.
   std::vector<Stage> clouds = {};
   BadAction bad_action = BadAction::kRefuse;
@@ -101,13 +101,14 @@ class EpisodeStepper {
   /// action
   ///     as BadAction says.
   const StepResult& Step(const Action& action);
-  /// The stage "grasp" with all that a GraspChooser says; nothing: there is none to take hold of.
-  const StepResult& Step(const std::optional<ChosenGrasp>& grasp);
+  /// The stage "grasp" with all that a SnapshotGraspPolicy says; nothing: there is none to take
+  /// hold of.
+  const StepResult& Step(const std::optional<GraspCommand>& grasp);
 
   /// Gives the episode as the last Step() or Reset() left it.
   const StepResult& now() const;
   const WorldState& state() const;
-  SceneSnapshot Snapshot() const;  ///< For a GraspChooser.
+  SceneSnapshot Snapshot() const;  ///< For a SnapshotGraspPolicy.
   /// The record so far, without decisions; its outcome is `cause`, and kOpened where there is none.
   Episode Summary() const;
 

@@ -2,19 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "doorforge/rollout/run_episode.h"
+#include "doorforge/rollout/snapshot_grasp_policy.h"
 
 namespace doorforge {
 
 /// The rule that takes hold of the handle: PlanGrasp()'s grasp, which both pads have to touch.
 /// Looks at nothing.
-class ExpertGrasp : public GraspChooser {
+class ExpertGrasp : public SnapshotGraspPolicy {
  public:
   /// @param scene, door, robot Must outlive this.
   ExpertGrasp(const Scene& scene, const DoorAsset& door, const RobotModel& robot)
       : scene_(scene), door_(door), robot_(robot) {}
 
-  std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override;
+  std::optional<GraspCommand> Choose(const SceneSnapshot& snapshot) override;
 
  private:
   const Scene& scene_;

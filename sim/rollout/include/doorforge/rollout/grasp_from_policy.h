@@ -9,7 +9,7 @@
 
 #include "doorforge/physics/robot_model.h"
 #include "doorforge/rollout/gripper_clearance.h"
-#include "doorforge/rollout/run_episode.h"
+#include "doorforge/rollout/snapshot_grasp_policy.h"
 #include "doorforge/schemas/grasp_policy.h"
 #include "doorforge/sensor/point_cloud.h"
 
@@ -18,7 +18,7 @@ namespace doorforge {
 /// A grasp policy in an episode: makes its observation of the instant before the robot moves.
 /// Privileged are the handle's labels and the direction into the leaf (the x of the handle's
 /// frame).
-class GraspFromPolicy : public GraspChooser {
+class GraspFromPolicy : public SnapshotGraspPolicy {
  public:
   /// Every point that the camera sees at an instant, without the robot; called once an episode.
   using VisibleCloud = std::function<LabelledCloud(const SceneSnapshot&)>;
@@ -32,7 +32,7 @@ class GraspFromPolicy : public GraspChooser {
   void RecordWith(const CloudExtent& extent) { recorded_ = extent; }
 
   /// Throws as the policy.
-  std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) override;
+  std::optional<GraspCommand> Choose(const SceneSnapshot& snapshot) override;
   /// Gives Choose()'s choice as the policy made it, with what it says of it.
   std::optional<GraspAction> ActionAt(const SceneSnapshot& snapshot);
 

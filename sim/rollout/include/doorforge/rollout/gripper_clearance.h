@@ -18,7 +18,7 @@ class GripperClearance {
   /// Takes the hulls of the robot's hand and of its fingers, opened all the way.
   explicit GripperClearance(const RobotModel& robot);
 
-  /// The hand comes straight in, from kPregraspDistance before the grasp, see GraspChooser.
+  /// The hand comes straight in, from kPregraspDistance before the grasp, see SnapshotGraspPolicy.
   ///
   /// @param visible World [m].
   /// @param contact_m, world_from_hand_rotation As in GraspAction.

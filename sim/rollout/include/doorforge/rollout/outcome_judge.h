@@ -67,7 +67,7 @@ struct OpeningEvidence {
   double slip_m = 0;          ///< It is measured as in TurnEvidence.
   bool coasted = false;       ///< The door passed the angle without a pad on the handle.
   bool lost_pads = false;     ///< For longer than an action.
-  bool handle_done = true;    ///< The stages before opening succeeded.
+  bool handle_turned = true;  ///< The stages before opening succeeded.
   bool locked = false;
   std::string early;                       ///< Said of a turn that was thought done too early.
   std::optional<Verdict> held_up_at_loss;  ///< HeldUpBy() gave it when the pads left the handle.

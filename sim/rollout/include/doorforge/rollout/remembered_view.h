@@ -20,17 +20,17 @@ namespace doorforge {
 struct RememberedViewConfig {
   /// The picture from before has this many times as many pixels along each side as the scene's
   /// camera, 1 to 8; 0: nothing is remembered, and the cloud is of what is visible now.
-  int finer = 2;
-  double within_m = 0.25;  ///< CloudExtent::within_m of the joint cloud; 0: all of it.
+  int resolution_scale = 2;
+  double crop_radius_m = 0.25;  ///< CloudExtent::crop_radius_m of the joint cloud; 0: all of it.
 
-  bool IsOn() const { return finer > 0; }
+  bool IsOn() const { return resolution_scale > 0; }
 
   friend bool operator==(const RememberedViewConfig&, const RememberedViewConfig&) = default;
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
-    visit("finer", self.finer);
-    visit("within_m", self.within_m);
+    visit("finer", self.resolution_scale);
+    visit("within_m", self.crop_radius_m);
   }
 };
 

@@ -25,7 +25,8 @@ double HandleReward(const Transition& transition);
 double GraspRating(const PrivilegedState& end);
 
 /// One of these by the stage. EpisodeStepper gives it for each step, and records of episodes hold
-/// it as Decision::score_rad, the target of the critics: whoever changes a reward changes it there.
+/// it as Decision::angle_gain_rad, the target of the critics: whoever changes a reward changes it
+/// there.
 double RewardOf(Stage stage, const Transition& transition);
 
 }  // namespace doorforge

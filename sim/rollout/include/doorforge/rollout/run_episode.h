@@ -3,27 +3,16 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 
-#include "doorforge/physics/door_world.h"
 #include "doorforge/physics/robot_model.h"
-#include "doorforge/rollout/grasp_plan.h"
 #include "doorforge/rollout/observer.h"
+#include "doorforge/rollout/snapshot_grasp_policy.h"
 #include "doorforge/schemas/door_asset.h"
 #include "doorforge/schemas/episode.h"
 #include "doorforge/schemas/policy.h"
 #include "doorforge/schemas/scene.h"
 
 namespace doorforge {
-
-/// Whether the 32 numbers are defined for the robot: seven arm joints, on sliders or a fixed base
-/// (which stands for sliders at rest).
-bool HasProprioception(const RobotModel& robot);
-
-/// UniDoorManip's 32 numbers, see Proprioception in policy.h. The base is the sliders' fixed root.
-/// Throws Error(kInvalidArgument) for a robot without, and for a state of another robot.
-Proprioception ProprioceptionOf(const RobotModel& robot, const WorldState& state,
-                                const RigidTransform& world_from_base);
 
 /// Runs one episode: the privileged rules grasp the handle and turn it until it is "handle done"
 /// (a door without a latch needs no turn); then `opening` decides every steps_per_action steps, at
@@ -42,40 +31,16 @@ Proprioception ProprioceptionOf(const RobotModel& robot, const WorldState& state
 Episode RunEpisode(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
                    Policy& opening, Observer* observer);
 
-/// A grasp that somebody chose by looking at the closed door.
-struct ChosenGrasp {
-  LabelledCloud cloud;                                  ///< What was seen; point 0 is the contact.
-  Eigen::Vector3d contact_m = Eigen::Vector3d::Zero();  ///< In the world, on the surface seen.
-  Eigen::Matrix3d world_from_hand_rotation = Eigen::Matrix3d::Identity();
-  /// How the arm gets there, of whoever has planned that as well; without it, PlanReach() does.
-  std::optional<GraspPlan> plan = std::nullopt;
-  /// Whether the hand has to arrive and both pads to touch the handle before the episode goes on;
-  /// else one pad is enough, to see what comes of it.
-  bool both_pads = false;
-};
-
-/// Chooses where the hand takes hold, once, before the robot moves.
-class GraspChooser {
- public:
-  virtual ~GraspChooser() = default;
-  /// Nothing where no point to take hold of is in view.
-  virtual std::optional<ChosenGrasp> Choose(const SceneSnapshot& snapshot) = 0;
-};
-
-/// How far beyond the contact point the tool centre goes along the hand's z: with the pads' middle
-/// there, they hold what lies behind a surface point that a camera sees.
-inline constexpr double kGraspInsertion = 0.012;  // [m]
-
 /// Who acts at each stage, and whose decisions the episode holds.
-struct EpisodeRoles {
+struct EpisodePolicies {
   Stage recorded = Stage::kOpen;
-  GraspChooser* grasp = nullptr;  ///< Null: ExpertGrasp.
-  Policy* handle = nullptr;       ///< Null: ExpertUnlock, which turns it in one go.
+  SnapshotGraspPolicy* grasp = nullptr;  ///< Null: ExpertGrasp.
+  Policy* handle = nullptr;              ///< Null: ExpertUnlock, which turns it in one go.
   /// Asked after each action of `handle`, and not before the first: whether the handle is turned.
   /// Opening begins after the first yes, whatever the simulator knows, also of doors without a
   /// latch. Null: the simulator's flag, turned to "handle done" and unlocked, which doors without
   /// a latch are from the start.
-  std::function<bool()> predicted_turned = nullptr;
+  std::function<bool()> handle_turned = nullptr;
   Policy* open = nullptr;  ///< Never null.
   /// Drives the first `learner_decisions` of the recorded stage in the place of that stage's
   /// policy, which is asked at each of them what it would do: the record's action corrects the
@@ -91,15 +56,15 @@ struct EpisodeRoles {
 /// policies that look.
 ///
 /// Outcomes are RunEpisode()'s. If a predicted flag came before the handle was "handle done", and
-/// it never was later, a door that stays locked is kHandleStuck, and `handle_done` is false. If it
-/// does not come within max_handle_actions and the hand still holds, opening is tried all the same:
-/// whoever is not told cannot know whether there is a latch, but by trying. A
-/// chosen grasp is tried as it is: the fingers close also where the hand did not quite arrive, and
-/// one pad on the handle is enough to go on. Without a grasp in view the episode is kNotReached,
-/// without decisions.
+/// it never was later, a door that stays locked is kHandleStuck, and `handle_turned` is false. If
+/// it does not come within max_handle_actions and the hand still holds, opening is tried all the
+/// same: whoever is not told cannot know whether there is a latch, but by trying. A chosen grasp is
+/// tried as it is: the fingers close also where the hand did not quite arrive, and one pad on the
+/// handle is enough to go on. Without a grasp in view the episode is kNotReached, without
+/// decisions.
 ///
 /// @throws Error(kInvalidArgument) as RunEpisode(), or if the recorded stage has nobody to decide.
 Episode RunStages(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
-                  const EpisodeRoles& roles, Observer* observer);
+                  const EpisodePolicies& roles, Observer* observer);
 
 }  // namespace doorforge

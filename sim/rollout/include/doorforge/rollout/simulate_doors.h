@@ -83,4 +83,7 @@ std::map<std::string, OutcomeTally> TallyOutcomes(std::span<const SimulatedEpiso
 /// "detail", "peak_hinge_deg", "peak_handle_deg", "actions", "simulated_s", "state_sha256"}]}.
 nlohmann::ordered_json SimulatedToJson(std::span<const SimulatedEpisode> episodes);
 
+/// Says it for people: a line an episode with its outcome, then one a group of TallyOutcomes().
+std::string SimulatedText(std::span<const SimulatedEpisode> episodes);
+
 }  // namespace doorforge

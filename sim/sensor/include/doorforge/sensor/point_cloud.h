@@ -44,7 +44,7 @@ struct CloudExtent {
   int point_count = 4096;  ///< In [1, 1000000].
   /// Visible points farther than this from point 0 are left out [m], which spends all points on
   /// what is near; 0: none is.
-  double within_m = 0;
+  double crop_radius_m = 0;
 };
 
 struct SampledCloud {
@@ -64,7 +64,7 @@ struct SampledCloud {
 ///
 /// @param start_m World position, in general the gripper's.
 /// @throws Error(kInvalidArgument) if point_count is out of range, start_m is not finite, or
-///     within_m is negative or not finite.
+///     crop_radius_m is negative or not finite.
 SampledCloud SampleCloud(const LabelledCloud& visible, const Eigen::Vector3d& start_m,
                          const CloudExtent& extent);
 

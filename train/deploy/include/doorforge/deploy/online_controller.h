@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "doorforge/deploy/act_answer.h"
-#include "doorforge/deploy/robot_sight.h"
+#include "doorforge/deploy/robot_observation.h"
 #include "doorforge/physics/robot_model.h"
 #include "doorforge/policy/familiarity.h"
 #include "doorforge/policy/gain_critic.h"
@@ -119,7 +119,7 @@ class OnlineController {
     std::optional<Familiarity> familiarity;
     TurningPolicy* turning = nullptr;  // the same, where it says when the handle is turned
     bool remembers = false;            // RememberedPoints, of so much:
-    double within_m = 0;
+    double crop_radius_m = 0;
   };
   struct Grasper {
     std::unique_ptr<GraspPolicy> policy;
@@ -135,9 +135,10 @@ class OnlineController {
   Stage StageOf(const RobotState& state, const std::string& name);
   bool Predicts() const;
   Actor& ActorOf(Stage stage);
-  RobotSight SightOf(const Actor& actor, const RobotState& state) const;
-  ActAnswer Answer(Stage stage, Actor& actor, const RobotState& state, const RobotSight& sight);
-  ActAnswer Answer(const GraspAction& choice, const HandleSight& sight) const;
+  RobotObservation ObservationOf(const Actor& actor, const RobotState& state) const;
+  ActAnswer Answer(Stage stage, Actor& actor, const RobotState& state,
+                   const RobotObservation& seen);
+  ActAnswer Answer(const GraspAction& choice, const HandleObservation& seen) const;
   std::optional<Foreignness> ForeignnessOf(const std::optional<Familiarity>& familiarity,
                                            const SightNumbers& numbers) const;
 

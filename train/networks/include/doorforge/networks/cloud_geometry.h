@@ -30,7 +30,7 @@ inline constexpr std::array<SetAbstractionShape, 4> kSetAbstractions = {
 struct CloudGeometry {
   /// A level's centres that matter, each with its ball in the level below.
   struct Level {
-    std::vector<float> centre_xyz;          ///< n x 3, relative to the cloud's centre [m * zoom].
+    std::vector<float> centre_xyz;  ///< n x 3, relative to the cloud's centre [m * point_scale].
     std::vector<std::uint32_t> ball_begin;  ///< n + 1 offsets into `member`.
     std::vector<std::uint16_t> member;      ///< Rows of the level below, without padding.
 
@@ -45,7 +45,7 @@ struct CloudGeometry {
 
     std::size_t size() const { return skip.size(); }
   };
-  std::vector<float> xyz;  ///< The window's points x 3, from its centre [m * zoom]: level 0.
+  std::vector<float> xyz;  ///< The window's points x 3, from its centre [m * point_scale]: level 0.
   std::array<Level, 4> levels;
   std::array<Upsampling, 4> upsampling;  ///< [0] ends in the output points.
   /// Which targets of upsampling[0] are read; empty: all. The others are there for the sake of
@@ -58,10 +58,10 @@ struct CloudWindow {
   std::array<float, 3> centre{};  ///< Subtracted from every point [m].
   /// Points farther from point 0 than this [m] are left out, but never more than leaves 1024 of
   /// them; 0: all stay.
-  float radius_m = 0;
+  float crop_radius_m = 0;
   /// The window's points are told this many times as far from its centre as they are, so that the
   /// fixed radii of the network span smaller things.
-  float zoom = 1;
+  float point_scale = 1;
 };
 
 /// @param xyz 4096 x 3 finite numbers [m], world frame.

@@ -44,7 +44,7 @@ class CriticHead {
 
  private:
   std::shared_ptr<const DenseLayers> layers_;
-  Normaliser<1> score_rad_;
+  Normaliser<1> angle_gain_rad_;
 };
 
 /// Scores hands of the family kGrasp.
@@ -58,7 +58,7 @@ class DiscriminatorHead {
 
  private:
   std::shared_ptr<const DenseLayers> layers_;
-  Normaliser<1> score_rad_;
+  Normaliser<1> angle_gain_rad_;
 };
 
 /// Scores points of the family kGrasp.
@@ -71,7 +71,7 @@ class AffordanceHead {
 
  private:
   std::shared_ptr<const DenseLayers> layers_;
-  Normaliser<1> score_rad_;
+  Normaliser<1> angle_gain_rad_;
 };
 
 }  // namespace doorforge::internal

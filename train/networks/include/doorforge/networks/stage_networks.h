@@ -67,10 +67,10 @@ PolicyState StateOf(StateKind kind, const Proprioception& proprioception,
 struct NetworkView {
   ViewFrame frame = ViewFrame::kWorld;
   StateKind state = StateKind::kJoints;
-  float context_m = 0;       ///< CloudWindow::radius_m of every cloud.
-  float zoom = 1;            ///< CloudWindow::zoom of every cloud.
-  float cloud_within_m = 0;  ///< TrainingSample::cloud_within_m of what was learned from.
-  int remembered_finer = 0;  ///< TrainingSample::remembered_finer of what was learned from.
+  float crop_radius_m = 0;        ///< CloudWindow::crop_radius_m of every cloud.
+  float point_scale = 1;          ///< CloudWindow::point_scale of every cloud.
+  float cloud_crop_radius_m = 0;  ///< TrainingSample::cloud_crop_radius_m of what was learned from.
+  int remembered_finer = 0;       ///< TrainingSample::remembered_finer of what was learned from.
   /// Where a grasp is chosen: how many of the points nearest to the contact the discriminator
   /// reads, in the hand's own frame, instead of the cloud and the rotation; 0: those, as
   /// UniDoorManip.
@@ -89,7 +89,7 @@ struct StageNormalisation {
   Normaliser<9> action;  ///< Position or contact point [m], then the six rotation numbers.
   Normaliser<3> hand_m;
   Normaliser<3> base_m;
-  Normaliser<1> score_rad;
+  Normaliser<1> angle_gain_rad;
 };
 
 /// In the hand's frame the samples' actions must be turns already.

@@ -24,11 +24,11 @@ struct TrainingSample {
   ActionVector action{};
   /// What was executed: the expert's action with noise, or a learner's. The critic rates it.
   ActionVector executed{};
-  float score_rad = 0;  ///< What was executed gained: the critic's target.
+  float angle_gain_rad = 0;  ///< What was executed gained: the critic's target.
   /// Unit, world: straight into the closed leaf. Of the stage "grasp".
   std::array<float, 3> approach{};
   /// How far from point 0 the cloud's points were taken [m]; 0: wherever any was visible.
-  float cloud_within_m = 0;
+  float cloud_crop_radius_m = 0;
   /// How many times finer than the camera's picture that was from before the robot came, whose
   /// points the cloud holds as well; 0: the cloud is of what was visible at the decision.
   int remembered_finer = 0;

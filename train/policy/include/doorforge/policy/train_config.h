@@ -65,9 +65,9 @@ struct TrainConfig {
   ViewFrame frame = ViewFrame::kHand;
   StateKind state = StateKind::kHand;
   /// Points farther than this from point 0 are not seen [m]; 0: all are, see CloudWindow.
-  double context_m = 0;
-  /// CloudWindow::zoom of every cloud.
-  double zoom = 1;
+  double crop_radius_m = 0;
+  /// CloudWindow::point_scale of every cloud.
+  double point_scale = 1;
   /// The critic learns on every n-th step only; 1: on all.
   int critic_interval = 1;
   ScoreLoss score_loss = ScoreLoss::kSquared;
@@ -122,8 +122,8 @@ struct TrainConfig {
     }
     visit("augment_mirror", self.augment_mirror);
     visit("frame", self.frame);
-    visit("context_m", self.context_m);
-    visit("zoom", self.zoom);
+    visit("context_m", self.crop_radius_m);
+    visit("zoom", self.point_scale);
     visit("encoder_norm", self.encoder_norm);
     visit("device", self.device);
     visit("validation_share", self.validation_share);

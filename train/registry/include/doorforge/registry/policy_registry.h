@@ -12,7 +12,7 @@
 
 #include "doorforge/policy/grasp_policy.h"
 #include "doorforge/policy/stage_policy.h"
-#include "doorforge/rollout/grasp_look.h"
+#include "doorforge/rollout/grasp_camera.h"
 #include "doorforge/rollout/handle_expert.h"
 #include "doorforge/rollout/opening_expert.h"
 #include "doorforge/rollout/random_grasp.h"

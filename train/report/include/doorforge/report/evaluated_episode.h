@@ -31,7 +31,7 @@ struct EvaluatedEpisode {
   double peak_hinge_rad = 0;    ///< Greatest angle of the door.
   double peak_handle_rad = 0;   ///< Greatest angle of the handle.
   double simulated_s = 0;       ///< Simulated time of the whole episode.
-  bool handle_done = false;     ///< The handle was held, turned and unlocked.
+  bool handle_turned = false;   ///< The handle was held, turned and unlocked.
   double peak_force_n = 0;      ///< Greatest force between robot and door, see Episode.
   double peak_net_force_n = 0;  ///< Beyond the squeeze of the fingers, see Episode.
   std::string state_sha256;     ///< Hash of the final joint state: equal runs have equal hashes.

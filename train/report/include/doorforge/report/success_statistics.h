@@ -75,7 +75,7 @@ struct ForceSuccess {
 };
 
 struct SuccessSummary {
-  SuccessRate handle_done;               ///< Handle held, turned and unlocked.
+  SuccessRate handle_turned;             ///< Handle held, turned and unlocked.
   SuccessRate opened;                    ///< Episodes that ended as EpisodeOutcome::kOpened.
   SeedSpread over_seeds;                 ///< It tells how the seeds differ.
   std::vector<AngleSuccess> over_angle;  ///< At kSuccessAngles, in order.

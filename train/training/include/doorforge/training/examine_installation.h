@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include <nlohmann/json_fwd.hpp>
 
 namespace doorforge {
@@ -11,5 +13,8 @@ namespace doorforge {
 /// "instruction_set", "torch_version", "blas_library", "gflops", "least_gflops", "healthy",
 /// "remedy"}, where "remedy" is empty if all is well.
 nlohmann::ordered_json ExamineInstallation();
+
+/// Says for people what ExamineInstallation() found.
+std::string InstallationText(const nlohmann::ordered_json& found);
 
 }  // namespace doorforge

@@ -56,6 +56,10 @@ inline constexpr const char* kCurvesPage = "training.html";
 ///     finite, with what is left; else as ReadStageDataset() and TrainStage().
 TrainingOutcome TrainIntoFolder(const TrainingRequest& request);
 
+/// What came of a training, for people: where the policy is, from how many samples, and what it
+/// lost in the last epoch.
+std::string OutcomeText(const TrainingOutcome& outcome, const TrainingRequest& request);
+
 /// The losses in units that people think in, such as "position 1.20 mm, rotation 0.80 deg"; what is
 /// not known yet is left out.
 std::string LossText(const StageLosses& losses, NetworkFamily family);

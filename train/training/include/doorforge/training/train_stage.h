@@ -20,21 +20,20 @@ namespace doorforge {
 /// Throws Error(kInvalidConfig) on a value out of range, or a device that is not here, naming it.
 void CheckTrainConfig(const TrainConfig& config);
 
-/// Mean losses of a batch or of a set; NaN: not of this stage, or not measured. Position and
-/// rotation are decoded from the latent 0.
+/// Mean losses of a batch or of a set; nothing where the stage has none of that name, or it was not
+/// measured yet. Position and rotation are decoded from the latent 0.
 struct StageLosses {
-  double position_m = 0;      ///< Mean absolute error of a component.
-  double rotation_rad = 0;    ///< Mean geodesic angle.
-  double divergence = 0;      ///< Posterior against N(0, I).
-  double score_rad = 0;       ///< Critic's or discriminator's mean absolute error.
-  double affordance_rad = 0;  ///< Affordance's, to the mean of the best ratings.
+  std::optional<double> position_m = {};      ///< Mean absolute error of a component.
+  std::optional<double> rotation_rad = {};    ///< Mean geodesic angle.
+  std::optional<double> divergence = {};      ///< Posterior against N(0, I).
+  std::optional<double> angle_gain_rad = {};  ///< Critic's or discriminator's mean absolute error.
+  std::optional<double> affordance_rad = {};  ///< Affordance's, to the mean of the best ratings.
 };
-StageLosses UnknownLosses();  ///< All NaN.
 
 /// A loss by its name in files, such as "critic.score_rad".
 struct LossColumn {
   const char* name;
-  double StageLosses::*value;
+  std::optional<double> StageLosses::*value;
 };
 /// The losses that a stage has.
 std::vector<LossColumn> LossColumnsOf(NetworkFamily family);

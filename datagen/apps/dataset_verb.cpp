@@ -1,0 +1,343 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The subcommands of `doorforge dataset`.
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <unistd.h>
+
+#include "doorforge/cli/answer.h"
+#include "doorforge/cli/command_line.h"
+#include "doorforge/collect/episode_charts.h"
+#include "doorforge/collect/regenerate_dataset.h"
+#include "doorforge/collect/reobserve.h"
+#include "doorforge/core/error.h"
+#include "doorforge/core/folder_lock.h"
+#include "doorforge/core/json_file.h"
+#include "doorforge/core/output_file.h"
+#include "doorforge/core/program.h"
+#include "doorforge/core/progress.h"
+#include "doorforge/dataset/collection_status.h"
+#include "doorforge/dataset/dataset_card.h"
+#include "doorforge/dataset/describe_dataset.h"
+#include "doorforge/dataset/describe_episodes.h"
+#include "doorforge/dataset/export_robomimic.h"
+#include "doorforge/dataset/merge_dataset.h"
+#include "doorforge/dataset/task_number.h"
+#include "doorforge/dataset/verify_dataset.h"
+#include "doorforge/robot_meshes/robot_meshes.h"
+#include "doorforge/sensor/picture.h"
+
+#include "verbs.h"
+
+namespace doorforge {
+namespace {
+
+/// A subcommand of `doorforge dataset`.
+struct Subcommand {
+  CLI::App* app = nullptr;
+  std::function<int()> run;  ///< After it was parsed; returns the exit code.
+};
+
+constexpr const char* kRobotOption =
+    "URDF of the dataset's robot; needed where its config.yaml names a file that is not in the "
+    "dataset's folder";
+
+struct DatasetVerifyOptions {
+  VerifyRequest request;
+  std::string share;  // to be made again, "1%"; empty: none
+  RegenerateDatasetRequest regenerate;
+  bool json = false;
+};
+
+void Regenerate(DatasetVerifyOptions& options, std::vector<DatasetFinding>& findings) {
+  options.regenerate.folder = options.request.folder;
+  options.regenerate.threads = options.request.threads;
+  options.regenerate.robot_meshes = RobotMeshes();
+  const RegenerateResult result = RegenerateDataset(options.regenerate);
+  PrintNote(std::to_string(result.episodes) + " episodes made again, " +
+            std::to_string(result.findings.size()) + " differences");
+  findings.insert(findings.end(), result.findings.begin(), result.findings.end());
+}
+
+std::vector<DatasetFinding> VerifyWithProgress(VerifyRequest request) {
+  Progress progress("verify", CountShards(request.folder));
+  request.on_shard = [&] { progress.Advance(); };
+  return VerifyDataset(request);
+}
+
+int Verify(DatasetVerifyOptions& options) {
+  if (!options.share.empty()) options.regenerate.fraction = ParseFraction(options.share);
+  Require(options.share.empty() || !options.regenerate.doors.empty(), ErrorCode::kInvalidArgument,
+          "--regenerate: needs --doors, with what the dataset was made with");
+  std::vector<DatasetFinding> findings = VerifyWithProgress(options.request);
+  if (!AnyFault(findings) && !options.share.empty()) Regenerate(options, findings);
+  PrintAnswer(options.json, FindingsToJson(findings),
+              FindingsText(findings, options.request.folder));
+  return AnyFault(findings) ? 1 : 0;
+}
+
+Subcommand AddVerify(CLI::App& dataset) {
+  const auto options = std::make_shared<DatasetVerifyOptions>();
+  CLI::App* app = dataset.add_subcommand(
+      "verify",
+      "every byte of every file against its checksum or what it is made from, every value against "
+      "what it may be");
+  app->add_option("folder", options->request.folder, "the dataset's folder")->required();
+  AddJson(*app, options->json);
+  AddThreads(*app, options->request.threads, "threads, 0: all");
+  RegenerateDatasetRequest& given = options->regenerate;
+  auto* share = app->add_option("--regenerate", options->share,
+                                "make a share of the episodes again from their seeds, such as 1%, "
+                                "and compare every byte");
+  app->add_option("--doors", given.doors, "the doors that the dataset was made with")->needs(share);
+  app->add_option("--robot", given.robot, kRobotOption)->needs(share);
+  CollectionWords& who = given.policies;
+  app->add_option("--handler", who.handler, "the policy that turned the handle")->needs(share);
+  app->add_option("--opener", who.opener, "the policy that opened")->needs(share);
+  app->add_option("--learner", who.learner, "the policy that drove or took hold")->needs(share);
+  app->footer(
+      "examples:\n  doorforge dataset verify data/open\n"
+      "  doorforge dataset verify data/open --regenerate 1% --doors doors/train");
+  return {app, [options] { return Verify(*options); }};
+}
+
+struct DatasetMergeOptions {
+  MergeRequest request;
+  bool json = false;
+};
+
+int Merge(const DatasetMergeOptions& options) {
+  const auto& folder = options.request.folder;
+  const FolderLock lock(folder, "doorforge dataset merge", Writers::kOne);
+  const MergeSummary summary = MergeDataset(options.request);
+  PrintNote(folder.string() + ": " + std::to_string(summary.shards) + " shards, " +
+            std::to_string(summary.linked) + " linked, " + std::to_string(summary.copied) +
+            " copied");
+  const nlohmann::ordered_json description = DescribeDataset(folder);
+  PrintAnswer(options.json, description, DescriptionText(description));
+  return 0;
+}
+
+Subcommand AddMerge(CLI::App& dataset) {
+  const auto options = std::make_shared<DatasetMergeOptions>();
+  CLI::App* app = dataset.add_subcommand(
+      "merge", "joins the tasks of a collection and checks that all of them are there");
+  app->add_option("folder", options->request.folder, "the dataset's folder")->required();
+  AddJson(*app, options->json);
+  app->add_option("parts", options->request.parts,
+                  "folders of tasks; none where all tasks wrote into the dataset's folder");
+  app->footer(
+      "examples:\n  doorforge dataset merge data\n"
+      "  doorforge dataset merge data node1/data node2/data");
+  return {app, [options] { return Merge(*options); }};
+}
+
+int Reobserve(const ReobserveRequest& request) {
+  const CollectSummary summary = ReobserveDataset(request);
+  if (summary.stopped_by_signal != 0)
+    return ExitCodeOfStopped(
+        summary.stopped_by_signal,
+        "what is done is kept in " + request.out.string() + ", the same command goes on");
+  PrintText(DescriptionText(DescribeDataset(request.out)));
+  return 0;
+}
+
+Subcommand AddReobserve(CLI::App& dataset) {
+  const auto request = std::make_shared<ReobserveRequest>();
+  request->robot_meshes = RobotMeshes();
+  CLI::App* app = dataset.add_subcommand(
+      "re-observe", "renders the clouds anew from the stored joint states, without physics");
+  app->add_option("folder", request->folder, "the dataset's folder")->required();
+  app->add_option("--out", request->out, "folder of the new dataset")->required();
+  app->add_option("--doors", request->doors, "folders with the doors of the dataset")->required();
+  app->add_option("--config", request->config, "YAML file with settings");
+  AddSettings(*app, request->settings,
+              "a.b=c overrides one setting: cloud.* and camera.* as of `datagen`");
+  app->add_option("--robot", request->robot, kRobotOption);
+  app->add_flag("--without-robot", request->without_robot,
+                "only the door is seen: the pair of what the robot hides");
+  AddThreads(*app, request->threads, "threads, 0: all; does not change the bytes");
+  app->footer(
+      "examples:\n"
+      "  doorforge dataset re-observe data --doors doors --out data_free --without-robot\n"
+      "  doorforge dataset re-observe data --doors doors --out data_noisy --set "
+      "cloud.noise.sensor=structured_light");
+  return {app, [request] { return Reobserve(*request); }};
+}
+
+struct DatasetStatusOptions {
+  StatusRequest request;
+  double every_s = 5;
+  bool watch = false;
+  bool json = false;
+};
+
+int Status(const DatasetStatusOptions& options) {
+  const auto show = [&](const CollectionStatus& status, double now_s) {
+    // on a terminal each look takes the place of the one before
+    if (options.watch && !options.json && ::isatty(STDOUT_FILENO) == 1) PrintText("\033[H\033[J");
+    PrintText(options.json ? JsonText(StatusToJson(status, now_s), options.watch ? -1 : 2) + "\n"
+                           : StatusText(status, now_s) + (options.watch ? "\n" : ""));
+  };
+  const std::chrono::duration<double> every(options.every_s);
+  const std::optional<CollectionStatus> status = options.watch
+                                                     ? WatchCollection(options.request, every, show)
+                                                     : LookAtCollection(options.request, show);
+  if (!status) return 128 + StopRequested();
+  return status->is_complete ? 0 : 4;
+}
+
+Subcommand AddStatus(CLI::App& dataset) {
+  const auto options = std::make_shared<DatasetStatusOptions>();
+  CLI::App* app = dataset.add_subcommand(
+      "status", "how far a collection is, while its tasks run or after: shards, rate, time left");
+  app->add_option("folder", options->request.folders,
+                  "the dataset's folder, and those of tasks that write into others")
+      ->required();
+  app->add_option("--tasks", options->request.tasks,
+                  "N of `datagen --task i/N`, to tell how far each of them is")
+      ->check(CLI::Range(1, kMostTasks));
+  app->add_flag("--watch", options->watch, "look again and again until all shards are there");
+  app->add_option("--every", options->every_s, "seconds between the looks of --watch")
+      ->check(CLI::Range(0.1, 86400.0))
+      ->capture_default_str();
+  AddJson(*app, options->json, "print JSON: one document, or a line a look");
+  app->footer(
+      "Reads only, and takes no lock: writers never notice. Exit code 0 if the dataset is "
+      "complete,\n4 if not.\n\n"
+      "examples:\n  doorforge dataset status data --watch\n"
+      "  doorforge dataset status data --tasks 16 --json");
+  return {app, [options] { return Status(*options); }};
+}
+
+struct DatasetInfoOptions {
+  std::string folder;
+  std::string png;
+  std::string html;
+  int examples = 2;
+  int threads = 0;
+  bool overwrite = false;
+  bool json = false;
+};
+
+int Info(const DatasetInfoOptions& options) {
+  RequireNoFile(options.png, options.overwrite);
+  RequireNoFile(options.html, options.overwrite);
+  nlohmann::ordered_json dataset = DescribeDataset(options.folder);
+  const EpisodeDescription episodes = DescribeEpisodes(
+      options.folder, options.html.empty() ? 0 : options.examples, options.threads);
+  if (!options.png.empty()) WritePng(options.png, EpisodeCharts(episodes));
+  if (!options.html.empty()) CommitFile(options.html, DatasetPage(dataset, episodes));
+  const std::string text = DescriptionText(dataset) + StagesText(episodes);
+  dataset["stages"] = StagesToJson(episodes);
+  PrintAnswer(options.json, dataset, text);
+  return 0;
+}
+
+Subcommand AddInfo(CLI::App& dataset) {
+  const auto options = std::make_shared<DatasetInfoOptions>();
+  CLI::App* app = dataset.add_subcommand(
+      "info", "counts, success by category and mechanism, angles, causes of failure");
+  app->add_option("folder", options->folder, "the dataset's folder")->required();
+  app->add_option("--png", options->png, "picture of the hinge angles, one chart a category");
+  app->add_option("--html", options->html, "one page with everything, that needs no other file");
+  app->add_option("--examples", options->examples, "episodes a category that the page shows")
+      ->check(CLI::Range(0, 100))
+      ->capture_default_str();
+  AddThreads(*app, options->threads, "threads, 0: all");
+  AddOverwrite(*app, options->overwrite, "replace --png and --html if they are there");
+  AddJson(*app, options->json);
+  app->footer("example:\n  doorforge dataset info data --html data.html --png data.png");
+  return {app, [options] { return Info(*options); }};
+}
+
+struct DatasetExportOptions {
+  RobomimicRequest request;
+  std::string to;
+  bool json = false;
+};
+
+int Export(DatasetExportOptions& options) {
+  RobomimicRequest& request = options.request;
+  Progress progress("export", CountEpisodes(request.folder, request.stage));
+  request.on_episode = [&] { progress.Advance(); };
+  const RobomimicSummary summary = ExportRobomimic(request);
+  if (summary.stopped_by_signal != 0)
+    return ExitCodeOfStopped(summary.stopped_by_signal,
+                             "nothing was left in " + request.out.string());
+  PrintAnswer(options.json, ExportToJson(request, summary), ExportText(request, summary));
+  return 0;
+}
+
+Subcommand AddExport(CLI::App& dataset) {
+  const auto options = std::make_shared<DatasetExportOptions>();
+  CLI::App* app = dataset.add_subcommand("export", "writes the episodes as other tools want them");
+  app->add_option("folder", options->request.folder, "the dataset's folder")->required();
+  app->add_option("--to", options->to, "robomimic: one HDF5 file with data/demo_N and mask/<split>")
+      ->required()
+      ->check(CLI::IsMember({"robomimic"}));
+  app->add_option("--stage", options->request.stage, "one file holds one stage")
+      ->check(CLI::IsMember({"open", "handle", "grasp"}))
+      ->capture_default_str();
+  app->add_option("--out", options->request.out, "the file to write")->required();
+  AddOverwrite(*app, options->request.existing, "replace the file if it is there");
+  AddJson(*app, options->json);
+  app->footer("example:\n  doorforge dataset export data --to robomimic --out data.hdf5");
+  return {app, [options] { return Export(*options); }};
+}
+
+struct DatasetCardOptions {
+  std::string folder;
+  OldReadme readme = OldReadme::kRefuseOthers;
+};
+
+int WriteCard(const DatasetCardOptions& options) {
+  WriteDatasetCard(options.folder, options.readme);
+  PrintText(options.folder + "/README.md\n" + options.folder + "/croissant.json\n");
+  return 0;
+}
+
+Subcommand AddCard(CLI::App& dataset) {
+  const auto options = std::make_shared<DatasetCardOptions>();
+  CLI::App* app = dataset.add_subcommand(
+      "card", "writes README.md (YAML front matter) and croissant.json into the dataset");
+  app->add_option("folder", options->folder, "the dataset's folder")->required();
+  const auto add_flag = [&](const char* name, OldReadme means, const char* about) {
+    return app->add_flag_callback(
+        name, [options, means] { options->readme = means; }, about);
+  };
+  auto* overwrite =
+      add_flag("--overwrite", OldReadme::kReplace,
+               "replace a README.md or croissant.json that was written or changed by hand");
+  add_flag("--keep-readme", OldReadme::kKeep,
+           "leave README.md as it is; `verify` takes it as it is from now on")
+      ->excludes(overwrite);
+  app->footer("example:\n  doorforge dataset card data");
+  return {app, [options] { return WriteCard(*options); }};
+}
+
+}  // namespace
+
+int RunDatasetVerb(int argc, char** argv) {
+  CLI::App app("Checks and describes datasets.", "doorforge dataset");
+  app.require_subcommand(1);
+  app.footer("examples:\n  doorforge dataset verify data/open\n  doorforge dataset info data/open");
+  const Subcommand subcommands[] = {AddVerify(app), AddMerge(app), AddReobserve(app),
+                                    AddStatus(app), AddInfo(app),  AddExport(app),
+                                    AddCard(app)};
+  ParseVerb(app, argc, argv, EmptyValues::kRefuse);
+  for (const Subcommand& subcommand : subcommands) {
+    if (subcommand.app->parsed()) return subcommand.run();
+  }
+  return 0;  // not reached: the parser asks for a subcommand
+}
+
+}  // namespace doorforge

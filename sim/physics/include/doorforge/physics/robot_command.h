@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "doorforge/core/rigid_transform.h"
+#include "doorforge/physics/robot_model.h"
+
+namespace doorforge {
+
+/// What the robot's drives are asked for during one step.
+struct RobotCommand {
+  ArmVector arm_position;      ///< Position targets of sliders and arm.
+  bool close_fingers = false;  ///< Squeeze with finger_force_n, or open.
+  /// Where the tool centre is to be; ArmController::kOperationalSpace alone looks at it. Without
+  /// it, and with kJointMotors, the joints follow arm_position.
+  std::optional<RigidTransform> world_from_tcp = std::nullopt;
+};
+
+}  // namespace doorforge

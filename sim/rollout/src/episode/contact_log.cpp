@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "episode/contact_log.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "text_format.h"
+
+namespace doorforge::internal {
+
+namespace {
+
+// It is that of a first-order low-pass at 10 Hz: what a wrist sensor's reading is after its usual
+// filter.
+constexpr double kForceFilter = 1 / (2 * std::numbers::pi * 10);  // [s]
+
+}  // namespace
+
+void ContactLog::NoteForce(const DoorContacts& contacts, double time_step_s) {
+  const double force = contacts.pad_force_n[0] + contacts.pad_force_n[1] + contacts.arm_force_n;
+  peak_force_n_ = std::max(peak_force_n_, force);
+  const double share = 1 - std::exp(-time_step_s / kForceFilter);
+  net_force_n_ += share * (contacts.force_on_door_n - net_force_n_);
+  peak_net_force_n_ = std::max(peak_net_force_n_, net_force_n_.norm());
+}
+
+void ContactLog::NoteSelfContact(const DoorContacts& contacts) {
+  if (contacts.self_points > 0)
+    touched_itself_ = contacts.self_touches + Format(" with %.0f N", contacts.self_force_n);
+}
+
+void ContactLog::Note(const EpisodeWorld& world) {
+  const DoorContacts contacts = world.world().Contacts();
+  NoteSelfContact(contacts);
+  NoteForce(contacts, world.scene().physics.time_step_s);
+  if (!contacts.AnyPad() && last_pad_step_ == world.step() - 1)
+    held_up_at_loss_ = HeldUpBy(world.HindranceNow(contacts), world.limits());
+  if (contacts.AnyPad()) last_pad_step_ = world.step();
+  if (contacts.AnyPad() || contacts.arm_points > 0) last_touch_step_ = world.step();
+  const bool beyond = world.state().hinge_rad > world.limits().open_angle_rad;
+  if (beyond && !opened_ && !coasted_) NoteOpening(world, contacts);
+}
+
+// A pad that let go within the last action has still opened the door.
+void ContactLog::NoteOpening(const EpisodeWorld& world, const DoorContacts& contacts) {
+  const bool pads = last_pad_step_ >= 0 &&
+                    StepsWithoutPads(world.step()) <= world.scene().physics.steps_per_action;
+  opened_ = pads;
+  coasted_ = !opened_;
+  touched_at_opening_ =
+      Format("%s at %.0f deg, finger to handle %.1f mm",
+             contacts.BothPads() ? "both pads"
+             : pads              ? "one pad or just before"
+                                 : "no pad",
+             world.limits().open_angle_rad / kDegree, 1000 * contacts.pad_distance_m);
+  if (contacts.arm_points > 0)
+    touched_at_opening_ +=
+        ", arm touches " + contacts.arm_touches + Format(" with %.0f N", contacts.arm_force_n);
+}
+
+}  // namespace doorforge::internal

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "episode/take_hold.h"
+
+namespace doorforge::internal {
+namespace {
+
+constexpr double kJointsThere = 0.01;  // [rad or m] from the place before the grasp
+
+// The joints go to the place before the grasp, then the hand straight in.
+std::optional<Verdict> Reach(EpisodeWorld& world, ContactLog& log, const GraspPlan& plan) {
+  const double dt = world.scene().physics.time_step_s;
+  const int budget = world.StepsIn(world.limits().reach_time_s);
+  const int arm = world.robot().arm_count();
+  for (int i = 0; i < budget && !world.diverged(); ++i) {
+    const JointVector& now = world.state().robot_position;
+    world.Step(
+        world.controller().StepJoints(plan.pregrasp, now, dt, world.limits().reach_speed_fraction));
+    const JointVector rest = plan.pregrasp - world.state().robot_position;
+    if (rest.head(arm).cwiseAbs().maxCoeff() < kJointsThere) break;
+  }
+  world.Watch(EpisodePhase::kReach);
+  const RigidTransform goal =
+      world.WorldFromHandle(0) * plan.handle_from_tcp * world.robot().hand_from_tcp().inverse();
+  if (world.MoveHand(goal, world.limits().approach_speed_m_s)) return std::nullopt;
+  const DoorContacts contacts = world.world().Contacts();
+  log.NoteSelfContact(contacts);
+  return JudgeReach(world.HandError(goal), world.HindranceNow(contacts), world.limits());
+}
+
+// The arm does not yield to a finger that touches first, so it follows that finger.
+void CentreHand(EpisodeWorld& world, const DoorContacts& contacts) {
+  if (contacts.BothPads() || !contacts.AnyPad()) return;
+  RigidTransform hand = world.controller().CommandedHand();
+  const double way = contacts.pad_points[0] > 0 ? 1 : -1;
+  const double distance = world.limits().centering_speed_m_s * world.scene().physics.time_step_s;
+  hand.translation() += way * distance * hand.linear().col(1);
+  world.controller().FollowHand(hand);
+}
+
+std::optional<Verdict> Close(EpisodeWorld& world, ContactLog& log, bool needs_both_pads) {
+  world.controller().close_fingers = true;
+  const int budget = world.StepsIn(world.limits().close_time_s);
+  const int enough = world.StepsIn(world.limits().both_pads_time_s);
+  int both = 0;
+  DoorContacts contacts;
+  for (int i = 0; i < budget && both < enough && !world.diverged(); ++i) {
+    world.StepHand();
+    contacts = world.world().Contacts();
+    log.NoteSelfContact(contacts);
+    log.NoteForce(contacts, world.scene().physics.time_step_s);
+    both = contacts.BothPads() ? both + 1 : 0;
+    CentreHand(world, contacts);
+  }
+  world.Watch(EpisodePhase::kGrasp);
+  world.NoteGrasp();
+  if (both >= enough || (!needs_both_pads && contacts.AnyPad())) {
+    log.BeginHold(world.step());
+    return std::nullopt;
+  }
+  return JudgeClosing(contacts, world.state().robot_position[world.robot().left_finger()]);
+}
+
+}  // namespace
+
+GraspPlan PlanOf(const GraspCommand& grasp, const EpisodeWorld& world) {
+  RigidTransform world_from_hand = RigidTransform::Identity();
+  world_from_hand.linear() = grasp.world_from_hand_rotation;
+  RigidTransform world_from_tcp = world_from_hand * world.robot().hand_from_tcp();
+  world_from_tcp.translation() =
+      grasp.contact_m + kGraspInsertion * grasp.world_from_hand_rotation.col(2);
+  const ArmReach reach = PlanReach(world.scene(), world.robot(), world_from_tcp);
+  return {world.WorldFromHandle(0).inverse() * reach.world_from_tcp, reach.pregrasp, reach.grasp,
+          0};
+}
+
+std::optional<Verdict> TakeHold(EpisodeWorld& world, ContactLog& log, const GraspCommand& grasp) {
+  world.controller().SetPosture(grasp.plan->grasp);
+  std::optional<Verdict> unreached = Reach(world, log, *grasp.plan);
+  if (unreached && grasp.both_pads) return unreached;
+  const std::optional<Verdict> missed = Close(world, log, grasp.both_pads);
+  if (!missed || !unreached || world.diverged()) return missed;
+  unreached->detail += "; " + missed->detail;
+  return unreached;
+}
+
+}  // namespace doorforge::internal

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/rollout/grasp_from_policy.h"
+
+#include <utility>
+
+namespace doorforge {
+
+GraspFromPolicy::GraspFromPolicy(GraspPolicy& policy, const Scene& scene, const DoorAsset& door,
+                                 const RobotModel& robot, VisibleCloud visible)
+    : policy_(policy),
+      seed_(scene.seed),
+      episode_(scene.door_id + "/" + std::to_string(scene.episode)),
+      handle_from_grasp_(door.handle_from_grasp),
+      hand_from_tcp_(robot.hand_from_tcp()),
+      clearance_(robot),
+      visible_(std::move(visible)) {}
+
+std::optional<GraspCommand> GraspFromPolicy::Choose(const SceneSnapshot& snapshot) {
+  std::optional<GraspAction> action = ActionAt(snapshot);
+  if (!action) return std::nullopt;
+  GraspCommand chosen;
+  chosen.cloud = std::move(action->cloud);
+  chosen.contact_m = action->contact_m;
+  chosen.world_from_hand_rotation = action->world_from_hand_rotation;
+  return chosen;
+}
+
+std::optional<GraspAction> GraspFromPolicy::ActionAt(const SceneSnapshot& snapshot) {
+  GraspObservation observation;
+  observation.visible = visible_(snapshot);
+  observation.approach = -snapshot.door[kHandleLink].linear().col(0);
+  observation.sample = [&](const Eigen::Vector3d& start, double crop_radius_m) {
+    return SampleCloud(observation.visible, start, {.crop_radius_m = crop_radius_m}).cloud;
+  };
+  observation.fits = [&](const Eigen::Vector3d& contact_m, const Eigen::Matrix3d& rotation) {
+    return clearance_.Fits(observation.visible, contact_m, rotation);
+  };
+  observation.hand_from_tcp = hand_from_tcp_;
+  observation.seed = seed_;
+  observation.episode = episode_;
+  observation.privileged.world_from_tcp = snapshot.door[kHandleLink] * handle_from_grasp_;
+  std::optional<GraspAction> action = policy_.Choose(observation);
+  if (action && recorded_)
+    action->cloud = SampleCloud(observation.visible, action->contact_m, *recorded_).cloud;
+  return action;
+}
+
+}  // namespace doorforge

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/rollout/camera_observer.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include "doorforge/core/error.h"
+
+namespace doorforge {
+namespace {
+
+constexpr int kDoorLinks = 3;
+
+bool IsInside(const TriangleMesh& hull, const Eigen::Vector3d& point) {
+  return !hull.triangles.empty() &&
+         std::all_of(hull.triangles.begin(), hull.triangles.end(), [&](const auto& triangle) {
+           const Eigen::Vector3d& a = hull.vertices[static_cast<std::size_t>(triangle[0])];
+           const Eigen::Vector3d& b = hull.vertices[static_cast<std::size_t>(triangle[1])];
+           const Eigen::Vector3d& c = hull.vertices[static_cast<std::size_t>(triangle[2])];
+           return (b - a).cross(c - a).dot(point - a) < 0;
+         });
+}
+
+// From inside a leaf everything is hidden, and every cloud would be empty.
+void RequireOutside(const CameraModel& camera, const Scene& scene, const DoorAsset& door) {
+  const auto door_from_link = DoorFromLinks(door, 0, 0);
+  for (std::size_t link = 0; link < door.links.size(); ++link) {
+    const Eigen::Vector3d eye =
+        (scene.world_from_door * door_from_link.at(link)).inverse() * camera.position_m;
+    for (const DoorGeometry& geometry : door.links[link].geometry) {
+      const bool inside = std::any_of(geometry.hulls.begin(), geometry.hulls.end(),
+                                      [&](const auto& hull) { return IsInside(hull, eye); });
+      if (!inside) continue;
+      char text[300];
+      std::snprintf(text, sizeof text,
+                    "the camera at (%.3f, %.3f, %.3f) m is inside the %s of door \"%.120s\"; put "
+                    "scene.camera where it looks at the door from outside",
+                    camera.position_m.x(), camera.position_m.y(), camera.position_m.z(),
+                    link == kBaseLink ? "frame" : (link == kLeafLink ? "leaf" : "handle"),
+                    door.id.c_str());
+      throw Error(ErrorCode::kInvalidArgument, text);
+    }
+  }
+}
+
+std::vector<VisibleMesh> WithoutRobot(std::vector<VisibleMesh> meshes) {
+  std::erase_if(meshes, [](const VisibleMesh& mesh) { return mesh.link >= kDoorLinks; });
+  return meshes;
+}
+
+}  // namespace
+
+std::vector<VisibleMesh> VisibleMeshesOf(const DoorAsset& door, const RobotModel& robot) {
+  std::vector<VisibleMesh> meshes;
+  for (int link = 0; link < kDoorLinks; ++link) {
+    for (const DoorGeometry& geometry : door.links[static_cast<std::size_t>(link)].geometry)
+      meshes.push_back({geometry.mesh, link, geometry.label, geometry.color_rgba.head<3>()});
+  }
+  for (const RobotPiece& piece : robot.visuals()) {
+    const int body = piece.joint < 0 ? robot.joint_count() : piece.joint;
+    meshes.push_back(
+        {piece.mesh, kDoorLinks + body, PointLabel::kRobot, piece.color_rgba.head<3>()});
+  }
+  return meshes;
+}
+
+std::vector<RigidTransform> LinkPosesOf(const SceneSnapshot& snapshot) {
+  std::vector<RigidTransform> poses(snapshot.door.begin(), snapshot.door.end());
+  poses.insert(poses.end(), snapshot.robot.world_from_body.begin(),
+               snapshot.robot.world_from_body.end());
+  poses.push_back(snapshot.robot.world_from_base);
+  return poses;
+}
+
+CameraObserver::CameraObserver(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
+                               const CloudConfig& config, bool sees_robot)
+    : seed_(scene.seed),
+      stream_("sensor/" + scene.door_id + "/" + std::to_string(scene.episode) + "/"),
+      model_(scene.camera),
+      camera_as_calibrated_(
+          CameraWithCalibrationError(scene.camera, config.noise, Stream("calibration"))),
+      config_(config),
+      camera_(sees_robot ? VisibleMeshesOf(door, robot)
+                         : WithoutRobot(VisibleMeshesOf(door, robot))) {
+  RequireOutside(model_, scene, door);
+}
+
+Rng CameraObserver::Stream(const std::string& purpose) const { return {seed_, stream_ + purpose}; }
+
+void CameraObserver::Remember(RememberedView before) { before_ = std::move(before); }
+
+CameraFrame CameraObserver::Render(const SceneSnapshot& snapshot) {
+  const std::vector<RigidTransform> poses = LinkPosesOf(snapshot);
+  CameraFrame frame;
+  frame.ideal = camera_.Render(model_, poses);
+  frame.depth =
+      WithDepthNoise(frame.ideal, model_, config_.noise, Stream(std::to_string(looks_++)));
+  frame.visible = CropCloud(frame.depth, camera_as_calibrated_, config_);
+  frame.sampled = SampleCloud(frame.visible, snapshot.robot.world_from_tcp.translation(),
+                              {config_.point_count});
+  if (before_ && snapshot.phase == EpisodePhase::kUnlock && !frame.visible.label.empty())
+    frame.sampled.cloud = before_->With(frame.visible, snapshot.robot.world_from_tcp.translation());
+  return frame;
+}
+
+LabelledCloud CameraObserver::Observe(const SceneSnapshot& snapshot) {
+  return Render(snapshot).sampled.cloud;
+}
+
+}  // namespace doorforge

@@ -2,12 +2,29 @@
 # SPDX-License-Identifier: Apache-2.0
 """Repairs one mesh with another program, for `benchmarks/repair --peer`.
 
-    repair_peer.py open3d|pymeshfix|pymeshlab|trimesh IN OUT
+    repair_peer.py manifold|open3d|pymeshfix|pymeshlab|trimesh IN OUT
 
 Each does what its documentation recommends for making a mesh closed. The packages are not needed
 by anything else; where one is missing this ends with an error and the benchmark leaves it out.
 """
 import sys
+
+
+def with_manifold(source, target):
+    import manifold3d
+    import numpy
+    import trimesh
+
+    soup = trimesh.load_mesh(source, process=False)
+    mesh = manifold3d.Mesh(
+        numpy.asarray(soup.vertices, numpy.float32), numpy.asarray(soup.faces, numpy.uint32)
+    )
+    mesh.merge()
+    solid = manifold3d.Manifold(mesh)
+    if solid.is_empty():
+        sys.exit(f"not manifold: {solid.status()}")
+    out = solid.to_mesh()
+    trimesh.Trimesh(out.vert_properties[:, :3], out.tri_verts, process=False).export(target)
 
 
 def with_open3d(source, target):

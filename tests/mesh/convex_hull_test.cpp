@@ -12,7 +12,9 @@
 #include "doorforge/core/rng.h"
 #include "doorforge/mesh/convex_parts.h"
 
+#include "convex_region.h"
 #include "exact_side.h"
+#include "growing_hull.h"
 
 namespace doorforge {
 namespace {
@@ -117,6 +119,28 @@ TEST(ConvexHull, OfAPrismHasNoVertexWithinAnEdge) {
   const TriangleMesh hull = ConvexHull(points);
   EXPECT_EQ(hull.vertices.size(), 8U);
   EXPECT_EQ(hull.triangles.size(), 12U);
+}
+
+// round, so that most points lie near the hull of a few of them
+TEST(GrownHull, LeavesNoPointOutByTwiceItsTolerance) {
+  Rng rng(13, "grown");
+  for (int round = 0; round < 60; ++round) {
+    std::vector<Eigen::Vector3d> points;
+    for (std::size_t i = 0; i < 500; ++i) {
+      const Eigen::Vector3d way(rng.Uniform(-1, 1), rng.Uniform(-1, 1), rng.Uniform(-1, 1));
+      points.push_back(way.normalized().cwiseProduct(Eigen::Vector3d(0.5, 0.2, 0.1)));
+    }
+    for (const double tolerance_m : {0.0, 1e-3, 5e-3}) {
+      const auto hull = GrownHull(points, tolerance_m);
+      ASSERT_TRUE(hull.has_value());
+      ASSERT_TRUE(ClosedMesh::From(*hull).has_value());
+      for (const HalfSpace& face : HalfSpacesOf(*hull)) {
+        for (const Eigen::Vector3d& point : points)
+          ASSERT_LE(face.normal.dot(point) - face.offset, 2 * tolerance_m + 1e-12) << round;
+      }
+      if (tolerance_m == 5e-3) EXPECT_LT(hull->vertices.size(), 200U);
+    }
+  }
 }
 
 }  // namespace

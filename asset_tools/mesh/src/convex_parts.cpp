@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "doorforge/core/error.h"
@@ -13,144 +15,59 @@
 
 #include "convex_region.h"
 #include "cover_parts.h"
+#include "cut_surface.h"
+#include "distance_grid.h"
+#include "growing_hull.h"
+#include "hull_depth.h"
 #include "triangle_tree.h"
 
 namespace doorforge {
 namespace {
 
-constexpr double kCoverShare = 0.5;      // of the concavity: what the parts may leave out
+constexpr double kCoverShare = 0.25;     // of the concavity: what the parts may leave out
 constexpr double kFineCoverShare = 0.1;  // the same after cuts that were measured
 constexpr double kCutShare = 0.875;      // of the parts: what those cuts may use in any case
 constexpr int kExchanges = 16;           // measured cuts and joins without gain before they end
+constexpr double kSearchHull = 0.01;     // of the concavity: what hulls of the search leave out
+constexpr double kFineStep = 0.5;        // cells: to within which protrusion is found
+constexpr double kCoarseStep = 1.25;     // the same where cuts are compared
 constexpr double kHeldSkins = 2;         // how far surface may stand out of a hull that holds it
 constexpr int kRounds = 4;               // of cutting and joining
 constexpr double kSurplus = 2;           // regions, against those that may stay, to join from
 constexpr double kMostSurplus = 4;       // the same for a second search
 constexpr double kWorthwhile = 0.97;     // less of the depth must be left for another round
 
-// A piece of the surface, or a point that was noted for a region.
-struct Polygon {
-  std::vector<Eigen::Vector3d> corners;
-  double wall_m = 0;  // how far the solid reaches behind it
-
-  bool IsNotedPoint() const { return corners.size() == 1; }
-};
-
-// A plane across one axis.
-struct Cut {
-  int axis = 0;
-  double position_m = 0;
-};
-
-// What lies on one side of the cut: below it for sign -1, above for +1 (Sutherland and Hodgman).
-Polygon Clipped(const Polygon& polygon, const Cut& cut, int sign) {
-  Polygon clipped{{}, polygon.wall_m};
-  const std::vector<Eigen::Vector3d>& corners = polygon.corners;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Eigen::Vector3d& a = corners[i];
-    const Eigen::Vector3d& b = corners[(i + 1) % corners.size()];
-    const double da = sign * (a[cut.axis] - cut.position_m);
-    const double db = sign * (b[cut.axis] - cut.position_m);
-    if (da >= 0) clipped.corners.push_back(a);
-    if ((da > 0 && db < 0) || (da < 0 && db > 0)) {
-      Eigen::Vector3d crossing = a + da / (da - db) * (b - a);
-      crossing[cut.axis] = cut.position_m;
-      clipped.corners.push_back(crossing);
-    }
-  }
-  return clipped;
-}
-
 // The part of the solid inside one box: the surface in it, clipped, and the box's corners that lie
 // in the solid. Their hull is the hull of the part.
 struct Region {
   int id = 0;
   Eigen::AlignedBox3d box;
-  std::vector<Polygon> surface;
-  TriangleMesh hull;
-  Concavity concavity;
-  bool indivisible = false;  // no cut separates anything
-  bool trimmed = false;      // of what others hold as well
+  CutSurface surface;
+  TriangleMesh hull;                                 // but for what the search may leave out
+  std::vector<HalfSpace> faces;                      // of the hull
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // a point in it
+  double volume_m3 = 0;                              // the same
+  Concavity concavity;                               // of what is deeper than is allowed
+  bool indivisible = false;                          // no cut separates anything
+  bool trimmed = false;                              // of what others hold as well
 };
-
-std::vector<Eigen::Vector3d> PointsOf(const std::vector<Polygon>& polygons) {
-  std::vector<Eigen::Vector3d> points;
-  for (const Polygon& polygon : polygons)
-    points.insert(points.end(), polygon.corners.begin(), polygon.corners.end());
-  const auto less = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
-  };
-  std::sort(points.begin(), points.end(), less);
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  return points;
-}
-
-Eigen::Vector3d DoubledAreaOf(const Polygon& polygon) {
-  Eigen::Vector3d doubled = Eigen::Vector3d::Zero();
-  const std::vector<Eigen::Vector3d>& p = polygon.corners;
-  for (std::size_t i = 1; i + 1 < p.size(); ++i) doubled += (p[i] - p[0]).cross(p[i + 1] - p[0]);
-  return doubled;
-}
-
-// Whether the polygon only ends what lies on the other side: it reaches no more than `skin_m` into
-// this side, less than the wall behind it reaches into the other, and is no face of a solid on this
-// side. Kept here, the ends of opposite walls would span the air between them; a thin wall that is
-// cut along its middle must keep both its faces.
-bool IsSkinOfOtherSide(const Polygon& polygon, const Cut& cut, int sign, double skin_m) {
-  const Eigen::Vector3d doubled = DoubledAreaOf(polygon);
-  if (sign * doubled[cut.axis] < -0.5 * doubled.norm()) return false;
-  const double reach_m = std::min(skin_m, 0.5 * polygon.wall_m);
-  return std::all_of(polygon.corners.begin(), polygon.corners.end(), [&](const Eigen::Vector3d& p) {
-    return sign * (p[cut.axis] - cut.position_m) <= reach_m;
-  });
-}
 
 // Where a cut may separate something.
 struct Candidate {
-  Cut cut;
+  AxisCut cut;
   double face_share = 0;  // area of the faces in its plane, against the largest such area
 };
 
-// Planes across `axis` in which much of the surface lies, the largest first. Faces within `bin_m`
-// of each other that look the same way count as one, since a wrap's faces are only nearly flat.
-std::vector<Candidate> FaceCuts(const Region& region, int axis, double bin_m) {
-  struct Bin {
-    double area = 0;
-    double moment = 0;
-  };
-  constexpr std::size_t kFaces = 6;
-  constexpr double kAcross = 0.98;  // cosine of the angle between a face's normal and the axis
-  std::map<std::pair<std::int64_t, bool>, Bin> bins;
-  for (const Polygon& polygon : region.surface) {
-    const Eigen::Vector3d doubled = DoubledAreaOf(polygon);
-    const double area = doubled.norm();
-    if (!(area > 0) || std::abs(doubled[axis]) < kAcross * area) continue;
-    double position = 0;
-    for (const Eigen::Vector3d& p : polygon.corners)
-      position += p[axis] / static_cast<double>(polygon.corners.size());
-    Bin& bin = bins[{std::llround(position / bin_m), doubled[axis] > 0}];
-    bin.area += area;
-    bin.moment += area * position;
-  }
-  std::vector<Candidate> faces;
-  faces.reserve(bins.size());
-  for (const auto& [index, bin] : bins) faces.push_back({{axis, bin.moment / bin.area}, bin.area});
-  std::stable_sort(faces.begin(), faces.end(), [](const Candidate& a, const Candidate& b) {
-    return a.face_share > b.face_share;
-  });
-  if (faces.size() > kFaces) faces.resize(kFaces);
-  return faces;
-}
-
 // Faces, then even steps, then the deepest point of the concavity.
 std::vector<Candidate> Candidates(const Region& region, double bin_m) {
+  constexpr std::size_t kFaces = 6;
   constexpr int kSteps = 7;
   std::vector<Candidate> candidates;
   double largest = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    for (const Candidate& face : FaceCuts(region, axis, bin_m)) {
-      candidates.push_back(face);
-      largest = std::max(largest, face.face_share);
+    for (const CutSurface::Face& face : region.surface.FacesAcross(axis, bin_m, kFaces)) {
+      candidates.push_back({{axis, face.position_m}, face.area_m2});
+      largest = std::max(largest, face.area_m2);
     }
   }
   for (Candidate& candidate : candidates) candidate.face_share /= largest;
@@ -164,6 +81,13 @@ std::vector<Candidate> Candidates(const Region& region, double bin_m) {
   return candidates;
 }
 
+Eigen::Vector3d MiddleOf(const TriangleMesh& hull) {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& vertex : hull.vertices)
+    middle += vertex / static_cast<double>(hull.vertices.size());
+  return middle;
+}
+
 class Decomposition {
  public:
   Decomposition(const ClosedMesh& mesh, const ConvexPartsConfig& config)
@@ -172,16 +96,18 @@ class Decomposition {
         tree_(mesh.mesh()),
         solid_(mesh, CellFor(mesh.mesh(), config.max_concavity_m / 3, 0, config.max_grid_cells)),
         // the grid sees depths to within half a cell
+        distances_(solid_, tree_),
         allowed_m_(std::max(config.max_concavity_m - 0.5 * solid_.grid().cell_m,
                             0.5 * config.max_concavity_m)) {
     Region whole;
     for (const Eigen::Vector3d& vertex : mesh.mesh().vertices) whole.box.extend(vertex);
     for (const Eigen::Vector3i& t : mesh.mesh().triangles) {
-      Polygon& polygon = whole.surface.emplace_back();
-      for (const int index : t)
-        polygon.corners.push_back(mesh.mesh().vertices[static_cast<std::size_t>(index)]);
-      polygon.wall_m = WallBehind(polygon);
+      std::array<Eigen::Vector3d, 3> corners;
+      for (int k = 0; k < 3; ++k)
+        corners[static_cast<std::size_t>(k)] = mesh.mesh().vertices[static_cast<std::size_t>(t[k])];
+      whole.surface.AddPolygon(corners, WallBehind(corners));
     }
+    whole.surface.Weld();
     smallest_m3_ = 1e-9 * whole.box.volume();
     if (Enclose(whole, {})) regions_.push_back(std::move(whole));
     whole_ = regions_;
@@ -192,7 +118,9 @@ class Decomposition {
     if (WorstDepth() > allowed_m_) SpendBetter();
     if (WorstDepth() > allowed_m_) SearchAgain();
     std::vector<TriangleMesh> parts = Covered(kCoverShare);
-    return config_.max_protrusion_m > 0 ? Measured(std::move(parts)) : parts;
+    if (config_.max_protrusion_m > 0) parts = Measured(std::move(parts));
+    for (TriangleMesh& part : parts) part = ConvexHull(part.vertices);
+    return parts;
   }
 
  private:
@@ -215,9 +143,8 @@ class Decomposition {
     return {between.depth_m <= allowed_m_ ? 0 : between.depth_m, between.air_m3};
   }
 
-  double WallBehind(const Polygon& triangle) const {
-    const std::vector<Eigen::Vector3d>& p = triangle.corners;
-    const Eigen::Vector3d inwards = -DoubledAreaOf(triangle).normalized();
+  double WallBehind(const std::array<Eigen::Vector3d, 3>& p) const {
+    const Eigen::Vector3d inwards = -(p[1] - p[0]).cross(p[2] - p[0]).normalized();
     return tree_.FirstHit((p[0] + p[1] + p[2]) / 3, inwards, 1e-3 * SkinM());
   }
 
@@ -225,19 +152,33 @@ class Decomposition {
   // count that lie in the solid and in the hull that the region is cut from: the box of two regions
   // that were joined holds what belongs to others.
   bool Enclose(Region& region, const std::vector<HalfSpace>& cut_from) {
-    region.id = next_id_++;
-    // kept with the surface as polygons of one point, so that later cuts and joins know them
+    // kept with the surface, so that later cuts and joins know them
     for (int corner = 0; corner < 8; ++corner) {
       const Eigen::Vector3d point =
           region.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
-      if (IsHeldBy(cut_from, {{point}}) && IsSolidBehind(point, region.box))
-        region.surface.push_back({{point}});
+      if (IsHeldBy(cut_from, {&point, 1}) && IsSolidBehind(point, region.box))
+        region.surface.AddNotedPoint(point);
     }
-    std::optional<TriangleMesh> hull = HullOf(PointsOf(region.surface));
-    if (!hull || !(VolumeOf(*hull) > smallest_m3_)) return false;
+    region.surface.Weld();
+    return SetHull(region, SearchHull(region.surface.points()));
+  }
+
+  // False where the hull holds nothing.
+  bool SetHull(Region& region, std::optional<TriangleMesh> hull) {
+    region.id = next_id_++;
+    if (!hull) return false;
+    region.volume_m3 = VolumeOf(*hull);
+    if (!(region.volume_m3 > smallest_m3_)) return false;
     region.hull = *std::move(hull);
-    region.concavity = ConcavityOf(region.hull, solid_);
+    region.faces = HalfSpacesOf(region.hull);
+    region.middle = MiddleOf(region.hull);
+    region.concavity = ConcavityOf(region.hull, solid_, {.above_m = allowed_m_});
     return true;
+  }
+
+  // What the hulls of the search leave out does not change what a grid sees of them.
+  std::optional<TriangleMesh> SearchHull(std::span<const Eigen::Vector3d> points) const {
+    return GrownHull(points, kSearchHull * allowed_m_);
   }
 
   double WorstDepth() const {
@@ -248,8 +189,10 @@ class Decomposition {
 
   std::vector<TriangleMesh> Covered(double share) const {
     std::vector<TriangleMesh> parts;
-    for (const Region& region : regions_)
-      parts.push_back(ReducedHull(region.hull, config_.max_vertices));
+    for (const Region& region : regions_) {
+      if (const std::optional<TriangleMesh> hull = HullOf(region.surface.points()))
+        parts.push_back(ReducedHull(*hull, config_.max_vertices));
+    }
     return Covering(std::move(parts), *mesh_, solid_,
                     {.tolerance_m = share * config_.max_concavity_m,
                      .allowed_m = allowed_m_,
@@ -376,7 +319,7 @@ class Decomposition {
     std::sort(pairs.begin(), pairs.end());
     std::optional<RegionPair> best;
     for (const auto& [cost, pair] : pairs) {
-      const double depth_m = MeasuredBetween(regions_[pair.first], regions_[pair.second]);
+      const double depth_m = MeasuredBetween(regions_[pair.first], regions_[pair.second], below_m);
       if (depth_m >= below_m) continue;
       best = pair;
       if (depth_m <= config_.max_protrusion_m) break;
@@ -385,38 +328,26 @@ class Decomposition {
     return best;
   }
 
-  double MeasuredBetween(const Region& a, const Region& b) {
-    const auto [entry, is_new] = measured_between_.try_emplace({a.id, b.id}, 1e300);
-    if (!is_new) return entry->second;
+  // Any depth beyond the bound that was asked for, as BetweenOf().
+  double MeasuredBetween(const Region& a, const Region& b, double bound_m) {
+    Between& between = measured_between_[{a.id, b.id}];
+    if (between.asked_m > 0 && (between.depth_m <= between.asked_m || bound_m <= between.asked_m))
+      return between.depth_m;
+    between.asked_m = bound_m;
     const std::optional<TriangleMesh> hull = CommonHull(a, b);
-    if (hull) entry->second = Protrusion(*hull).depth_m;
-    return entry->second;
+    if (hull) between.depth_m = Protrusion(*hull, kFineStep, bound_m).depth_m;
+    return between.depth_m;
   }
 
   // The point of the hull's surface that is farthest from the mesh's, if it is farther than may be;
   // depth 0 where there is none.
-  Concavity Protrusion(const TriangleMesh& hull, int stride = 1) const {
-    const double unseen_m = std::sqrt(3.0) * solid_.grid().cell_m;
-    std::vector<Concavity> probes;  // with their depths in the grid
-    for (const Eigen::Vector3d& point : PointsOn(hull, stride * solid_.grid().cell_m)) {
-      const Eigen::Vector3i cell = solid_.grid().CellAt(point);
-      const double depth_m = solid_.DistanceAt(cell.x(), cell.y(), cell.z());
-      if (depth_m > 0 && depth_m + unseen_m > config_.max_protrusion_m)
-        probes.push_back({depth_m, point});
-    }
-    std::stable_sort(probes.begin(), probes.end(),
-                     [](const Concavity& a, const Concavity& b) { return a.depth_m > b.depth_m; });
-    Concavity farthest;
-    for (const Concavity& probe : probes) {
-      if (probe.depth_m + unseen_m <= farthest.depth_m) break;
-      const double depth_m = tree_.Distance(probe.at_m, probe.depth_m + unseen_m);
-      if (depth_m > std::max(farthest.depth_m, config_.max_protrusion_m))
-        farthest = {depth_m, probe.at_m};
-    }
-    return farthest;
+  Concavity Protrusion(const TriangleMesh& hull, double step_cells = kFineStep,
+                       double stop_m = 1e300) {
+    return ProtrusionOf(hull, distances_, {.above_m = config_.max_protrusion_m, .stop_m = stop_m},
+                        step_cells * solid_.grid().cell_m);
   }
 
-  double MostProtrusion(const std::vector<TriangleMesh>& parts) const {
+  double MostProtrusion(const std::vector<TriangleMesh>& parts) {
     double most_m = 0;
     for (const TriangleMesh& part : parts) most_m = std::max(most_m, Protrusion(part).depth_m);
     return most_m;
@@ -464,42 +395,32 @@ class Decomposition {
     if (region.trimmed) return false;
     CheckWork();
     region.trimmed = true;
-    std::vector<std::vector<HalfSpace>> others;
+    std::vector<const std::vector<HalfSpace>*> others;
     for (std::size_t i = 0; i < regions_.size(); ++i) {
       if (i != index && regions_[i].box.exteriorDistance(region.box) <= kHeldSkins * SkinM())
-        others.push_back(HalfSpacesOf(regions_[i].hull));
+        others.push_back(&regions_[i].faces);
     }
-    std::vector<Polygon> kept;
-    for (const Polygon& polygon : region.surface) {
-      if (polygon.IsNotedPoint() || !IsHeldBy(others, polygon)) kept.push_back(polygon);
-    }
-    if (kept.size() == region.surface.size()) return false;
-    const bool only_points =
-        std::all_of(kept.begin(), kept.end(), [](const Polygon& p) { return p.IsNotedPoint(); });
-    std::optional<TriangleMesh> hull = HullOf(PointsOf(kept));
-    if (only_points || !hull || !(VolumeOf(*hull) > smallest_m3_)) {
+    CutSurface kept = region.surface.Without([&](std::span<const Eigen::Vector3d> corners) {
+      return std::any_of(others.begin(), others.end(), [&](const std::vector<HalfSpace>* faces) {
+        return IsHeldBy(*faces, corners);
+      });
+    });
+    if (kept.PolygonCount() == region.surface.PolygonCount()) return false;
+    if (kept.PolygonCount() == 0 || !SetHull(region, SearchHull(kept.points()))) {
       regions_.erase(regions_.begin() + static_cast<std::ptrdiff_t>(index));
       return true;
     }
-    region.id = next_id_++;
     region.surface = std::move(kept);
-    region.hull = *std::move(hull);
-    region.concavity = ConcavityOf(region.hull, solid_);
     return true;
   }
 
-  // Wholly in one of the hulls, but for a skin.
-  bool IsHeldBy(const std::vector<std::vector<HalfSpace>>& hulls, const Polygon& polygon) const {
-    return std::any_of(hulls.begin(), hulls.end(),
-                       [&](const std::vector<HalfSpace>& hull) { return IsHeldBy(hull, polygon); });
-  }
-
-  bool IsHeldBy(const std::vector<HalfSpace>& hull, const Polygon& polygon) const {
+  // Wholly in the hull, but for a skin.
+  bool IsHeldBy(const std::vector<HalfSpace>& hull,
+                std::span<const Eigen::Vector3d> corners) const {
     return std::all_of(hull.begin(), hull.end(), [&](const HalfSpace& face) {
-      return std::all_of(polygon.corners.begin(), polygon.corners.end(),
-                         [&](const Eigen::Vector3d& p) {
-                           return face.normal.dot(p) <= face.offset + kHeldSkins * SkinM();
-                         });
+      return std::all_of(corners.begin(), corners.end(), [&](const Eigen::Vector3d& p) {
+        return face.normal.dot(p) <= face.offset + kHeldSkins * SkinM();
+      });
     });
   }
 
@@ -509,16 +430,14 @@ class Decomposition {
 
   // Replaces a region by its two sides of the best cut; false if no cut separates anything.
   bool Split(std::size_t index, Depths depths) {
-    const std::optional<Cut> cut = BestCut(regions_[index], depths);
+    const std::optional<AxisCut> cut = BestCut(regions_[index], depths);
     if (!cut) return false;
-    const std::vector<HalfSpace> cut_from = HalfSpacesOf(regions_[index].hull);
     std::vector<Region> sides;
     for (const int sign : {-1, 1}) {
       Region side;
-      side.box = regions_[index].box;
-      (sign < 0 ? side.box.max() : side.box.min())[cut->axis] = cut->position_m;
-      side.surface = OneSide(regions_[index], *cut, sign);
-      if (Enclose(side, cut_from)) sides.push_back(std::move(side));
+      side.box = SideOfBox(regions_[index].box, {*cut, sign});
+      side.surface = regions_[index].surface.Side({*cut, sign}, SkinM(), NotedFor(side.box));
+      if (Enclose(side, regions_[index].faces)) sides.push_back(std::move(side));
     }
     if (sides.size() < 2) return false;
     regions_[index] = std::move(sides[0]);
@@ -526,10 +445,20 @@ class Decomposition {
     return true;
   }
 
+  static Eigen::AlignedBox3d SideOfBox(Eigen::AlignedBox3d box, const CutSide& side) {
+    (side.sign < 0 ? box.max() : box.min())[side.cut.axis] = side.cut.position_m;
+    return box;
+  }
+
+  // A noted point on the cut belongs to each side on which the solid goes on behind it.
+  CutSurface::IsNotedFor NotedFor(const Eigen::AlignedBox3d& side) const {
+    return [this, side](const Eigen::Vector3d& point) { return IsSolidBehind(point, side); };
+  }
+
   // One side of a possible cut, as far as it decides between cuts.
   struct Side {
-    double volume_m3 = 0;  // of its hull
-    double depth_m = 0;    // of its hull, where that makes a further cut necessary
+    TriangleMesh hull;
+    double volume_m3 = 0;  // of the hull
     double area_m2 = 0;    // of the surface in it
   };
 
@@ -537,58 +466,56 @@ class Decomposition {
   // the air in both hulls. Depth matters because an opening is rid of by cutting its walls off one
   // by one, which gains no air before the last. Faces are preferred, since walls end there, and so
   // are halves over slivers.
-  std::optional<Cut> BestCut(const Region& region, Depths depths) const {
-    constexpr double kAirWeight = 0.5;
-    constexpr double kFaceBonus = 0.02;
-    constexpr double kHalfBonus = 0.05;
-    const double whole = VolumeOf(region.hull);
-    std::optional<Cut> best;
+  std::optional<AxisCut> BestCut(const Region& region, Depths depths) {
+    std::optional<AxisCut> best;
     double best_score = 1e300;
     for (const Candidate& candidate : Candidates(region, solid_.grid().cell_m)) {
-      const std::optional<Side> below = SideOf(region, candidate.cut, -1, depths);
-      const std::optional<Side> above = SideOf(region, candidate.cut, 1, depths);
-      if (!below || !above) continue;
-      const double deep = (below->depth_m * below->area_m2 + above->depth_m * above->area_m2) /
-                          (region.concavity.depth_m * (below->area_m2 + above->area_m2));
-      const double score = deep + kAirWeight * (below->volume_m3 + above->volume_m3) / whole -
-                           kFaceBonus * candidate.face_share -
-                           kHalfBonus * std::min(below->volume_m3, above->volume_m3) / whole;
-      if (score >= best_score - 1e-9) continue;  // ties: the first
-      best_score = score;
+      const std::optional<double> score = ScoreOf(region, candidate, depths, best_score - 1e-9);
+      if (!score) continue;  // ties: the first
+      best_score = *score;
       best = candidate.cut;
     }
     return best;
   }
 
-  // Nothing where the side is empty or flat.
-  std::optional<Side> SideOf(const Region& region, const Cut& cut, int sign, Depths depths) const {
-    CheckWork();
-    const std::vector<Polygon> surface = OneSide(region, cut, sign);
-    const std::optional<TriangleMesh> hull = HullOf(PointsOf(surface));
-    if (!hull || !(VolumeOf(*hull) > smallest_m3_)) return std::nullopt;
-    Side side{VolumeOf(*hull), ComparableDepth(*hull, depths), 0};
-    for (const Polygon& polygon : surface) side.area_m2 += 0.5 * DoubledAreaOf(polygon).norm();
-    return side;
-  }
-
-  // Of a hull, where it makes a cut necessary; every third row or point is enough to compare.
-  double ComparableDepth(const TriangleMesh& hull, Depths depths) const {
-    constexpr int kStride = 3;
-    if (depths == Depths::kMeasured) return Protrusion(hull, kStride).depth_m;
-    const double depth_m = ConcavityOf(hull, solid_, kStride).depth_m;
-    return depth_m > allowed_m_ ? depth_m : 0;
-  }
-
-  // The surface on one side of a cut, and the points in the solid that were noted for it.
-  std::vector<Polygon> OneSide(const Region& region, const Cut& cut, int sign) const {
-    std::vector<Polygon> kept;
-    for (const Polygon& polygon : region.surface) {
-      if (IsSkinOfOtherSide(polygon, cut, sign, SkinM()) && !IsNotedFor(region, polygon, cut, sign))
-        continue;
-      Polygon clipped = Clipped(polygon, cut, sign);
-      if (!clipped.corners.empty()) kept.push_back(std::move(clipped));
+  // Of a cut; nothing where a side is empty or flat, or the score is no less than `below`.
+  std::optional<double> ScoreOf(const Region& region, const Candidate& candidate, Depths depths,
+                                double below) {
+    constexpr double kAirWeight = 0.5;
+    constexpr double kFaceBonus = 0.02;
+    constexpr double kHalfBonus = 0.05;
+    const std::optional<Side> lower = SideOf(region, {candidate.cut, -1});
+    if (!lower) return std::nullopt;
+    const std::optional<Side> upper = SideOf(region, {candidate.cut, 1});
+    if (!upper) return std::nullopt;
+    double score = kAirWeight * (lower->volume_m3 + upper->volume_m3) / region.volume_m3 -
+                   kFaceBonus * candidate.face_share -
+                   kHalfBonus * std::min(lower->volume_m3, upper->volume_m3) / region.volume_m3;
+    const double area_m2 = lower->area_m2 + upper->area_m2;
+    for (const Side* side : {&*lower, &*upper}) {
+      if (score >= below) return std::nullopt;  // depths only add to it
+      // of the score, a depth of one metre
+      const double weight = side->area_m2 / (region.concavity.depth_m * area_m2);
+      score += weight * ComparableDepth(side->hull, depths, (below - score) / weight);
     }
-    return kept;
+    return score < below ? std::optional(score) : std::nullopt;
+  }
+
+  // Nothing where the side is empty or flat.
+  std::optional<Side> SideOf(const Region& region, const CutSide& side) {
+    CheckWork();
+    region.surface.FindSide(side, SkinM(), NotedFor(SideOfBox(region.box, side)), content_);
+    std::optional<TriangleMesh> hull = SearchHull(content_.points);
+    if (!hull) return std::nullopt;
+    const double volume_m3 = VolumeOf(*hull);
+    if (!(volume_m3 > smallest_m3_)) return std::nullopt;
+    return Side{*std::move(hull), volume_m3, content_.area_m2};
+  }
+
+  // Of a hull, where it makes a cut necessary; any depth beyond `stop_m`.
+  double ComparableDepth(const TriangleMesh& hull, Depths depths, double stop_m) {
+    if (depths == Depths::kMeasured) return Protrusion(hull, kCoarseStep, stop_m).depth_m;
+    return ConcavityOf(hull, solid_, {.above_m = allowed_m_, .stop_m = stop_m}).depth_m;
   }
 
   // Whether the solid begins at the point in the direction of the box's inside. Asked a little way
@@ -600,16 +527,6 @@ class Decomposition {
       inside[axis] += std::clamp(way, -2 * SkinM(), 2 * SkinM());
     }
     return tree_.IsInside(inside);
-  }
-
-  // A noted point on the cut belongs to each side on which the solid goes on behind it.
-  bool IsNotedFor(const Region& region, const Polygon& polygon, const Cut& cut, int sign) const {
-    if (!polygon.IsNotedPoint()) return false;
-    const Eigen::Vector3d& point = polygon.corners[0];
-    if (sign * (point[cut.axis] - cut.position_m) < 0) return false;
-    Eigen::AlignedBox3d side = region.box;
-    (sign < 0 ? side.max() : side.min())[cut.axis] = cut.position_m;
-    return IsSolidBehind(point, side);
   }
 
   // What a part may lack of the solid near a cut.
@@ -644,21 +561,40 @@ class Decomposition {
   void Join(const RegionPair& pair) {
     Region joined = std::move(regions_[pair.first]);
     const Region& other = regions_[pair.second];
-    joined.id = next_id_++;
+    std::optional<TriangleMesh> hull = CommonHull(joined, other);
     joined.box.extend(other.box);
-    joined.surface.insert(joined.surface.end(), other.surface.begin(), other.surface.end());
-    joined.hull = *CommonHull(joined, other);
-    joined.concavity = ConcavityOf(joined.hull, solid_);
+    joined.surface.Append(other.surface);
+    joined.surface.Weld();
+    SetHull(joined, std::move(hull));
     joined.indivisible = false;
     joined.trimmed = false;
     regions_[pair.first] = std::move(joined);
     regions_.erase(regions_.begin() + static_cast<std::ptrdiff_t>(pair.second));
   }
 
-  static std::optional<TriangleMesh> CommonHull(const Region& a, const Region& b) {
+  std::optional<TriangleMesh> CommonHull(const Region& a, const Region& b) const {
     std::vector<Eigen::Vector3d> points = a.hull.vertices;
     points.insert(points.end(), b.hull.vertices.begin(), b.hull.vertices.end());
-    return HullOf(points);
+    return SearchHull(points);
+  }
+
+  // Whether there is so much air between the middles of two regions that their common hull, which
+  // holds the way from one to the other, is deeper than the bound. Regions need not touch: those on
+  // both sides of a bar go through it.
+  bool LieApart(const Region& a, const Region& b, double bound_m) const {
+    constexpr int kAsked = 8;
+    constexpr double kGap = 0.5;  // of the smaller region: what may lie between them
+    const double smaller_m = std::min(a.box.diagonal().norm(), b.box.diagonal().norm());
+    if (a.box.exteriorDistance(b.box) > std::max(solid_.grid().cell_m, kGap * smaller_m))
+      return true;
+    const Eigen::Vector3d from = a.middle;
+    const Eigen::Vector3d way = b.middle - from;
+    const double slack_m = std::sqrt(3.0) * solid_.grid().cell_m;
+    for (int i = 1; i < kAsked; ++i) {
+      const Eigen::Vector3i cell = solid_.grid().CellAt(from + way * i / kAsked);
+      if (solid_.DistanceAt(cell.x(), cell.y(), cell.z()) > bound_m + slack_m) return true;
+    }
+    return false;
   }
 
   const Between& BetweenOf(const Region& a, const Region& b, double bound_m) {
@@ -668,11 +604,12 @@ class Decomposition {
       return between;
     between.asked_m = bound_m;
     CheckWork(500);
-    if (a.box.exteriorDistance(b.box) > solid_.grid().cell_m) return between;
+    if (LieApart(a, b, bound_m)) return between;
     const std::optional<TriangleMesh> hull = CommonHull(a, b);
     if (!hull) return between;
-    between.depth_m = DepthWithin(*hull, solid_, bound_m);
-    between.air_m3 = VolumeOf(*hull) - VolumeOf(a.hull) - VolumeOf(b.hull);
+    between.depth_m =
+        ConcavityOf(*hull, solid_, {.above_m = allowed_m_, .stop_m = bound_m}).depth_m;
+    between.air_m3 = VolumeOf(*hull) - a.volume_m3 - b.volume_m3;
     return between;
   }
 
@@ -680,6 +617,7 @@ class Decomposition {
   ConvexPartsConfig config_;
   TriangleTree tree_;
   DistanceGrid solid_;
+  MeasuredDistances distances_;
   double allowed_m_;
   double smallest_m3_ = 0;
   std::vector<Region> regions_;
@@ -687,7 +625,8 @@ class Decomposition {
   int next_id_ = 0;
   std::map<std::pair<int, int>, Between> between_;
   std::map<int, Concavity> measured_;  // by the region's id
-  std::map<std::pair<int, int>, double> measured_between_;
+  std::map<std::pair<int, int>, Between> measured_between_;
+  CutSurface::SideContent content_;  // of the side that is looked at
 };
 
 void CheckConfig(const ConvexPartsConfig& config) {

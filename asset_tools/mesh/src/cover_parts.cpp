@@ -12,6 +12,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "convex_region.h"
+#include "hull_depth.h"
 #include "surface_samples.h"
 
 namespace doorforge {
@@ -165,7 +166,7 @@ class Cover {
     const double spacing_m = std::sqrt(MeasureTopology(mesh.mesh()).area_m2 / kCoverSamples);
     const Points probes = ProbesOf(mesh.mesh(), spacing_m);
     constexpr int kCoverRounds =
-        3;  // reduced to few vertices, a part may not cover all that it was for
+        5;  // reduced to few vertices, a part may not cover all that it was for
     for (int round = 0; round < kCoverRounds; ++round) {
       const Points left = LeftOut(probes, shapes_, limits_.tolerance_m);
       if (left.empty()) break;
@@ -178,10 +179,15 @@ class Cover {
   }
 
  private:
+  bool StaysWithin(const TriangleMesh& hull) const {
+    const DepthRange range{.above_m = limits_.allowed_m, .stop_m = limits_.allowed_m};
+    return ConcavityOf(hull, *solid_, range).depth_m == 0;
+  }
+
   void Add(const Points& points) {
     const std::optional<TriangleMesh> hull = ThickHullOf(points);
     if (!hull) return;
-    const bool fits = StaysWithin(*hull, *solid_, limits_.allowed_m);
+    const bool fits = StaysWithin(*hull);
     if (!fits && points.size() > 8) {
       const auto [low, high] = Halves(points);
       Add(low);
@@ -212,7 +218,7 @@ class Cover {
       std::optional<TriangleMesh> hull = HullOf(points);
       if (!hull) continue;
       *hull = ReducedHull(*hull, limits_.max_vertices);
-      const double depth_m = ConcavityOf(*hull, *solid_, 2).depth_m;
+      const double depth_m = ConcavityOf(*hull, *solid_).depth_m;
       if (depth_m >= least_m) continue;
       least_m = depth_m;
       best = std::move(hull);

@@ -3,8 +3,10 @@
 #include "distance_grid.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -70,6 +72,7 @@ DistanceGrid::DistanceGrid(const ClosedMesh& mesh, double cell_m)
   MarkInside(mesh.mesh());
   MarkSurface(mesh.mesh());
   SpreadDistances();
+  FindLargest();
 }
 
 void DistanceGrid::MarkInside(const TriangleMesh& mesh) {
@@ -90,16 +93,27 @@ void DistanceGrid::MarkInside(const TriangleMesh& mesh) {
 
 // Cells that the surface passes through count as well, or a sheet thinner than a cell would vanish.
 void DistanceGrid::MarkSurface(const TriangleMesh& mesh) {
+  const double step_m = 0.5 * grid_.cell_m;
   for (const Eigen::Vector3i& t : mesh.triangles) {
-    const Eigen::Vector3d& a = mesh.vertices[static_cast<std::size_t>(t[0])];
-    const Eigen::Vector3d ab = mesh.vertices[static_cast<std::size_t>(t[1])] - a;
-    const Eigen::Vector3d ac = mesh.vertices[static_cast<std::size_t>(t[2])] - a;
-    const double longest = std::max({ab.norm(), ac.norm(), (ab - ac).norm()});
-    const int steps = 1 + static_cast<int>(longest / (0.5 * grid_.cell_m));
-    for (int u = 0; u <= steps; ++u) {
-      CheckWork(static_cast<unsigned>(steps - u + 1));
-      for (int v = 0; u + v <= steps; ++v) {
-        const Eigen::Vector3i index = grid_.CellAt(a + ab * u / steps + ac * v / steps);
+    std::array<Eigen::Vector3d, 3> p;
+    for (int k = 0; k < 3; ++k)
+      p[static_cast<std::size_t>(k)] = mesh.vertices[static_cast<std::size_t>(t[k])];
+    // from the corner opposite the shortest edge, so that needles take few points
+    for (int turn = 0;
+         turn < 2 && (p[1] - p[2]).squaredNorm() >
+                         std::min((p[0] - p[1]).squaredNorm(), (p[0] - p[2]).squaredNorm());
+         ++turn)
+      std::rotate(p.begin(), p.begin() + 1, p.end());
+    const double longest = std::max((p[1] - p[0]).norm(), (p[2] - p[0]).norm());
+    const int along = 1 + static_cast<int>(longest / step_m);
+    for (int u = 0; u <= along; ++u) {
+      const double share = static_cast<double>(u) / along;
+      const Eigen::Vector3d from = p[0] + share * (p[1] - p[0]);
+      const Eigen::Vector3d way = share * (p[2] - p[1]);
+      const int across = 1 + static_cast<int>(way.norm() / step_m);
+      CheckWork(static_cast<unsigned>(across));
+      for (int v = 0; v <= across; ++v) {
+        const Eigen::Vector3i index = grid_.CellAt(from + way * v / across);
         distance_m_[grid_.IndexOf(index.x(), index.y(), index.z())] = 0;
       }
     }
@@ -124,8 +138,24 @@ void DistanceGrid::SpreadDistances() {
   }
   const auto cell = static_cast<float>(grid_.cell_m);
   for (float& distance : distance_m_) distance = cell * std::sqrt(distance);
-  for (auto row = distance_m_.begin(); row != distance_m_.end(); row += grid_.size.x())
-    row_largest_m_.push_back(*std::max_element(row, row + grid_.size.x()));
+}
+
+void DistanceGrid::FindLargest() {
+  for (int level = 1; BlocksAt(level - 1).maxCoeff() > 1; ++level) {
+    CheckWork();
+    const Eigen::Vector3i below = BlocksAt(level - 1);
+    Blocks blocks{BlocksAt(level), {}};
+    blocks.value_m.resize(blocks.IndexOf(0, 0, blocks.size.z()));
+    const float* value = level == 1 ? distance_m_.data() : largest_m_.back().value_m.data();
+    for (int k = 0; k < below.z(); ++k) {
+      for (int j = 0; j < below.y(); ++j) {
+        float* largest = &blocks.value_m[blocks.IndexOf(0, j / 2, k / 2)];
+        for (int i = 0; i < below.x(); ++i, ++value)
+          largest[i / 2] = std::max(largest[i / 2], *value);
+      }
+    }
+    largest_m_.push_back(std::move(blocks));
+  }
 }
 
 }  // namespace doorforge

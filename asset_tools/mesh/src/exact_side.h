@@ -11,6 +11,15 @@ namespace doorforge {
 int SideOfPlane(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
                 const Eigen::Vector3d& d);
 
+/// The same without asking first whether rounded numbers can tell.
+int ExactSideOfPlane(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                     const Eigen::Vector3d& d);
+
+/// The rounded determinant (b - a) x (c - a) . (d - a) has the right sign where it is larger than
+/// this times the same sum of products with every one positive: more than Shewchuk's
+/// (7 + 56 eps) eps.
+inline constexpr double kSideBound = 1e-15;
+
 /// Whether three points lie on a line. As exact.
 bool AreCollinear(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 

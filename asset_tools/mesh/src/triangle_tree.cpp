@@ -10,37 +10,15 @@
 
 #include "doorforge/mesh/work_budget.h"
 
+#include "nearest_point.h"
+
 namespace doorforge {
 namespace {
 
 using Eigen::Vector3d;
 
 constexpr int kLeafTriangles = 4;
-
-// Nearest point of a triangle: Ericson, Real-Time Collision Detection (2005), section 5.1.5.
-Vector3d NearestPoint(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-  const Vector3d ab = b - a;
-  const Vector3d ac = c - a;
-  const double d1 = ab.dot(p - a);
-  const double d2 = ac.dot(p - a);
-  if (d1 <= 0 && d2 <= 0) return a;
-  const double d3 = ab.dot(p - b);
-  const double d4 = ac.dot(p - b);
-  if (d3 >= 0 && d4 <= d3) return b;
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + (d1 > d3 ? d1 / (d1 - d3) : 0.0) * ab;
-  const double d5 = ab.dot(p - c);
-  const double d6 = ac.dot(p - c);
-  if (d6 >= 0 && d5 <= d6) return c;
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + (d2 > d6 ? d2 / (d2 - d6) : 0.0) * ac;
-  const double va = d3 * d6 - d5 * d4;
-  const double e1 = d4 - d3;
-  const double e2 = d5 - d6;
-  if (va <= 0 && e1 >= 0 && e2 >= 0) return b + (e1 + e2 > 0 ? e1 / (e1 + e2) : 0.0) * (c - b);
-  const double sum = va + vb + vc;
-  return a + vb / sum * ab + vc / sum * ac;
-}
+constexpr std::size_t kDeepest = 64;  // more than the levels of halves of any number of triangles
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -139,28 +117,33 @@ void TriangleTree::Build(int node, int first, int count) {
 double TriangleTree::Distance(const Vector3d& point, double at_most) const {
   double best = at_most * at_most;
   if (triangles_.empty()) return at_most;
-  std::vector<std::pair<double, int>> pending{{0.0, 0}};
-  while (!pending.empty()) {
-    CheckWork(1);
-    const auto [bound, index] = pending.back();
-    pending.pop_back();
-    if (bound >= best) continue;
-    const Node& node = nodes_[static_cast<std::size_t>(index)];
+  struct Pending {
+    double bound;
+    int node;
+  };
+  std::array<Pending, kDeepest> pending;
+  std::size_t count = 0;
+  pending[count++] = {0, 0};
+  unsigned visited = 0;
+  while (count > 0) {
+    const Pending next = pending[--count];
+    if (next.bound >= best) continue;
+    ++visited;
+    const Node& node = nodes_[static_cast<std::size_t>(next.node)];
     for (int i = node.first; i < node.first + node.count; ++i) {
       const Triangle& t = triangles_[static_cast<std::size_t>(i)];
       best = std::min(best, (point - NearestPoint(point, t.a, t.b, t.c)).squaredNorm());
     }
     if (node.count > 0) continue;
-    std::pair<double, int> near{
-        nodes_[static_cast<std::size_t>(node.first)].box.squaredExteriorDistance(point),
-        node.first};
-    std::pair<double, int> far{
-        nodes_[static_cast<std::size_t>(node.first) + 1].box.squaredExteriorDistance(point),
-        node.first + 1};
-    if (far.first < near.first) std::swap(near, far);
-    pending.push_back(far);
-    pending.push_back(near);
+    Pending near{nodes_[static_cast<std::size_t>(node.first)].box.squaredExteriorDistance(point),
+                 node.first};
+    Pending far{nodes_[static_cast<std::size_t>(node.first) + 1].box.squaredExteriorDistance(point),
+                node.first + 1};
+    if (far.bound < near.bound) std::swap(near, far);
+    if (far.bound < best) pending[count++] = far;
+    if (near.bound < best) pending[count++] = near;
   }
+  CheckWork(visited);
   return std::sqrt(best);
 }
 

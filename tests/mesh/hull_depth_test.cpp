@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "hull_depth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "doorforge/core/closed_mesh.h"
+#include "doorforge/core/rng.h"
+#include "doorforge/mesh/convex_parts.h"
+
+#include "convex_region.h"
+#include "distance_grid.h"
+#include "shapes.h"
+#include "triangle_tree.h"
+
+namespace doorforge {
+namespace {
+
+Eigen::Vector3d Drawn(Rng& rng, const Eigen::Vector3d& size) {
+  return Eigen::Vector3d(rng.Uniform(0, 1), rng.Uniform(0, 1), rng.Uniform(0, 1))
+      .cwiseProduct(size);
+}
+
+TriangleMesh DrawnHull(Rng& rng, const Eigen::Vector3d& size) {
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < 12; ++i) points.push_back(Drawn(rng, size));
+  return ConvexHull(points);
+}
+
+ClosedMesh Posts() {
+  TriangleMesh posts;
+  for (const double x : {0.0, 0.4, 0.9}) {
+    for (const double y : {0.0, 0.55})
+      posts =
+          Together(posts, Box(Eigen::Vector3d(x, y, 0), Eigen::Vector3d(x + 0.1, y + 0.05, 0.7)));
+  }
+  return *ClosedMesh::From(posts);
+}
+
+// every cell of the grid is asked
+double DeepestOfAll(const TriangleMesh& hull, const DistanceGrid& solid) {
+  const std::vector<HalfSpace> faces = HalfSpacesOf(hull);
+  double deepest_m = 0;
+  for (int k = 0; k < solid.grid().size.z(); ++k) {
+    for (int j = 0; j < solid.grid().size.y(); ++j) {
+      for (int i = 0; i < solid.grid().size.x(); ++i) {
+        const Eigen::Vector3d center = solid.grid().CenterOf(i, j, k);
+        if (std::all_of(faces.begin(), faces.end(), [&](const HalfSpace& face) {
+              return face.normal.dot(center) <= face.offset;
+            }))
+          deepest_m = std::max<double>(deepest_m, solid.DistanceAt(i, j, k));
+      }
+    }
+  }
+  return deepest_m;
+}
+
+TEST(ConcavityOf, IsThatOfTheDeepestOfAllCells) {
+  const DistanceGrid solid(Posts(), 0.013);
+  Rng rng(3, "depth");
+  for (int round = 0; round < 100; ++round) {
+    const TriangleMesh hull = DrawnHull(rng, {1.1, 0.7, 0.8});
+    const double all_m = DeepestOfAll(hull, solid);
+    const Concavity found = ConcavityOf(hull, solid);
+    EXPECT_EQ(found.depth_m, all_m);
+    EXPECT_EQ(ConcavityOf(hull, solid, {.above_m = all_m}).depth_m, 0);
+    EXPECT_EQ(ConcavityOf(hull, solid, {.above_m = 0.9 * all_m}).depth_m, all_m);
+    EXPECT_GT(ConcavityOf(hull, solid, {.stop_m = 0.5 * all_m}).depth_m, 0.5 * all_m);
+    const Eigen::Vector3i cell = solid.grid().CellAt(found.at_m);
+    EXPECT_EQ(solid.DistanceAt(cell.x(), cell.y(), cell.z()), all_m);
+  }
+}
+
+// The diagonal face of an angle's hull is farthest from the angle in its middle.
+TEST(ProtrusionOf, AnAngleIsHalfItsOpening) {
+  constexpr double kWall = 0.1;
+  const TriangleMesh angle =
+      Together(Box(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, kWall, 0.5)),
+               Box(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(kWall, 1, 0.5)));
+  const DistanceGrid solid(*ClosedMesh::From(angle), 0.02);
+  const TriangleTree tree(angle);
+  MeasuredDistances distances(solid, tree);
+  const TriangleMesh hull = ConvexHull(angle.vertices);
+  const Concavity found = ProtrusionOf(hull, distances, {.above_m = 0.02}, 0.005);
+  EXPECT_NEAR(found.depth_m, (1 - kWall) / 2, 0.03 * found.depth_m + 0.005);
+  EXPECT_NEAR(found.at_m.x(), (1 + kWall) / 2, 0.03);
+  EXPECT_NEAR(found.at_m.y(), (1 + kWall) / 2, 0.03);
+  EXPECT_EQ(ProtrusionOf(hull, distances, {.above_m = 0.5}, 0.005).depth_m, 0);
+}
+
+TEST(MeasuredDistances, AreOffByHalfACellsDiagonalAtMost) {
+  constexpr double kCell = 0.02;
+  const ClosedMesh posts = Posts();
+  const DistanceGrid solid(posts, kCell);
+  const TriangleTree tree(posts.mesh());
+  MeasuredDistances distances(solid, tree);
+  Rng rng(8, "distances");
+  for (int i = 0; i < 2000; ++i) {
+    const Eigen::Vector3d point = Drawn(rng, {1.0, 0.6, 0.7});
+    EXPECT_NEAR(distances.At(point), tree.Distance(point), std::sqrt(0.75) * kCell);
+  }
+}
+
+}  // namespace
+}  // namespace doorforge

@@ -40,7 +40,7 @@ PolicyEpisodes::PolicyEpisodes(PolicySetFactory factory)
 Episode PolicyEpisodes::Run(const EpisodePlace& place, Observer* watcher) {
   Require(factory_.IsExpertAlone() || HasProprioception(place.robot), ErrorCode::kInvalidArgument,
           "policies know robots with two sliders or a fixed base, seven arm joints and two "
-          "fingers; others are for the expert alone");
+          "fingers, and flying hands; others are for the expert alone");
   const auto set = sets_.Take();
   if (!UsesPointCloud(*set)) return RunPolicySet(place, *set, watcher);
   const auto camera = CameraOf(place, remembered_);

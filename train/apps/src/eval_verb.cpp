@@ -13,6 +13,7 @@
 #include "doorforge/cli/command_line.h"
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/config_file.h"
+#include "doorforge/core/environment_preset.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
@@ -34,8 +35,7 @@ struct Options {
   std::string split;
   int per_category = 0;
   std::string out;
-  std::string config;
-  std::vector<std::string> settings;
+  ConfigSources config;
   std::optional<std::string> unlock_switch;
   std::optional<int> seeds;
   std::optional<std::uint64_t> first_seed;
@@ -74,8 +74,10 @@ void AddOptions(CLI::App& app, Options& options) {
   app.add_option("--threads", options.request.threads,
                  "0: all processors; the result does not depend on it")
       ->check(CLI::Range(0, 1024));
-  app.add_option("--config", options.config, "YAML file with settings")->check(CLI::ExistingFile);
-  AddSettings(app, options.settings, "a.b=c overrides one setting");
+  AddPreset(app, options.config.preset);
+  app.add_option("--config", options.config.file, "YAML file with settings")
+      ->check(CLI::ExistingFile);
+  AddSettings(app, options.config.settings, "a.b=c overrides one setting");
   app.add_flag("--allow-seen", options.request.allow_seen,
                "evaluate on doors with parts that the policy was trained on, too");
   app.add_flag("--json", options.json, "print report.json's document instead of a table");
@@ -107,7 +109,7 @@ Options Parse(int argc, char** argv, const EvalVerbSetup& setup) {
 }
 
 EvaluationConfig ConfigOf(const Options& options) {
-  auto config = LoadConfig<EvaluationConfig>(options.config, options.settings);
+  auto config = LoadConfig<EvaluationConfig>(options.config);
   if (options.unlock_switch)
     config.unlock_switch = *ValueNamed<SwitchSource>(*options.unlock_switch);
   Require(options.unlock_switch != "predicted" || options.request.policies.handler != kExpertPolicy,
@@ -155,7 +157,7 @@ int RunEvalVerb(int argc, char** argv, const EvalVerbSetup& setup) {
     options.request.doors = DoorSelectionOf(options.doors, "test", options.split);
     options.request.doors.per_category = options.per_category;
     options.request.command = CommandLineText(setup.program, argc, argv);
-    return NamingConfig(options.config, [&] { return Evaluate(options); });
+    return NamingConfig(options.config.Named(), [&] { return Evaluate(options); });
   });
 }
 

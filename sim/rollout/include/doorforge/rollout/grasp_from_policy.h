@@ -40,6 +40,7 @@ class GraspFromPolicy : public GraspChooser {
   GraspPolicy& policy_;
   std::uint64_t seed_;
   std::string episode_;
+  DoorFacts facts_;
   RigidTransform handle_from_grasp_;
   RigidTransform hand_from_tcp_;
   GripperClearance clearance_;

@@ -188,7 +188,7 @@ class PullSteps : public FixedSteps {
   using FixedSteps::FixedSteps;
 
  protected:
-  Action Step(const PrivilegedState& now) const override {
+  Action Step(const PrivilegedState& /*now*/) const override {
     constexpr double kPull = 0.025;
     return {kPull * start().world_from_handle.linear().col(0), start().world_from_hand.linear()};
   }
@@ -245,7 +245,8 @@ class ReleasedSteps : public FixedSteps {
   static Eigen::Vector3d TurningWay(const PrivilegedState& now) {
     const Eigen::Matrix3d handle = now.world_from_handle.linear();
     if (now.door.category != Category::kWindow) return -handle.col(2);
-    return now.door.hinge_side == HingeSide::kLeft ? -handle.col(1) : handle.col(1);
+    const double to_hinge = now.door.hinge_side == HingeSide::kLeft ? -1 : 1;
+    return to_hinge * handle.col(1);
   }
 
   // The hand as the grasp was meant to be, turned with the handle: of the two half turns the one

@@ -56,8 +56,7 @@ TEST(BenchmarkTable, EveryRowHasSixFiguresOfThePaperOrNoneAndEverySizeItsRows) {
 TEST(BenchmarkTable, AnUnknownRowIsToldWithTheNearest) {
   const std::string told = MessageOf([] { ReadBenchmark("quick", {}, {"gaparnet"}); });
   EXPECT_NE(told.find("did you mean \"gapartnet\"?"), std::string::npos) << told;
-  EXPECT_NE(MessageOf([] { ReadBenchmark("quik", {}, {}); }).find("\"quick\""),
-            std::string::npos);
+  EXPECT_NE(MessageOf([] { ReadBenchmark("quik", {}, {}); }).find("\"quick\""), std::string::npos);
   EXPECT_NE(MessageOf([] { ReadBenchmark("quick", {"doors=0"}, {}); }), "");
 }
 
@@ -109,7 +108,8 @@ TEST(BenchmarkPipeline, WhoseRowsAreNotTrainedMakesDoorsAlone) {
   const Pipeline joined = PlanBenchmark(ReadBenchmark("quick", {}, {"expert"})).pipeline;
   std::vector<std::string> names;
   for (const PipelineStep& step : joined.steps) names.push_back(step.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"parts", "doors", "expert_1_test", "expert_1_unseen"}));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"parts", "doors", "expert_1_test", "expert_1_unseen"}));
 }
 
 class BenchmarkResultTest : public testing::Test {
@@ -134,8 +134,8 @@ class BenchmarkResultTest : public testing::Test {
       });
       report.reference.clear();
       for (EvaluatedEpisode& episode : report.episodes)
-        episode.outcome = opened.contains(episode.category) ? EpisodeOutcome::kOpened
-                                                            : EpisodeOutcome::kGripLost;
+        episode.outcome =
+            opened.contains(episode.category) ? EpisodeOutcome::kOpened : EpisodeOutcome::kGripLost;
       fs::create_directories(folder_ / part.report);
       WriteJsonFile(folder_ / part.report / "report.json", ReportToJson(report));
     }
@@ -173,8 +173,9 @@ TEST_F(BenchmarkResultTest, RowsOfOtherEpisodesAreRefused) {
   auto json = ReadJsonFile(path);
   json["episodes"].erase(json["episodes"].begin());
   WriteJsonFile(path, json);
-  EXPECT_NE(MessageOf([&] { ReadBenchmarkResult(benchmark_, plan_, folder_); })
-                .find("not of the same doors"),
+  EXPECT_NE(MessageOf([&] {
+              ReadBenchmarkResult(benchmark_, plan_, folder_);
+            }).find("not of the same doors"),
             std::string::npos);
 }
 

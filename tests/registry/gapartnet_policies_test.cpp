@@ -7,9 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include "doorforge/registry/policy_registry.h"
-#include "doorforge/registry/run_policy_set.h"
 #include "doorforge/physics/scene_sampling.h"
+#include "doorforge/registry/policy_registry.h"
+#include "doorforge/registry/policy_set_factory.h"
+#include "doorforge/registry/run_policy_set.h"
 
 #include "../physics/primitive_door.h"
 
@@ -26,7 +27,8 @@ GraspAction Grasp(const std::string& name, const GraspObservation& seen) {
   return *BuiltInPolicies().Find(Stage::kGrasp, name, "--grasper").grasp->make({})->Choose(seen);
 }
 
-// A lever of 14 x 3 cm, 6 cm before the leaf, whose handle's frame is the world's moved to (1, 2, 3).
+// A lever of 14 x 3 cm, 6 cm before the leaf, whose handle's frame is the world's moved to (1, 2,
+// 3).
 GraspObservation SeenLever() {
   GraspObservation seen;
   seen.privileged.world_from_handle = Translation({1, 2, 3});
@@ -46,8 +48,7 @@ TEST(Gapartnet, TheGraspIsThatOfTheBox) {
   // half the width towards the hinge, as far out as the box is high, less a centimetre
   EXPECT_TRUE(ToolOf(Grasp("gapartnet", seen)).isApprox(Eigen::Vector3d(1.02, 1.93, 3)));
   EXPECT_TRUE(ToolOf(Grasp("gapartnet_clean", seen)).isApprox(Eigen::Vector3d(1.03, 1.95, 3.005)));
-  EXPECT_TRUE(
-      ToolOf(Grasp("gapartnet_pull", seen)).isApprox(Eigen::Vector3d(1.0566, 1.95, 3.005)));
+  EXPECT_TRUE(ToolOf(Grasp("gapartnet_pull", seen)).isApprox(Eigen::Vector3d(1.0566, 1.95, 3.005)));
   for (const char* name : {"gapartnet_clean", "gapartnet_pull"}) {
     const Eigen::Matrix3d hand = Grasp(name, seen).world_from_hand_rotation;
     EXPECT_TRUE(hand.col(2).isApprox(-Eigen::Vector3d::UnitX())) << name;
@@ -105,7 +106,9 @@ TEST(Gapartnet, TheDemonstrationPullsStraightAlongTheFirstDirection) {
 TEST(Gapartnet, TheReleasedStepsAreThoseOfEachTask) {
   Observation seen = Held();
   DoorFacts& door = seen.privileged.door;
-  const auto delta = [&](Stage stage) { return Steps("gapartnet", stage)->Act(seen).position_delta_m; };
+  const auto delta = [&](Stage stage) {
+    return Steps("gapartnet", stage)->Act(seen).position_delta_m;
+  };
   door = {Category::kInterior, Mechanism::kLever, HingeSide::kLeft, {}};
   EXPECT_TRUE(delta(Stage::kHandle).isApprox(Eigen::Vector3d(0, 0, -0.06)));
   EXPECT_TRUE(delta(Stage::kOpen).isApprox(Eigen::Vector3d(0.06, 0, 0)));

@@ -121,9 +121,8 @@ TEST(ClusteredRate, WhereAllSucceedTheDoorsAreCounted) {
 // deviation is known: sqrt((p - m^2) / n) for a share p that differs and the mean m.
 TEST(MeanDifference, WhereHandlesDecideTheyAreTheTrials) {
   constexpr int kHandles = 60;
-  const auto trials = Grid(12, kHandles, 2, [](int, int h) {
-    return h % 3 == 0 ? 1.0 : (h % 6 == 1 ? -1.0 : 0.0);
-  });
+  const auto trials = Grid(12, kHandles, 2,
+                           [](int, int h) { return h % 3 == 0 ? 1.0 : (h % 6 == 1 ? -1.0 : 0.0); });
   const ClusteredDifference found = MeanDifference(trials);
   const double mean = 1.0 / 3 - 1.0 / 6;
   const double deviation = std::sqrt((0.5 - mean * mean) / kHandles);

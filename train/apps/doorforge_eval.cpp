@@ -7,8 +7,8 @@
 #include "doorforge/verbs/eval_verb.h"
 #include "doorforge/verbs/report_verb.h"
 
-// `doorforge eval ...`, `doorforge report ...` and `doorforge benchmark ...` start this program with the verb as first
-// argument
+// `doorforge eval ...`, `doorforge report ...` and `doorforge benchmark ...` start this program
+// with the verb as first argument
 int main(int argc, char** argv) {
   const std::string_view verb = argc > 1 ? argv[1] : "";
   if (verb == "benchmark") return doorforge::RunBenchmarkVerb(argc - 1, argv + 1);

@@ -17,9 +17,9 @@ CLI::Option* AddConfig(CLI::App& app, std::string& config, const std::string& ab
 CLI::Option* AddPreset(CLI::App& app, std::string& preset) {
   std::string names;
   for (const std::string& name : EnvironmentPresets()) names += name + ", ";
-  return app.add_option("--preset", preset,
-                        "environment to begin with: " + names +
-                            "or a .yaml file; --config and --set go over it");
+  return app.add_option(
+      "--preset", preset,
+      "environment to begin with: " + names + "or a .yaml file; --config and --set go over it");
 }
 
 CLI::Option* AddSettings(CLI::App& app, std::vector<std::string>& settings,

@@ -57,8 +57,8 @@ std::vector<std::string> PlaceholdersOf(const std::vector<std::string>& argument
 }
 
 std::string PipelineJoiner::NewName(const PipelineStep& step, const std::string& label) const {
-  const bool taken = std::ranges::find(joined_.steps, step.name, &PipelineStep::name) !=
-                     joined_.steps.end();
+  const bool taken =
+      std::ranges::find(joined_.steps, step.name, &PipelineStep::name) != joined_.steps.end();
   return taken ? step.name + "_" + label : step.name;
 }
 

@@ -20,7 +20,8 @@ struct FlyingJoint {
 };
 
 // At all zeros the hand is before the chest of who would hold it. As strong as the built-in arm's
-// wrist at arm's length: 87 N m over 0.6 m. Pitch ends before the poles, where yaw and roll are one.
+// wrist at arm's length: 87 N m over 0.6 m. Pitch ends before the poles, where yaw and roll are
+// one.
 constexpr double kHeight = 1.0;  // [m] over the root
 const FlyingJoint kFlyingJoints[] = {
     {"fly_x", UrdfJointType::kPrismatic, Eigen::Vector3d::UnitX(), 1.5, 150, 1},
@@ -74,8 +75,8 @@ UrdfModel HandAlone(const UrdfModel& urdf, const RobotRoles& roles, const RobotO
                  "\", which is all that flies; name another hand_link");
   }
   if (!options.tcp_link.empty() && !links.contains(options.tcp_link))
-    faults.Add("tcp_link: \"" + options.tcp_link + "\" is not below the link \"" +
-               roles.hand_link + "\", which is all that flies");
+    faults.Add("tcp_link: \"" + options.tcp_link + "\" is not below the link \"" + roles.hand_link +
+               "\", which is all that flies");
   faults.Check();  // what follows needs the whole hand
   return hand;
 }

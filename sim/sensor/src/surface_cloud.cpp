@@ -22,8 +22,8 @@ std::vector<Facet> FacetsOf(std::span<const VisibleMesh> meshes) {
     for (const Eigen::Vector3i& triangle : mesh.mesh.triangles) {
       Facet facet{{}, &mesh, 0};
       for (std::size_t i = 0; i < 3; ++i)
-        facet.corners.at(i) = mesh.mesh.vertices[static_cast<std::size_t>(
-            triangle[static_cast<Eigen::Index>(i)])];
+        facet.corners.at(i) =
+            mesh.mesh.vertices[static_cast<std::size_t>(triangle[static_cast<Eigen::Index>(i)])];
       const auto& [a, b, c] = facet.corners;
       area += (b - a).cross(c - a).norm() / 2;
       facet.area_to_here = area;

@@ -95,11 +95,10 @@ int Run(Options& options) {
     PrintJson(BenchmarkToJson(result));
     return 0;
   }
-  PrintText(BenchmarkText(result) + "\npage: " +
-            std::filesystem::absolute(options.run.out / "benchmark.html")
-                .lexically_normal()
-                .string() +
-            "\n");
+  PrintText(
+      BenchmarkText(result) + "\npage: " +
+      std::filesystem::absolute(options.run.out / "benchmark.html").lexically_normal().string() +
+      "\n");
   return 0;
 }
 

@@ -61,11 +61,11 @@ std::string ComparisonTable(const BenchmarkResult& result) {
   if (result.comparisons.empty()) return "";
   std::string rows;
   for (const BenchmarkComparison& row : result.comparisons)
-    rows += "<tr>" + Cell(Escape(result.rows[row.first].row.title)) +
-            Cell(Fixed(100 * row.difference.mean, 1)) +
-            Cell(Fixed(100 * row.difference.low, 1) + " to " +
-                 Fixed(100 * row.difference.high, 1)) +
-            Cell(row.difference.IsSignificant() ? "yes" : "may be chance") + "</tr>\n";
+    rows +=
+        "<tr>" + Cell(Escape(result.rows[row.first].row.title)) +
+        Cell(Fixed(100 * row.difference.mean, 1)) +
+        Cell(Fixed(100 * row.difference.low, 1) + " to " + Fixed(100 * row.difference.high, 1)) +
+        Cell(row.difference.IsSignificant() ? "yes" : "may be chance") + "</tr>\n";
   return "<h2>By how much &#8220;" + Escape(result.rows.back().row.title) +
          "&#8221; opens more often</h2>\n<table><thead><tr><th>than</th><th>points</th>"
          "<th>95 % interval</th><th>differs</th></tr></thead><tbody>\n" +
@@ -82,8 +82,8 @@ std::string BudgetTable(const BenchmarkResult& result) {
                Escape(report.substr(report.rfind('/') + 1)) + "</a> ";
     rows += "<tr>" + Cell(Escape(row.row.title)) +
             Cell(row.row.pipeline.empty() ? "none" : Escape(row.row.pipeline)) +
-            Cell(row.row.pipeline.empty() ? "&#8211;" : Fixed(row.train_minutes, 0)) +
-            Cell(links) + "</tr>\n";
+            Cell(row.row.pipeline.empty() ? "&#8211;" : Fixed(row.train_minutes, 0)) + Cell(links) +
+            "</tr>\n";
   }
   return "<h2>Budgets, and how each row fails</h2>\n<table><thead><tr><th>row</th>"
          "<th>pipeline</th><th>core minutes of a training, expected</th>"

@@ -7,13 +7,14 @@
 #include <set>
 #include <utility>
 
-#include "doorforge/core/error.h"
+#include "doorforge/core/program.h"
 #include "doorforge/pipeline/join_pipelines.h"
 
 namespace doorforge {
 namespace {
 
 constexpr const char* kDoorsStep = "doors";
+constexpr const char* kData = "data";            // in a row's words: where the shipped policies are
 constexpr const char* kDoorsPipeline = "quick";  // who is not trained needs its doors alone
 
 // How many categories a side has, for the forecast alone.
@@ -47,12 +48,12 @@ class Planner {
     const BenchmarkRow& row = benchmark_.rows[index];
     const bool trained = !row.pipeline.empty();
     std::vector<std::string> changes = benchmark_.size.settings;
-    changes.push_back("seed=" + std::to_string(benchmark_.size.seed +
-                                               static_cast<std::uint64_t>(training)));
+    changes.push_back("seed=" +
+                      std::to_string(benchmark_.size.seed + static_cast<std::uint64_t>(training)));
     if (!trained) changes.clear();
     const Pipeline pipeline = ReadPipeline(trained ? row.pipeline : kDoorsPipeline, changes);
-    const std::vector<std::string> actors = PlaceholdersOf(row.evaluate);
-    std::vector<std::string> wanted = actors;
+    std::vector<std::string> wanted = PlaceholdersOf(row.evaluate);
+    std::erase(wanted, kData);
     wanted.emplace_back(kDoorsStep);
     const auto names = joiner_.Add(pipeline, wanted, row.name + "_" + std::to_string(training + 1));
     for (const Side& side : {Side{"test", benchmark_.size.split, kSeenCategories},
@@ -68,11 +69,12 @@ class Planner {
     step.name = row.name + "_" + std::to_string(training + 1) + "_" + side.name;
     step.does = row.title + ": " + side.name + " doors";
     step.command = {"eval"};
-    std::map<std::string, std::vector<std::string>> values;
+    std::map<std::string, std::vector<std::string>> values{{kData, {DataFolder().string()}}};
     for (const auto& [name, now] : names) values[name] = {"{" + now + "}"};
     PipelineStep words;
     words.command = row.evaluate;
-    for (const std::string& argument : ExpandCommand(words, nlohmann::ordered_json::object(), values))
+    for (const std::string& argument :
+         ExpandCommand(words, nlohmann::ordered_json::object(), values))
       step.command.push_back(argument);
     const std::string doors = names.at(kDoorsStep);
     for (const std::string& argument :
@@ -82,9 +84,8 @@ class Planner {
           "{" + step.name + "}", std::string("--threads"), std::string("{threads}")})
       step.command.push_back(argument);
     step.needs = PlaceholdersOf(step.command);
-    std::erase_if(step.needs, [&](const std::string& name) {
-      return name == step.name || name == "threads";
-    });
+    std::erase_if(step.needs,
+                  [&](const std::string& name) { return name == step.name || name == "threads"; });
     step.output = "rows/" + step.name;
     step.records = {"report.json"};
     step.core_seconds = {

@@ -70,8 +70,8 @@ std::string Format(const char* pattern, Values... values) {
 
 // Of the category, over the trainings; nothing where no door of it was evaluated.
 const GroupOverTrainings* GroupOf(const TrainingsSummary& summary, Category category) {
-  const auto found = std::ranges::find(summary.groups, EpisodeGroup{category, {}},
-                                       &GroupOverTrainings::group);
+  const auto found =
+      std::ranges::find(summary.groups, EpisodeGroup{category, {}}, &GroupOverTrainings::group);
   return found == summary.groups.end() ? nullptr : &*found;
 }
 
@@ -152,12 +152,9 @@ nlohmann::ordered_json BenchmarkToJson(const BenchmarkResult& result) {
                            {"low", row.difference.low},
                            {"high", row.difference.high},
                            {"significant", row.difference.IsSignificant()}});
-  return {{"schema", "doorforge.benchmark"},
-          {"schema_version", 1},
-          {"benchmark", result.benchmark.name},
-          {"doors", result.benchmark.size.doors},
-          {"seeds", result.benchmark.size.seeds},
-          {"rows", std::move(rows)},
+  return {{"schema", "doorforge.benchmark"},      {"schema_version", 1},
+          {"benchmark", result.benchmark.name},   {"doors", result.benchmark.size.doors},
+          {"seeds", result.benchmark.size.seeds}, {"rows", std::move(rows)},
           {"comparisons", std::move(comparisons)}};
 }
 

@@ -228,8 +228,9 @@ class ReleasedSteps : public FixedSteps {
   // About the hand's own axis; 0: the task moves the hand along the handle's axes instead.
   static double TwistOf(const DoorFacts& door) {
     if (door.category == Category::kSafe) return 25 * kDegree;
-    const bool round = door.category == Category::kStorageFurniture ||
-                       (door.category == Category::kInterior && door.mechanism == Mechanism::kRound);
+    const bool round =
+        door.category == Category::kStorageFurniture ||
+        (door.category == Category::kInterior && door.mechanism == Mechanism::kRound);
     return round ? 20 * kDegree : 0;
   }
 

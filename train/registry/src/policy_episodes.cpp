@@ -52,8 +52,9 @@ std::vector<SimulatedEpisode> SimulateDoorsWith(const PolicyWords& words, Simula
   PolicySettings settings;
   settings.opening_expert = run.config.expert;
   PolicyEpisodes episodes(PolicySetFactory(BuiltInPolicies(), words, settings));
-  run.run_episode = [&episodes, cloud = run.config.cloud](const Scene& scene, const DoorAsset& door, const RobotModel& robot,
-                                Observer* watcher) {
+  run.run_episode = [&episodes, cloud = run.config.cloud](const Scene& scene, const DoorAsset& door,
+                                                          const RobotModel& robot,
+                                                          Observer* watcher) {
     return episodes.Run({scene, door, robot, cloud}, watcher);
   };
   return SimulateDoors(run);

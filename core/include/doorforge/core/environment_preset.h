@@ -37,8 +37,7 @@ struct ConfigSources {
 template <class T>
 T LoadConfig(const ConfigSources& sources, T defaults = {}) {
   if (!sources.preset.empty())
-    defaults =
-        LoadConfig(EnvironmentPresetFile(sources.preset).string(), {}, std::move(defaults));
+    defaults = LoadConfig(EnvironmentPresetFile(sources.preset).string(), {}, std::move(defaults));
   return LoadConfig(sources.file, sources.settings, std::move(defaults));
 }
 

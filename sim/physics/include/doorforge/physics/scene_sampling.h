@@ -87,8 +87,8 @@ struct SceneConfig {
 /// degrees away from the jamb and, on a knob, is rolled back by half its turn. Throws as
 /// RequireSimulatable(); Error(kInvalidArgument) where the frame of a pushed door stands between
 /// robot and handle, as the back of a cupboard does; Error(kInvalidConfig) on an unknown
-/// randomisation or latch, a height_jitter_m out of 0..0.5, as CheckEpisodeLimits() and as CameraOf(). A
-/// stronger randomisation leaves the draws of a weaker one as they are.
+/// randomisation or latch, a height_jitter_m out of 0..0.5, as CheckEpisodeLimits() and as
+/// CameraOf(). A stronger randomisation leaves the draws of a weaker one as they are.
 Scene SampleScene(const IdentifiedDoor& door, std::uint64_t seed, std::uint64_t episode,
                   const SceneConfig& config = {});
 /// This one takes a door that was made or changed in memory. It writes all meshes as text to hash

@@ -13,10 +13,10 @@ namespace doorforge {
 
 /// One evaluation: of a row, after one training, on one side of the doors.
 struct BenchmarkPart {
-  std::size_t row = 0;    ///< Index into Benchmark::rows.
-  int training = 0;       ///< From 0.
-  std::string report;     ///< Folder of its report, below the benchmark's.
-  double train_seconds;   ///< Core seconds expected of the steps that it needs, shared or not.
+  std::size_t row = 0;   ///< Index into Benchmark::rows.
+  int training = 0;      ///< From 0.
+  std::string report;    ///< Folder of its report, below the benchmark's.
+  double train_seconds;  ///< Core seconds expected of the steps that it needs, shared or not.
 };
 
 /// A benchmark as a pipeline, and what its evaluations are.

@@ -14,8 +14,9 @@ struct BenchmarkRow {
   std::string title;
   std::vector<double> paper = {};  ///< The paper's rates, in the order of Category; may be empty.
   std::string pipeline = {};       ///< A preset that trains what `evaluate` names; may be empty.
-  std::vector<std::string> evaluate;  ///< Arguments of `doorforge eval`, with {steps} of it.
-  double core_seconds = 1;            ///< Of a door and seed of the evaluation.
+  std::vector<std::string>
+      evaluate;             ///< Arguments of `doorforge eval`, with {steps} of it and {data}.
+  double core_seconds = 1;  ///< Of a door and seed of the evaluation.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {

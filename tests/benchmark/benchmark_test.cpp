@@ -60,6 +60,19 @@ TEST(BenchmarkTable, AnUnknownRowIsToldWithTheNearest) {
   EXPECT_NE(MessageOf([] { ReadBenchmark("quick", {"doors=0"}, {}); }), "");
 }
 
+TEST(BenchmarkTable, ARowOfOnesOwnIsJudgedAmongTheOthers) {
+  const fs::path file =
+      fs::temp_directory_path() / ("benchmark_own_" + std::to_string(::getpid()) + ".yaml");
+  CommitFile(file,
+             "rows: [mine, expert]\n"
+             "own:\n  - {name: mine, title: My own, evaluate: [--opener, 'ws://localhost:8123']}\n");
+  const Benchmark benchmark = ReadBenchmark(file.string(), {}, {});
+  fs::remove(file);
+  const Pipeline joined = PlanBenchmark(benchmark).pipeline;
+  const auto& command = StepNamed(joined, "mine_1_test").command;
+  EXPECT_EQ(std::ranges::count(command, "ws://localhost:8123"), 1);
+}
+
 TEST(BenchmarkPipeline, WhatRowsHaveInCommonIsMadeOnce) {
   const Benchmark benchmark =
       ReadBenchmark("quick", {"trainings=1"}, {"without_condition", "without_state", "ours"});

@@ -68,10 +68,12 @@ Benchmark ReadBenchmark(const std::string& name, const std::vector<std::string>&
   const fs::path file = FileOf(name);
   Benchmark benchmark{file.stem().string(), LoadConfig<BenchmarkSize>(file.string(), changes), {}};
   const std::string table = (BenchmarkFolder() / (std::string(kRows) + ".yaml")).string();
-  const RowTable known = LoadConfig<RowTable>(table, {});
+  std::vector<BenchmarkRow> known = benchmark.size.own;
+  const RowTable shipped = LoadConfig<RowTable>(table, {});
+  known.insert(known.end(), shipped.rows.begin(), shipped.rows.end());
   if (!rows.empty()) benchmark.size.rows = rows;
   for (const std::string& row : benchmark.size.rows)
-    benchmark.rows.push_back(RowNamed(known.rows, row));
+    benchmark.rows.push_back(RowNamed(known, row));
   const BenchmarkSize& size = benchmark.size;
   Require(!benchmark.rows.empty() && size.doors >= 1 && size.seeds >= 1 && size.trainings >= 1,
           ErrorCode::kInvalidConfig,

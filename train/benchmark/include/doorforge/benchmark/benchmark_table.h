@@ -32,7 +32,8 @@ struct BenchmarkRow {
 /// Which rows are judged, on how many doors, after how many trainings.
 struct BenchmarkSize {
   std::string about;
-  std::vector<std::string> rows;  ///< Names of rows of data/benchmarks/rows.yaml.
+  std::vector<std::string> rows;  ///< Names of rows of data/benchmarks/rows.yaml, or of `own`.
+  std::vector<BenchmarkRow> own = {};  ///< Rows of the user's; they go before others of their name.
   int doors = 6;                  ///< Of each category, on either side.
   int seeds = 3;                  ///< Scenes of each door.
   int trainings = 1;              ///< Of each row that is trained; their seeds follow `seed`.
@@ -45,6 +46,7 @@ struct BenchmarkSize {
   static void VisitFields(Self& self, Visitor&& visit) {
     visit("about", self.about);
     visit("rows", self.rows);
+    visit("own", self.own);
     visit("doors", self.doors);
     visit("seeds", self.seeds);
     visit("trainings", self.trainings);

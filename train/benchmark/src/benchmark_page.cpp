@@ -29,7 +29,7 @@ std::string CategoryCell(const BenchmarkRowResult& row, std::size_t category) {
     text = "<b>" + Percent(group->opened.mean) + "</b><br/><small>" + Percent(group->rate.low) +
            "&#8211;" + Percent(group->rate.high) + "</small>";
   if (category < row.row.paper.size())
-    text += "<br/><small>paper " + Percent(row.row.paper[category]) + "</small>";
+    text += "<br/><small>paper&#160;" + Percent(row.row.paper[category]) + "</small>";
   return Cell(text);
 }
 

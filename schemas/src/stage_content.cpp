@@ -8,6 +8,10 @@
 
 namespace doorforge {
 
+bool ActsAt(std::string_view trained, std::string_view stage) {
+  return trained == stage || (trained == kMotionStage && (stage == "handle" || stage == "open"));
+}
+
 std::string StageReadOf(const std::filesystem::path& folder, std::string_view stage) {
   if (stage != kMotionStage) return std::string(stage);
   return std::filesystem::exists(folder / "handle") ? "handle" : "open";

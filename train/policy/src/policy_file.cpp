@@ -100,8 +100,7 @@ PolicyRecord ReadPolicy(const fs::path& folder, std::string_view stage) {
   const Json json = ReadJsonFile(path);
   RequireSchema(json, "doorforge.policy", kPolicySchemaVersion, path);
   const auto found = ValueOf<std::string>(json, "stage", path);
-  const bool both = found == kMotionStage && FamilyOf(stage) == NetworkFamily::kMotion;
-  if (found != stage && !both)
+  if (!ActsAt(found, stage))
     throw Error(ErrorCode::kFormat, path + ": a policy of the stage \"" + found +
                                         "\", where one of the stage \"" + std::string(stage) +
                                         "\" is needed");

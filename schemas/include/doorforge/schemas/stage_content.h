@@ -13,6 +13,10 @@ namespace doorforge {
 /// paper's ablation without disentangling. It is no stage of an episode or of a data set.
 inline constexpr std::string_view kMotionStage = "motion";
 
+/// Whether a policy that was trained for one stage acts at another: at its own; one of kMotionStage
+/// at "handle" and at "open".
+bool ActsAt(std::string_view trained, std::string_view stage);
+
 /// The stage whose shards a training reads of a data set: its own; of kMotionStage "handle" where
 /// the data set has that, else "open".
 std::string StageReadOf(const std::filesystem::path& folder, std::string_view stage);

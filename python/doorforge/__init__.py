@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from .doors import Door, catalogue, compose, find_doors, preview, read_door, validate
     from .evaluation import evaluate
     from .policies import load_policy
-    from .scenes import Robot, Scene, sample_scene
+    from .scenes import Robot, Scene, environment, environments, sample_scene
     from .simulation import Stepper, simulate
     from .vector import VectorEnv
 
@@ -41,7 +41,8 @@ _NAMES = {
     "Door": "doors", "catalogue": "doors", "compose": "doors", "find_doors": "doors", "preview": "doors",
     "read_door": "doors", "validate": "doors",
     "evaluate": "evaluation", "load_policy": "policies",
-    "Robot": "scenes", "Scene": "scenes", "sample_scene": "scenes", "Action": "scenes", "Observation": "scenes",
+    "Robot": "scenes", "Scene": "scenes", "sample_scene": "scenes", "environment": "scenes",
+    "environments": "scenes", "Action": "scenes", "Observation": "scenes",
     "Stepper": "simulation", "simulate": "simulation", "VectorEnv": "vector",
 }
 _MODULES = ("datasets", "doors", "evaluation", "gym", "latch", "policies", "scenes", "simulation", "torch_data", "vector")

@@ -40,7 +40,7 @@ import doorforge_envs
 from . import _engine
 from .doors import DoorPool
 from .errors import IncompleteError, InvalidArgumentError
-from .scenes import robot_of, sample_scene
+from .scenes import environment, robot_of, sample_scene
 from .simulation import Stepper
 
 _core = _engine.require()
@@ -56,7 +56,10 @@ class _Task:
     """What one environment plays: its spaces, and which scene comes next."""
 
     def __init__(self, doors: Any, observation: Union[str, Sequence[str]], stage: str, control: str,
-                 config: Optional[dict[str, Any]], cloud: Optional[dict[str, Any]]) -> None:
+                 config: Optional[dict[str, Any]], cloud: Optional[dict[str, Any]], preset: Optional[str]) -> None:
+        if preset is not None:
+            begun = environment(preset)
+            config, cloud = _over(begun.get("scene", {}), config), _over(begun.get("cloud", {}), cloud)
         if control not in ("pose", "delta"):
             raise InvalidArgumentError(f"control: there is no \"{control}\"; there are pose, delta")
         if control == "delta" and stage == "grasp":
@@ -111,6 +114,15 @@ class _Task:
         hand = stepper.observation.world_from_hand[:3, :3]
         turned = _rotation(DELTA_RAD * numbers[3:]) @ hand
         return np.concatenate([DELTA_M * numbers[:3], turned[0], turned[1]])
+
+
+def _over(base: dict[str, Any], changes: Optional[dict[str, Any]]) -> dict[str, Any]:
+    """The settings of `base` with those of `changes` in their place."""
+    merged = dict(base)
+    for key, value in (changes or {}).items():
+        held = merged.get(key)
+        merged[key] = _over(held, value) if isinstance(held, dict) and isinstance(value, dict) else value
+    return merged
 
 
 def _rotation(vector: np.ndarray) -> np.ndarray:
@@ -187,7 +199,8 @@ class OpenDoorEnv(gymnasium.Env[Any, Any]):
     """Doors to open, one episode after the other; see the module for observations, actions and rewards.
 
     `doors`: doors, folders of doors, or a split such as "full:train" of the catalogue. `stage`: from where on the
-    actions are yours. `config`: settings of the scene, {"randomisation": "strong", ...}; `cloud`: of the cloud.
+    actions are yours. `preset`: an environment of others to begin with, such as "doorgym"; `config`: settings of the
+    scene, {"randomisation": "strong", ...}; `cloud`: of the cloud.
 
     reset(seed=7) seeds as `doorforge simulate --seed 7` does; the door is drawn, and a door's episodes count from 0. Scenes
     in which the rules before your stage fail are left out, info["skipped"] of them. options={"door": id or number,
@@ -199,10 +212,10 @@ class OpenDoorEnv(gymnasium.Env[Any, Any]):
     def __init__(self, doors: Any = "full:train", observation: Union[str, Sequence[str]] = ("cloud", "proprioception"),
                  stage: str = "open", control: str = "pose", config: Optional[dict[str, Any]] = None,
                  cloud: Optional[dict[str, Any]] = None, render_mode: Optional[str] = None,
-                 width: int = 480, height: int = 360) -> None:
+                 width: int = 480, height: int = 360, preset: Optional[str] = None) -> None:
         if render_mode not in (None, "rgb_array"):
             raise InvalidArgumentError(f"render_mode: there is no \"{render_mode}\"; there is rgb_array")
-        self._task = _Task(doors, observation, stage, control, config, cloud)
+        self._task = _Task(doors, observation, stage, control, config, cloud, preset)
         self._player = _Player(self._task)
         self.observation_space = self._task.observation_space()
         self.action_space = self._task.action_space()
@@ -263,10 +276,10 @@ class VectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
     def __init__(self, doors: Any = "full:train", num_envs: int = 16, *, threads: int = 0,
                  observation: Union[str, Sequence[str]] = ("cloud", "proprioception"), stage: str = "open",
                  control: str = "pose", config: Optional[dict[str, Any]] = None, cloud: Optional[dict[str, Any]] = None,
-                 render_mode: Optional[str] = None) -> None:
+                 render_mode: Optional[str] = None, preset: Optional[str] = None) -> None:
         if num_envs < 1:
             raise InvalidArgumentError(f"num_envs: {num_envs}, expected 1 or more")
-        self._task = _Task(doors, observation, stage, control, config, cloud)
+        self._task = _Task(doors, observation, stage, control, config, cloud, preset)
         self._players = [_Player(self._task) for _ in range(num_envs)]
         self._randoms: list[np.random.Generator] = []
         self._threads = threads

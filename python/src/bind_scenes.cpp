@@ -8,6 +8,9 @@
 #include <string>
 #include <utility>
 
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/config_file.h"
+#include "doorforge/core/environment_preset.h"
 #include "doorforge/core/error.h"
 #include "doorforge/physics/load_robot.h"
 #include "doorforge/physics/scene_sampling.h"
@@ -25,7 +28,7 @@ void BindRobot(py::module_& module) {
       .def(py::init([](const std::string& urdf, const std::string& base) {
              const std::optional<RobotBase> kind = ValueNamed<RobotBase>(base);
              Require(kind.has_value(), ErrorCode::kInvalidConfig,
-                     "base: found \"" + base + "\", allowed sliders, fixed, yaw");
+                     "base: found \"" + base + "\", allowed sliders, fixed, yaw, floating");
              return Long([&] {
                return Robot{
                    std::make_shared<const RobotModel>(LoadRobot(urdf, *kind, RobotMeshes()))};
@@ -98,6 +101,11 @@ void BindScenes(py::module_& module) {
       .def_static("from_dict", [](const py::dict& record) {
         return SceneFromJson(FromPython(record, "scene"), "scene");
       });
+  module.def("environments", &EnvironmentPresets);
+  module.def("environment", [](const std::string& word) {
+    const std::filesystem::path file = EnvironmentPresetFile(word);
+    return ToPython(ParseYaml(ReadFile(file, 1ULL << 20), file.string()));
+  });
   module.def("sample_scene", [](const Door& door, std::uint64_t seed, std::uint64_t episode,
                                 const py::object& settings, const Robot& robot) {
     const auto config = ConfigFrom<SceneConfig>(settings, "scene");

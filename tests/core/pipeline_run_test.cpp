@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/pipeline/pipeline_run.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include "doorforge/core/committed_file.h"
+#include "doorforge/core/error.h"
 
 namespace doorforge {
 namespace {
@@ -60,6 +62,40 @@ TEST_F(PipelineRunTest, ThePlanIsATextThatNamesEveryStep) {
   const std::string table = PlanPipeline(pipeline_, {.out = out_});
   EXPECT_NE(table.find("report"), std::string::npos);
   EXPECT_NE(table.find("given"), std::string::npos) << table;
+}
+
+TEST(PipelinePresets, EachIsReadAndTheAblationsLeaveOutWhatTheyAreNamedFor) {
+  const auto command = [](const std::string& preset, const std::string& step) {
+    const Pipeline pipeline = ReadPipeline(preset, {});
+    const auto found = std::ranges::find(pipeline.steps, step, &PipelineStep::name);
+    std::string line;
+    for (const std::string& argument : found->command) line += argument + " ";
+    return line;
+  };
+  for (const std::string& name : PipelinePresets()) EXPECT_NO_THROW(ReadPipeline(name, {})) << name;
+  for (const char* step : {"handle_data", "knob_data", "grasp_data", "large_grasp_data"}) {
+    EXPECT_NE(command("quick", step).find("{opener}"), std::string::npos) << step;
+    EXPECT_EQ(command("without_condition", step).find("{opener}"), std::string::npos) << step;
+    EXPECT_NE(command("without_mobile", step).find("base=fixed"), std::string::npos) << step;
+  }
+  for (const char* step : {"report", "report_given_grasp_unseen", "small_grasp_data"})
+    EXPECT_NE(command("without_disentangle", step).find("--opener {handler}"), std::string::npos)
+        << step;
+  EXPECT_EQ(command("without_disentangle", "handler").find("train motion "), 0U);
+  for (const char* step : {"opener", "handler"})
+    EXPECT_NE(command("without_state", step).find("state=none"), std::string::npos) << step;
+}
+
+TEST(PipelinePresets, AChangeOfAnArgumentThatThereIsNotIsRefused) {
+  const fs::path file =
+      fs::temp_directory_path() / ("pipeline_change_" + std::to_string(::getpid()) + ".yaml");
+  for (const char* change : {"remove: [--opnr]", "replace: {--opnr: --opener}"}) {
+    CommitFile(file, std::string("schema: doorforge.pipeline\nschema_version: 1\nabout: x\n"
+                                 "like: quick\nsteps:\n  - name: report\n    ") +
+                         change + "\n");
+    EXPECT_THROW(ReadPipeline(file.string(), {}), Error) << change;
+  }
+  fs::remove(file);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/physics/load_robot.h"
 
+#include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <fstream>
 #include <numbers>
@@ -82,6 +84,46 @@ TEST(LoadRobot, StandsOnTheBaseThatIsAskedFor) {
   };
   EXPECT_TRUE(hand(franka).isApprox(hand(LoadMobileFranka()), 1e-12));
   EXPECT_FALSE(ValueNamed<RobotBase>("wheels").has_value());
+}
+
+// Closed form: with z ahead of the root at rest, yaw a and pitch b lead the approach to
+// (cos a cos b, sin a cos b, -sin b), and roll leaves it where it is.
+TEST(LoadRobot, LetsTheHandOfAnyRobotFly) {
+  for (const RobotModel& robot :
+       {LoadRobot({}, RobotBase::kFloating), BuildRobot(BoxArm(), {}, RobotBase::kFloating)}) {
+    EXPECT_EQ(robot.joint_count(), 8);
+    EXPECT_EQ(robot.base_count(), robot.arm_count());
+    JointVector position = robot.InitialPosition();
+    const auto tool = [&] {
+      return robot.PoseAt(position, RigidTransform::Identity()).world_from_tcp;
+    };
+    EXPECT_TRUE(tool().linear().col(2).isApprox(Eigen::Vector3d::UnitX(), 1e-9));
+    EXPECT_TRUE(tool().linear().col(1).isApprox(Eigen::Vector3d::UnitY(), 1e-9));
+    position.head<6>() << 0.1, -0.2, 0.3, 0.4, 0.5, 0.6;
+    EXPECT_TRUE(tool().linear().col(2).isApprox(
+        Eigen::Vector3d(std::cos(0.4) * std::cos(0.5), std::sin(0.4) * std::cos(0.5),
+                        -std::sin(0.5)),
+        1e-9));
+    // the shortest way between two level hands turned by 0.6 is a roll
+    position.head<6>() << 0, 0, 0, 0, 0, 0.6;
+    EXPECT_NEAR(std::acos(tool().linear().col(1).y()), 0.6, 1e-9);
+  }
+}
+
+TEST(LoadRobot, AGripperWithoutAnArmCanOnlyFly) {
+  UrdfModel gripper = BoxArm();
+  std::erase_if(gripper.joints, [](const UrdfJoint& joint) { return joint.parent != "flange"; });
+  std::erase_if(gripper.links, [](const UrdfLink& link) {
+    return link.name != "flange" && link.name != "thumb" && link.name != "finger";
+  });
+  EXPECT_EQ(BuildRobot(gripper, {}, RobotBase::kFloating).joint_count(), 8);
+  try {
+    BuildRobot(gripper, {}, RobotBase::kSliders);
+    FAIL() << "a gripper stands on sliders";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("can fly: physics.base: floating"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(LoadRobot, TellsAllFaultsOfAUrdfAtOnce) {

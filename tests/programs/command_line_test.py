@@ -23,6 +23,7 @@ WITH_SETTINGS = {
     "act": (["--camera", "OUT", "WORD"], None),
     "sight": (["--door", "OUT", "--out", "OUT/sight", "WORD"], None),
     "pipeline": (["WORD", "--out", "OUT"], "preset is required"),
+    "benchmark": (["WORD", "--out", "OUT"], "size is required"),
 }
 
 

@@ -36,6 +36,28 @@ class Environments(unittest.TestCase):
                     env.reset(seed=1)
                 self.assertGreater(len(env.unwrapped.doors), 0)
 
+    def test_gymnasiums_checker_has_nothing_to_say_of_the_environments_of_others(self) -> None:
+        import doorforge_envs
+
+        presets = {settings["preset"]: name for name, settings in doorforge_envs.ENVIRONMENTS.items() if "preset" in settings}
+        self.assertEqual(sorted(presets), doorforge.environments())
+        for preset, name in presets.items():
+            with self.subTest(name):
+                env = gymnasium.make(name, doors=self.doors[:1], render_mode="rgb_array")
+                check_env(env.unwrapped)
+                scene = env.unwrapped.stepper.scene.to_dict()
+                wanted = doorforge.environment(preset)["scene"]
+                self.assertEqual(scene["physics"].get("base", "sliders"), wanted["physics"]["base"])
+                self.assertEqual(scene["latch"]["type"] == "none", wanted["latch"] == "none")
+                self.assertEqual(scene["episode_limits"]["open_angle_rad"], wanted["episode"]["open_angle_rad"])
+                env.close()
+
+    def test_a_preset_can_be_changed(self) -> None:
+        env = gymnasium.make("doorforge/DoorGym-v0", doors=self.doors[:1], config={"physics": {"base": "sliders"}})
+        env.reset(seed=1)
+        scene = env.unwrapped.stepper.scene.to_dict()
+        self.assertEqual((scene["physics"].get("base", "sliders"), scene["episode_limits"]["open_angle_rad"]), ("sliders", 0.2))
+
     def test_a_seed_is_the_command_lines(self) -> None:
         env = gymnasium.make("doorforge/OpenDoor-v0", doors=self.doors[:1], observation="door_state").unwrapped
         expert = doorforge.load_policy()

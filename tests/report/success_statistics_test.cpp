@@ -117,6 +117,45 @@ TEST(ClusteredRate, WhereAllSucceedTheDoorsAreCounted) {
   EXPECT_DOUBLE_EQ(rate.low, WilsonInterval(24, 24).low);
 }
 
+// Where handles decide, a resample's mean is that of as many draws of +1, 0 and -1, whose standard
+// deviation is known: sqrt((p - m^2) / n) for a share p that differs and the mean m.
+TEST(MeanDifference, WhereHandlesDecideTheyAreTheTrials) {
+  constexpr int kHandles = 60;
+  const auto trials = Grid(12, kHandles, 2,
+                           [](int, int h) { return h % 3 == 0 ? 1.0 : (h % 6 == 1 ? -1.0 : 0.0); });
+  const ClusteredDifference found = MeanDifference(trials);
+  const double mean = 1.0 / 3 - 1.0 / 6;
+  const double deviation = std::sqrt((0.5 - mean * mean) / kHandles);
+  EXPECT_EQ(found.trials, 12 * kHandles * 2);
+  EXPECT_NEAR(found.mean, mean, 1e-12);
+  EXPECT_NEAR(found.low, mean - 1.96 * deviation, 0.02);
+  EXPECT_NEAR(found.high, mean + 1.96 * deviation, 0.02);
+  EXPECT_EQ(found.IsSignificant(), found.low > 0);
+}
+
+TEST(MeanDifference, TheOtherWayRoundItIsItsMirrorImage) {
+  const auto pattern = [](int b, int h) { return (b * 7 + h * 3) % 5 == 0 ? -1.0 : 0.5; };
+  const ClusteredDifference one = MeanDifference(Grid(10, 9, 1, pattern));
+  const ClusteredDifference other =
+      MeanDifference(Grid(10, 9, 1, [&](int b, int h) { return -pattern(b, h); }));
+  EXPECT_NEAR(other.mean, -one.mean, 1e-12);
+  // percentiles of a finite number of resamples: the ranks from both ends are the same
+  EXPECT_NEAR(other.low, -one.high, 1e-12);
+  EXPECT_NEAR(other.high, -one.low, 1e-12);
+}
+
+TEST(MeanDifference, EqualsDoNotDifferAndAConstantOneAlwaysDoes) {
+  const auto constant = [](double value) {
+    return MeanDifference(Grid(4, 5, 2, [value](int, int) { return value; }));
+  };
+  EXPECT_EQ(constant(0).low, 0);
+  EXPECT_EQ(constant(0).high, 0);
+  EXPECT_FALSE(constant(0).IsSignificant());
+  EXPECT_DOUBLE_EQ(constant(-1).high, -1);
+  EXPECT_TRUE(constant(-1).IsSignificant());
+  EXPECT_EQ(MeanDifference({}).trials, 0);
+}
+
 // How often the interval of a sample covers the rate of the population that it was drawn from:
 // handles and bodies of normally distributed difficulty, as a simulation of its own.
 TEST(ClusteredRate, CoversTheRateOfThePopulation) {

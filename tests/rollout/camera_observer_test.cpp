@@ -9,6 +9,7 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/physics/scene_sampling.h"
+#include "doorforge/rollout/base_placement.h"
 #include "doorforge/rollout/opening_expert.h"
 #include "doorforge/rollout/run_episode.h"
 
@@ -38,6 +39,42 @@ TEST(CameraObserver, EveryDecisionSeesDoorAndRobotAndThePhysicsIsTheSame) {
     const Eigen::Vector3f first(decision.cloud.xyz[0], decision.cloud.xyz[1],
                                 decision.cloud.xyz[2]);
     EXPECT_LT((first - hand).norm(), 0.2F);
+  }
+}
+
+TEST(CameraObserver, AWholeCloudHasWhatTheCameraCannotSeeAndTheRobotCanBeLeftOut) {
+  const RobotModel robot = LoadMobileFranka();
+  const DoorAsset door = MakePrimitiveDoor({});
+  const Scene scene = SampleScene(door, 1, 0);
+  SceneSnapshot now;
+  now.robot = robot.PoseAt(StartPosition(scene, robot), scene.world_from_robot_base);
+  now.door = DoorFromLinks(door, 0, 0);
+  for (RigidTransform& pose : now.door) pose = scene.world_from_door * pose;
+  Eigen::AlignedBox3d leaf;
+  for (const DoorGeometry& geometry : door.links[kLeafLink].geometry)
+    for (const Eigen::Vector3d& vertex : geometry.mesh.vertices) leaf.extend(now.door[1] * vertex);
+  const auto seen = [&](bool whole, bool with_robot) {
+    CloudConfig config;
+    config.whole = whole;
+    config.robot = with_robot;
+    return CameraObserver(scene, door, robot, config).Observe(now);
+  };
+  const auto behind = [&](const LabelledCloud& cloud) {
+    int count = 0;
+    for (std::size_t i = 0; i < cloud.label.size(); ++i)
+      count += cloud.label[i] == static_cast<std::uint8_t>(PointLabel::kBody) &&
+               cloud.xyz[3 * i] < static_cast<float>(leaf.min().x()) + 0.001F;
+    return count;
+  };
+  EXPECT_EQ(behind(seen(false, true)), 0);  // the leaf's back
+  EXPECT_GT(behind(seen(true, true)), 500);
+  for (const bool whole : {false, true}) {
+    for (const bool with_robot : {false, true}) {
+      const LabelledCloud cloud = seen(whole, with_robot);
+      EXPECT_EQ(cloud.label.size(), 4096U);
+      EXPECT_EQ(std::ranges::count(cloud.label, static_cast<std::uint8_t>(PointLabel::kRobot)) > 0,
+                with_robot);
+    }
   }
 }
 

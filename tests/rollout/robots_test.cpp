@@ -63,6 +63,26 @@ TEST(Robots, AFixedBaseStandsBesideTheLeafAndIsRecorded) {
   EXPECT_TRUE(episode.scene.robot.sha256.empty());
 }
 
+TEST(Robots, AFlyingHandOpensDoors) {
+  const RobotModel robot = LoadRobot({}, RobotBase::kFloating);
+  EXPECT_GE(OpenedOf(robot, 8, ArmController::kJointMotors), 7);
+}
+
+TEST(Robots, AFlyingHandsProprioceptionHasItsJointsInTheFirstPlaces) {
+  const RobotModel robot = LoadRobot({}, RobotBase::kFloating);
+  WorldState state;
+  state.robot_position = robot.InitialPosition();
+  state.robot_velocity = JointVector::Zero(robot.joint_count());
+  state.robot_position[5] = robot.joint(5).upper / 2;  // roll
+  state.robot_velocity[2] = 0.25;
+  const Proprioception seen = ProprioceptionOf(robot, state, RigidTransform::Identity());
+  EXPECT_FLOAT_EQ(seen[5], 0.5F);
+  EXPECT_FLOAT_EQ(seen[9], 1.0F);  // the fingers are open
+  EXPECT_FLOAT_EQ(seen[11 + 2], 0.25F);
+  for (const std::size_t empty : {6U, 7U, 8U, 11U + 6, 11U + 7, 11U + 8})
+    EXPECT_EQ(seen.at(empty), 0);
+}
+
 TEST(Robots, AnArmOfAnotherMakeGraspsADoorsHandle) {
   const RobotModel robot = BuildRobot(BoxArm(), {}, RobotBase::kSliders);
   const DoorAsset door = MakePrimitiveDoor({});

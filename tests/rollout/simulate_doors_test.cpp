@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "doorforge/core/environment_preset.h"
+#include "doorforge/core/error.h"
+
 namespace doorforge {
 namespace {
 
@@ -45,6 +48,21 @@ TEST(SimulateDoors, TheDocumentHasTheTalliesAndEveryEpisode) {
 }
 
 TEST(SimulateDoors, NoEpisodesMakeNoTally) { EXPECT_TRUE(TallyOutcomes({}).empty()); }
+
+TEST(EnvironmentPresets, EachIsReadAndTheUsersSettingsGoOverIt) {
+  EXPECT_EQ(EnvironmentPresets().size(), 7U);
+  for (const std::string& name : EnvironmentPresets()) {
+    const auto config = LoadConfig<SimulateConfig>(ConfigSources{name, "", {}});
+    EXPECT_EQ(config.scene.episode.grip_needed, 0) << name;
+    EXPECT_LE(config.scene.episode.open_angle_rad, config.scene.physics.finish_hinge_rad + 0.01);
+    const auto changed = LoadConfig<SimulateConfig>(
+        ConfigSources{name, "", {"scene.physics.base=yaw", "scene.latch=door"}});
+    EXPECT_EQ(changed.scene.physics.base, RobotBase::kYaw);
+    EXPECT_EQ(changed.scene.latch, "door");
+    EXPECT_EQ(changed.cloud.whole, config.cloud.whole);
+  }
+  EXPECT_THROW(LoadConfig<SimulateConfig>(ConfigSources{"dorgym", "", {}}), Error);
+}
 
 }  // namespace
 }  // namespace doorforge

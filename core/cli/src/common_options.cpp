@@ -5,12 +5,21 @@
 #include <CLI/CLI.hpp>
 
 #include "doorforge/cli/command_line.h"
+#include "doorforge/core/environment_preset.h"
 #include "doorforge/core/error.h"
 
 namespace doorforge {
 
 CLI::Option* AddConfig(CLI::App& app, std::string& config, const std::string& about) {
   return app.add_option("--config", config, about);
+}
+
+CLI::Option* AddPreset(CLI::App& app, std::string& preset) {
+  std::string names;
+  for (const std::string& name : EnvironmentPresets()) names += name + ", ";
+  return app.add_option(
+      "--preset", preset,
+      "environment to begin with: " + names + "or a .yaml file; --config and --set go over it");
 }
 
 CLI::Option* AddSettings(CLI::App& app, std::vector<std::string>& settings,

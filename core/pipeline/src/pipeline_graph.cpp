@@ -165,7 +165,31 @@ std::string TextAt(const Json& json, const std::string& key) {
   return is_text ? json[key].get<std::string>() : std::string();
 }
 
-// Each of `changes` names one of the steps, to whose command it appends and whose other keys it
+// What a change says of a command: arguments that go, others that take the place of equal ones, and
+// those that come behind.
+void ChangeCommand(const Json& change, Json& command, const std::string& where) {
+  if (!command.is_array()) Fail(where, "command: expected a list");
+  const auto occurs = [&](const std::string& argument) {
+    return std::ranges::any_of(
+        command, [&](const Json& held) { return held.is_string() && held == argument; });
+  };
+  for (const std::string& argument : Texts(change, "remove", where)) {
+    if (!occurs(argument)) Fail(where, "remove: \"" + argument + "\" is no argument of it");
+    command.erase(std::ranges::find(command, Json(argument)));
+  }
+  if (change.contains("replace")) {
+    if (!change["replace"].is_object()) Fail(where, "replace: expected arguments and others");
+    for (const auto& [argument, other] : change["replace"].items()) {
+      if (!occurs(argument)) Fail(where, "replace: \"" + argument + "\" is no argument of it");
+      std::ranges::replace(command, Json(argument), Json(TextOf(other)));
+    }
+  }
+  if (!change.contains("append")) return;
+  if (!change["append"].is_array()) Fail(where, "append: expected a list");
+  for (const Json& argument : change["append"]) command.push_back(argument);
+}
+
+// Each of `changes` names one of the steps, whose command it changes and whose other keys it
 // replaces.
 void ChangeSteps(const Json& changes, Json& steps, const std::string& where) {
   if (!changes.is_array()) Fail(where, "steps: expected a list");
@@ -176,14 +200,9 @@ void ChangeSteps(const Json& changes, Json& steps, const std::string& where) {
     if (step == steps.end())
       Fail(where, "steps: \"" + name + "\" is no step of the preset that this one is like");
     for (const auto& [key, value] : change.items()) {
-      if (key != "append") {
-        (*step)[key] = value;
-        continue;
-      }
-      if (!value.is_array()) Fail(where, name + ": append: expected a list");
-      if (!(*step)["command"].is_array()) Fail(where, name + ": command: expected a list");
-      for (const Json& argument : value) (*step)["command"].push_back(argument);
+      if (key != "append" && key != "remove" && key != "replace") (*step)[key] = value;
     }
+    ChangeCommand(change, (*step)["command"], where + ": " + name);
   }
 }
 

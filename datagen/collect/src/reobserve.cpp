@@ -65,9 +65,10 @@ Decision DecisionOf(const EpisodeArrays& arrays, std::size_t t, double time_s) {
 
 SceneSnapshot SnapshotOf(const Decision& decision, const Scene& scene, const DoorAsset& door,
                          const RobotModel& robot) {
-  const auto skipped = static_cast<std::ptrdiff_t>(kSliderCount - robot.base_count());
+  const ProprioceptionPlaces places = ProprioceptionPlacesOf(robot);
   JointVector position(robot.joint_count());
-  std::copy_n(decision.state.begin() + skipped, position.size(), position.begin());
+  for (std::size_t place = 0; place < places.size(); ++place)
+    if (places.at(place) >= 0) position[places.at(place)] = decision.state.at(place);
   SceneSnapshot snapshot;
   snapshot.robot = robot.PoseAt(position, scene.world_from_robot_base);
   snapshot.door = DoorFromLinks(door, decision.state[kStateHinge], decision.state[kStateHandle]);

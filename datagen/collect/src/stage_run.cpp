@@ -20,7 +20,8 @@ RobotModel RobotFor(const StageConfig& config, const RobotMeshReader& read_mesh)
   RobotModel robot = LoadRobot(config.scene.robot, config.scene.physics.base, read_mesh);
   Require(HasProprioception(robot), ErrorCode::kInvalidArgument,
           "config.scene: data are recorded for robots with two sliders or a fixed base, seven arm "
-          "joints and two fingers; let others open doors with `doorforge simulate`");
+          "joints and two fingers, and for flying hands; let others open doors with `doorforge "
+          "simulate`");
   return robot;
 }
 

@@ -8,6 +8,7 @@
 #include "doorforge/core/record_id.h"
 #include "doorforge/networks/instruction_set.h"
 #include "doorforge/policy/policy_file.h"
+#include "doorforge/schemas/stage_content.h"
 
 namespace doorforge {
 namespace {
@@ -43,7 +44,7 @@ TrainedPolicy ReadTrainedPolicy(const fs::path& folder, Stage stage, const std::
   const nlohmann::ordered_json json = ReadJsonFile(path);
   RequireSchema(json, "doorforge.policy", kPolicySchemaVersion, path.string());
   const auto found = ValueOf<std::string>(json, "stage", path.string());
-  if (found != NameOf(stage))
+  if (!ActsAt(found, NameOf(stage)))
     throw Error(ErrorCode::kInvalidArgument, path.string() + ": a policy of the stage \"" + found +
                                                  "\"; --" + role + " takes one of the stage \"" +
                                                  std::string(NameOf(stage)) + '"');

@@ -18,6 +18,7 @@ struct Range {
 
 Range RangeOf(std::string_view field) {
   if (field == "open_angle_rad") return {0.01, std::numbers::pi};
+  if (field == "grip_needed") return {0, 1};
   if (field == "reach_speed_fraction") return {0.01, 1};
   if (field == "farthest_move_m") return {0.01, 1000};
   if (field == "blocking_force_n") return {0, 1e6};

@@ -13,6 +13,7 @@
 #include "doorforge/cli/command_line.h"
 #include "doorforge/cli/verb_table.h"
 #include "doorforge/core/config_file.h"
+#include "doorforge/core/environment_preset.h"
 #include "doorforge/core/program.h"
 #include "doorforge/registry/policy_episodes.h"
 #include "doorforge/registry/policy_options.h"
@@ -25,7 +26,7 @@ namespace {
 struct Options {
   SimulationRun run;
   PolicyWords policies;
-  std::string config;
+  ConfigSources config;
   bool json = false;
 };
 
@@ -38,7 +39,6 @@ Options Parse(int argc, char** argv) {
   Options options;
   SimulationRun& run = options.run;
   std::string robot;
-  std::vector<std::string> settings;
   app.add_option("--door", run.doors, "a door's folder, or a folder of them")->required();
   AddPolicyOptions(app, BuiltInPolicies(), options.policies);
   AddSeed(app, run.seed, "first seed");
@@ -52,11 +52,12 @@ Options Parse(int argc, char** argv) {
   app.add_option("--film", run.film, "folder for a PNG of each episode");
   AddOverwrite(app, run.overwrite, "replace pictures that are in --film");
   AddThreads(app, run.threads);
-  AddConfig(app, options.config, "YAML file with the settings of scene and expert");
-  AddSettings(app, settings, "a.b=c overrides one setting");
+  AddPreset(app, options.config.preset);
+  AddConfig(app, options.config.file, "YAML file with the settings of scene, cloud and expert");
+  AddSettings(app, options.config.settings, "a.b=c overrides one setting");
   AddJson(app, options.json);
   ParseVerb(app, argc, argv);
-  run.config = LoadConfig<SimulateConfig>(options.config, settings);
+  run.config = LoadConfig<SimulateConfig>(options.config);
   if (!robot.empty()) run.config.scene.robot = robot;
   run.read_meshes = RobotMeshes();
   return options;
@@ -66,7 +67,7 @@ Options Parse(int argc, char** argv) {
 int RunSimulateVerb(int argc, char** argv) {
   const Options options = Parse(argc, argv);
   const std::vector<SimulatedEpisode> episodes = NamingConfig(
-      options.config, [&] { return SimulateDoorsWith(options.policies, options.run); });
+      options.config.Named(), [&] { return SimulateDoorsWith(options.policies, options.run); });
   PrintAnswer(options.json, SimulatedToJson(episodes), SimulatedText(episodes));
   std::size_t closed = 0;
   for (const SimulatedEpisode& simulated : episodes)

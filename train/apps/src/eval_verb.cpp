@@ -13,6 +13,7 @@
 #include "doorforge/cli/command_line.h"
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/config_file.h"
+#include "doorforge/core/environment_preset.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/program.h"
 #include "doorforge/evaluate/evaluate_opener.h"
@@ -33,8 +34,7 @@ struct Options {
   std::string split;
   int per_category = 0;
   std::string out;
-  std::string config;
-  std::vector<std::string> settings;
+  ConfigSources config;
   std::optional<SwitchSource> unlock_switch;
   std::optional<int> seeds;
   std::optional<std::uint64_t> first_seed;
@@ -70,8 +70,9 @@ void AddOptions(CLI::App& app, Options& options) {
   app.add_option("--episodes-per-door", options.episodes_per_door,
                  "in each seed (config: episodes_per_door, 1)");
   AddThreads(app, options.request.threads, "0: all processors; the result does not depend on it");
-  AddConfig(app, options.config, "YAML file with settings")->check(CLI::ExistingFile);
-  AddSettings(app, options.settings, "a.b=c overrides one setting");
+  AddPreset(app, options.config.preset);
+  AddConfig(app, options.config.file, "YAML file with settings")->check(CLI::ExistingFile);
+  AddSettings(app, options.config.settings, "a.b=c overrides one setting");
   app.add_flag("--allow-seen", options.request.allow_seen,
                "evaluate on doors with parts that the policy was trained on, too");
   app.add_flag("--films", options.request.films,
@@ -108,7 +109,7 @@ Options Parse(int argc, char** argv, const EvalVerbSetup& setup) {
 }
 
 EvaluationConfig ConfigOf(const Options& options) {
-  auto config = LoadConfig<EvaluationConfig>(options.config, options.settings);
+  auto config = LoadConfig<EvaluationConfig>(options.config);
   if (options.unlock_switch) config.unlock_switch = *options.unlock_switch;
   Require(options.unlock_switch != SwitchSource::kPolicy ||
               options.request.policies.handler != kExpertPolicy,
@@ -173,7 +174,7 @@ int RunEvalVerb(int argc, char** argv, const EvalVerbSetup& setup) {
     options.request.doors = DoorSelectionOf(options.doors, "test", options.split);
     options.request.doors.per_category = options.per_category;
     options.request.command = CommandLineText(setup.program, argc, argv);
-    return NamingConfig(options.config, [&] { return Evaluate(options); });
+    return NamingConfig(options.config.Named(), [&] { return Evaluate(options); });
   });
 }
 

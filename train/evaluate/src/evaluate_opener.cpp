@@ -44,9 +44,10 @@ TrialPolicies PoliciesOf(const PolicySetFactory& factory, const EvaluationConfig
   if (factory.IsExpertAlone()) return ExpertPolicies();
   const RobotBase base = config.scene.physics.base;
   const auto robot = std::make_shared<const RobotModel>(LoadRobot({}, base));
-  Require(HasProprioception(*robot), ErrorCode::kInvalidConfig,
-          "config.scene.physics.base: a policy knows sliders or a fixed base, found " +
-              std::string(NameOf(base)));
+  Require(
+      HasProprioception(*robot), ErrorCode::kInvalidConfig,
+      "config.scene.physics.base: a policy knows sliders, a fixed base or a flying hand, found " +
+          std::string(NameOf(base)));
   return {[&factory] { return factory.Make(); },
           [&config, robot, remembered = factory.Remembered()](const Scene& scene,
                                                               const DoorAsset& door) {

@@ -13,6 +13,7 @@
 #include "doorforge/networks/network_tensors.h"
 #include "doorforge/networks/point_encoder.h"
 #include "doorforge/schemas/safetensors.h"
+#include "doorforge/schemas/stage_content.h"
 
 namespace doorforge {
 namespace {
@@ -99,7 +100,7 @@ PolicyRecord ReadPolicy(const fs::path& folder, std::string_view stage) {
   const Json json = ReadJsonFile(path);
   RequireSchema(json, "doorforge.policy", kPolicySchemaVersion, path);
   const auto found = ValueOf<std::string>(json, "stage", path);
-  if (found != stage)
+  if (!ActsAt(found, stage))
     throw Error(ErrorCode::kFormat, path + ": a policy of the stage \"" + found +
                                         "\", where one of the stage \"" + std::string(stage) +
                                         "\" is needed");

@@ -43,7 +43,7 @@ PolicyEpisodes::PolicyEpisodes(PolicySetFactory factory)
 Episode PolicyEpisodes::Run(const EpisodePlace& place, Observer* watcher) {
   Require(factory_.IsExpertAlone() || HasProprioception(place.robot), ErrorCode::kInvalidArgument,
           "policies know robots with two sliders or a fixed base, seven arm joints and two "
-          "fingers; others are for the expert alone");
+          "fingers, and flying hands; others are for the expert alone");
   const auto set = sets_.Take();
   if (!UsesPointCloud(*set)) return RunPolicySet(place, *set, watcher);
   const auto camera = CameraOf(place, remembered_);
@@ -55,9 +55,10 @@ std::vector<SimulatedEpisode> SimulateDoorsWith(const PolicyWords& words, Simula
   PolicySettings settings;
   settings.opening_expert = run.config.expert;
   PolicyEpisodes episodes(PolicySetFactory(BuiltInPolicies(), words, settings));
-  run.run_episode = [&episodes](const Scene& scene, const DoorAsset& door, const RobotModel& robot,
-                                Observer* watcher) {
-    return episodes.Run({scene, door, robot}, watcher);
+  run.run_episode = [&episodes, cloud = run.config.cloud](const Scene& scene, const DoorAsset& door,
+                                                          const RobotModel& robot,
+                                                          Observer* watcher) {
+    return episodes.Run({scene, door, robot, cloud}, watcher);
   };
   return SimulateDoors(run);
 }

@@ -60,12 +60,11 @@ std::vector<double> Drawn(std::size_t count, Rng& rng) {
   return drawn;
 }
 
-// The variance of the rate over resamples of bodies and handles.
-double ResampledVariance(const Table& table) {
+// The rates of resamples of bodies and handles, both at a time; those in which no pair had been
+// tried are left out.
+std::vector<double> ResampledRates(const Table& table) {
   Rng rng(0, "clustered_rate");
-  double sum = 0;
-  double squares = 0;
-  int count = 0;
+  std::vector<double> rates;
   for (int i = 0; i < kResamples; ++i) {
     const std::vector<double> bodies = Drawn(table.bodies, rng);
     const std::vector<double> handles = Drawn(table.handles, rng);
@@ -76,13 +75,21 @@ double ResampledVariance(const Table& table) {
       trials += weight * cell.trials;
       successes += weight * cell.successes;
     }
-    if (trials == 0) continue;  // no pair of what was drawn had been tried
-    const double rate = successes / trials;
+    if (trials > 0) rates.push_back(successes / trials);
+  }
+  return rates;
+}
+
+double ResampledVariance(const Table& table) {
+  double sum = 0;
+  double squares = 0;
+  const std::vector<double> rates = ResampledRates(table);
+  for (const double rate : rates) {
     sum += rate;
     squares += rate * rate;
-    ++count;
   }
-  if (count == 0) return 0;
+  const auto count = static_cast<double>(rates.size());
+  if (rates.empty()) return 0;
   return std::max(0.0, squares / count - (sum / count) * (sum / count));
 }
 
@@ -105,6 +112,26 @@ SuccessRate ClusteredRate(std::span<const ClusteredTrial> trials) {
   rate.low = std::min(interval.low, rate.rate);
   rate.high = std::max(interval.high, rate.rate);
   return rate;
+}
+
+ClusteredDifference MeanDifference(std::span<const ClusteredTrial> trials) {
+  if (trials.empty()) return {};
+  ClusteredDifference difference;
+  difference.trials = static_cast<int>(trials.size());
+  const Table table = TableOf(trials);
+  double sum = 0;
+  for (const Cell& cell : table.cells) sum += cell.successes;
+  difference.mean = sum / difference.trials;
+  std::vector<double> rates = ResampledRates(table);
+  if (rates.empty()) rates = {difference.mean};
+  std::ranges::sort(rates);
+  const auto at = [&](double share) {
+    return rates[static_cast<std::size_t>(
+        std::lround(share * static_cast<double>(rates.size() - 1)))];
+  };
+  difference.low = std::min(at(0.025), difference.mean);
+  difference.high = std::max(at(0.975), difference.mean);
+  return difference;
 }
 
 }  // namespace doorforge

@@ -31,10 +31,12 @@ Options Parse(int argc, char** argv) {
   Options options;
   CLI::App app("Trains a stage's policy from the shards of `doorforge datagen`.",
                "doorforge train");
-  app.add_option("stage", options.request.stage, "open, handle or grasp")
+  app.add_option("stage", options.request.stage,
+                 "open, handle or grasp; motion: one policy of the data of open and handle")
       ->required()
-      ->check(CLI::IsMember({"open", "handle", "grasp"}));
-  app.add_option("--data", options.request.data, "data set, or several of the same stage")
+      ->check(CLI::IsMember({"open", "handle", "grasp", "motion"}));
+  app.add_option("--data", options.request.data,
+                 "data set, or several of the same stage; of motion: of either")
       ->required()
       ->check(CLI::ExistingDirectory);
   app.add_option("--from", options.request.from,

@@ -236,7 +236,7 @@ StageDataset ReadStageDataset(std::span<const fs::path> folders, std::string_vie
   StageDataset dataset;
   for (const fs::path& folder : folders) {
     dataset.parts = Union(dataset.parts, SeenPartsOfDataset(folder));
-    AppendDataset(folder, std::string(stage), validation_share, dataset);
+    AppendDataset(folder, StageReadOf(folder, stage), validation_share, dataset);
   }
   dataset.content_sha256 = StageContentSha256(folders, stage);
   dataset.RequireWhole();

@@ -13,6 +13,9 @@ namespace doorforge {
 struct EpisodeLimits {
   // ---- what an outcome is judged by
   double open_angle_rad = 45 * (std::numbers::pi / 180);  ///< From here on the door is open.
+  /// 1: the door is opened by a hand with a pad on the handle; 0: by whatever it is past the angle,
+  /// as others judge who have no latch to turn.
+  int grip_needed = 1;
   double blocking_force_n = 50;      ///< A greater force on arm or hand is a collision.
   double hand_behind_m = 0.01;       ///< A hand this far behind its commanded pose is held up.
   double joint_margin_rad = 0.01;    ///< A turning joint this near to its end is at its limit.
@@ -43,6 +46,7 @@ struct EpisodeLimits {
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
     visit("open_angle_rad", self.open_angle_rad);
+    visit("grip_needed", self.grip_needed);
     visit("blocking_force_n", self.blocking_force_n);
     visit("hand_behind_m", self.hand_behind_m);
     visit("joint_margin_rad", self.joint_margin_rad);

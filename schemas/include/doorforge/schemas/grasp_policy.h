@@ -12,6 +12,7 @@
 
 #include "doorforge/core/rigid_transform.h"
 #include "doorforge/schemas/cloud.h"
+#include "doorforge/schemas/door_facts.h"
 
 namespace doorforge {
 
@@ -20,6 +21,8 @@ struct PrivilegedGraspState {
   /// The tool centre where the part's makers take hold of the handle, in the world: its z points
   /// along the approach.
   RigidTransform world_from_tcp = RigidTransform::Identity();
+  RigidTransform world_from_handle = RigidTransform::Identity();
+  DoorFacts door;
 };
 
 /// A grasp that led nowhere.

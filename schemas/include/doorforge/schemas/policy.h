@@ -8,6 +8,7 @@
 
 #include "doorforge/core/rigid_transform.h"
 #include "doorforge/schemas/cloud.h"
+#include "doorforge/schemas/door_facts.h"
 
 namespace doorforge {
 
@@ -38,6 +39,7 @@ struct PrivilegedState {
   Eigen::Vector3d handle_axis_in_world = Eigen::Vector3d::UnitX();  ///< Positive turn unlocks.
   /// Hand pose in the handle's frame as it was when the fingers had closed.
   RigidTransform handle_from_hand_at_grasp = RigidTransform::Identity();
+  DoorFacts door;
 };
 
 /// What a policy sees at a decision point (every 1/6 s).

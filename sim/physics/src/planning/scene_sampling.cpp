@@ -178,6 +178,14 @@ double PaperShare(const SceneConfig& config) {
                                              "\", allowed off, paper, strong");
 }
 
+Latch LatchOf(const DoorAsset& door, const SceneConfig& config) {
+  Require(config.latch == "door" || config.latch == "none", ErrorCode::kInvalidConfig,
+          "config.scene.latch: found \"" + config.latch + "\", allowed door, none");
+  Latch latch = door.latch;
+  if (config.latch == "none") latch.type = LatchType::kNone;
+  return latch;
+}
+
 Eigen::Vector3d PointOf(const std::vector<double>& numbers, const std::string& name) {
   if (numbers.size() != 3)
     throw Error(ErrorCode::kInvalidConfig,
@@ -232,7 +240,7 @@ Scene Sample(const DoorAsset& door, const std::string& door_sha256, const SceneD
   scene.world_from_door.translation().z() += HeightShift(config, Rng(draw.seed, stream + "height"));
   scene.world_from_robot_base =
       PlaceRobot(placement, share * config.base_jitter, Rng(draw.seed, stream + "base"));
-  scene.latch = door.latch;
+  scene.latch = LatchOf(door, config);
   scene.grasp_from_noisy_grasp =
       GraspNoise(door, share * config.grasp_noise, Rng(draw.seed, stream + "grasp"));
   if (door.opening == Opening::kPush)

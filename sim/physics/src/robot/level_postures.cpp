@@ -103,6 +103,13 @@ JointVector SearchedPosture(const RobotModel& robot, double roll) {
 
 std::vector<JointVector> LevelPostures(const RobotModel& robot) {
   std::vector<JointVector> postures;
+  if (robot.base() == RobotBase::kFloating) {
+    for (const double roll : {0.0, 0.5, 1.0, -0.5}) {
+      postures.push_back(Relaxed(robot));
+      postures.back()[robot.arm_count() - 1] = roll * std::numbers::pi;
+    }
+    return postures;
+  }
   if (IsBuiltLikeFranka(robot)) {
     for (const double last_joint : {-0.785, 0.785, 2.356, -2.356})
       postures.push_back(FrankaPosture(robot, last_joint));

@@ -10,6 +10,7 @@
 #include "doorforge/core/program.h"
 #include "doorforge/schemas/mesh_file.h"
 
+#include "robot/flying_base.h"
 #include "robot/gripper_frames.h"
 #include "robot/robot_shapes.h"
 #include "robot/robot_tree.h"
@@ -143,14 +144,18 @@ RobotModel Build(const std::string& name, const UrdfModel& given, const RobotSou
                  RobotBase base) {
   RootLinkOf(given);  // a walk up from a link ends only in a tree
   RobotFaults faults(name.empty() ? given.name : name);
-  RobotRoles roles = internal::FindRoles(given, source.options, faults);
-  if (!roles.arm.empty()) CheckOptions(source.options, roles.arm.size(), faults);
-  for (const UrdfJoint& joint : given.joints) {
+  RobotRoles roles = internal::FindRoles(given, source.options, base, faults);
+  const bool flies = base == RobotBase::kFloating;
+  if (flies) faults.Check();  // nobody knows what to cut off without the hand
+  const UrdfModel cut = flies ? internal::HandAlone(given, roles, source.options, faults) : given;
+  const std::size_t rests = flies ? source.options.rest_rad.size() : roles.arm.size();
+  if (flies || !roles.arm.empty()) CheckOptions(source.options, rests, faults);
+  for (const UrdfJoint& joint : cut.joints) {
     const bool finger =
         std::find(roles.fingers.begin(), roles.fingers.end(), joint.name) != roles.fingers.end();
     if (joint.type != UrdfJointType::kFixed) CheckJoint(joint, finger, faults);
   }
-  const UrdfModel urdf = internal::OnBase(given, base, roles);
+  const UrdfModel urdf = internal::OnBase(cut, base, roles);
   const std::vector<std::string> order = OrderOf(roles);
   const auto frames = internal::FramesOf(urdf, order);
   RobotDescription robot;
@@ -174,6 +179,10 @@ RobotModel Build(const std::string& name, const UrdfModel& given, const RobotSou
       faults.Add("tool centre: its y axis must lie along the way in which the fingers slide");
   }
   faults.Check();
+  if (flies) {
+    internal::PointAhead(robot);
+    return RobotModel(std::move(robot));  // the posture at rest is the arm's
+  }
   const std::vector<double>& rest = source.options.rest_rad;
   robot.rest = ArmVector::Map(rest.data(), static_cast<Eigen::Index>(rest.size()));
   return RobotModel(std::move(robot));

@@ -22,6 +22,8 @@ int BaseJointCount(RobotBase base) {
       return 0;
     case RobotBase::kYaw:
       return kMostBaseJoints;
+    case RobotBase::kFloating:
+      return kFloatingJointCount;
   }
   return 0;
 }
@@ -32,11 +34,14 @@ void RequireGripperArm(const RobotDescription& robot, int base_count) {
   const auto require = [&](bool good, const std::string& problem) {
     if (!good) throw Error(ErrorCode::kFormat, "robot \"" + robot.name + "\": " + problem);
   };
-  require(arm_count - base_count >= 6 && arm_count - base_count <= 8,
-          std::to_string(arm_count - base_count) + " arm joints, expected 6 to 8");
+  const bool flies = robot.base == RobotBase::kFloating;
+  const int arm_joints = arm_count - base_count;
+  require(flies ? arm_joints == 0 : arm_joints >= 6 && arm_joints <= 8,
+          std::to_string(arm_joints) + " arm joints, expected " + (flies ? "none" : "6 to 8"));
+  const int sliders = flies ? 3 : std::min(base_count, kSliderCount);
   for (int i = 0; i < count; ++i) {
     const RobotJoint& joint = robot.joints[static_cast<std::size_t>(i)];
-    const bool slides = i < std::min(base_count, kSliderCount) || i >= arm_count;
+    const bool slides = i < sliders || i >= arm_count;
     const int parent = i < arm_count ? i - 1 : arm_count - 1;
     require(joint.prismatic == slides && joint.parent == parent,
             "joint \"" + joint.name + "\" is not of the kind or at the place of joint " +

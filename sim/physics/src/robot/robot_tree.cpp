@@ -9,6 +9,8 @@
 #include "doorforge/core/nearest_name.h"
 #include "doorforge/core/program.h"
 
+#include "flying_base.h"
+
 namespace doorforge::internal {
 namespace {
 
@@ -130,7 +132,7 @@ void SplitChain(const UrdfModel& urdf, const std::vector<std::string>& chain, Ro
   if (roles.arm.size() < kFewestArmJoints || roles.arm.size() > kMostTurningJoints)
     faults.Add("arm: " + std::to_string(roles.arm.size()) + " joints between " +
                (base == 2 ? "the base" : "the root") + " and the hand, expected 6 to 8 (" +
-               Listed(roles.arm) + ")");
+               Listed(roles.arm) + "); a hand without an arm can fly: physics.base: floating");
   for (const std::string& name : roles.arm) {
     if (JointNamed(urdf, name)->type == UrdfJointType::kPrismatic)
       faults.Add("joint \"" + name + "\" slides; joints of the arm must turn");
@@ -167,7 +169,8 @@ void RobotFaults::Check() const {
   throw Error(ErrorCode::kFormat, text);
 }
 
-RobotRoles FindRoles(const UrdfModel& urdf, const RobotOptions& options, RobotFaults& faults) {
+RobotRoles FindRoles(const UrdfModel& urdf, const RobotOptions& options, RobotBase base,
+                     RobotFaults& faults) {
   RobotRoles roles;
   roles.fingers = FingersOf(urdf, options, faults);
   if (!options.tcp_link.empty()) faults.Knows(options.tcp_link, NamesOf(urdf.links), "tcp_link:");
@@ -182,6 +185,7 @@ RobotRoles FindRoles(const UrdfModel& urdf, const RobotOptions& options, RobotFa
     if (above.BodyOf(JointNamed(urdf, name)->parent) != body)
       faults.Add("finger \"" + name + "\" does not slide on the hand \"" + roles.hand_link + '"');
   }
+  if (base == RobotBase::kFloating) return roles;
   SplitChain(urdf, ChainTo(above, roles.hand_link), roles, faults);
   RequireRoles(urdf, roles, faults);
   return roles;
@@ -258,6 +262,7 @@ void AddTurntable(UrdfModel& urdf, RobotRoles& roles) {
 }  // namespace
 
 UrdfModel OnBase(UrdfModel urdf, RobotBase base, RobotRoles& roles) {
+  if (base == RobotBase::kFloating) return OnFlyingBase(urdf, roles);
   if (base == RobotBase::kFixed) {
     for (const std::string& name : roles.base) Joint(urdf, name).type = UrdfJointType::kFixed;
     roles.base.clear();

@@ -36,7 +36,9 @@ struct RobotRoles {
 };
 
 /// Reads the roles from the tree. Where that fails, the faults say why and the roles are not whole.
-RobotRoles FindRoles(const UrdfModel& urdf, const RobotOptions& options, RobotFaults& faults);
+/// Of a robot whose hand is to fly only hand and fingers are looked for.
+RobotRoles FindRoles(const UrdfModel& urdf, const RobotOptions& options, RobotBase base,
+                     RobotFaults& faults);
 
 /// The URDF on the base that is asked for; `roles` gets its joints.
 UrdfModel OnBase(UrdfModel urdf, RobotBase base, RobotRoles& roles);

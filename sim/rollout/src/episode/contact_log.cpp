@@ -47,7 +47,7 @@ void ContactLog::Note(const EpisodeWorld& world) {
 void ContactLog::NoteOpening(const EpisodeWorld& world, const DoorContacts& contacts) {
   const bool pads = last_pad_step_ >= 0 &&
                     StepsWithoutPads(world.step()) <= world.scene().physics.steps_per_action;
-  opened_ = pads;
+  opened_ = pads || world.limits().grip_needed == 0;
   coasted_ = !opened_;
   touched_at_opening_ =
       Format("%s at %.0f deg, finger to handle %.1f mm",

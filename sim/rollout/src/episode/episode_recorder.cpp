@@ -29,9 +29,9 @@ void EpisodeRecorder::RateAll(double reward) {
 JointState EpisodeRecorder::JointsOf(const WorldState& state) const {
   JointState joints{};
   if (HasProprioception(robot_)) {
-    const int missing_sliders = kSliderCount - robot_.base_count();
-    std::copy(state.robot_position.begin(), state.robot_position.end(),
-              joints.begin() + missing_sliders);
+    const ProprioceptionPlaces places = ProprioceptionPlacesOf(robot_);
+    for (std::size_t place = 0; place < places.size(); ++place)
+      if (places.at(place) >= 0) joints.at(place) = state.robot_position[places.at(place)];
   }
   joints[kStateHinge] = state.hinge_rad;
   joints[kStateHandle] = state.handle_rad;

@@ -22,6 +22,7 @@ EpisodeWorld::EpisodeWorld(const Scene& scene, const DoorAsset& door, const Robo
       robot_(robot),
       observer_(observer),
       world_(scene, door, robot, StartPosition(scene, robot)),
+      facts_(FactsOf(door)),
       memory_{HandController(robot, scene.world_from_robot_base, StartPosition(scene, robot))} {
   scene_.robot = {robot.name(), robot.sha256()};
 }
@@ -104,6 +105,7 @@ PrivilegedState EpisodeWorld::Privileged() const {
   privileged.handle_origin_in_world = links[kHandleLink].translation();
   privileged.handle_axis_in_world = links[kHandleLink].linear() * door_.handle_joint.axis;
   privileged.handle_from_hand_at_grasp = memory_.handle_from_hand_at_grasp;
+  privileged.door = facts_;
   return privileged;
 }
 

@@ -71,6 +71,7 @@ class EpisodeWorld {
   const RobotModel& robot_;
   Observer* observer_;
   DoorWorld world_;
+  DoorFacts facts_;
   Memory memory_;
 };
 

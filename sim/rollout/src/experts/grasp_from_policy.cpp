@@ -11,6 +11,7 @@ GraspFromPolicy::GraspFromPolicy(GraspPolicy& policy, const Scene& scene, const 
     : policy_(policy),
       seed_(scene.seed),
       episode_(scene.door_id + "/" + std::to_string(scene.episode)),
+      facts_(FactsOf(door)),
       handle_from_grasp_(door.handle_from_grasp),
       hand_from_tcp_(robot.hand_from_tcp()),
       clearance_(robot),
@@ -41,6 +42,8 @@ std::optional<GraspAction> GraspFromPolicy::ActionAt(const SceneSnapshot& snapsh
   observation.hand_from_tcp = hand_from_tcp_;
   observation.seed = seed_;
   observation.episode = episode_;
+  observation.privileged.door = facts_;
+  observation.privileged.world_from_handle = snapshot.door[kHandleLink];
   observation.privileged.world_from_tcp = snapshot.door[kHandleLink] * handle_from_grasp_;
   std::optional<GraspAction> action = policy_.Choose(observation);
   if (action) tried_.push_back({action->contact_m, action->world_from_hand_rotation});

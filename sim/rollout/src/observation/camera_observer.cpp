@@ -13,6 +13,7 @@ namespace doorforge {
 namespace {
 
 constexpr int kDoorLinks = 3;
+constexpr int kWholeShare = 4;  // points of a whole cloud for each that is sampled of it
 
 bool IsInside(const TriangleMesh& hull, const Eigen::Vector3d& point) {
   return !hull.triangles.empty() &&
@@ -83,9 +84,11 @@ CameraObserver::CameraObserver(const Scene& scene, const DoorAsset& door, const 
       camera_as_calibrated_(
           CameraWithCalibrationError(scene.camera, config.noise, Stream("calibration"))),
       config_(config),
-      camera_(sees_robot ? VisibleMeshesOf(door, robot)
-                         : WithoutRobot(VisibleMeshesOf(door, robot))) {
+      camera_(sees_robot && config.robot ? VisibleMeshesOf(door, robot)
+                                         : WithoutRobot(VisibleMeshesOf(door, robot))) {
   RequireOutside(model_, scene, door);
+  if (config_.whole)
+    whole_.emplace(camera_.scene().meshes(), kWholeShare * config_.point_count, Stream("surface"));
 }
 
 Rng CameraObserver::Stream(const std::string& purpose) const { return {seed_, stream_ + purpose}; }
@@ -98,7 +101,8 @@ CameraFrame CameraObserver::Render(const SceneSnapshot& snapshot) {
   frame.ideal = camera_.Render(model_, poses);
   frame.depth =
       WithDepthNoise(frame.ideal, model_, config_.noise, Stream(std::to_string(looks_++)));
-  frame.visible = CropCloud(frame.depth, camera_as_calibrated_, config_);
+  frame.visible = whole_ ? whole_->At(poses, config_.min_height_m)
+                         : CropCloud(frame.depth, camera_as_calibrated_, config_);
   frame.sampled = SampleCloud(frame.visible, snapshot.robot.world_from_tcp.translation(),
                               {config_.point_count});
   if (before_ && snapshot.phase == EpisodePhase::kUnlock && !frame.visible.label.empty())

@@ -46,6 +46,10 @@ void ParseVerb(CLI::App& app, int argc, char** argv, EmptyValues empty = EmptyVa
 /// Adds `--config FILE`.
 CLI::Option* AddConfig(CLI::App& app, std::string& config, const std::string& about);
 
+/// Adds `--preset NAME`, the environment that the settings of scene and cloud begin with
+/// (environment_preset.h); the help names those that there are.
+CLI::Option* AddPreset(CLI::App& app, std::string& preset);
+
 /// Adds `--set KEY=VALUE`, which every verb with settings has. Each takes one setting and leaves
 /// what follows it to the others; several are given as several `--set`.
 ///

@@ -56,7 +56,8 @@ struct RobotSource {
 /// Roles are read from the tree: the fingers are the two sliding joints on one body, the arm is the
 /// chain from there to the root, 6 to 8 turning joints; two sliding joints before them are a base
 /// of the robot's own, else it is set on the sliders of the built-in robot. The root faces x, z is
-/// up. Collision shapes are taken as their convex hulls.
+/// up. Collision shapes are taken as their convex hulls. With RobotBase::kFloating the link that
+/// carries the fingers, and what is fixed below it, is all that is taken: there need be no arm.
 ///
 /// @throws Error(kFormat) naming every fault: joints without limits or effort, links without mass,
 ///     shapes without a file, moving joints without a role, names in the options that the URDF does

@@ -17,8 +17,11 @@ namespace doorforge {
 
 /// A gripper arm on a base: first the base's joints (none, slider x and slider y, or these and a
 /// yaw), then 6 to 8 arm joints, then the left and the right finger. The first two kinds carry the
-/// hand and are called arm joints together where numbers a joint are meant.
-inline constexpr int kMostBaseJoints = 3;
+/// hand and are called arm joints together where numbers a joint are meant. A flying hand has
+/// sliders x, y and z, then yaw, pitch and roll, as its base's joints and no others before the
+/// fingers.
+inline constexpr int kMostBaseJoints = 3;  ///< Below an arm.
+inline constexpr int kFloatingJointCount = 6;
 inline constexpr int kMostArmJoints = kMostBaseJoints + 8;
 inline constexpr int kMostRobotJoints = kMostArmJoints + 2;
 
@@ -98,7 +101,7 @@ class RobotModel {
   const std::string& sha256() const { return sha256_; }
 
   RobotBase base() const { return robot_.base; }
-  int base_count() const { return base_count_; }       ///< 0, 2 or 3.
+  int base_count() const { return base_count_; }       ///< 0, 2 or 3; 6 of a flying hand.
   int arm_count() const { return joint_count() - 2; }  ///< With the base's joints.
   int joint_count() const { return static_cast<int>(robot_.joints.size()); }
   int left_finger() const { return arm_count(); }

@@ -52,6 +52,8 @@ struct SceneConfig {
   double height_jitter_m = 0;
   double base_jitter = 1;  ///< Scales the spread of the robot's place; 0: always the same.
   double grasp_noise = 1;  ///< Scales the offset of the expert's grasp; 0: the nominal grasp.
+  /// "door": the door's own latch; "none": nothing holds the door, and no handle need be turned.
+  std::string latch = "door";
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -65,6 +67,7 @@ struct SceneConfig {
     visit("height_jitter_m", self.height_jitter_m);
     visit("base_jitter", self.base_jitter);
     visit("grasp_noise", self.grasp_noise);
+    if (!std::is_const_v<Self> || self.latch != "door") visit("latch", self.latch);
   }
 };
 
@@ -84,8 +87,8 @@ struct SceneConfig {
 /// degrees away from the jamb and, on a knob, is rolled back by half its turn. Throws as
 /// RequireSimulatable(); Error(kInvalidArgument) where the frame of a pushed door stands between
 /// robot and handle, as the back of a cupboard does; Error(kInvalidConfig) on an unknown
-/// randomisation, a height_jitter_m out of 0..0.5, as CheckEpisodeLimits() and as CameraOf(). A
-/// stronger randomisation leaves the draws of a weaker one as they are.
+/// randomisation or latch, a height_jitter_m out of 0..0.5, as CheckEpisodeLimits() and as
+/// CameraOf(). A stronger randomisation leaves the draws of a weaker one as they are.
 Scene SampleScene(const IdentifiedDoor& door, std::uint64_t seed, std::uint64_t episode,
                   const SceneConfig& config = {});
 /// This one takes a door that was made or changed in memory. It writes all meshes as text to hash

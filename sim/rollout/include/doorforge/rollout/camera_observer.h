@@ -11,6 +11,7 @@
 #include "doorforge/schemas/scene.h"
 #include "doorforge/sensor/depth_camera.h"
 #include "doorforge/sensor/point_cloud.h"
+#include "doorforge/sensor/surface_cloud.h"
 
 namespace doorforge {
 
@@ -38,7 +39,9 @@ class CameraObserver : public Observer {
   /// @throws Error(kInvalidArgument) as DepthCamera does, or if the camera is inside the closed
   ///     door; Error(kInvalidConfig) as
   ///     CheckDepthNoise().
-  /// @param sees_robot False: only the door is there.
+  /// @param sees_robot False: only the door is there, as with CloudConfig::robot. With
+  ///     CloudConfig::whole every look gives points on all surfaces, drawn from the stream
+  ///     "sensor/.../surface"; images are as ever.
   CameraObserver(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
                  const CloudConfig& config = {}, bool sees_robot = true);
 
@@ -59,6 +62,7 @@ class CameraObserver : public Observer {
   CameraModel camera_as_calibrated_;
   CloudConfig config_;
   DepthCamera camera_;
+  std::optional<SurfaceCloud> whole_;
   std::optional<RememberedView> before_;
   int looks_ = 0;
 };

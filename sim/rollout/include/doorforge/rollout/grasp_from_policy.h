@@ -42,6 +42,7 @@ class GraspFromPolicy : public SnapshotGraspPolicy {
   GraspPolicy& policy_;
   std::uint64_t seed_;
   std::string episode_;
+  DoorFacts facts_;
   RigidTransform handle_from_grasp_;
   RigidTransform hand_from_tcp_;
   GripperClearance clearance_;

@@ -18,17 +18,20 @@
 #include "doorforge/rollout/opening_expert.h"
 #include "doorforge/schemas/door_set.h"
 #include "doorforge/schemas/episode.h"
+#include "doorforge/sensor/point_cloud.h"
 
 namespace doorforge {
 
 /// What decides the episodes, beside doors and seeds.
 struct SimulateConfig {
   SceneConfig scene;
+  CloudConfig cloud;  ///< What policies that look see.
   OpeningExpertConfig expert;
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
     visit("scene", self.scene);
+    visit("cloud", self.cloud);
     visit("expert", self.expert);
   }
 };

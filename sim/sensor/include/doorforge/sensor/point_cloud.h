@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <type_traits>
+
 #include <Eigen/Core>
 
 #include "doorforge/schemas/camera_model.h"
@@ -18,6 +20,10 @@ struct CloudConfig {
   double min_height_m = 0.1;  ///< Points at this world z or lower are dropped.
   int point_count = 4096;     ///< In [1, 1000000].
   DepthNoiseConfig noise{};   ///< The depth image that the cloud is made of has it.
+  /// The points lie on all surfaces, as evenly as their areas, and not on what a camera sees: no
+  /// depth, no noise, nothing hidden. Only the height crops them.
+  bool whole = false;
+  bool robot = true;  ///< False: the robot is left out, so that it hides nothing.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -25,6 +31,10 @@ struct CloudConfig {
     visit("min_height_m", self.min_height_m);
     visit("point_count", self.point_count);
     visit("noise", self.noise);
+    // Configurations are recorded with the data: those from before there was a choice stay as they
+    // are, byte by byte. A configuration that is read is not const.
+    if (!std::is_const_v<Self> || self.whole) visit("whole", self.whole);
+    if (!std::is_const_v<Self> || !self.robot) visit("robot", self.robot);
   }
 };
 

@@ -17,7 +17,7 @@ inline constexpr int kPolicySchemaVersion = 1;
 
 /// What a policy was made from.
 struct PolicyProvenance {
-  std::string stage;           ///< "open", "handle" or "grasp".
+  std::string stage;           ///< "open", "handle", "grasp" or "motion".
   std::string dataset_sha256;  ///< StageDataset::content_sha256 of what it was trained from.
   std::string code_version;
   TrainConfig config;
@@ -44,7 +44,7 @@ void WritePolicy(const std::filesystem::path& folder, const StageNetworks& netwo
                  const PolicyProvenance& provenance);
 
 /// Throws Error(kMissing), Error(kFormat) on a damaged record, one of another stage, or weights
-/// that do not belong to it.
+/// that do not belong to it. One of kMotionStage serves at both stages that it was trained for.
 PolicyRecord ReadPolicy(const std::filesystem::path& folder, std::string_view stage = "open");
 
 }  // namespace doorforge

@@ -100,7 +100,8 @@ class PolicyRegistry {
   std::vector<GraspPolicyRow> grasp_;
 };
 
-/// The rows of this toolkit: "expert" at every stage, "random" for grasps.
+/// The rows of this toolkit: "expert" and the baselines "gapartnet", "gapartnet_clean" and
+/// "gapartnet_pull" at every stage, "random" for grasps.
 PolicyRegistry BuiltInPolicies();
 
 }  // namespace doorforge

@@ -45,6 +45,22 @@ struct ClusteredTrial {
 /// The order of the trials does not matter.
 SuccessRate ClusteredRate(std::span<const ClusteredTrial> trials);
 
+/// By how much one policy succeeds more often than another on the same trials.
+struct ClusteredDifference {
+  double mean = 0;  ///< Of the differences, in [-1, 1].
+  double low = 0;   ///< Of the 95 % interval of the mean.
+  double high = 0;  ///< Its upper end.
+  int trials = 0;
+
+  /// Whether the interval leaves out 0.
+  bool IsSignificant() const { return low > 0 || high < 0; }
+};
+
+/// The mean of paired differences, each in ClusteredTrial::success and in [-1, 1], with the 2.5th
+/// and the 97.5th percentile over the resamples of ClusteredRate(). The order of the trials does
+/// not matter; no trials give zeros.
+ClusteredDifference MeanDifference(std::span<const ClusteredTrial> trials);
+
 /// Success of each seed by itself: UniDoorManip repeats its evaluation over 3 seeds and reports
 /// mean and variance (Section 5 of the paper).
 struct SeedSpread {

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/verbs/benchmark_verb.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "doorforge/benchmark/benchmark_page.h"
+#include "doorforge/benchmark/benchmark_pipeline.h"
+#include "doorforge/benchmark/benchmark_result.h"
+#include "doorforge/cli/answer.h"
+#include "doorforge/cli/command_line.h"
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/error.h"
+#include "doorforge/core/json_file.h"
+#include "doorforge/core/program.h"
+#include "doorforge/pipeline/pipeline_run.h"
+
+namespace doorforge {
+namespace {
+
+struct Options {
+  std::vector<std::string> size;  // "plan" may come before it
+  std::vector<std::string> rows;
+  std::vector<std::string> doors;
+  std::vector<std::string> settings;
+  PipelineRun run;
+  bool dry_run = false;
+};
+
+std::string SizeLines() {
+  std::string lines;
+  for (const std::string& name : BenchmarkSizes())
+    lines += "  " + name + std::string(name.size() < 8 ? 8 - name.size() : 1, ' ') +
+             ReadBenchmark(name, {}, {}).size.about + "\n";
+  return lines;
+}
+
+Options Parse(int argc, char** argv) {
+  Options options;
+  CLI::App app(
+      "The paper's table in one simulator: trains what is missing, evaluates every row on the "
+      "same\ndoors and seeds, and ends in one page. A step is skipped while nothing that it was "
+      "made from\nhas changed; stopped, the same command goes on.",
+      "doorforge benchmark");
+  app.add_option("size", options.size,
+                 "quick, paper, or a .yaml file; with `plan` before it: as --dry-run")
+      ->required()
+      ->expected(1, 2);
+  app.add_option("--out", options.run.out, "folder for everything that is made")->required();
+  app.add_option("--rows", options.rows, "the rows to judge, in place of the size's");
+  app.add_option("--doors", options.doors, "folders of composed doors, instead of the catalogue's");
+  AddThreads(app, options.run.threads, "threads, 0: all; changes no byte")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  AddSettings(app, options.settings, "changes the size, e.g. doors=12");
+  app.add_flag("--dry-run", options.dry_run,
+               "print the steps, why each would run, and the expected time and space");
+  AddJson(app, options.run.json, "print one JSON document, of the plan or of the result");
+  AddOverwrite(app, options.run.overwrite,
+               "replace what steps made whose inputs have changed since");
+  app.add_flag("--any-build", options.run.any_build,
+               "keep finished steps of other builds where nothing else has changed");
+  app.footer("sizes:\n" + SizeLines() +
+             "\nexamples:\n"
+             "  doorforge benchmark plan quick --out run/benchmark\n"
+             "  doorforge benchmark quick --out run/benchmark --rows expert gapartnet ours");
+  ParseVerb(app, argc, argv);
+  if (options.size.size() == 2) {
+    Require(options.size[0] == "plan", ErrorCode::kInvalidArgument,
+            "\"" + options.size[0] + "\": expected one size, or `plan` and one");
+    options.dry_run = true;
+    options.size.erase(options.size.begin());
+  }
+  return options;
+}
+
+int Run(Options& options) {
+  const Benchmark benchmark = ReadBenchmark(options.size[0], options.settings, options.rows);
+  BenchmarkPlan plan = PlanBenchmark(benchmark);
+  if (!options.doors.empty()) GiveOutput(plan.pipeline, "doors", options.doors);
+  if (options.dry_run) {
+    PrintText(PlanPipeline(plan.pipeline, options.run));
+    return 0;
+  }
+  options.run.progress = PrintProgress;
+  if (const int code = RunPipeline(plan.pipeline, options.run); code != 0) return code;
+  const BenchmarkResult result = ReadBenchmarkResult(benchmark, plan, options.run.out);
+  CommitFile(options.run.out / "benchmark.html", BenchmarkPage(result));
+  WriteJsonFile(options.run.out / "benchmark.json", BenchmarkToJson(result));
+  if (options.run.json) {
+    PrintJson(BenchmarkToJson(result));
+    return 0;
+  }
+  PrintText(
+      BenchmarkText(result) + "\npage: " +
+      std::filesystem::absolute(options.run.out / "benchmark.html").lexically_normal().string() +
+      "\n");
+  return 0;
+}
+
+}  // namespace
+
+int RunBenchmarkVerb(int argc, char** argv) {
+  return RunProgram([&] {
+    Options options = Parse(argc, argv);
+    return Run(options);
+  });
+}
+
+}  // namespace doorforge

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "doorforge/benchmark/benchmark_pipeline.h"
+#include "doorforge/report/over_trainings.h"
+#include "doorforge/report/success_statistics.h"
+
+namespace doorforge {
+
+/// What a row came to on both sides of the doors together.
+struct BenchmarkRowResult {
+  BenchmarkRow row;
+  TrainingsSummary summary;          ///< Over its trainings.
+  double train_minutes = 0;          ///< Core minutes expected of one of its trainings.
+  std::vector<std::string> reports;  ///< Folders, below the benchmark's.
+};
+
+/// Whether two rows differ, on the same episodes.
+struct BenchmarkComparison {
+  std::size_t first = 0;  ///< Index into BenchmarkResult::rows.
+  std::size_t second = 0;
+  ClusteredDifference difference;  ///< Of the second over the first, of means over trainings.
+};
+
+struct BenchmarkResult {
+  Benchmark benchmark;
+  std::vector<BenchmarkRowResult> rows;
+  std::vector<BenchmarkComparison> comparisons;  ///< Each row with the last.
+};
+
+/// Reads the reports of all parts.
+///
+/// @throws Error(kMissing or kFormat) as their reader, and Error(kInvalidArgument) unless all are
+///     of the same doors and seeds.
+BenchmarkResult ReadBenchmarkResult(const Benchmark& benchmark, const BenchmarkPlan& plan,
+                                    const std::filesystem::path& out);
+
+/// The paper's table beside ours, and the comparisons, for a terminal.
+std::string BenchmarkText(const BenchmarkResult& result);
+/// {"schema": "doorforge.benchmark", "rows": [{"name", "title", "paper", "success": as
+/// `doorforge report --json`, "train_core_minutes", "reports"}], "comparisons": [{"row", "with",
+/// "mean", "low", "high", "significant"}]}.
+nlohmann::ordered_json BenchmarkToJson(const BenchmarkResult& result);
+
+}  // namespace doorforge

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/benchmark/benchmark_page.h"
+
+#include <algorithm>
+
+#include "doorforge/core/html_text.h"
+#include "doorforge/core/page_style.h"
+#include "doorforge/core/program.h"
+#include "doorforge/schemas/names.h"
+
+namespace doorforge {
+namespace {
+
+using page::Escape;
+using page::Fill;
+using page::Fixed;
+
+std::string Percent(double share) { return Fixed(100 * share, 0); }
+
+std::string Cell(const std::string& text) { return "<td>" + text + "</td>"; }
+
+std::string CategoryCell(const BenchmarkRowResult& row, std::size_t category) {
+  const auto group =
+      std::ranges::find(row.summary.groups, EpisodeGroup{kCategories[category].value, {}},
+                        &GroupOverTrainings::group);
+  std::string text = "&#8211;";
+  if (group != row.summary.groups.end())
+    text = "<b>" + Percent(group->opened.mean) + "</b><br/><small>" + Percent(group->rate.low) +
+           "&#8211;" + Percent(group->rate.high) + "</small>";
+  if (category < row.row.paper.size())
+    text += "<br/><small>paper&#160;" + Percent(row.row.paper[category]) + "</small>";
+  return Cell(text);
+}
+
+std::string MeanCell(const BenchmarkRowResult& row) {
+  const OverTrainings& mean = row.summary.mean_of_categories;
+  std::string text = "<b>" + Fixed(100 * mean.mean, 1) + "</b>";
+  if (mean.rates.size() > 1)
+    text += "<br/><small>&#177; " + Fixed(100 * mean.deviation, 1) + " over " +
+            std::to_string(mean.rates.size()) + " trainings</small>";
+  return Cell(text);
+}
+
+std::string SuccessTable(const BenchmarkResult& result) {
+  std::string head = "<th>row</th>";
+  for (const auto& category : kCategories)
+    head += "<th>" + Escape(std::string(category.name)) + "</th>";
+  std::string rows;
+  for (const BenchmarkRowResult& row : result.rows) {
+    rows += "<tr><td>" + Escape(row.row.title) + "<br/><small>" + Escape(row.row.name) +
+            "</small></td>";
+    for (std::size_t i = 0; i < std::size(kCategories); ++i) rows += CategoryCell(row, i);
+    rows += MeanCell(row) + "</tr>\n";
+  }
+  return "<table><thead><tr>" + head + "<th>mean of categories</th></tr></thead><tbody>\n" + rows +
+         "</tbody></table>";
+}
+
+std::string ComparisonTable(const BenchmarkResult& result) {
+  if (result.comparisons.empty()) return "";
+  std::string rows;
+  for (const BenchmarkComparison& row : result.comparisons)
+    rows +=
+        "<tr>" + Cell(Escape(result.rows[row.first].row.title)) +
+        Cell(Fixed(100 * row.difference.mean, 1)) +
+        Cell(Fixed(100 * row.difference.low, 1) + " to " + Fixed(100 * row.difference.high, 1)) +
+        Cell(row.difference.IsSignificant() ? "yes" : "may be chance") + "</tr>\n";
+  return "<h2>By how much &#8220;" + Escape(result.rows.back().row.title) +
+         "&#8221; opens more often</h2>\n<table><thead><tr><th>than</th><th>points</th>"
+         "<th>95 % interval</th><th>differs</th></tr></thead><tbody>\n" +
+         rows + "</tbody></table>\n<p>Paired: the same doors and seeds. Bodies and handles are " +
+         "resampled, both at a time; how trainings differ is not in the interval.</p>";
+}
+
+std::string BudgetTable(const BenchmarkResult& result) {
+  std::string rows;
+  for (const BenchmarkRowResult& row : result.rows) {
+    std::string links;
+    for (const std::string& report : row.reports)
+      links += "<a href=\"" + Escape(report) + "/report.html\">" +
+               Escape(report.substr(report.rfind('/') + 1)) + "</a> ";
+    rows += "<tr>" + Cell(Escape(row.row.title)) +
+            Cell(row.row.pipeline.empty() ? "none" : Escape(row.row.pipeline)) +
+            Cell(row.row.pipeline.empty() ? "&#8211;" : Fixed(row.train_minutes, 0)) + Cell(links) +
+            "</tr>\n";
+  }
+  return "<h2>Budgets, and how each row fails</h2>\n<table><thead><tr><th>row</th>"
+         "<th>pipeline</th><th>core minutes of a training, expected</th>"
+         "<th>reports with films of every way to fail</th></tr></thead><tbody>\n" +
+         rows + "</tbody></table>";
+}
+
+}  // namespace
+
+std::string BenchmarkPage(const BenchmarkResult& result) {
+  const TrainingsSummary& first = result.rows.front().summary;
+  return Fill(R"(<!DOCTYPE html>
+<html lang="en" xmlns="http://www.w3.org/1999/xhtml">
+<head>
+<meta charset="utf-8"/>
+<meta name="viewport" content="width=device-width, initial-scale=1"/>
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'"/>
+<title>doorforge benchmark: {name}</title>
+<style>{style}</style>
+</head>
+<body>
+<header><h1>Benchmark &#8220;{name}&#8221;</h1>
+<p>Share of doors opened beyond 45 degrees [%], with 95 % intervals by resampled bodies and handles; {doors} doors, {seeds} scenes each, the
+same for every row. Below ours the paper's figure: other doors, another simulator, and columns whose order the paper does not print.</p></header>
+<main>
+{table}
+{comparisons}
+{budgets}
+</main>
+<footer>Made by doorforge {version}. The same numbers for programs: benchmark.json beside this page.</footer>
+</body>
+</html>
+)",
+              {{"name", Escape(result.benchmark.name)},
+               {"style", std::string(page::kPageStyle)},
+               {"doors", std::to_string(first.doors)},
+               {"seeds", std::to_string(result.benchmark.size.seeds)},
+               {"table", SuccessTable(result)},
+               {"comparisons", ComparisonTable(result)},
+               {"budgets", BudgetTable(result)},
+               {"version", Escape(CodeVersion())}});
+}
+
+}  // namespace doorforge

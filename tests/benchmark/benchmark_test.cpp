@@ -63,9 +63,10 @@ TEST(BenchmarkTable, AnUnknownRowIsToldWithTheNearest) {
 TEST(BenchmarkTable, ARowOfOnesOwnIsJudgedAmongTheOthers) {
   const fs::path file =
       fs::temp_directory_path() / ("benchmark_own_" + std::to_string(::getpid()) + ".yaml");
-  CommitFile(file,
-             "rows: [mine, expert]\n"
-             "own:\n  - {name: mine, title: My own, evaluate: [--opener, 'ws://localhost:8123']}\n");
+  CommitFile(
+      file,
+      "rows: [mine, expert]\n"
+      "own:\n  - {name: mine, title: My own, evaluate: [--opener, 'ws://localhost:8123']}\n");
   const Benchmark benchmark = ReadBenchmark(file.string(), {}, {});
   fs::remove(file);
   const Pipeline joined = PlanBenchmark(benchmark).pipeline;

@@ -19,14 +19,14 @@ namespace {
 using internal::AppendNumber;
 using internal::LineCursor;
 
-constexpr std::size_t kDigitsInName = 20;
+constexpr std::size_t kDigitsInTextureName = 20;
 
 const char* EndingOf(TextureFormat format) {
   return format == TextureFormat::kPng ? ".png" : ".jpg";
 }
 
 std::string Named(const std::string& sha256, const char* ending) {
-  return sha256.substr(0, kDigitsInName) + ending;
+  return sha256.substr(0, kDigitsInTextureName) + ending;
 }
 
 double AsFiled(double number) { return static_cast<double>(static_cast<float>(number)); }

@@ -72,8 +72,7 @@ Benchmark ReadBenchmark(const std::string& name, const std::vector<std::string>&
   const RowTable shipped = LoadConfig<RowTable>(table, {});
   known.insert(known.end(), shipped.rows.begin(), shipped.rows.end());
   if (!rows.empty()) benchmark.size.rows = rows;
-  for (const std::string& row : benchmark.size.rows)
-    benchmark.rows.push_back(RowNamed(known, row));
+  for (const std::string& row : benchmark.size.rows) benchmark.rows.push_back(RowNamed(known, row));
   const BenchmarkSize& size = benchmark.size;
   Require(!benchmark.rows.empty() && size.doors >= 1 && size.seeds >= 1 && size.trainings >= 1,
           ErrorCode::kInvalidConfig,

@@ -53,10 +53,10 @@ struct ComposeRun {
   std::filesystem::path parts = {};  ///< Folder of parts; empty: the catalogue.
   PairChoice pairs = PairChoice::kNamed;
   std::string category = {};  ///< Only doors of this category are composed; empty: those of any.
-  /// Relative names of files to import are looked for here; empty: in the working directory. No byte
-  /// of the door depends on it.
+  /// Relative names of files to import are looked for here; empty: in the working directory. No
+  /// byte of the door depends on it.
   std::filesystem::path files = {};
-  bool standalone = false;    ///< Each of many doors has its own copy of the meshes.
+  bool standalone = false;  ///< Each of many doors has its own copy of the meshes.
   Existing existing = Existing::kRefuse;
   int threads = 0;                      ///< 0: all processors; no byte depends on it.
   double max_seconds = kObjectSeconds;  ///< Processor time that one object may take [s].

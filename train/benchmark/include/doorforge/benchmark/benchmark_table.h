@@ -32,11 +32,11 @@ struct BenchmarkRow {
 /// Which rows are judged, on how many doors, after how many trainings.
 struct BenchmarkSize {
   std::string about;
-  std::vector<std::string> rows;  ///< Names of rows of data/benchmarks/rows.yaml, or of `own`.
+  std::vector<std::string> rows;       ///< Names of rows of data/benchmarks/rows.yaml, or of `own`.
   std::vector<BenchmarkRow> own = {};  ///< Rows of the user's; they go before others of their name.
-  int doors = 6;                  ///< Of each category, on either side.
-  int seeds = 3;                  ///< Scenes of each door.
-  int trainings = 1;              ///< Of each row that is trained; their seeds follow `seed`.
+  int doors = 6;                       ///< Of each category, on either side.
+  int seeds = 3;                       ///< Scenes of each door.
+  int trainings = 1;                   ///< Of each row that is trained; their seeds follow `seed`.
   std::uint64_t seed = 7;
   std::vector<std::string> settings;  ///< "key=value" of the pipelines that train.
   std::string split = "full:test";    ///< The side of held-out doors.

@@ -201,7 +201,8 @@ class PullsLeft : public TwoWayPolicy {
 HingeSide SideFoundOn(HandOnALeaf hand) {
   const auto finder = Knows(SideChoice::kAuto);
   finder->Begin(std::nullopt);
-  TryingPolicy opens(std::make_unique<PullsLeft>(), {.within_m = 0}, {MotionWay::kUsual}, finder);
+  TryingPolicy opens(std::make_unique<PullsLeft>(), {.within_m = 0, .sideways_share = 0.6},
+                     {MotionWay::kUsual}, finder);
   for (int i = 0; i < 5; ++i) hand.Do(opens.Act(hand.Seen()));
   return opens.guess().side;
 }

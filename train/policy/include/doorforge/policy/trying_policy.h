@@ -30,9 +30,10 @@ struct StallConfig {
   /// A hand that is farther than this from where it began is not on a wrong way, but held up on the
   /// right one [m].
   double within_m = 0.05;
-  /// As `moved_share`, of the shifts along the world's y alone: a leaf that is hinged on the other
-  /// side takes the hand along the other arc.
-  double sideways_share = 0.6;
+  /// As `moved_share`, of the shifts along the world's y alone, where there is doubt about the
+  /// side: a leaf that is hinged on the other side takes the hand along the other arc. 0: not
+  /// looked at, since windows held badly look alike.
+  double sideways_share = 0;
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {

@@ -32,7 +32,7 @@ struct StallConfig {
   double within_m = 0.05;
   /// As `moved_share`, of the shifts along the world's y alone, where there is doubt about the
   /// side: a leaf that is hinged on the other side takes the hand along the other arc. 0: not
-  /// looked at, since windows held badly look alike.
+  /// looked at, since a hand that lags looks alike.
   double sideways_share = 0;
 
   template <class Self, class Visitor>

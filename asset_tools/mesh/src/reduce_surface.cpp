@@ -45,11 +45,6 @@ class BudgetAndCost {
   double max_cost_;
 };
 
-Point PointAt(const TriangleMesh& mesh, int index) {
-  const Eigen::Vector3d& v = mesh.vertices[static_cast<std::size_t>(index)];
-  return {v.x(), v.y(), v.z()};
-}
-
 // ---- collapses after which no triangles cross -------------------------------------------------
 
 // The triangles as they are while edges collapse, to be found by place.

@@ -18,6 +18,7 @@
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
+#include "doorforge/rollout/proprioception.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/schemas/door_set.h"
 #include "doorforge/schemas/episode_arrays.h"

@@ -22,7 +22,7 @@
 namespace doorforge {
 namespace {
 
-struct Options {
+struct BenchmarkOptions {
   std::vector<std::string> size;  // "plan" may come before it
   std::vector<std::string> rows;
   std::vector<std::string> doors;
@@ -39,8 +39,8 @@ std::string SizeLines() {
   return lines;
 }
 
-Options Parse(int argc, char** argv) {
-  Options options;
+BenchmarkOptions ParseBenchmark(int argc, char** argv) {
+  BenchmarkOptions options;
   CLI::App app(
       "The paper's table in one simulator: trains what is missing, evaluates every row on the "
       "same\ndoors and seeds, and ends in one page. A step is skipped while nothing that it was "
@@ -78,7 +78,7 @@ Options Parse(int argc, char** argv) {
   return options;
 }
 
-int Run(Options& options) {
+int RunBenchmark(BenchmarkOptions& options) {
   const Benchmark benchmark = ReadBenchmark(options.size[0], options.settings, options.rows);
   BenchmarkPlan plan = PlanBenchmark(benchmark);
   if (!options.doors.empty()) GiveOutput(plan.pipeline, "doors", options.doors);
@@ -106,8 +106,8 @@ int Run(Options& options) {
 
 int RunBenchmarkVerb(int argc, char** argv) {
   return RunProgram([&] {
-    Options options = Parse(argc, argv);
-    return Run(options);
+    BenchmarkOptions options = ParseBenchmark(argc, argv);
+    return RunBenchmark(options);
   });
 }
 

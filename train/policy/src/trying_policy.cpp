@@ -44,6 +44,7 @@ void StallDetector::Answer(const Proprioception& now) {
                      asked_.position_delta_m.squaredNorm() + kLever * kLever * turn.squaredNorm(),
                      moved.y() * sideways, sideways * sideways});
   while (shares_.size() > static_cast<std::size_t>(config_.patience)) shares_.pop_front();
+  before_.reset();
 }
 
 bool StallDetector::IsFull() const {

@@ -13,7 +13,7 @@
 
 #include "doorforge/core/rigid_transform.h"
 #include "doorforge/core/rng.h"
-#include "doorforge/rollout/run_episode.h"
+#include "doorforge/rollout/snapshot_grasp_policy.h"
 
 #include "built_in_policies.h"
 

@@ -186,7 +186,7 @@ class HandOnALeaf {
 
  private:
   double side_;
-  double angle_ = 0.25;
+  double angle_ = 0.6;
 };
 
 // Pulls along the arc of a leaf that is hinged left, to the hand's -y.
@@ -217,7 +217,7 @@ TEST(TryingPolicy, TellsTheNextStageOnWhichSideTheHingeIs) {
   TryingPolicy turns(std::make_unique<ToAndFro>(true), {}, {MotionWay::kUsual}, finder);
   Hand moves_one_way(0, 1);
   finder->Begin(std::nullopt);
-  for (int i = 0; i < 6; ++i) moves_one_way.Do(turns.Act(moves_one_way.Seen()));
+  for (int i = 0; i < 8; ++i) moves_one_way.Do(turns.Act(moves_one_way.Seen()));
   // a turn about x is mirrored into the opposite one
   EXPECT_EQ(turns.guess().side, HingeSide::kRight);
   TryingPolicy opens(std::make_unique<ToAndFro>(false), {}, {MotionWay::kUsual}, finder);
@@ -228,6 +228,18 @@ TEST(TryingPolicy, TellsTheNextStageOnWhichSideTheHingeIs) {
   opens.Reset();
   opens.Act(moves_one_way.Seen());
   EXPECT_EQ(opens.guess().side, HingeSide::kLeft);
+}
+
+TEST(TryingPolicy, AHandleThatTurnsNeitherWayTellsTheNextStageNothing) {
+  const auto finder = Knows(SideChoice::kAuto);
+  TryingPolicy turns(std::make_unique<ToAndFro>(true), {}, {MotionWay::kUsual}, finder);
+  const Hand fixed(0, 0);
+  for (int actions = 1; actions <= 12; ++actions) {
+    finder->Begin(std::nullopt);
+    turns.Reset();
+    for (int i = 0; i < actions; ++i) turns.Act(fixed.Seen());
+    EXPECT_EQ(finder->SideFor({0, 0, 0}), HingeSide::kLeft) << actions;
+  }
 }
 
 TEST(TryingPolicy, APolicyOfTheArmsJointsHasNoMirrorImage) {

@@ -126,8 +126,9 @@ Action TryingPolicy::Act(const Observation& observation) {
       guesses_.size() > 1 && (stall_.Stalls(now) || (IsInDoubt() && stall_.IsHeldSideways(now)));
   if (changed_) {
     guess_ = guesses_[++tried_ % guesses_.size()];
-    if (finder_) finder_->Found(guess_.side);
     stall_.Reset();
+  } else if (tried_ > 0 && finder_ && stall_.IsFull()) {
+    finder_->Found(guess_.side);  // a handle that does not turn either way has shown nothing
   }
   if (finder_ && stall_.WayFromStart(now) > kOnTheWay) finder_->Confirm(guess_.side);
   const Action action = guess_.side == HingeSide::kLeft

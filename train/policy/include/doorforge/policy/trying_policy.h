@@ -60,6 +60,8 @@ class StallDetector {
   /// Of the last `patience` actions; false while there are fewer. The share is the projection of
   /// what the hand did on what was asked.
   bool Stalls(const Proprioception& now);
+  /// Whether there are `patience` actions to look at.
+  bool IsFull() const;
   /// Whether the last `patience` actions asked for a way to one side and the hand did too little of
   /// it, while it has not gone far yet. For after Stalls().
   bool IsHeldSideways(const Proprioception& now) const;
@@ -72,7 +74,6 @@ class StallDetector {
     double sideways_asked = 0;
   };
   void Answer(const Proprioception& now);
-  bool IsFull() const;
   Share Sum() const;
 
   StallConfig config_;

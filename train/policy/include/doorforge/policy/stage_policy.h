@@ -21,7 +21,9 @@ struct PolicyOptions {
   int candidates = 1;
   std::uint64_t seed = 1;  ///< The draws begin with it anew at every Reset().
   StallConfig stall = {};  ///< When the other way or side is tried.
-  SideChoice side = SideChoice::kAuto;
+  /// kAuto is not the default: a pull without a latch turns neither way, and a policy that tries
+  /// the other side lets go of it (docs/design/notes/2026-11-25-both-sides.md).
+  SideChoice side = SideChoice::kLeft;
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {

@@ -25,7 +25,7 @@ std::string Text(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-// As --set reads it, which takes 7 and true for no words.
+// It writes the value as --set reads it, which takes 7 and true for no words.
 std::string Setting(const Json& value) {
   const std::string text = Text(value);
   const bool is_word = text.find_first_not_of("abcdefghijklmnopqrstuvwxyz_") == std::string::npos &&

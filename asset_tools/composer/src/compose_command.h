@@ -16,8 +16,8 @@ inline constexpr const char* kCommandOut = "doors/mine";
 /// are looked for in the working directory.
 std::string CommandOf(const ComposeRequest& request, const std::filesystem::path& parts);
 
-/// The same as a file for `doorforge compose --config`, with the command that reads it in its first
-/// line.
+/// It says the same as a file for `doorforge compose --config`, with the command that reads it in
+/// its first line.
 std::string YamlOf(const ComposeRequest& request, const std::filesystem::path& parts);
 
 }  // namespace doorforge::internal

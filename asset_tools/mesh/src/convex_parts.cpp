@@ -291,7 +291,7 @@ class Decomposition {
     return entry->second;
   }
 
-  // Of those that stand out by more than they may and that a cut may divide.
+  // It looks at regions that stand out by more than they may and that a cut may divide.
   std::optional<std::size_t> WorstMeasured() {
     std::optional<std::size_t> worst;
     double worst_m = config_.max_protrusion_m;
@@ -478,7 +478,7 @@ class Decomposition {
     return best;
   }
 
-  // Of a cut; nothing where a side is empty or flat, or the score is no less than `below`.
+  // It rates a cut; nothing where a side is empty or flat, or the score is no less than `below`.
   std::optional<double> ScoreOf(const Region& region, const Candidate& candidate, Depths depths,
                                 double below) {
     constexpr double kAirWeight = 0.5;
@@ -512,7 +512,7 @@ class Decomposition {
     return Side{*std::move(hull), volume_m3, content_.area_m2};
   }
 
-  // Of a hull, where it makes a cut necessary; any depth beyond `stop_m`.
+  // It measures a hull, where that makes a cut necessary, and stops at any depth beyond `stop_m`.
   double ComparableDepth(const TriangleMesh& hull, Depths depths, double stop_m) {
     if (depths == Depths::kMeasured) return Protrusion(hull, kCoarseStep, stop_m).depth_m;
     return ConcavityOf(hull, solid_, {.above_m = allowed_m_, .stop_m = stop_m}).depth_m;

@@ -55,7 +55,7 @@ class CutSurface {
   /// on this side. Kept here, the ends of opposite walls would span the air between them; a thin
   /// wall that is cut along its middle must keep both its faces.
   CutSurface Side(const CutSide& side, double skin_m, const IsNotedFor& is_noted_for) const;
-  /// The same without making it; `content` is emptied first.
+  /// It finds what Side() makes, without making it; `content` is emptied first.
   void FindSide(const CutSide& side, double skin_m, const IsNotedFor& is_noted_for,
                 SideContent& content) const;
 

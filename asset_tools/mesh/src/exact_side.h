@@ -11,7 +11,7 @@ namespace doorforge {
 int SideOfPlane(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
                 const Eigen::Vector3d& d);
 
-/// The same without asking first whether rounded numbers can tell.
+/// It gives SideOfPlane() without asking first whether rounded numbers can tell.
 int ExactSideOfPlane(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
                      const Eigen::Vector3d& d);
 

@@ -57,7 +57,7 @@ std::string HiddenText(const Json& meta) {
   return text;
 }
 
-// The same over time.
+// What is hidden, over time.
 std::vector<std::pair<std::string, std::vector<double>>> HiddenShares(const Json& meta,
                                                                       std::size_t decisions) {
   std::vector<std::pair<std::string, std::vector<double>>> hidden;

@@ -51,8 +51,13 @@
 #include "doorforge/mesh/mesh_writer.h"
 #include "doorforge/parts/grasp.h"
 
+#include "sample_sums.h"
+
 namespace doorforge {
 namespace {
+
+using benchmarks::Quantile;
+using benchmarks::Sum;
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
@@ -119,7 +124,7 @@ double SecondsOf(const rusage& usage) {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-// Of this process and of those that it started and that have ended.
+// It counts this process and those that it started and that have ended.
 double CpuSeconds() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
@@ -139,18 +144,6 @@ auto Timed(double& seconds, const Work& work) {
 }
 
 // ---- sums -------------------------------------------------------------------------------------
-
-double Quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
-}
-
-double Sum(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value;
-  return sum;
-}
 
 class Column {
  public:

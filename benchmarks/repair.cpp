@@ -52,8 +52,13 @@
 #include "doorforge/mesh/repair_mesh.h"
 #include "doorforge/mesh/surface_deviation.h"
 
+#include "sample_sums.h"
+
 namespace doorforge {
 namespace {
+
+using benchmarks::Quantile;
+using benchmarks::Sum;
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
@@ -176,18 +181,6 @@ Judgement Judged(const TriangleMesh& input, const TriangleMesh& output) {
 }
 
 // ---- sums over the files ----------------------------------------------------------------------
-
-double Quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
-}
-
-double Sum(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value;
-  return sum;
-}
 
 class Tally {
  public:

@@ -236,7 +236,7 @@ struct DatasetInfoOptions {
   bool json = false;
 };
 
-// As the page names it.
+// The page names the films by their path from its own folder.
 std::string FilmsAddress(const DatasetInfoOptions& options) {
   if (options.films.empty()) return {};
   const fs::path folder = fs::absolute(options.html).parent_path();

@@ -28,7 +28,7 @@ fs::path ReportFileOf(const fs::path& path) {
   return fs::is_directory(path) ? path / "report.json" : path;
 }
 
-// Of each row what a table shows.
+// It takes of each row what a table shows.
 Json RowsOfReport(const fs::path& path) {
   const Json report = ReadJsonFile(path);
   const std::string where = path.string();

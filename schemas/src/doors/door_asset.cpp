@@ -146,7 +146,7 @@ class DoorSource {
   std::optional<MeshPool> pool_;
 };
 
-/// Of meshes and of visual meshes.
+/// They read meshes and visual meshes.
 struct Readers {
   MeshReader mesh;
   VisualReader visual;

@@ -93,7 +93,7 @@ struct Choice {
 CLI::Option* AddChoice(CLI::App& app, const std::string& name, const std::string& about,
                        const Choice& choice);
 
-/// The same for an enum with a table of words; the help shows the default.
+/// It does so for an enum with a table of words; the help shows the default.
 template <NamedEnum Enum>
 CLI::Option* AddChoice(CLI::App& app, const std::string& name, Enum& value,
                        const std::string& about) {
@@ -102,7 +102,7 @@ CLI::Option* AddChoice(CLI::App& app, const std::string& name, Enum& value,
                     [&value](const std::string& word) { value = *ValueNamed<Enum>(word); }});
 }
 
-/// The same where nothing given leaves it to somebody else, such as a file of settings.
+/// It does so where nothing given leaves the value to somebody else, such as a file of settings.
 template <NamedEnum Enum>
 CLI::Option* AddChoice(CLI::App& app, const std::string& name, std::optional<Enum>& value,
                        const std::string& about) {

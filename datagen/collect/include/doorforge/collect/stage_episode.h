@@ -18,7 +18,7 @@ CollectedEpisode RunStageEpisode(const PlannedEpisode& planned, const Identified
                                  const RobotModel& robot, const StageConfig& config,
                                  StagePolicies& policies);
 
-/// The same episode as a film.
+/// Runs the same episode and returns its course instead of its decisions.
 EpisodeFilm FilmStageEpisode(const PlannedEpisode& planned, const IdentifiedDoor& door,
                              const RobotModel& robot, const StageConfig& config,
                              StagePolicies& policies);

@@ -43,7 +43,7 @@ class StageRun {
   /// For Collect(): folder, threads and task are the caller's.
   CollectRequest Request() const;
   CollectedEpisode Run(const PlannedEpisode& planned);
-  /// The same episode, as a film.
+  /// Runs the same episode and returns its course, see FilmStageEpisode().
   EpisodeFilm Film(const PlannedEpisode& planned);
 
  private:

@@ -45,7 +45,7 @@ bool ReadLine(std::string_view line, TriangleMesh& mesh) {
   return false;
 }
 
-// Of a line that ReadLine() refused.
+// It says what is wrong with a line that ReadLine() refused.
 std::string ProblemOf(std::string_view line, const TriangleMesh& mesh) {
   const bool is_vertex = line.starts_with("v ") && !mesh.vertices.empty();
   if (is_vertex && mesh.vertices.back().allFinite() && !IsWithinReach(mesh.vertices.back()))

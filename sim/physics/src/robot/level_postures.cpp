@@ -46,7 +46,7 @@ bool IsBuiltLikeFranka(const RobotModel& robot) {
          pose.world_from_tcp.translation().x() > 0.3;
 }
 
-// Of the arm from its base joint to the tool, at most.
+// It returns the length of the stretched arm: no tool is farther from the base joint.
 double LengthOf(const RobotModel& robot) {
   double length = robot.tcp().body_from_frame.translation().norm();
   for (int i = robot.base_count() + 1; i < robot.arm_count(); ++i)

@@ -12,7 +12,8 @@
 namespace doorforge::internal {
 namespace {
 
-// Of the hand's inverse inertia: where the arm is stretched out, it keeps the forces finite.
+// It is added to the hand's inverse inertia: where the arm is stretched out, it keeps the forces
+// finite.
 constexpr double kLeastMobility = 1e-4;
 
 double CriticalDamping(double stiffness) { return 2 * std::sqrt(stiffness); }

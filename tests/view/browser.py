@@ -39,8 +39,11 @@ class Browser:
             assert time.monotonic() < deadline and self.process.poll() is None, "chromium does not start"
             time.sleep(0.05)
         port = port_file.read_text().split()[0]
-        with urllib.request.urlopen(f"http://127.0.0.1:{port}/json") as answer:
-            target = next(t for t in json.load(answer) if t["type"] == "page")
+        target = None  # the port is there a moment before the page
+        while target is None:
+            assert time.monotonic() < deadline, "chromium shows no page"
+            with urllib.request.urlopen(f"http://127.0.0.1:{port}/json") as answer:
+                target = next((t for t in json.load(answer) if t["type"] == "page"), None)
         self.socket = self.loop.run_until_complete(self._connect(target["webSocketDebuggerUrl"]))
         self.count = 0
         self.errors: list[str] = []

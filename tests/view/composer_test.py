@@ -111,13 +111,9 @@ class ComposerPage(ServedTest):
         self.assertEqual(self.ask("GET", "/../../etc/passwd")[0], 404)
 
     def test_large_bodies_are_refused(self) -> None:
-        try:
-            self.assertEqual(self.ask("POST", "/compose", b"x" * (1 << 20))[0], 413)
-        except (BrokenPipeError, ConnectionResetError):
-            pass  # it hangs up on who goes on sending
-        with socket.create_connection(("127.0.0.1", self.port), timeout=20) as raw:  # two gigabytes are announced
-            raw.sendall(f"POST /compose HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\nContent-Type: application/json\r\nContent-Length: 2147483648\r\n\r\n".encode())
-            self.assertIn(b"413", raw.recv(100))
+        self.assertEqual(self.ask("POST", "/compose", b"x" * (1 << 20))[0], 413)
+        announced = self.ask_raw(f"POST /compose HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\nContent-Type: application/json\r\nContent-Length: {2 << 30}\r\n\r\n")
+        self.assertIn(b"413", announced.splitlines()[0])
         self.assertEqual(self.ask("GET", "/")[0], 200)
 
     def test_two_tabs_at_once(self) -> None:

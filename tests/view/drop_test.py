@@ -10,7 +10,6 @@ import hashlib
 import json
 import pathlib
 import shlex
-import socket
 import struct
 import subprocess
 import unittest
@@ -79,6 +78,7 @@ class DroppedMeshes(ServedTest):
 
     def click_face(self, axis: int, value: float) -> None:
         """Clicks, with the mouse, on the middle of the mesh's face where this coordinate has this value, looked at from before it."""
+        self.browser.settle()  # the canvas gets its size a frame after its dialog is shown
         self.browser.js(f"""(() => {{
           const own = doorforge.composer.offered, side = {value} > (own.box.min.getComponent({axis}) + own.box.max.getComponent({axis})) / 2 ? 1 : -1;
           const camera = own.stage.camera, far = camera.position.length();
@@ -215,10 +215,8 @@ class DroppedMeshes(ServedTest):
         self.drop(huge)
         said = self.browser.js("document.querySelector('.actions .asked').textContent")
         self.assertIn("huge.stl: has 2048 MiB", said)
-        # past the page: announced and sent
-        with socket.create_connection(("127.0.0.1", self.port), timeout=20) as raw:
-            raw.sendall(f"POST /file?name=huge.stl HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\nContent-Type: application/octet-stream\r\nContent-Length: {2 * GIB}\r\n\r\n".encode())
-            answer = raw.recv(4096)
+        # past the page: announced
+        answer = self.ask_raw(f"POST /file?name=huge.stl HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\nContent-Type: application/octet-stream\r\nContent-Length: {2 * GIB}\r\n\r\n")
         self.assertIn(b"413", answer.splitlines()[0])
         self.assertIn(b"huge.stl: has 2048 MiB", answer)
         self.assertEqual(self.ask("GET", "/")[0], 200)
@@ -244,9 +242,8 @@ class DroppedMeshes(ServedTest):
         for encoding in ("gzip", "br", "deflate"):
             self.assertEqual(self.upload("a.stl", gzip.compress(bytes(50 << 20)), Content_Encoding=encoding)[0], 415)
         self.assertEqual(self.ask("POST", "/compose", gzip.compress(b" " * (50 << 20)), Content_Encoding="gzip")[0], 415)
-        with socket.create_connection(("127.0.0.1", self.port), timeout=20) as raw:  # in chunks: no length
-            raw.sendall(f"POST /file?name=a.stl HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\nContent-Type: application/octet-stream\r\nTransfer-Encoding: chunked\r\n\r\n".encode())
-            self.assertIn(b"415", raw.recv(100))
+        chunked = self.ask_raw(f"POST /file?name=a.stl HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\nContent-Type: application/octet-stream\r\nTransfer-Encoding: chunked\r\n\r\n")
+        self.assertIn(b"415", chunked.splitlines()[0])  # no length
 
     def test_names_that_are_none_are_refused(self) -> None:
         good = stl(LEVER)

@@ -5,6 +5,7 @@ import http.client
 import io
 import pathlib
 import signal
+import socket
 import subprocess
 import zipfile
 
@@ -45,12 +46,24 @@ class ServedTest(PageTest):
     def ask(self, method: str, path: str, body: str | bytes | None = None, **headers: str) -> tuple[int, bytes]:
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=120)
         given = {"Content-Type": "application/json"} if method == "POST" else {}
-        connection.request(method, path, body, given | {name.replace("_", "-"): value for name, value in headers.items()})
-        answer = connection.getresponse()
         try:
+            connection.request(method, path, body, given | {name.replace("_", "-"): value for name, value in headers.items()})
+        except (BrokenPipeError, ConnectionResetError):
+            pass  # what is refused is not read to its end: the answer is there before all was sent
+        try:
+            answer = connection.getresponse()
             return answer.status, answer.read()
         finally:
             connection.close()
+
+    def ask_raw(self, head: str) -> bytes:
+        """The whole answer to a request of which these lines are sent, and no body."""
+        with socket.create_connection(("127.0.0.1", self.port), timeout=120) as raw:
+            raw.sendall(head.encode())
+            answer = b""
+            while more := raw.recv(1 << 16):
+                answer += more
+            return answer
 
     def settled(self) -> None:
         self.browser.wait("window.doorforge?.composer && doorforge.composer.composed === doorforge.composer.request")

@@ -30,9 +30,9 @@ struct StallConfig {
   /// A hand that is farther than this from where it began is not on a wrong way, but held up on the
   /// right one [m].
   double within_m = 0.05;
-  /// As `moved_share`, of the shifts along the world's y alone, where there is doubt about the
-  /// side: a leaf that is hinged on the other side takes the hand along the other arc. 0: not
-  /// looked at, since a hand that lags looks alike.
+  /// This is a share like `moved_share`, of the shifts along the world's y alone, and counts where
+  /// there is doubt about the side: a leaf that is hinged on the other side takes the hand along
+  /// the other arc. With 0 it is not looked at, since a hand that lags looks alike.
   double sideways_share = 0;
 
   template <class Self, class Visitor>
@@ -57,8 +57,8 @@ class StallDetector {
   void Ask(const Proprioception& now, const Action& action);
   /// What was asked for last is not carried out.
   void TakeBack() { before_.reset(); }
-  /// Of the last `patience` actions; false while there are fewer. The share is the projection of
-  /// what the hand did on what was asked.
+  /// Whether the hand did too small a share of the last `patience` actions; false while there are
+  /// fewer. The share is the projection of what the hand did on what was asked.
   bool Stalls(const Proprioception& now);
   /// Whether there are `patience` actions to look at.
   bool IsFull() const;
@@ -109,7 +109,7 @@ class TryingPolicy : public Policy {
   Action Act(const Observation& observation) override;
   void TakeBack() { stall_.TakeBack(); }  ///< The last action is not carried out.
 
-  const MotionGuess& guess() const { return guess_; }  ///< By which the last Act() went.
+  const MotionGuess& guess() const { return guess_; }  ///< The last Act() went by it.
   bool changed() const { return changed_; }  ///< The last Act() went by another than that before.
   /// Whether every guess of more than one has been tried since Reset() and has led nowhere.
   bool leads_nowhere() const { return guesses_.size() > 1 && tried_ >= guesses_.size(); }

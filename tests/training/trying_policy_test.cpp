@@ -14,7 +14,6 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/rigid_transform.h"
 #include "doorforge/policy/stage_policy.h"
-#include "doorforge/policy/turning_policy.h"
 #include "doorforge/schemas/mirror.h"
 
 #include "synthetic_samples.h"
@@ -241,31 +240,6 @@ TEST(TryingPolicy, AHandleThatTurnsNeitherWayTellsTheNextStageNothing) {
     for (int i = 0; i < actions; ++i) turns.Act(fixed.Seen());
     EXPECT_EQ(finder->SideFor({0, 0, 0}), HingeSide::kLeft) << actions;
   }
-}
-
-// After how many actions a hand whose handle moves so says that opening is next; 0: not within 30.
-int ActionsUntilOpening(Hand hand, SideChoice side) {
-  const auto finder = Knows(side);
-  finder->Begin(std::nullopt);
-  TurnedClassifier never{};
-  never.deviation.fill(1);
-  never.bias = -100;
-  TurningPolicy turns(
-      std::make_unique<TryingPolicy>(std::make_unique<ToAndFro>(true), StallConfig{},
-                                     std::vector{MotionWay::kUsual}, finder),
-      never);
-  for (int actions = 1; actions <= 30; ++actions) {
-    hand.Do(turns.Act(hand.Seen()));
-    if (turns.Turned()) return actions;
-  }
-  return 0;
-}
-
-TEST(TryingPolicy, AHandleThatTurnsNeitherWayIsOpenedWithoutTurning) {
-  EXPECT_EQ(ActionsUntilOpening({0, 0}, SideChoice::kAuto), 7);  // three on each side
-  EXPECT_EQ(ActionsUntilOpening({1, 0}, SideChoice::kAuto), 0);
-  EXPECT_EQ(ActionsUntilOpening({0, 1}, SideChoice::kAuto), 0);
-  EXPECT_EQ(ActionsUntilOpening({0, 0}, SideChoice::kLeft), 0);
 }
 
 TEST(TryingPolicy, APolicyOfTheArmsJointsHasNoMirrorImage) {

@@ -32,11 +32,9 @@ Action TurningPolicy::Act(const Observation& observation) {
   // the classifier, too, has learned doors hinged left
   if (tries_ != nullptr && tries_->guess().side == HingeSide::kRight)
     motion = MirroredSideways(motion);
-  turned_ = turned_ || classifier_.Probability(motion) >= 0.5 || TurnsNoWay();
+  turned_ = turned_ || classifier_.Probability(motion) >= 0.5;
   return action;
 }
-
-bool TurningPolicy::TurnsNoWay() const { return tries_ != nullptr && tries_->leads_nowhere(); }
 
 void TurningPolicy::TakeBack() {
   if (tries_ != nullptr) tries_->TakeBack();

@@ -111,8 +111,6 @@ class TryingPolicy : public Policy {
 
   const MotionGuess& guess() const { return guess_; }  ///< The last Act() went by it.
   bool changed() const { return changed_; }  ///< The last Act() went by another than that before.
-  /// Whether every guess of more than one has been tried since Reset() and has led nowhere.
-  bool leads_nowhere() const { return guesses_.size() > 1 && tried_ >= guesses_.size(); }
   /// What the policy is shown of the scene by the present guess, for those who judge what it does.
   Observation AsShown(Observation observation) const;
   /// An action in the scene that it is shown, from one in the scene as it is, and the other way.

@@ -27,14 +27,10 @@ class TurningPolicy : public Policy, public StageSwitch {
   bool UsesPointCloud() const override { return policy_->UsesPointCloud(); }
 
   /// Whether the handle is turned once the actions so far have been carried out: false after
-  /// Reset(), and true from the first action on that the classifier gives one half or more. Also
-  /// true once the handle has turned on neither side and no way: then it is one that does not turn,
-  /// as a pull without a latch, and opening is what is left to try.
+  /// Reset(), and true from the first action on that the classifier gives one half or more.
   bool Turned() const override { return turned_; }
 
  private:
-  bool TurnsNoWay() const;
-
   std::unique_ptr<Policy> policy_;
   TryingPolicy* tries_;  // policy_, where that is one; else null
   TurnedClassifier classifier_;

@@ -11,14 +11,13 @@
 #include <new>
 #include <sstream>
 
-#include <spawn.h>
+#include <fcntl.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/stop_signals.h"
-
-extern char** environ;  // NOLINT: POSIX names it so
 
 namespace doorforge {
 namespace {
@@ -49,6 +48,45 @@ void InstallHandlers() {
   action.sa_handler = HandleStop;
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
+}
+
+struct Pipe {
+  int read_end = -1;
+  int write_end = -1;
+};
+
+/// Both ends are closed by exec, so that a read returns as soon as the child is another program.
+Pipe OpenPipe() {
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0)
+    throw Error(ErrorCode::kIo, std::string("no pipe can be opened: ") + std::strerror(errno));
+  return {ends[0], ends[1]};
+}
+
+/// In a forked child: becomes the program, or tells through the pipe why it cannot. Whoever kills
+/// the parent kills the child as well; it would otherwise go on writing a folder which the next run
+/// takes over.
+[[noreturn]] void BecomeProgram(const std::vector<std::string>& argv, pid_t parent,
+                                const Pipe& failure) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(128 + SIGKILL);  // it died before the line above
+  std::vector<char*> arguments;
+  arguments.reserve(argv.size() + 1);
+  for (const std::string& argument : argv) arguments.push_back(const_cast<char*>(argument.c_str()));
+  arguments.push_back(nullptr);
+  ::execvp(arguments[0], arguments.data());
+  const int cause = errno;
+  if (::write(failure.write_end, &cause, sizeof cause) != sizeof cause) ::_exit(126);
+  ::_exit(127);
+}
+
+int WaitFor(pid_t child, const std::string& name) {
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) throw Error(ErrorCode::kIo, name + ": cannot be waited for");
+    if (stop_signal != 0) ::kill(child, stop_signal);
+  }
+  return status;
 }
 
 }  // namespace
@@ -115,19 +153,19 @@ fs::path DataFolder() {
 }
 
 int RunChild(const std::vector<std::string>& argv) {
-  std::vector<char*> arguments;
-  arguments.reserve(argv.size() + 1);
-  for (const std::string& argument : argv) arguments.push_back(const_cast<char*>(argument.c_str()));
-  arguments.push_back(nullptr);
-  pid_t child = 0;
-  if (const int error =
-          ::posix_spawn(&child, argv[0].c_str(), nullptr, nullptr, arguments.data(), environ))
-    throw Error(ErrorCode::kMissing, argv[0] + ": cannot be started: " + std::strerror(error));
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) throw Error(ErrorCode::kIo, argv[0] + ": cannot be waited for");
-    if (stop_signal != 0) ::kill(child, stop_signal);
-  }
+  const Pipe failure = OpenPipe();
+  const pid_t parent = ::getpid();
+  const pid_t child = ::fork();
+  if (child < 0)
+    throw Error(ErrorCode::kIo, argv[0] + ": cannot be started: " + std::strerror(errno));
+  if (child == 0) BecomeProgram(argv, parent, failure);
+  ::close(failure.write_end);
+  int cause = 0;
+  const bool failed = ::read(failure.read_end, &cause, sizeof cause) == sizeof cause;
+  ::close(failure.read_end);
+  const int status = WaitFor(child, argv[0]);
+  if (failed)
+    throw Error(ErrorCode::kMissing, argv[0] + ": cannot be started: " + std::strerror(cause));
   return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 

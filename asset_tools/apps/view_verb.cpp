@@ -33,11 +33,9 @@ struct ViewOptions {
   std::vector<std::string> paths;
   std::string out;
   int threads = 0;
-  bool gallery = false;
-  bool episode = false;
+  bool gallery = false, episode = false;
   std::vector<std::string> doors;  // of a data set
-  std::string stage;               // of it
-  std::string key;                 // the same
+  std::string stage, key, films;   // of it
   std::string robot;
   std::uint64_t seed = 1;
   int episodes = 12;
@@ -67,6 +65,8 @@ ViewOptions ParseView(int argc, char** argv) {
   app.add_option("--episodes", options.episodes, "of a data set: at most so many")
       ->needs(doors)
       ->check(CLI::Range(1, 1000));
+  app.add_option("--films", options.films, "of a data set: of `dataset films --stored`")
+      ->needs(doors);
   app.add_option("--points", options.points, "of each cloud of an episode; 0: none")
       ->check(CLI::Range(0, 65536));
   app.add_option("--robot", options.robot,
@@ -93,8 +93,7 @@ ViewPage PageOf(const ViewOptions& options) {
   if (options.paths.size() == 1 && IsReport(options.paths[0]))
     return MakeReportPage({options.paths[0], doors, robot, options.threads});
   if (!options.doors.empty()) {
-    if (options.paths.size() > 1)
-      throw Error(ErrorCode::kInvalidArgument, "--doors: goes with one data set");
+    Require(options.paths.size() == 1, ErrorCode::kInvalidArgument, "--doors: is of one data set");
     return MakeDatasetPage({.dataset = options.paths[0],
                             .doors = doors,
                             .stage = options.stage,
@@ -102,7 +101,8 @@ ViewPage PageOf(const ViewOptions& options) {
                             .most = options.episodes,
                             .points = options.points,
                             .threads = options.threads,
-                            .robot = robot});
+                            .robot = robot,
+                            .films = options.films});
   }
   std::vector<fs::path> folders;
   for (const std::string& path : options.paths) {

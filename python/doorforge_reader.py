@@ -567,7 +567,7 @@ def back_project(depth: np.ndarray, intrinsic_matrix_px: Any, world_from_camera:
     depth = np.where(depth > 0, depth, np.nan)
     points = np.empty((height, width, 3), dtype=np.float32)
     for row, (a, b, c, origin) in enumerate(np.asarray(world_from_camera, dtype=np.float64)):
-        direction = ((a * x + b * y) + c).astype(np.float32).astype(np.float64)
+        direction = (a * x + (b * y + c)).astype(np.float32).astype(np.float64)
         points[..., row] = origin + depth * direction
     return points
 

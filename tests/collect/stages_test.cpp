@@ -4,6 +4,7 @@
 // The stages on doors of boxes.
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -247,6 +248,47 @@ TEST_F(StagesTest, PicturesChangeNothingElseAndAreTheSameWhenTheyAreTakenLater) 
     ReobserveDataset(again);
     EXPECT_EQ(TarHash(again.out, stage), TarHash(rich, stage)) << NameOf(stage);
     for (const fs::path& folder : {bare, rich, later.out, again.out}) fs::remove_all(folder);
+  }
+}
+
+// Exit code of a program for Debian's Python.
+int RunPython(const std::string& program, const fs::path& argument) {
+  const std::string command = "PYTHONDONTWRITEBYTECODE=1 PYTHONPATH='" DOORFORGE_SOURCE_DIR
+                              "/python' /usr/bin/python3 -c '" +
+                              program + "' '" + argument.string() + "'";
+  return std::system(command.c_str());
+}
+
+TEST_F(StagesTest, TheReaderFindsEveryPointOfTheCloudInThePictureBitForBit) {
+  if (RunPython("import numpy", "") != 0) GTEST_SKIP() << "/usr/bin/python3 has no numpy here";
+  for (const Stage stage : {Stage::kOpen, Stage::kGrasp}) {
+    StageRequest request = RequestFor(stage, 2);
+    request.config.cloud.noise.sensor = DepthSensor::kStructuredLight;
+    request.config.cloud.noise.extrinsic_rad = 0.01;
+    request.config.pictures.cameras = {PictureCameraAt("own", CameraPlace::kScene)};
+    request.config.pictures.streams = {PictureStream::kDepth32, PictureStream::kLabel};
+    const fs::path data = folder_ / std::string(NameOf(stage));
+    CollectStage({request, data, {}, /*replace=*/false, {}});
+    EXPECT_EQ(RunPython(R"(
+import sys
+import numpy as np
+import doorforge_reader
+data = doorforge_reader.Dataset(sys.argv[1])
+rows = lambda points: np.ascontiguousarray(points).reshape(-1, 3).view("V12").ravel()
+found = 0
+for part in data.parts:
+    for episode in data.episodes(part.stage, part.split):
+        assert episode.cameras() == ["own"], episode.cameras()
+        for t in range(episode.decisions):
+            pixels = {point.tobytes(): label for point, label in
+                      zip(rows(episode.points("own", t)), episode["label_own"][t].ravel())}
+            for point, label in zip(rows(episode["cloud"][t]), episode["label"][t]):
+                assert pixels[point.tobytes()] == label
+                found += 1
+assert found > 500
+)",
+                        data),
+              0);
   }
 }
 

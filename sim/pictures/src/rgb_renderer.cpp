@@ -38,7 +38,7 @@ constexpr float kAroundReach = 0.8F;         // [m] what is farther keeps no lig
 constexpr float kSameNormal = 0.9F;          // cosine
 constexpr float kSamePlane = 0.03F;          // [m]
 constexpr float kThroughPane = 0.04F;        // [m]
-constexpr float kTurn = 6.2831853F;
+constexpr float kFullTurn = 6.2831853F;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // Pixel i of a block looks for place kPlaces[i]: neighbours look far apart.
@@ -48,7 +48,7 @@ constexpr std::array<int, 16> kPlaces = {0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9,
 Eigen::Vector2f OnDisc(int place) {
   const float radius = std::sqrt((static_cast<float>(place / 4) + 0.5F) / 4);
   const float angle =
-      kTurn * (static_cast<float>(place % 4) + 0.25F * static_cast<float>(place / 4)) / 4;
+      kFullTurn * (static_cast<float>(place % 4) + 0.25F * static_cast<float>(place / 4)) / 4;
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
@@ -89,7 +89,7 @@ const std::array<std::uint8_t, 4097>& SrgbTable() {
   return kTable;
 }
 
-Eigen::AlignedBox3f BoxOf(const TriangleMesh& mesh) {
+Eigen::AlignedBox3f BoundsOf(const TriangleMesh& mesh) {
   Eigen::AlignedBox3f box;
   for (const Eigen::Vector3d& vertex : mesh.vertices) box.extend(vertex.cast<float>());
   return box;
@@ -110,7 +110,7 @@ RgbRenderer::RgbRenderer(const PictureScene& scene, const PicturesConfig& config
   for (const VisibleMesh& mesh : geometry.meshes()) {
     const bool has_pane = scene.door.category == Category::kWindow && mesh.link == kLeafLink &&
                           mesh.label == PointLabel::kBody;
-    pane_boxes_.push_back(has_pane ? BoxOf(mesh.mesh) : Eigen::AlignedBox3f());
+    pane_boxes_.push_back(has_pane ? BoundsOf(mesh.mesh) : Eigen::AlignedBox3f());
   }
 }
 
@@ -194,8 +194,9 @@ LinearColor RgbRenderer::AlbedoOf(const Point& point, const Finish& finish) cons
   return ColorAt(finish, (pose.inverse() * point.position.cast<double>()).cast<float>());
 }
 
-std::span<const Lamp> RgbRenderer::LampsAt(const Eigen::Vector3f& position) const {
-  if (room_.IsBehindWall(position)) return {&appearance_.lamp_behind, 1};
+std::span<const Lamp> RgbRenderer::LampsAt(const Point& point) const {
+  // rounding must not put a point of the wall behind it
+  if (room_.IsBehindWall(point.position + kSkin * point.face)) return {&appearance_.lamp_behind, 1};
   return appearance_.lamps;
 }
 
@@ -221,7 +222,7 @@ void RgbRenderer::SampleTile(int left, int top, int round) {
         (kPlaces[static_cast<std::size_t>(lane)] + 5 * round) % (kBlock * kBlock));
     const Eigen::Vector2f on_disc = Disc()[place];
     const auto slot = static_cast<std::size_t>(lane);
-    const std::span<const Lamp> lamps = LampsAt(point.position);
+    const std::span<const Lamp> lamps = LampsAt(point);
     for (std::size_t l = 0; l < lamps.size(); ++l) {
       const Eigen::Vector3f target =
           lamps[l].position_m + lamps[l].radius_m * Eigen::Vector3f(on_disc.x(), on_disc.y(), 0);
@@ -280,7 +281,7 @@ LinearColor RgbRenderer::Shade(const Point& point, const Shares& shares) const {
   const Finish& finish = FinishOf(point.part);
   LinearColor light = appearance_.ambient * (static_cast<float>(shares[kAround]) / most);
   LinearColor highlight = LinearColor::Zero();
-  const std::span<const Lamp> lamps = LampsAt(point.position);
+  const std::span<const Lamp> lamps = LampsAt(point);
   for (std::size_t l = 0; l < lamps.size(); ++l) {
     if (shares[l] == 0) continue;
     const Eigen::Vector3f to_lamp = lamps[l].position_m - point.position;
@@ -310,7 +311,7 @@ LinearColor RgbRenderer::RoomLight(const Eigen::Vector3f& origin,
                                    const Eigen::Vector3f& direction) const {
   const Point point = RoomPoint(origin, direction);
   LinearColor light = appearance_.ambient;
-  for (const Lamp& lamp : LampsAt(point.position + kSkin * point.normal)) {
+  for (const Lamp& lamp : LampsAt(point)) {
     const Eigen::Vector3f to_lamp = lamp.position_m - point.position;
     const float squared = std::max(to_lamp.squaredNorm(), 0.04F);
     light +=
@@ -330,7 +331,7 @@ LinearColor RgbRenderer::Behind(const Point& pane) const {
                           {hits.u[0], hits.v[0]}, origin - hits.distance[0] * pane.view);
   if (point.part >= kFirstPane) return RoomLight(origin, -pane.view);
   LinearColor light = appearance_.ambient;
-  for (const Lamp& lamp : LampsAt(point.position)) {
+  for (const Lamp& lamp : LampsAt(point)) {
     const Eigen::Vector3f to_lamp = lamp.position_m - point.position;
     light += lamp.power * (std::fabs(point.normal.dot(to_lamp.normalized())) /
                            std::max(to_lamp.squaredNorm(), 0.04F));

@@ -57,7 +57,7 @@ class RgbRenderer {
   bool IsPane(std::size_t mesh, const Eigen::Vector3f& in_mesh) const;
   const Finish& FinishOf(std::uint16_t part) const;
   LinearColor AlbedoOf(const Point& point, const Finish& finish) const;
-  std::span<const Lamp> LampsAt(const Eigen::Vector3f& position) const;
+  std::span<const Lamp> LampsAt(const Point& point) const;
 
   void FindPoints(const CameraModel& camera, const SurfaceImage& surfaces);
   void SampleLight();

@@ -33,6 +33,7 @@ struct TileRays {
   alignas(64) float y[kRays];
   alignas(64) float z[kRays];
   alignas(64) int valid[kRays];
+  std::uint32_t in_image;  // the same as bits
 };
 
 TileRays MakeTile(const PixelRays& rays, const CameraModel& camera, int left, int top) {
@@ -45,6 +46,7 @@ TileRays MakeTile(const PixelRays& rays, const CameraModel& camera, int left, in
     tile.y[lane] = direction.y();
     tile.z[lane] = direction.z();
     tile.valid[lane] = column < camera.width && row < camera.height ? -1 : 0;
+    if (tile.valid[lane] != 0) tile.in_image |= 1U << static_cast<unsigned>(lane);
   }
   return tile;
 }
@@ -149,7 +151,9 @@ class TileRenderer {
     std::fill_n(packet_.hit.geomID, kRays, RTC_INVALID_GEOMETRY_ID);
     std::fill_n(packet_.hit.instID[0], kRays, RTC_INVALID_GEOMETRY_ID);
     rtcIntersect16(tile.valid, scene_.top(), &context_, &packet_);
-    const std::uint32_t lanes = LanesThatHit(packet_.hit);
+    // of a packet whose rays run side by side, Embree casts those, too, that are marked as not
+    // there
+    const std::uint32_t lanes = LanesThatHit(packet_.hit) & tile.in_image;
     const auto width = static_cast<std::size_t>(image_.width);
     if (lanes != 0)
       Store(lanes, static_cast<std::size_t>(top) * width + static_cast<std::size_t>(left));

@@ -6,6 +6,7 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/policy/policy_file.h"
+#include "doorforge/schemas/episode.h"
 
 namespace doorforge {
 
@@ -61,6 +62,17 @@ std::unique_ptr<TurningPolicy> LoadTurningPolicy(const std::filesystem::path& fo
   return std::make_unique<TurningPolicy>(
       MakePolicy(std::move(record.networks), options, std::move(finder)), *classifier,
       options.switch_probability);
+}
+
+std::unique_ptr<Policy> LoadWholePolicy(const std::filesystem::path& folder,
+                                        std::string_view stage) {
+  PolicyRecord record = ReadPolicy(folder, stage);
+  const auto classifier = stage == NameOf(Stage::kHandle)
+                              ? ReadTurnedClassifier(folder, record.provenance.dataset_sha256)
+                              : std::nullopt;
+  std::unique_ptr<Policy> policy = MakePolicy(std::move(record.networks));
+  if (!classifier) return policy;
+  return std::make_unique<TurningPolicy>(std::move(policy), *classifier);
 }
 
 }  // namespace doorforge

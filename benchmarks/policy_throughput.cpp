@@ -5,28 +5,24 @@
 //
 //   policy_throughput decisions [repetitions]   time of a decision, with 1 and 16 candidates, and
 //                                               of 16 observations' decisions
-//   policy_throughput grasps [repetitions]      time of a choice of grasp: 100 hands at each of 8
-//                                               points, without picture and sampling
 //   policy_throughput steps [steps]             training in batches of 32, one thread, geometry
 //                                               found anew for every sample, and the memory it
 //                                               takes
 //   policy_throughput processes [steps]         two processes, a core each, against one: needs two
 //                                               idle cores
 //
-// Decisions, grasps and steps are processor time, which other programs on the machine hardly
+// Decisions and steps are processor time, which other programs on the machine hardly
 // change; processes are wall-clock time, and only mean something on a machine that does nothing
 // else.
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include <sched.h>
@@ -35,7 +31,6 @@
 #include <time.h>  // NOLINT: clock_gettime is POSIX
 #include <unistd.h>
 
-#include "doorforge/policy/grasp_policy.h"
 #include "doorforge/policy/stage_policy.h"
 #include "doorforge/training/process_group.h"
 #include "doorforge/training/train_stage.h"
@@ -124,46 +119,6 @@ void PrintDecisions(int repetitions) {
   }
 }
 
-// What is within 10 cm of point 0 is the handle.
-LabelledCloud ClosedDoor() {
-  LabelledCloud cloud{testing::DoorCloud(8, 0), {}};
-  for (std::size_t i = 0; i < cloud.xyz.size(); i += 3) {
-    const bool near = std::hypot(cloud.xyz[i] - cloud.xyz[0], cloud.xyz[i + 1] - cloud.xyz[1],
-                                 cloud.xyz[i + 2] - cloud.xyz[2]) < 0.1F;
-    cloud.label.push_back(
-        static_cast<std::uint8_t>(near ? PointLabel::kHandle : PointLabel::kBody));
-  }
-  return cloud;
-}
-
-// The cloud with the point nearest to `start` in the place of its first.
-LabelledCloud From(LabelledCloud cloud, const Eigen::Vector3d& start) {
-  const Eigen::Map<const Eigen::Matrix3Xf> points(cloud.xyz.data(), 3,
-                                                  static_cast<long>(cloud.label.size()));
-  Eigen::Index first = 0;
-  (points.colwise() - start.cast<float>()).colwise().squaredNorm().minCoeff(&first);
-  for (std::size_t k = 0; k < 3; ++k)
-    std::swap(cloud.xyz[k], cloud.xyz[3 * static_cast<std::size_t>(first) + k]);
-  std::swap(cloud.label[0], cloud.label[static_cast<std::size_t>(first)]);
-  return cloud;
-}
-
-void PrintGrasps(int repetitions) {
-  const auto made = testing::MakeSyntheticSamples(1, 3);
-  NetworkView frame;
-  frame.frame = ViewFrame::kHand;
-  frame.near_points = 256;
-  const auto policy = MakeGraspPolicy(
-      InitialNetworks(MeasureNormalisation(made.samples, frame), false, 4, NetworkFamily::kGrasp));
-  const LabelledCloud cloud = ClosedDoor();
-  const GraspObservation view{
-      .visible = cloud,
-      .sample = [&](const Eigen::Vector3d& start, double) { return From(cloud, start); }};
-  const auto seconds = SecondsOf(repetitions, [&] { policy->Choose(view); });
-  std::printf("choice of grasp: median %.1f ms, 95 %% under %.1f ms\n",
-              1e3 * seconds[seconds.size() / 2], 1e3 * seconds[seconds.size() * 95 / 100]);
-}
-
 void PrintSteps(int steps) {
   std::vector<double> seconds;
   double start = 0;
@@ -244,8 +199,6 @@ int Run(int argc, char** argv) {
   const int count = argc > 2 ? std::max(2, std::atoi(argv[2])) : 10;
   if (what == "decisions")
     PrintDecisions(count);
-  else if (what == "grasps")
-    PrintGrasps(count);
   else if (what == "steps")
     PrintSteps(count);
   else if (what == "processes")
@@ -253,8 +206,7 @@ int Run(int argc, char** argv) {
   else if (what == "member")
     return RunMember(count);
   else
-    return std::fprintf(stderr, "usage: policy_throughput decisions|grasps|steps|processes [N]\n"),
-           2;
+    return std::fprintf(stderr, "usage: policy_throughput decisions|steps|processes [N]\n"), 2;
   return 0;
 }
 

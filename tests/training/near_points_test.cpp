@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/networks/near_points.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -26,6 +29,35 @@ TEST(NearPoints, AreTheNearestInOrderWithinTheHandsReachAndThenTheContactAgain) 
     EXPECT_LT((near.col(i) - Eigen::Map<const Eigen::Vector3f>(expected[i])).norm(), 1e-6) << i;
   EXPECT_LT((NearestToFirst(xyz, 2) - near.leftCols(2)).norm(), 1e-9);
   EXPECT_EQ(NearestToFirst(xyz, 0).cols(), 0);
+}
+
+// Sum of the sides of the boxes about each dozen of points, one after the other.
+float SizeOfDozens(const Eigen::Matrix3Xf& points) {
+  float size = 0;
+  for (Eigen::Index first = 0; first + 12 <= points.cols(); first += 12) {
+    const auto dozen = points.middleCols(first, 12);
+    size += (dozen.rowwise().maxCoeff() - dozen.rowwise().minCoeff()).sum();
+  }
+  return size;
+}
+
+TEST(NearPoints, InPatchesAreTheSamePointsWithThoseNearEachOtherTogether) {
+  const Eigen::Matrix3Xf near = NearestToFirst(testing::DoorCloud(5, 0), 250);
+  const Eigen::Matrix3Xf patches = InPatches(near);
+  const auto sorted = [](const Eigen::Matrix3Xf& points) {
+    std::vector<std::array<float, 3>> list;
+    for (const auto& point : points.colwise()) list.push_back({point[0], point[1], point[2]});
+    std::ranges::sort(list);
+    return list;
+  };
+  EXPECT_EQ(sorted(patches), sorted(near));
+  EXPECT_LT(SizeOfDozens(patches), 0.7F * SizeOfDozens(near));
+}
+
+TEST(NearPoints, InPatchesNothingStandsInForWhatIsMissing) {
+  const std::vector<float> xyz = {1, 2, 3, 1, 2.05F, 3, 1, 2, 3.02F};
+  EXPECT_EQ(InPatches(NearestToFirst(xyz, 64)).cols(), 3);
+  EXPECT_EQ(InPatches(NearestToFirst(xyz, 0)).cols(), 0);
 }
 
 TEST(NearPoints, AreSeenAlongTheFingersWhichMayStandAnyWay) {

@@ -74,14 +74,14 @@ const DenseLayers::Layer& DenseLayers::Find(const std::string& name) const {
 }
 
 // Reads the layer's last inputs, as many as `x` has columns.
-void DenseLayers::Apply(const Layer& layer, const Rows& x, Activation activation,
+void DenseLayers::Apply(const Layer& layer, Multiply multiply, const Rows& x, Activation activation,
                         Table& out) const {
   out.rows = x.rows;
   out.columns = layer.outputs;
   out.stride = layer.weight.columns;
   out.values.resize(static_cast<std::size_t>(out.rows) * static_cast<std::size_t>(out.stride));
   const std::ptrdiff_t skipped = layer.weight.depth - x.columns;
-  kernels_->multiply(
+  multiply(
       x,
       {layer.panels.data() + skipped * kernels_->panel, layer.weight.columns, layer.weight.depth},
       layer.bias.data(), {out.values.data(), out.stride}, activation == Activation::kRectified);
@@ -99,7 +99,12 @@ const DenseLayers::Layer& DenseLayers::FindFor(const std::string& name, const Ro
 
 void DenseLayers::Apply(const std::string& name, const Rows& x, Activation activation,
                         Table& out) const {
-  Apply(FindFor(name, x), x, activation, out);
+  Apply(FindFor(name, x), kernels_->multiply, x, activation, out);
+}
+
+void DenseLayers::ApplyToRectified(const std::string& name, const Rows& x, Activation activation,
+                                   Table& out) const {
+  Apply(FindFor(name, x), kernels_->multiply_sparse, x, activation, out);
 }
 
 Table DenseLayers::Apply(const std::string& name, const Rows& x, Activation activation) const {
@@ -115,7 +120,7 @@ Table DenseLayers::ApplyToLast(const std::string& name, const Rows& x,
           "layer \"" + name + "\": reads " + std::to_string(layer.weight.depth) + " numbers, not " +
               std::to_string(x.columns));
   Table out;
-  Apply(layer, x, activation, out);
+  Apply(layer, kernels_->multiply, x, activation, out);
   return out;
 }
 
@@ -127,6 +132,9 @@ Table DenseLayers::Branch(const std::string& name, Activation between, const Row
 
 void DenseLayers::MaximumOver(const std::string& name, const Rows& x, std::span<float> best) const {
   const Layer& layer = FindFor(name, x);
+  Require(
+      x.columns <= kMostSparseColumns, ErrorCode::kInvalidArgument,
+      "layer \"" + name + "\": reads more than " + std::to_string(kMostSparseColumns) + " numbers");
   Require(std::cmp_equal(best.size(), layer.outputs) && layer.outputs == layer.weight.columns,
           ErrorCode::kInvalidArgument,
           "layer \"" + name + "\": gives " + std::to_string(layer.outputs) +

@@ -44,13 +44,18 @@ class DenseLayers {
   /// This one writes into `out`, whose memory is used again.
   void Apply(const std::string& name, const Rows& x, Activation activation, Table& out) const;
 
+  /// This one is quicker with what a rectified layer made, which holds many zeros.
+  void ApplyToRectified(const std::string& name, const Rows& x, Activation activation,
+                        Table& out) const;
+
   /// It is of a layer whose inputs before those of `x` are zero.
   Table ApplyToLast(const std::string& name, const Rows& x, Activation activation) const;
 
   /// The layers "<name>.0", "<name>.1", "<name>.2" with the activation between them.
   Table Branch(const std::string& name, Activation between, const Rows& x) const;
 
-  /// A rectified layer's maximum over the rows of `x`, one number an output, into `best`.
+  /// A rectified layer's maximum over the rows of `x`, which a rectified layer made and which are
+  /// at most 256 wide, one number an output, into `best`.
   void MaximumOver(const std::string& name, const Rows& x, std::span<float> best) const;
 
  private:
@@ -65,7 +70,9 @@ class DenseLayers {
   Layer Pack(const DenseLayer& dense, const float* weight) const;
   const Layer& Find(const std::string& name) const;
   const Layer& FindFor(const std::string& name, const Rows& x) const;
-  void Apply(const Layer& layer, const Rows& x, Activation activation, Table& out) const;
+  using Multiply = decltype(Kernels::multiply);
+  void Apply(const Layer& layer, Multiply multiply, const Rows& x, Activation activation,
+             Table& out) const;
 
   const Kernels* kernels_;
   std::vector<Layer> layers_;

@@ -55,7 +55,7 @@ Table NearFeatures(const DenseLayers& layers, const HeadInputs& inputs) {
     const Rows own{near.data + static_cast<std::ptrdiff_t>(hand) * points * near.stride,
                    near.stride, points, near.columns};
     layers.Apply("near.0", own, Activation::kRectified, one);
-    layers.Apply("near.1", one.View(), Activation::kRectified, two);
+    layers.ApplyToRectified("near.1", one.View(), Activation::kRectified, two);
     layers.MaximumOver("near.2", two.View(), left.first<kBranchFeatures>());
     left = left.subspan(kBranchFeatures);
   }

@@ -34,9 +34,60 @@ struct Loops {
     }
   }
 
+  struct ColumnList {
+    int count;
+    int columns[kMostSparseColumns];
+  };
+
+  // Lists the columns that are not zero in all of the first M rows. Their bits are looked at: that
+  // -0 counts as something is no fault.
   template <int M>
-  static void MultiplyRows(const Rows& a, const float* w, const float* bias, MutableRows out,
-                           bool relu) {
+  static void ListColumns(const Rows& a, ColumnList& used) {
+    used.count = 0;
+    int k = 0;
+    for (; k + kWidth <= a.columns; k += kWidth) {
+      typename S::Index any{};
+      for (int i = 0; i < M; ++i)
+        any |= reinterpret_cast<typename S::Index>(S::Load(a.data + i * a.stride + k));
+      any = any != 0;
+      int lanes[kWidth];
+      __builtin_memcpy(lanes, &any, sizeof lanes);
+      for (int lane = 0; lane < kWidth; ++lane) {
+        used.columns[used.count] = k + lane;
+        used.count -= lanes[lane];  // -1 where there is something
+      }
+    }
+    for (; k < a.columns; ++k) {
+      bool any = false;
+      for (int i = 0; i < M; ++i) any |= a.data[i * a.stride + k] != 0;
+      used.columns[used.count] = k;
+      used.count += any ? 1 : 0;
+    }
+  }
+
+  // The register tile of those columns alone.
+  template <int M>
+  [[gnu::always_inline]] static inline void MultiplyTile(const float* a, std::ptrdiff_t a_stride,
+                                                         const ColumnList& used, const float* w,
+                                                         Vector (&sum)[M][2]) {
+    for (int n = 0; n < used.count; ++n) {
+      const std::ptrdiff_t k = used.columns[n];
+      const Vector w0 = S::Load(w + k * kPanel);
+      const Vector w1 = S::Load(w + k * kPanel + kWidth);
+      const float* column = a + k;
+#pragma GCC unroll 16
+      for (int i = 0; i < M; ++i) {
+        const Vector x = S::Broadcast(column + i * a_stride);
+        sum[i][0] = S::MultiplyAdd(x, w0, sum[i][0]);
+        sum[i][1] = S::MultiplyAdd(x, w1, sum[i][1]);
+      }
+    }
+  }
+
+  // `depth`: all columns of `a`, or a list of some.
+  template <int M, class Depth>
+  static void MultiplyRows(const Rows& a, const Depth& depth, const float* w, const float* bias,
+                           MutableRows out, bool relu) {
     Vector sum[M][2];
     // unrolled, all loops over the sums leave them in registers
 #pragma GCC unroll 16
@@ -44,7 +95,7 @@ struct Loops {
       sum[i][0] = bias != nullptr ? S::Load(bias) : Vector{};
       sum[i][1] = bias != nullptr ? S::Load(bias + kWidth) : Vector{};
     }
-    MultiplyTile<M>(a.data, a.stride, a.columns, w, sum);
+    MultiplyTile<M>(a.data, a.stride, depth, w, sum);
     const Vector zero{};
 #pragma GCC unroll 16
     for (int i = 0; i < M; ++i) {
@@ -70,24 +121,56 @@ struct Loops {
       };
       int row = 0;
       for (; row + S::kTileRows <= a.rows; row += S::kTileRows)
-        MultiplyRows<S::kTileRows>(Below(a, row), panel, panel_bias, at(row), relu);
+        MultiplyRows<S::kTileRows>(Below(a, row), a.columns, panel, panel_bias, at(row), relu);
       for (; row + 4 <= a.rows; row += 4)
-        MultiplyRows<4>(Below(a, row), panel, panel_bias, at(row), relu);
-      for (; row < a.rows; ++row) MultiplyRows<1>(Below(a, row), panel, panel_bias, at(row), relu);
+        MultiplyRows<4>(Below(a, row), a.columns, panel, panel_bias, at(row), relu);
+      for (; row < a.rows; ++row)
+        MultiplyRows<1>(Below(a, row), a.columns, panel, panel_bias, at(row), relu);
     }
+  }
+
+  // Calls `tile` with the rows from a tile's first on and their columns, each tile once: all panels
+  // share a tile's list.
+  template <class Tile>
+  [[gnu::always_inline]] static inline void ForEachTile(const Rows& a, const Tile& tile) {
+    ColumnList used;
+    int row = 0;
+    for (; row + S::kTileRows <= a.rows; row += S::kTileRows) {
+      ListColumns<S::kTileRows>(Below(a, row), used);
+      tile.template operator()<S::kTileRows>(row, used);
+    }
+    for (; row + 4 <= a.rows; row += 4) {
+      ListColumns<4>(Below(a, row), used);
+      tile.template operator()<4>(row, used);
+    }
+    for (; row < a.rows; ++row) {
+      ListColumns<1>(Below(a, row), used);
+      tile.template operator()<1>(row, used);
+    }
+  }
+
+  static void MultiplySparse(const Rows& a, const Panels& w, const float* bias, MutableRows out,
+                             bool relu) {
+    if (a.columns > kMostSparseColumns) return Multiply(a, w, bias, out, relu);
+    ForEachTile(a, [&]<int M>(int row, const ColumnList& used) {
+      for (int column = 0; column < w.columns; column += kPanel)
+        MultiplyRows<M>(Below(a, row), used, w.data + static_cast<std::ptrdiff_t>(column) * w.depth,
+                        bias != nullptr ? bias + column : nullptr,
+                        {out.data + row * out.stride + column, out.stride}, relu);
+    });
   }
 
   // A function of its own, so that the sums get all registers.
   template <int M>
-  [[gnu::noinline]] static void MaximumOfRows(const Rows& a, const float* w, const float* bias,
-                                              float* best) {
+  [[gnu::noinline]] static void MaximumOfRows(const Rows& a, const ColumnList& used, const float* w,
+                                              const float* bias, float* best) {
     Vector sum[M][2];
 #pragma GCC unroll 16
     for (int i = 0; i < M; ++i) {
       sum[i][0] = S::Load(bias);
       sum[i][1] = S::Load(bias + kWidth);
     }
-    MultiplyTile<M>(a.data, a.stride, a.columns, w, sum);
+    MultiplyTile<M>(a.data, a.stride, used, w, sum);
 #pragma GCC unroll 2
     for (int v = 0; v < 2; ++v) {
       Vector most = S::Load(best + v * kWidth);
@@ -98,18 +181,13 @@ struct Loops {
   }
 
   static void MultiplyMax(const Rows& a, const Panels& w, const float* bias, float* best) {
-    for (int column = 0; column < w.columns; column += kPanel) {
-      const float* panel = w.data + static_cast<std::ptrdiff_t>(column) * w.depth;
-      float* most = best + column;
-      S::Store(most, Vector{});
-      S::Store(most + kWidth, Vector{});
-      int row = 0;
-      for (; row + S::kTileRows <= a.rows; row += S::kTileRows)
-        MaximumOfRows<S::kTileRows>(Below(a, row), panel, bias + column, most);
-      for (; row + 4 <= a.rows; row += 4)
-        MaximumOfRows<4>(Below(a, row), panel, bias + column, most);
-      for (; row < a.rows; ++row) MaximumOfRows<1>(Below(a, row), panel, bias + column, most);
-    }
+    for (int column = 0; column < w.columns; column += kWidth) S::Store(best + column, Vector{});
+    ForEachTile(a, [&]<int M>(int row, const ColumnList& used) {
+      for (int column = 0; column < w.columns; column += kPanel)
+        MaximumOfRows<M>(Below(a, row), used,
+                         w.data + static_cast<std::ptrdiff_t>(column) * w.depth, bias + column,
+                         best + column);
+    });
   }
 
   // M columns of `a` against one panel of columns of `b`, summed over the rows.
@@ -258,7 +336,7 @@ struct Loops {
 template <class S>
 constexpr Kernels MakeKernels(const char* name) {
   using L = Loops<S>;
-  return {name,        L::kPanel,        L::Multiply,     L::MultiplyMax,
-          L::AddOuter, L::ColumnMax,     L::SubtractRelu, L::AddScaled,
-          L::Mask,     L::UpdateNearest, L::FindWithin};
+  return {name,           L::kPanel,   L::Multiply,      L::MultiplySparse,
+          L::MultiplyMax, L::AddOuter, L::ColumnMax,     L::SubtractRelu,
+          L::AddScaled,   L::Mask,     L::UpdateNearest, L::FindWithin};
 }

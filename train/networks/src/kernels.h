@@ -40,6 +40,9 @@ struct PointArrays {
   int count;
 };
 
+/// Columns of the left matrix up to which zeros are left out.
+constexpr int kMostSparseColumns = 256;
+
 struct Kernels {
   const char* name;
   int panel;  ///< Columns that a register tile covers.
@@ -47,7 +50,13 @@ struct Kernels {
   /// out = a * w + bias (bias may be null), with negative values set to 0 if `relu`.
   /// Every output is summed in the order of a's columns.
   void (*multiply)(const Rows& a, const Panels& w, const float* bias, MutableRows out, bool relu);
-  /// best[j] = max over rows of max((a * w + bias)[row][j], 0), each output summed as by multiply.
+  /// Gives what multiply gives, for an `a` of which much is zero, as of what a rectified layer
+  /// made: columns that are zero in all rows of a register tile are left out, which changes no sum
+  /// of finite numbers. Rows that are alike should lie together.
+  void (*multiply_sparse)(const Rows& a, const Panels& w, const float* bias, MutableRows out,
+                          bool relu);
+  /// best[j] = max over rows of max((a * w + bias)[row][j], 0), each output summed as by
+  /// multiply_sparse.
   void (*multiply_max)(const Rows& a, const Panels& w, const float* bias, float* best);
   /// out[i][j] += sum over rows r of a[r][i] * b[r][j], in the order of rows. b's columns are a
   /// multiple of `panel`.

@@ -74,7 +74,7 @@ std::vector<float> GraspRater::Rate(std::span<const float> xyz,
     feature = encoder_.Forward(BuildGeometry(xyz, GraspWindow(normalisation, xyz))).features;
   const std::array<float, 3> origin = GraspOrigin(normalisation, xyz);
   const Eigen::Vector3d contact(xyz[0] - origin[0], xyz[1] - origin[1], xyz[2] - origin[2]);
-  const Eigen::Matrix3Xf near = NearestToFirst(xyz, normalisation.view.near_points);
+  const Eigen::Matrix3Xf near = InPatches(NearestToFirst(xyz, normalisation.view.near_points));
   HeadInputs batch;
   batch.size = static_cast<int>(2 * orientations.size());
   batch.near.reserve(2 * orientations.size() * static_cast<std::size_t>(near.size()));

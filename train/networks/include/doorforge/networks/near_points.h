@@ -16,6 +16,10 @@ namespace doorforge::internal {
 /// do not change a maximum.
 Eigen::Matrix3Xf NearestToFirst(std::span<const float> xyz, int count);
 
+/// The points in an order in which those near each other lie together, without what stands in for
+/// missing ones: a maximum over them is the same, and sooner found (Kernels::multiply_sparse).
+Eigen::Matrix3Xf InPatches(const Eigen::Matrix3Xf& near);
+
 /// Appends the points as the hand sees them, in units of 5 cm: x, y, z of each, y along the way
 /// the fingers close, z into the leaf.
 void AppendInHandFrame(const Eigen::Matrix3Xf& near, const Eigen::Matrix3d& world_from_hand,

@@ -523,7 +523,7 @@ std::string Direction(const Eigen::Vector3d& d) {
   return std::to_string(d.x()) + "," + std::to_string(d.y()) + "," + std::to_string(d.z());
 }
 
-// Of the points, in any order, the one that is farthest from all others.
+// Finds the point that is farthest from all others; their order does not matter.
 double FarthestFrom(const std::vector<Eigen::Vector3d>& others,
                     const std::vector<Eigen::Vector3d>& points) {
   double farthest = 0;

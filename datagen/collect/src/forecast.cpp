@@ -36,7 +36,7 @@ Measured Measure(StageRun& run, const PlannedEpisode& planned) {
   return measured;
 }
 
-// As Collect() counts: an episode that cannot be run is a failed one.
+// This is how Collect() counts: an episode that cannot be run is a failed one.
 Measured MeasureOrFail(StageRun& run, const PlannedEpisode& planned) {
   try {
     return Measure(run, planned);

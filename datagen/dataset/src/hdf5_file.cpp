@@ -133,7 +133,7 @@ void Hdf5Writer::SetAttribute(const std::string& object, const std::string& name
   Attach(object, name, {H5T_IEEE_F64LE, many.id()}, values.data());
 }
 
-// Of variable length: h5py gives such text as str, and robomimic expects that.
+// Its length is variable: h5py gives such text as str, and robomimic expects that.
 void Hdf5Writer::SetAttribute(const std::string& object, const std::string& name,
                               std::string_view text) {
   const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);

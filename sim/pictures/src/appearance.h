@@ -42,8 +42,8 @@ struct Appearance {
   Exposure exposure;
 };
 
-/// As the scene's appearance says, drawn from the stream "scene/<door id>/<episode>/appearance" of
-/// its seed.
+/// It is what the scene's appearance asks for, drawn from the stream "scene/<door
+/// id>/<episode>/appearance" of its seed.
 Appearance DrawAppearance(const PictureScene& scene, const std::vector<VisibleMesh>& meshes,
                           const PictureRoom& room);
 

@@ -21,7 +21,7 @@ constexpr float kElbowRoom = 0.4F;  // around cameras
 constexpr float kGap = 0.01F;       // what is smaller needs no plinth
 constexpr float kNear = 1e-4F;
 
-// Of a link of the closed door.
+// It bounds a link of the closed door.
 Eigen::AlignedBox3f BoxOf(const Scene& scene, const DoorAsset& door, std::size_t link) {
   const RigidTransform world_from_link = scene.world_from_door * DoorFromLinks(door, 0, 0).at(link);
   Eigen::AlignedBox3f box;

@@ -75,7 +75,7 @@ float Compressed(float light) {
                         : kKnee + (1 - kKnee) * (1 - std::exp((kKnee - light) / (1 - kKnee)));
 }
 
-// Of 4096 steps of light.
+// It has an entry for each of 4096 steps of light.
 const std::array<std::uint8_t, 4097>& SrgbTable() {
   static const std::array<std::uint8_t, 4097> kTable = [] {
     std::array<std::uint8_t, 4097> table{};

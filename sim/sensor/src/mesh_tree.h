@@ -20,7 +20,7 @@ struct alignas(32) TrianglePlane {  // never across two cache lines
   double offset;
 };
 
-/// Of each triangle's corners, in the mesh's frame.
+/// They are those of each triangle's corners, in the mesh's frame.
 using CornerNormals = std::vector<std::array<Eigen::Vector3f, 3>>;
 
 /// Embree for one thread and one instruction set.

@@ -42,8 +42,8 @@ Table Zeros(int rows, int columns) {
   return {rows, columns, columns, std::vector<float>(static_cast<std::size_t>(rows) * columns)};
 }
 
-// Of each hand the maximum over its near points. One hand at a time, so that what its layers make
-// stays in the second cache.
+// Computes for each hand the maximum over its near points, one hand at a time, so that what its
+// layers make stays in the second cache.
 Table NearFeatures(const DenseLayers& layers, const HeadInputs& inputs) {
   const Rows near = ViewOf(inputs.near, 3);
   const int points = near.rows / inputs.size;

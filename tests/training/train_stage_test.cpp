@@ -83,7 +83,7 @@ TEST(TrainStage, LearnsTheMirrorImagesOfWhatItIsShown) {
   const auto train = testing::MakeSyntheticSamples(1, 8);
   const auto images = MirrorImagesOf(testing::MakeSyntheticSamples(1, 8));
   TrainConfig config = SmallConfig();
-  config.epochs = 80;  // with 40 it depends on the processor's instructions whether the bound holds
+  config.epochs = 80;  // with 40 the bound held on one machine and not on another
   config.learning_rate = 2e-3;
   const double without =
       *TrainStage(train.samples, images.samples, config, {}).epochs.back().validation.position_m;

@@ -24,7 +24,7 @@ double Exponent(double difference, double width) {
   return (difference / width) * (difference / width);
 }
 
-// Of the angle, whichever finger comes first.
+// Gives the cosine of the angle, whichever finger comes first.
 double CosineBetween(const RatedHand& a, const RatedHand& b) {
   const Eigen::Matrix3d& from = a.world_from_hand_rotation;
   const Eigen::Matrix3d& to = b.world_from_hand_rotation;

@@ -28,8 +28,8 @@ bool IsServerAddress(const std::string& word);
 std::unique_ptr<Policy> MakeServedPolicy(const std::string& address,
                                          const RemotePolicySettings& settings = {});
 
-/// The same of a program: a shell runs `command`, and messages go over its standard input and
-/// output, each behind its length (4 bytes, big-endian). Starts when it is first asked, once more
+/// Asks a program instead: a shell runs `command`, and messages go over its standard input and
+/// output, each behind its length (4 bytes, big-endian). It starts when first asked, once more
 /// in the episode after one in which it failed, and ends with the policy.
 std::unique_ptr<Policy> MakeCommandPolicy(const std::string& command,
                                           const RemotePolicySettings& settings = {});

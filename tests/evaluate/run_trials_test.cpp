@@ -172,6 +172,19 @@ TEST(RunTrials, AGrasperWithoutAHandleInViewIsACauseOfItsOwn) {
   EXPECT_TRUE(TakePictures({trials, rows}, blind).episodes.empty()) << "nothing moves";
 }
 
+// Rows of a door that is not the one listed would stand in the report under its name.
+TEST(RunTrials, ADoorThatHasChangedEndsTheRun) {
+  EvaluationConfig config;
+  const auto doors = Doors();
+  const auto give = [](std::size_t) -> IdentifiedDoor {
+    throw Error(ErrorCode::kFormat, "doors/round: not what it was");
+  };
+  const TrialPlan trials(give, doors.size(), config);
+  std::vector<DoorIdentity> who;
+  for (const DoorAsset& door : doors) who.push_back(IdentityOf(door));
+  EXPECT_THROW(RunTrials(trials, Tiring(), {.threads = 2, .done = nullptr, .doors = who}), Error);
+}
+
 // What happens to a folder of doors while hours of evaluation read from it.
 TEST(RunTrials, ADoorThatIsGoneIsACauseAndTheOthersGoOn) {
   EvaluationConfig config;

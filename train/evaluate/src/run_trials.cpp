@@ -56,9 +56,9 @@ TrialPlan::Taken TrialPlan::Take(std::size_t door) const {
   try {
     return {give_door_(door), ""};
   } catch (const Error& error) {
-    // all were there when the trials were planned; what is wrong with the call is not the door's
-    const ErrorCode code = error.code();
-    if (code != ErrorCode::kMissing && code != ErrorCode::kFormat && code != ErrorCode::kIo) throw;
+    // All were there when the trials were planned. A door that has changed since is another door,
+    // and what is wrong with the call is not the door's: these end the run.
+    if (error.code() != ErrorCode::kMissing && error.code() != ErrorCode::kIo) throw;
     return {{}, error.what()};
   }
 }

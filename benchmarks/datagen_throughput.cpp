@@ -128,9 +128,7 @@ Split MeasureSplit(const std::string& doors, const fs::path& scratch, std::uint6
       if (collected.episode.outcome != EpisodeOutcome::kOpened) continue;
       split.samples += collected.episode.decisions.size();
       std::vector<MemberBytes> members;
-      split.encoding += SecondsOf([&] {
-        members = EncodeEpisode(collected.episode, collected.meta, collected.preview_png);
-      });
+      split.encoding += SecondsOf([&] { members = MembersOf(collected); });
       split.writing += SecondsOf(
           [&] { writer.Add(planned.key, collected.episode.decisions.size(), std::move(members)); });
     }

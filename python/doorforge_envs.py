@@ -13,6 +13,7 @@ ENVIRONMENTS: dict[str, dict[str, Any]] = {
     "doorforge/OpenDoorStrong-v0": {"config": {"randomisation": "strong"}},
     "doorforge/OpenDoorTest-v0": {"doors": "full:test"},
     "doorforge/OpenDoorUnseen-v0": {"doors": "full:unseen_categories"},
+    "doorforge/OpenDoorFixedBase-v0": {"config": {"physics": {"base": "fixed"}}},
     "doorforge/TurnHandle-v0": {"stage": "handle"},
     "doorforge/GraspDoor-v0": {"stage": "grasp"},
     "doorforge/UniDoorManip-v0": {"preset": "unidoormanip"},

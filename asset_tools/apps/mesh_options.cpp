@@ -17,13 +17,13 @@ void AddMeshOptions(CLI::App& app, const std::string& prefix, LooseMeshConfig& m
   app.add_option(p + "scale", mesh.scale,
                  "of a mesh file: one factor, or three along the file's axes")
       ->expected(1, 3);
-  app.add_option(p + "front", mesh.front, "axis of a mesh file that points out of the door");
+  app.add_option(p + "front", mesh.front, "axis of a mesh file, or X,Y,Z, out of the door");
   app.add_option(p + "mount", mesh.mount,
                  "x y z in a mesh file: where the handle goes, or the point on its axis that lies "
                  "on the leaf")
       ->expected(3);
   app.add_option(p + "license", mesh.license, "SPDX expression, of mesh files and URDF");
-  app.add_option(p + "up", mesh.up, "axis of the file that points up: x, y, z, -x, -y or -z");
+  app.add_option(p + "up", mesh.up, "axis of the file that points up: x, y, z, -x ..., or X,Y,Z");
 }
 
 void AddHandleMeshOptions(CLI::App& app, const std::string& prefix, LooseMeshConfig& mesh) {

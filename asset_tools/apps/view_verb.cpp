@@ -46,6 +46,7 @@ ViewOptions ParseView(int argc, char** argv) {
   app.add_option("--episodes", page.episodes, "of a data set: at most so many")
       ->needs(doors)
       ->check(CLI::Range(1, 1000));
+  app.add_option("--films", page.films, "of a data set: of `dataset films --stored`")->needs(doors);
   app.add_option("--points", page.points, "of each cloud of an episode; 0: none")
       ->check(CLI::Range(0, 65536));
   app.add_option("--robot", page.robot.urdf,

@@ -337,14 +337,14 @@ Subcommand AddCard(CLI::App& dataset) {
 }
 
 struct DatasetFilmsOptions {
-  RegenerateDatasetRequest request;
+  FilmDatasetRequest request;
   std::string out;
   bool overwrite = false;
 };
 
 int Films(DatasetFilmsOptions& options) {
   RequireNoFile(options.out, options.overwrite);
-  const std::vector<EpisodeFilm> films = FilmFailures(options.request);
+  const std::vector<EpisodeFilm> films = FilmDataset(options.request);
   WriteFilms(options.out, films);
   PrintText(options.out + ": " + std::to_string(films.size()) + " films\n");
   return 0;
@@ -352,14 +352,14 @@ int Films(DatasetFilmsOptions& options) {
 
 Subcommand AddFilms(CLI::App& dataset) {
   const auto options = std::make_shared<DatasetFilmsOptions>();
-  RegenerateDatasetRequest& request = options->request;
+  RegenerateDatasetRequest& request = options->request.made_with;
   CLI::App* app = dataset.add_subcommand(
       "films", "the course of every planned episode that failed, made again from its seed");
   app->add_option("folder", request.folder, "the dataset's folder")->required();
-  app->add_option("--out", options->out, "file for `doorforge view`, such as films.jsonl")
-      ->required();
-  AddMadeWithOptions(*app, request);
-  app->get_option("--doors")->required();
+  app->add_option("--out", options->out, "file for `doorforge view`: films.jsonl")->required();
+  app->add_option("--stored", options->request.stored, "of the first N that are stored instead")
+      ->check(CLI::PositiveNumber);
+  AddMadeWithOptions(*app, request)[0]->required();
   AddThreads(*app, request.threads, "threads, 0: all");
   AddOverwrite(*app, options->overwrite, "replace --out if it is there");
   app->footer(

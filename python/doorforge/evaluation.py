@@ -32,7 +32,8 @@ class Report:
 
     @property
     def causes(self) -> dict[str, int]:
-        """Episodes that failed, by cause; "policy_failed" where the policy had no action to give."""
+        """Episodes that failed, by cause; "policy_failed" where the policy had no action to give, "door_gone" where the
+        door's folder could be read no more."""
         return self.record["causes"]
 
     @property
@@ -67,7 +68,8 @@ def evaluate(policy: PolicyLike, doors: Union[Path, Iterable[Path]], *, handler:
     several threads, one call at a time. `seeds` scenes of each door are tried, from `seed` on; `config` holds other
     settings of `doorforge eval --set`. `out` is a folder for report.json and report.html. Ctrl-C stops it.
 
-    MissingError if a door is gone; InvalidArgumentError if doors were trained on (`allow_seen`), as the command line.
+    MissingError if doors are missing in the beginning; one that goes away later costs its episodes alone, with the
+    cause "door_gone". InvalidArgumentError if doors were trained on (`allow_seen`), as the command line.
     """
     config = dict(config or {})
     if seeds is not None:

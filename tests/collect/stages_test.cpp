@@ -4,15 +4,19 @@
 // The stages on doors of boxes.
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <map>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "doorforge/collect/collect_stage.h"
 #include "doorforge/collect/reobserve.h"
 #include "doorforge/collect/stage_run.h"
+#include "doorforge/core/config_io.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
@@ -175,6 +179,150 @@ TEST_F(StagesTest, LookedAtAgainAsItWasADatasetHasTheSameShards) {
     EXPECT_GT(DatasetReader(data, NameOf(stage), "train").size(), 0U) << NameOf(stage);
     EXPECT_EQ(TarHash(request.out, stage), TarHash(data, stage)) << NameOf(stage);
   }
+}
+
+PictureCamera PictureCameraAt(const std::string& name, CameraPlace at) {
+  PictureCamera camera;
+  camera.name = name;
+  camera.at = at;
+  if (at != CameraPlace::kScene) camera.width = camera.height = 48;
+  return camera;
+}
+
+std::map<std::string, std::string> MembersIn(const ShardReader& reader, std::size_t episode) {
+  std::map<std::string, std::string> members;
+  for (const ShardMember& member : reader.index().episodes[episode].members) {
+    const auto bytes = reader.Read(episode, member.name);
+    members[member.name] = {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+  }
+  return members;
+}
+
+// Everything of `without` is in `with`, byte by byte, but for what meta.json says of pictures.
+void ExpectSameBesidePictures(const fs::path& without, const fs::path& with, Stage stage) {
+  const fs::path index = fs::path(NameOf(stage)) / "train" / "shard-000000.index.json";
+  const ShardReader bare(without / index);
+  const ShardReader rich(with / index);
+  ASSERT_EQ(rich.index().episodes.size(), bare.index().episodes.size());
+  for (std::size_t i = 0; i < bare.index().episodes.size(); ++i) {
+    auto expected = MembersIn(bare, i);
+    auto found = MembersIn(rich, i);
+    nlohmann::ordered_json meta = nlohmann::ordered_json::parse(found.at("meta.json"));
+    EXPECT_EQ(meta.erase("pictures"), 1U);
+    found["meta.json"] = JsonText(meta, 1) + "\n";
+    std::erase_if(found, [&](const auto& member) { return !expected.contains(member.first); });
+    EXPECT_TRUE(found == expected) << NameOf(stage) << " " << i;
+    EXPECT_GT(rich.index().episodes[i].members.size(), expected.size());
+  }
+}
+
+TEST_F(StagesTest, PicturesChangeNothingElseAndAreTheSameWhenTheyAreTakenLater) {
+  PicturesConfig pictures;
+  pictures.cameras = {PictureCameraAt("own", CameraPlace::kScene),
+                      PictureCameraAt("front", CameraPlace::kWorld),
+                      PictureCameraAt("wrist", CameraPlace::kHand)};
+  pictures.streams = {PictureStream::kDepth, PictureStream::kDepth32, PictureStream::kLabel,
+                      PictureStream::kLink, PictureStream::kNormal};
+  pictures.noise.sensor = DepthSensor::kTimeOfFlight;
+  for (const Stage stage : {Stage::kOpen, Stage::kHandle, Stage::kGrasp}) {
+    const fs::path bare = folder_ / "bare";
+    const fs::path rich = folder_ / "rich";
+    for (const fs::path& out : {bare, rich}) {
+      StageRequest request = RequestFor(stage, 3);
+      request.config.cloud.noise.sensor = DepthSensor::kStructuredLight;
+      if (out == rich) request.config.pictures = pictures;
+      request.threads = out == rich ? 2 : 1;
+      CollectStage({request, out, {}, /*replace=*/false, {}});
+      ExpectSound(out);
+    }
+    ExpectSameBesidePictures(bare, rich, stage);
+    EXPECT_EQ(ReadDataset(rich).pictures.size(), 18U);
+
+    ReobserveRequest later = Again(bare);
+    later.settings = {"pictures=" + JsonText(ToJson(pictures))};
+    later.threads = 1;
+    ReobserveDataset(later);
+    ExpectSound(later.out);
+    EXPECT_EQ(TarHash(later.out, stage), TarHash(rich, stage)) << NameOf(stage);
+    const ReobserveRequest again = Again(rich);
+    ReobserveDataset(again);
+    EXPECT_EQ(TarHash(again.out, stage), TarHash(rich, stage)) << NameOf(stage);
+    for (const fs::path& folder : {bare, rich, later.out, again.out}) fs::remove_all(folder);
+  }
+}
+
+// Exit code of a program for Debian's Python.
+int RunPython(const std::string& program, const fs::path& argument) {
+  const std::string command = "PYTHONDONTWRITEBYTECODE=1 PYTHONPATH='" DOORFORGE_SOURCE_DIR
+                              "/python' /usr/bin/python3 -c '" +
+                              program + "' '" + argument.string() + "'";
+  return std::system(command.c_str());
+}
+
+TEST_F(StagesTest, TheReaderFindsEveryPointOfTheCloudInThePicture) {
+  if (RunPython("import numpy", "") != 0) GTEST_SKIP() << "/usr/bin/python3 has no numpy here";
+  for (const Stage stage : {Stage::kOpen, Stage::kGrasp}) {
+    StageRequest request = RequestFor(stage, 2);
+    request.config.cloud.noise.sensor = DepthSensor::kStructuredLight;
+    request.config.cloud.noise.extrinsic_rad = 0.01;
+    request.config.pictures.cameras = {PictureCameraAt("own", CameraPlace::kScene)};
+    request.config.pictures.streams = {PictureStream::kDepth32, PictureStream::kLabel};
+    const fs::path data = folder_ / std::string(NameOf(stage));
+    CollectStage({request, data, {}, /*replace=*/false, {}});
+    EXPECT_EQ(RunPython(R"(
+import sys
+import numpy as np
+import doorforge_reader
+data = doorforge_reader.Dataset(sys.argv[1])
+found = 0
+for part in data.parts:
+    for episode in data.episodes(part.stage, part.split):
+        assert episode.cameras() == ["own"], episode.cameras()
+        for t in range(episode.decisions):
+            pixels, labels = episode.points("own", t).reshape(-1, 3), episode["label_own"][t].ravel()
+            for point, label in list(zip(episode["cloud"][t], episode["label"][t]))[::8]:
+                away = np.nan_to_num(np.abs(pixels - point).max(axis=1), nan=9)
+                nearest = away.argmin()
+                assert away[nearest] < 2e-6 and labels[nearest] == label, away[nearest]
+                found += 1
+assert found > 60
+)",
+                        data),
+              0);
+  }
+}
+
+TEST_F(StagesTest, PicturesThatCannotBeTakenAreRefusedBeforeAnyWork) {
+  StageRequest request = RequestFor(Stage::kOpen, 2);
+  PictureCamera inside = PictureCameraAt("front", CameraPlace::kWorld);
+  const DoorAsset door = MakePrimitiveDoor({});
+  const Scene scene = SampleScene(door, 4, 0, request.config.scene);
+  const Eigen::Vector3d leaf =
+      scene.world_from_door *
+      Eigen::Vector3d((DoorFromLinks(door, 0, 0)[kLeafLink] *
+                       door.links[kLeafLink].geometry[0].hulls[0].vertices[0]) *
+                          0.5 +
+                      (DoorFromLinks(door, 0, 0)[kLeafLink] *
+                       door.links[kLeafLink].geometry[0].hulls[0].vertices[7]) *
+                          0.5);
+  inside.position_m = {leaf.x(), leaf.y(), leaf.z()};
+  request.config.pictures.cameras = {inside};
+  EXPECT_NE(Refusal(request).find("inside the leaf"), std::string::npos) << Refusal(request);
+
+  request.config.pictures.cameras = {PictureCameraAt("front", CameraPlace::kWorld)};
+  request.config.pictures.cameras[0].width = 0;
+  EXPECT_NE(Refusal(request).find("width 0"), std::string::npos);
+
+  // so many episodes of 16 decisions and 16 million pixels are more than any disk
+  request.config.pictures.cameras[0].width = request.config.pictures.cameras[0].height = 4096;
+  request.config.episodes = 100'000;
+  try {
+    CollectStage({request, folder_ / "large", {}, false, {}});
+    ADD_FAILURE() << "began";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("are needed"), std::string::npos) << error.what();
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "large" / "open"));
 }
 
 // A shard beside the first one, sound in itself, with the first episode under another key or with

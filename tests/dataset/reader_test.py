@@ -32,6 +32,19 @@ def members(path):
         return {item.name: archive.extractfile(item).read() for item in archive}
 
 
+class BackProjection(unittest.TestCase):
+    def test_a_plane_before_a_turned_camera_is_where_it_stands(self):
+        # at (1, 2, 3), looking along world y, with world x to the right: the plane y = 4
+        pose = np.array([[1.0, 0, 0, 1], [0, 0, 1, 2], [0, -1, 0, 3]])
+        depth = np.full((3, 4), 2.0)
+        depth[0, 0] = 0
+        points = reader.back_project(depth, [[5, 0, 2], [0, 5, 1.5], [0, 0, 1]], pose)
+        self.assertTrue(np.isnan(points[0, 0]).all())
+        self.assertEqual((points.dtype, points.shape), (np.float32, (3, 4, 3)))
+        for (row, column), x, z in (((1, 2), 1.2, 3.0), ((2, 0), 0.4, 2.6)):
+            np.testing.assert_allclose(points[row, column], (x, 4, z), atol=1e-6)
+
+
 class WithoutNumpy(unittest.TestCase):
     def test_the_message_says_what_to_install(self):
         path = str(SOURCE / "python/doorforge_reader.py")

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/importers/foreign_object.h"
 
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -515,6 +516,82 @@ TEST(LooseMesh, FlagsTurnAFileIntoAHandle) {
         LooseMeshConfig{.role = "body", .hinge = "top"}}) {
     config.mesh = wrong;
     ExpectError(folder / "my_lever.stl", ErrorCode::kInvalidArgument, "", config);
+  }
+}
+
+std::string Direction(const Eigen::Vector3d& d) {
+  return std::to_string(d.x()) + "," + std::to_string(d.y()) + "," + std::to_string(d.z());
+}
+
+// Of the points, in any order, the one that is farthest from all others.
+double FarthestFrom(const std::vector<Eigen::Vector3d>& others,
+                    const std::vector<Eigen::Vector3d>& points) {
+  double farthest = 0;
+  for (const Eigen::Vector3d& point : points) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Eigen::Vector3d& other : others) nearest = std::min(nearest, (point - other).norm());
+    farthest = std::max(farthest, nearest);
+  }
+  return farthest;
+}
+
+TEST(LooseMesh, AFileThatLiesSkewGivesThePartOfOneThatLiesAlongItsAxes) {
+  const fs::path folder = TestFolder("mesh_skew");
+  const Eigen::Vector3d mount(-0.05, 0.01, 0);
+  ReadConfig config{.category = "interior",
+                    .mesh = {.role = "handle",
+                             .mechanism = "lever",
+                             .unit = "m",
+                             .up = "z",
+                             .front = "x",
+                             .mount = {mount.x(), mount.y(), mount.z()}}};
+  WriteText(folder / "straight.obj", ToObj(RawLever()));
+  const PartDraft straight = Load(ReadOne(folder / "straight.obj", config), PartRole::kHandle);
+  for (const double angle : {0.3, 1.1, 2.5}) {
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(angle, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
+    TriangleMesh lever = RawLever();
+    for (Eigen::Vector3d& v : lever.vertices) v = turn * v;
+    WriteText(folder / "skew.obj", ToObj(lever));
+    // of "up" counts what is square to "front"; the length of both does not
+    const Eigen::Vector3d front = turn.col(0);
+    const Eigen::Vector3d up = 3 * turn.col(2) + turn.col(0);
+    const Eigen::Vector3d skew_mount = turn * mount;
+    config.mesh.front = Direction(1000 * front);
+    config.mesh.up = Direction(1000 * up);
+    config.mesh.mount = {skew_mount.x(), skew_mount.y(), skew_mount.z()};
+    const PartDraft skew = Load(ReadOne(folder / "skew.obj", config), PartRole::kHandle);
+    ExpectNear(skew.facts.joint.origin_m, straight.facts.joint.origin_m, 1e-6);
+    ExpectNear(skew.facts.joint.axis, straight.facts.joint.axis, 1e-6);
+    ASSERT_EQ(skew.pieces.size(), straight.pieces.size());
+    const std::vector<Eigen::Vector3d>& vertices = skew.pieces[0].mesh.vertices;
+    const std::vector<Eigen::Vector3d>& expected = straight.pieces[0].mesh.vertices;
+    EXPECT_EQ(vertices.size(), expected.size());
+    EXPECT_LT(FarthestFrom(expected, vertices), 1e-6);
+    EXPECT_LT(FarthestFrom(vertices, expected), 1e-6);
+    // its length is the one that it has in the part, not that of a box along the file's axes
+    config.mesh.unit = "";
+    config.mesh.mount = {};
+    config.mesh.size_m = 0.26;
+    ExpectNear(
+        BoundsOf(Load(ReadOne(folder / "skew.obj", config), PartRole::kHandle), "grip").sizes(),
+        {0.26, 0.11, 0.036}, 1e-6);
+    config.mesh.size_m = 0;
+    config.mesh.unit = "m";
+  }
+  for (const auto& [front, up] :
+       std::vector<std::pair<std::string, std::string>>{{"1,0", "z"},
+                                                        {"0,0,0", "z"},
+                                                        {"1,2,3,4", "z"},
+                                                        {"1,nan,0", "z"},
+                                                        {"a,b,c", "z"},
+                                                        {"1,,0", "z"},
+                                                        {"0,0.01,1", "z"},
+                                                        {"x", "1,0.01,0"}}) {
+    config.mesh.front = front;
+    config.mesh.up = up;
+    ExpectError(folder / "skew.obj", ErrorCode::kInvalidArgument, front == "x" ? "up" : "front",
+                config);
   }
 }
 

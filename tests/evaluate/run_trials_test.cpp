@@ -70,7 +70,7 @@ TEST(RunTrials, EveryDoorIsTriedInEverySeed) {
   ASSERT_EQ(trials.size(), doors.size() * 2 * 3);
   std::set<std::tuple<std::string, std::uint64_t, std::uint64_t>> different;
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    const auto [door, scene] = trials.At(i);
+    const auto [door, scene, gone] = trials.At(i);
     EXPECT_EQ(door->id, doors[i / 6].id) << "ordered by door, seed and episode";
     EXPECT_EQ(trials.DoorOf(i), i / 6);
     EXPECT_EQ(scene.door_id, door->id);
@@ -170,6 +170,38 @@ TEST(RunTrials, AGrasperWithoutAHandleInViewIsACauseOfItsOwn) {
   EXPECT_EQ(rows.at(0).outcome, EpisodeOutcome::kNotReached);
   EXPECT_EQ(CauseOf(rows.at(0)), kNoGraspInView);
   EXPECT_TRUE(TakePictures({trials, rows}, blind).episodes.empty()) << "nothing moves";
+}
+
+// What happens to a folder of doors while hours of evaluation read from it.
+TEST(RunTrials, ADoorThatIsGoneIsACauseAndTheOthersGoOn) {
+  EvaluationConfig config;
+  config.seeds = 2;
+  const auto doors = Doors();
+  const auto give = [&doors](std::size_t door) -> IdentifiedDoor {
+    if (door == 1)
+      throw Error(ErrorCode::kMissing, "doors/round: no such folder; compose it again");
+    return {std::make_shared<const DoorAsset>(doors.at(door)), ContentHash(doors.at(door))};
+  };
+  const TrialPlan trials(give, doors.size(), config);
+  std::vector<DoorIdentity> who;
+  for (const DoorAsset& door : doors) who.push_back(IdentityOf(door));
+  const auto rows = RunTrials(trials, Tiring(), {.threads = 2, .done = nullptr, .doors = who});
+  const auto sound = RunTrials(PlanFor(doors, config), Tiring());
+  ASSERT_EQ(rows.size(), 6U);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(rows[i].door_id, sound[i].door_id);
+    EXPECT_EQ(rows[i].seed, sound[i].seed);
+    EXPECT_EQ(rows[i].mechanism, sound[i].mechanism);
+    const bool gone = trials.DoorOf(i) == 1;
+    EXPECT_EQ(CauseOf(rows[i]), gone ? kDoorGone : CauseOf(sound[i]));
+    EXPECT_EQ(rows[i].state_sha256, gone ? "" : sound[i].state_sha256);
+  }
+  EXPECT_EQ(rows[2].detail, "the door is gone: doors/round: no such folder; compose it again");
+  const ReportPictures pictures = TakePictures({trials, rows}, Tiring());
+  EXPECT_EQ(pictures.doors.size(), 2U);
+  EXPECT_FALSE(pictures.episodes.contains(EpisodeOutcome::kNotReached));
+  EXPECT_EQ(TakeFilms({trials, rows}, Tiring()).size(), 4U);
+  EXPECT_THROW(RunTrials(trials, Tiring()), Error) << "nobody says who they were";
 }
 
 TEST(TakePictures, ShowsTheGraspOfADoorThatOpenedAndOfOneThatDidNotInEachCategory) {

@@ -6,6 +6,7 @@ import json
 import os
 import pathlib
 import pickle
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -293,6 +294,31 @@ class Evaluation(unittest.TestCase):
         self.assertIn("no more ideas", details[1])
         self.assertIn("nan", details[2])
         self.assertIn("(7, 7)", details[3])
+
+    def test_a_door_that_is_gone_costs_its_episodes_alone(self) -> None:
+        folder = pathlib.Path(self.scratch.name) / "vanishing"
+        for name in ("a", "b", "c"):
+            doorforge.compose(BODY, HANDLE, id=name).save(folder / name)
+
+        class Deletes:
+            """Somebody tidies up while it opens its first door."""
+
+            def reset(self) -> None:
+                shutil.rmtree(folder / "b", ignore_errors=True)
+
+            def __call__(self, observation: dict) -> np.ndarray:
+                return hold(observation)
+
+        out = pathlib.Path(self.scratch.name) / "report_of_vanishing"
+        report = doorforge.evaluate(Deletes(), folder, observation=["proprioception"], seeds=2, out=out)
+        self.assertEqual([row["door_id"] for row in report.episodes], ["a", "a", "b", "b", "c", "c"])
+        self.assertEqual(report.causes["door_gone"], 2)
+        for row in report.episodes[2:4]:
+            self.assertRegex(row["detail"], "the door is gone: .*vanishing/b")
+        self.assertIn("Door gone", (out / "report.html").read_text())
+        with self.assertRaises(doorforge.MissingError) as raised:
+            doorforge.evaluate(hold, folder / "b")
+        self.assertIn("vanishing/b", str(raised.exception))
 
     def test_a_grasper_in_python_takes_hold(self) -> None:
         looks = []

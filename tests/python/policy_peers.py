@@ -34,7 +34,9 @@ def hold(seen: dict) -> np.ndarray:
 
 
 class Peer:
-    """Holds still, or fails in its way in every second episode."""
+    """Holds still, and says of the handle what `says` has; or fails in its way in every second episode."""
+
+    says = {"turned": True, "never": False, "unsure": "maybe"}
 
     def __init__(self, kind: str) -> None:
         self.kind, self.episodes, self.questions = kind, 0, 0
@@ -42,10 +44,12 @@ class Peer:
     def answer(self, message: bytes) -> bytes:
         seen = msgpack.unpackb(message, object_hook=unpack_array)
         assert seen["cloud"].shape == (4096, 3) and seen["cloud"].dtype == np.float32, seen["cloud"].shape
-        assert seen["proprioception"].shape == (32,) and seen["stage"] == "open"
+        assert seen["proprioception"].shape == (32,) and seen["stage"] in ("open", "handle")
         self.episodes += seen["episode_start"]
         self.questions = 1 if seen["episode_start"] else self.questions + 1
         action = hold(seen)
+        if self.kind in self.says:
+            return msgpack.packb({"actions": action, "turned": self.says[self.kind]}, default=pack_array)
         if self.kind != "sound" and self.episodes % 2 == 0 and self.questions == 2:
             return self.failure(action)
         return msgpack.packb({"actions": action[None]}, default=pack_array)
@@ -55,7 +59,8 @@ class Peer:
             os._exit(1)
         if self.kind == "hangs":
             time.sleep(60)
-        wrong = {"text": np.array(["left"] * 9), "shape": action[:7], "nan": np.full(9, np.nan), "empty": np.zeros((0, 9))}
+        wrong = {"text": np.array(["left"] * 9), "shape": action[:7], "nan": np.full(9, np.nan), "empty": np.zeros((0, 9)),
+                 "half": action.astype(np.float16), "list": action.tolist()}
         if self.kind == "nonsense":
             return b"\xc1\xff\x00"
         if self.kind == "torn":

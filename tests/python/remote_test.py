@@ -74,7 +74,8 @@ class Remote(unittest.TestCase):
 
     def test_whatever_a_server_does_costs_its_episode_alone(self) -> None:
         for kind, told in (("hangs", "no answer within"), ("text", "dtype"), ("shape", "(7,)"), ("nan", "nan"),
-                           ("empty", "(0, 9)"), ("nonsense", "MessagePack"), ("torn", "too early"),
+                           ("empty", "(0, 9)"), ("half", "float32"), ("list", "array of numpy"), ("nonsense", "MessagePack"),
+                           ("torn", "too early"),
                            ("raises", "no more ideas")):
             with self.subTest(kind), Served(sys.executable, PEER, "serve", kind) as port:
                 words = ["--opener", f"ws://127.0.0.1:{port.strip()}", "--policy-timeout", "1"]
@@ -124,6 +125,32 @@ class Remote(unittest.TestCase):
             asyncio.run(self.talk(address))
         near = self.evaluate("--opener", str(opener), "--allow-seen", seeds=2)
         self.assertEqual(far["episodes"], near["episodes"])
+
+    def test_a_served_handler_turns_and_says_so_as_it_does_here(self) -> None:
+        handler = POLICY / "handler"
+        pull = self.folder / "pull"
+        done = run("assets", "compose", "--body", "interior_flush_01", "--handle", "interior_lever_blade_01",
+                   "--set", "latch=none", "--out", str(pull))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        words = ["--opener", "expert", "--doors", str(pull)]
+        with Served(str(BUILD / "bin" / "doorforge-serve-policy"), str(handler), "--stage", "handle", "--port", "0") as line:
+            far = self.evaluate("--handler", line.split(" at ")[1].split(";")[0], *words, seeds=2)
+            told = self.evaluate("--handler", line.split(" at ")[1].split(";")[0], "--switch", "privileged", *words, seeds=2)
+        near = self.evaluate("--handler", str(handler), "--allow-seen", *words, seeds=2)
+        self.assertEqual(far["episodes"], near["episodes"])
+        self.assertEqual({row["door_id"] for row in far["episodes"]}, {f"interior_flush_01__interior_lever_{end}" for end in ("blade_01", "tube_01")})
+        self.assertNotEqual(told["episodes"], near["episodes"], "the simulator says it at another time")
+
+    def test_who_turns_says_when_it_is_done_or_leaves_it_to_the_simulator(self) -> None:
+        causes = {}
+        for kind in ("sound", "turned", "never", "unsure"):
+            with Served(sys.executable, PEER, "serve", kind) as port:
+                report = self.evaluate("--handler", f"ws://127.0.0.1:{port.strip()}", "--opener", "expert")
+            causes[kind] = report["episodes"][0]["detail"]
+        self.assertNotIn("switch", causes["sound"])  # the hand holds still: the simulator sees no turn
+        self.assertIn("the switch came with the handle at", causes["turned"])
+        self.assertIn("no switch came, opening was tried", causes["never"])
+        self.assertIn("turned: expected true or false", causes["unsure"])
 
     async def talk(self, address: str) -> None:
         """A client of others: what it does wrong is told in text, and the connection goes on."""

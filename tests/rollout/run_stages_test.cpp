@@ -116,7 +116,7 @@ TEST_F(RunStagesTest, AHandThatDoesNotTurnLeavesTheHandleStuck) {
 }
 
 // Says that the handle is turned after so many questions, whatever has become of it.
-std::function<bool()> AfterQuestions(int count) {
+HandleTurned AfterQuestions(int count) {
   return [count, asked = 0]() mutable { return ++asked >= count; };
 }
 
@@ -168,6 +168,21 @@ TEST_F(RunStagesTest, WhereThePredictedFlagNeverComesOpeningIsTriedAllTheSame) {
   EXPECT_NE(still.detail.find("no switch came, opening was tried with the handle at"),
             std::string::npos)
       << still.detail;
+}
+
+TEST_F(RunStagesTest, WhereNothingIsSaidOfTheHandleTheSimulatorSays) {
+  const DoorAsset door = MakePrimitiveDoor({});
+  const Scene scene = SampleScene(door, 1, 0);
+  HandleExpert turns;
+  EpisodePolicies roles{.recorded = Stage::kHandle, .handle = &turns};
+  const Episode simulated = Run(door, scene, roles);
+  roles.handle_turned = [] { return std::nullopt; };
+  const Episode silent = Run(door, scene, roles);
+  EXPECT_EQ(silent.state_sha256, simulated.state_sha256);
+
+  Staying stays;
+  roles.handle = &stays;
+  EXPECT_EQ(Run(door, scene, roles).detail.find("no switch came"), std::string::npos);
 }
 
 TEST_F(RunStagesTest, ALearnerDrivesFirstAndTheRuleSaysWhatItWouldHaveDone) {

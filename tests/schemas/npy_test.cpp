@@ -62,7 +62,7 @@ TEST(Npy, NamesWhatIsWrongWithAFile) {
             "x.npy: 20 bytes of data, the shape (2, 3) needs 24");
   std::string type = good;
   type.replace(type.find("<f4"), 3, ">f4");
-  EXPECT_EQ(MessageOf(type), "x.npy: element type >f4, allowed <f4, <f8, <i8, |u1");
+  EXPECT_EQ(MessageOf(type), "x.npy: element type >f4, allowed <f4, <f8, <i8, <u2, |i1, |u1");
   std::string order = good;
   order.replace(order.find("False"), 5, "True ");
   EXPECT_NE(MessageOf(order).find("fortran_order"), std::string::npos);

@@ -46,6 +46,60 @@ TEST(DepthCamera, SeesNothingAsInfinity) {
   EXPECT_EQ(image.label, std::vector<std::uint8_t>(15, 4));
 }
 
+// Rays are cast 4 x 4 at a time, also over the image's right and lower edge.
+TEST(DepthCamera, AnImageOfAnySizeHasNoPixelFromBeyondItsEdge) {
+  for (const auto& [width, height] : {std::pair{41, 30}, {6, 7}, {1, 1}, {3, 65}}) {
+    DepthCamera camera({{shapes::Box({0, 0.02, -90}, {0.1, 9, 90}), 0, PointLabel::kHandle}});
+    const DepthImage image = camera.Render(FrontCamera(width, height), kStill);
+    for (int row = 0; row < height; ++row) {
+      for (int column = 0; column < width; ++column) {
+        const double right = (column + 0.5 - width / 2.0) / (width / 2.0);  // at depth 1
+        const bool sees = right * 1.9 > 0.02;
+        EXPECT_EQ(image.label[PixelAt(image, row, column)], sees ? 1 : 4)
+            << width << " x " << height << ": " << row << ", " << column;
+      }
+    }
+  }
+}
+
+TEST(DepthCamera, SurfacesAreWhatTheDepthIsOf) {
+  const TriangleMesh soup = shapes::Soup(300, 5);
+  DepthCamera camera({{shapes::Wall(-1, 5), 0, PointLabel::kBody}, {soup, 1, PointLabel::kHandle}});
+  const CameraModel model = FrontCamera(50, 31);
+  const SurfaceImage surfaces = camera.RenderSurfaces(model, kStill);
+  const DepthImage image = camera.Render(model, kStill);
+  EXPECT_EQ(surfaces.depth.depth_m, image.depth_m);
+  EXPECT_EQ(surfaces.depth.link, image.link);
+  const RigidTransform pose = WorldFromCamera(model);
+  const double focal = IntrinsicMatrix(model)(0, 0);
+  int of_soup = 0;
+  for (std::size_t i = 0; i < image.link.size(); ++i) {
+    ASSERT_EQ(surfaces.mesh[i], image.link[i]);
+    if (surfaces.mesh[i] < 0) continue;
+    of_soup += surfaces.mesh[i];
+    const VisibleMesh& mesh = camera.scene().meshes()[static_cast<std::size_t>(surfaces.mesh[i])];
+    const Eigen::Vector3i& triangle = mesh.mesh.triangles[surfaces.triangle[i]];
+    const auto corner = [&](int k) {
+      return mesh.mesh.vertices[static_cast<std::size_t>(triangle[k])];
+    };
+    const Eigen::Vector3d in_camera((static_cast<double>(i % 50) + 0.5 - 25) / focal,
+                                    (static_cast<double>(i / 50) + 0.5 - 15.5) / focal, 1);
+    const Eigen::Vector3d direction = pose.linear() * in_camera;
+    const double u = static_cast<double>(surfaces.u[i]);
+    const double v = static_cast<double>(surfaces.v[i]);
+    EXPECT_LT((pose.translation() + static_cast<double>(image.depth_m[i]) * direction -
+               ((1 - u - v) * corner(0) + u * corner(1) + v * corner(2)))
+                  .norm(),
+              1e-3);
+    const Eigen::Vector3d normal = surfaces.normal[i].cast<double>();
+    EXPECT_LT(normal.dot(direction), 0);
+    EXPECT_NEAR(
+        std::fabs(normal.dot((corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized())), 1,
+        1e-6);
+  }
+  EXPECT_GT(of_soup, 50);
+}
+
 TEST(DepthCamera, PutsWorldYToTheRightAndWorldZUp) {
   // seen against -x, world +y is on the right
   DepthCamera camera({{shapes::Box({0, 0.2, 1.7}, {0.1, 0.6, 2.1}), 0, PointLabel::kHandle}});

@@ -322,5 +322,23 @@ TEST(TurningPolicy, SaysWhenTheHandleIsTurnedAndHoldsToItUntilReset) {
   EXPECT_FALSE(policy.Turned());
 }
 
+TEST(TurningPolicy, IsSaidToHaveTurnedFromTheProbabilityOnThatIsAskedFor) {
+  const TurnedClassifier classifier = RuleClassifier();
+  const Observation first = AfterTurn(0);
+  for (const double turn : {0.1, 0.3, 0.4, 0.45, 0.5, 0.6, 0.8}) {
+    const Observation now = AfterTurn(static_cast<float>(turn));
+    const double said = classifier.Probability(
+        HandMotionOf(first.proprioception, now.proprioception, ToVector(Turning().Act(now))));
+    for (const double asked : {0.1, 0.5, 0.9, 0.999}) {
+      TurningPolicy policy(std::make_unique<Turning>(), classifier, asked);
+      policy.Act(first);
+      policy.Act(now);
+      EXPECT_EQ(policy.Turned(), said >= asked) << turn << ", " << asked;
+    }
+  }
+  EXPECT_THROW(TurningPolicy(std::make_unique<Turning>(), classifier, 0), Error);
+  EXPECT_THROW(TurningPolicy(std::make_unique<Turning>(), classifier, 1), Error);
+}
+
 }  // namespace
 }  // namespace doorforge

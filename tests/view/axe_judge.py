@@ -41,6 +41,10 @@ def main() -> int:
         for name, options in (("door", ()), ("gallery", ("--gallery",)), ("episode", ("--episode",))):
             run("view", folder / "doors", *options, "--out", folder / f"{name}.html")
             faults += judged(browser, (folder / f"{name}.html").as_uri(), name)
+        run("datagen", "open", "--doors", folder / "doors/a", "--out", folder / "data", "--episodes", "1")
+        run("dataset", "films", folder / "data", "--doors", folder / "doors/a", "--stored", "1", "--out", folder / "data.jsonl")
+        run("view", folder / "data", "--doors", folder / "doors/a", "--films", folder / "data.jsonl", "--out", folder / "data.html")
+        faults += judged(browser, (folder / "data.html").as_uri(), "stored episode with forces")
         run("eval", "--opener", "expert", "--doors", folder / "doors", "--seeds", "1", "--set", "scene.physics.max_opening_actions=4", "--films", "--out", folder / "report")
         films = (folder / "report/films.html").as_uri()
         faults += judged(browser, films, "report")
@@ -53,6 +57,7 @@ def main() -> int:
         def drop() -> None:
             browser.choose_files("#file", folder / "lever.stl")
             browser.wait("document.querySelector('dialog.own[open]') !== null")
+            browser.js("doorforge.composer.offered.setUp('0,0.1,1'), doorforge.composer.offered.setFront('1,0.1,0')")
         faults += judged(browser, address, "composer, a dropped mesh", drop)
         faults += judged(browser, address, "composer, all settings", lambda: browser.js("document.querySelector('.more').open = true"))
         server.send_signal(signal.SIGTERM)

@@ -85,7 +85,7 @@ class Browser:
         elif method == "Network.requestWillBeSent":
             self.requests.append(params["request"]["url"][:200])
 
-    def call(self, method: str, timeout: float = 120, **params: object) -> dict:
+    def call(self, method: str, timeout: float = 300, **params: object) -> dict:
         return self.loop.run_until_complete(asyncio.wait_for(self._call(method, params), timeout))
 
     async def _call(self, method: str, params: dict) -> dict:
@@ -112,7 +112,7 @@ class Browser:
         if ready:
             self.wait("document.documentElement?.dataset.ready !== undefined && location.href !== 'about:blank'")
 
-    def wait(self, expression: str, seconds: float = 60) -> None:
+    def wait(self, expression: str, seconds: float = 300) -> None:
         deadline = time.monotonic() + seconds
         while not self.js(expression):
             assert time.monotonic() < deadline, (expression, self.errors)

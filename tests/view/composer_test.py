@@ -86,6 +86,49 @@ class ComposerPage(ServedTest):
         self.browser.wait("document.querySelector('.asked').textContent === ''")
         self.settled()
 
+    def hold_compositions(self) -> None:
+        """Requests for a composition wait in `held` until they are let go, so that answers come in an order of the test's choice."""
+        self.browser.js("""(() => {
+          const real = window.fetch;
+          window.held = [];
+          window.fetch = (path, options) => (path === '/compose' ? new Promise((sent) => held.push(sent)).then(() => real(path, options)) : real(path, options));
+        })()""")
+
+    def held(self, count: int) -> None:
+        self.browser.wait(f"held.length === {count}")
+
+    def test_what_was_refused_stays_when_an_earlier_request_is_answered(self) -> None:
+        self.choose()
+        self.hold_compositions()
+        self.set("leaf_width_m", 0.9)
+        self.held(1)
+        self.browser.js("doorforge.composer.drop([new File(['x'], 'notes.txt')])")
+        said = "document.querySelector('.asked').textContent"
+        self.assertIn("notes.txt", self.browser.js(said))
+        self.browser.js("(held[0](), 0)")
+        self.settled()
+        self.assertIn("notes.txt", self.browser.js(said))
+        self.assertEqual(self.browser.js("document.querySelector('.asked').classList.contains('refused')"), True)
+        # until one goes on
+        self.set("leaf_width_m", 0.85)
+        self.held(2)
+        self.browser.js("(held[1](), 0)")
+        self.settled()
+        self.assertEqual(self.browser.js(said), "")
+
+    def test_a_refusal_of_settings_that_were_changed_since_is_not_said(self) -> None:
+        self.choose()
+        self.hold_compositions()
+        self.set("leaf_width_m", 0.01)
+        self.held(1)
+        self.set("leaf_width_m", 0.9)
+        self.held(2)
+        self.browser.js("(held[1](), 0)")
+        self.settled()
+        self.browser.js("(held[0](), 0)")
+        self.browser.wait("doorforge.composer.pending === 0")
+        self.assertEqual(self.browser.js("document.querySelector('.asked').textContent"), "")
+
     def test_foreign_pages_and_names_are_refused(self) -> None:
         port, good = self.port, self.request()
         self.assertEqual(self.ask("POST", "/compose", good)[0], 200)

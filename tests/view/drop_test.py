@@ -14,6 +14,8 @@ import struct
 import subprocess
 import unittest
 
+import numpy as np
+
 from pages import BUILD
 from served import ServedTest, files_of, members_of
 
@@ -59,6 +61,17 @@ def glb(triangles: list) -> bytes:
     return struct.pack("<III", 0x46546C67, 2, 12 + len(chunks)) + chunks
 
 
+def rotation(axis: list[float], angle: float) -> np.ndarray:
+    """Rodrigues' formula."""
+    x, y, z = np.array(axis) / np.linalg.norm(axis)
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+
+
+def vertices_of(text: bytes) -> np.ndarray:
+    return np.array([[float(x) for x in line.split()[1:4]] for line in text.decode().splitlines() if line.startswith("v ")])
+
+
 class DroppedMeshes(ServedTest):
     def file(self, name: str, content: bytes) -> pathlib.Path:
         folder = self.folder / "mine"
@@ -70,6 +83,11 @@ class DroppedMeshes(ServedTest):
         self.browser.choose_files("#file", *paths)
         self.browser.wait("document.querySelector('dialog.own[open]') !== null || document.querySelector('.actions .asked').classList.contains('refused')")
 
+    def request_with(self, name: str, content: bytes, mesh: dict) -> str:
+        """A request for a door with this handle, which is dropped past the page."""
+        self.assertEqual(self.upload(name, content)[0], 200)
+        return json.dumps({"body": BODY, "handle": name, "files": {name: hashlib.sha256(content).hexdigest()}, "handle_mesh": mesh})
+
     def compose_page(self) -> None:
         self.browser.open(self.address)
         self.settled()
@@ -77,19 +95,25 @@ class DroppedMeshes(ServedTest):
         self.settled()
 
     def click_face(self, axis: int, value: float) -> None:
-        """Clicks, with the mouse, on the middle of the mesh's face where this coordinate has this value, looked at from before it."""
+        """Clicks the face where this coordinate has this value."""
+        low, high = self.browser.js(f"[doorforge.composer.offered.box.min.getComponent({axis}), doorforge.composer.offered.box.max.getComponent({axis})]")
+        side = 1 if value > (low + high) / 2 else -1
+        self.click_plane([side if k == axis else 0 for k in range(3)], side * value)
+
+    def click_plane(self, normal: list[float], distance: float) -> None:
+        """Clicks, with the mouse, on the middle of a triangle of the mesh's face in the plane normal * x = distance, looked at from before it."""
         self.browser.settle()  # the canvas gets its size a frame after its dialog is shown
         self.browser.js(f"""(() => {{
-          const own = doorforge.composer.offered, side = {value} > (own.box.min.getComponent({axis}) + own.box.max.getComponent({axis})) / 2 ? 1 : -1;
-          const camera = own.stage.camera, far = camera.position.length();
-          camera.position.set(0.02, 0.01, 0.02).setComponent({axis}, side * far);
+          const own = doorforge.composer.offered, camera = own.stage.camera, far = camera.position.length();
+          camera.position.set({normal}[0], {normal}[1], {normal}[2]).multiplyScalar(far).addScalar(0.01);
           own.stage.controls.target.set(0, 0, 0); own.stage.controls.update(); own.stage.draw();
         }})()""")
         x, y = self.browser.js(f"""(() => {{
-          const own = doorforge.composer.offered, mesh = own.meshes[0], p = mesh.positions;
+          const own = doorforge.composer.offered, mesh = own.meshes[0], p = mesh.positions, n = {normal};
           for (let k = 0; k < mesh.indices.length; k += 3) {{
-            const corners = [0, 1, 2].map((i) => own.drawn[0].localToWorld(own.box.min.clone().fromArray(p, 3 * mesh.indices[k + i])));
-            if (![0, 1, 2].every((i) => Math.abs(p[3 * mesh.indices[k + i] + {axis}] - {value}) < 1e-2 * own.unit)) continue;
+            const places = [0, 1, 2].map((i) => 3 * mesh.indices[k + i]);
+            if (!places.every((at) => Math.abs(n[0] * p[at] + n[1] * p[at + 1] + n[2] * p[at + 2] - {distance}) < 1e-2 * own.unit)) continue;
+            const corners = places.map((at) => own.drawn[0].localToWorld(own.box.min.clone().fromArray(p, at)));
             const middle = corners[0].add(corners[1]).add(corners[2]).divideScalar(3).project(own.stage.camera);
             const b = own.canvas.getBoundingClientRect();
             return [b.x + (middle.x + 1) / 2 * b.width, b.y + (1 - middle.y) / 2 * b.height];
@@ -160,6 +184,43 @@ class DroppedMeshes(ServedTest):
         self.put_on()
         self.assertIn("'brass lever.obj'", self.browser.js("document.querySelector('.command code').textContent"))
         self.check_equal("obj")
+
+    def test_a_lever_that_lies_skew_is_put_on_by_two_clicks(self) -> None:
+        """Its back and its top are clicked; it comes out as one that lies along the axes, as far as positions on the screen tell."""
+        turn = rotation([1, -2, 0.5], 1.1)
+        turned = [tuple(tuple(turn @ corner) for corner in triangle) for triangle in LEVER]
+        self.compose_page()
+        self.drop(self.file("skew.stl", stl(turned)))
+        self.click_plane(list(-turn[:, 2]), 0)
+        self.browser.js("(() => { const c = document.getElementById('own-click'); c.value = 'up'; c.dispatchEvent(new Event('change')); })()")
+        self.click_plane(list(turn[:, 1]), 9)
+        front, up = (np.array([float(x) for x in self.browser.js(f"doorforge.composer.offered.{key}").split(",")]) for key in ("front", "up"))
+        np.testing.assert_allclose(front, turn[:, 2], atol=1e-4)
+        np.testing.assert_allclose(up, turn[:, 1], atol=1e-4)
+        self.assertEqual(self.browser.js("[document.getElementById('own-front').value, document.getElementById('own-front_xyz').value]"), ["skew", self.browser.js("doorforge.composer.offered.front")])
+        self.set("own-mechanism", "lever")
+        self.put_on()
+        skew = self.downloaded()
+        self.check_equal("skew")
+        _, archive = self.ask("POST", "/download", self.request_with("straight.stl", stl(LEVER), {"front": "z", "up": "y", "mount": [0, 0, 0], "mechanism": "lever"}))
+        straight = members_of(archive)
+        grip = next(name for name in straight if name.startswith("handle/") and name.endswith("grip.obj"))
+        found, expected = vertices_of(skew[grip]), vertices_of(straight[grip])
+        self.assertEqual(found.shape, expected.shape)
+        apart = np.linalg.norm(found[:, None] - expected, axis=2)
+        self.assertLess(max(apart.min(axis=0).max(), apart.min(axis=1).max()), 5e-6)
+
+    def test_a_direction_may_be_typed(self) -> None:
+        self.compose_page()
+        self.drop(self.file("typed.stl", stl(LEVER)))
+        self.set("own-front", "skew")
+        self.set("own-front_xyz", "0,0.1,")  # no direction yet
+        self.assertEqual(self.browser.js("doorforge.composer.offered.front"), "1,0,0")
+        self.set("own-front_xyz", "0,0.1,1")
+        self.assertEqual(self.browser.js("[doorforge.composer.offered.front, doorforge.composer.offered.up]"), ["0,0.1,1", "y"])
+        self.set("own-mechanism", "lever")
+        self.put_on()
+        self.assertIn("--handle-front=0,0.1,1", self.browser.js("document.querySelector('.command code').textContent").replace("'", ""))
 
     def test_a_glb_stands_as_its_format_says(self) -> None:
         self.compose_page()

@@ -35,7 +35,7 @@ class ServedTest(PageTest):
     @classmethod
     def stop(cls) -> None:
         cls.server.send_signal(signal.SIGTERM)
-        assert cls.server.wait(20) == 0
+        assert cls.server.wait(300) == 0
         cls.server.stdout.close()
 
     def tearDown(self) -> None:

@@ -34,6 +34,8 @@ export class ComposerView {
     this.settings = {};
     this.view = new RecordView(content);
     this.status = h('p', { role: 'status', class: 'asked' });
+    this.refusals = {}; // by what was asked: 'files', 'door', 'film', 'download'
+    this.pending = 0; // requests without an answer
     this.grids = Object.fromEntries(['body', 'handle'].map((role) => [role, new Grid(128, 132, () => this.card(role))]));
     this.command = h('code', { tabindex: 0 });
     this.copy = copyButton('', 'command');
@@ -72,19 +74,20 @@ export class ComposerView {
 
   /** Sends the files to the server, which reads them; then asks how the mesh is meant. */
   async drop(files) {
+    this.refuse('files', '');
     const most = this.document.most_file_bytes;
     const tooLarge = files.find(({ size }) => size > most);
-    if (tooLarge) return this.say(`${tooLarge.name}: has ${Math.round(tooLarge.size / 2 ** 20)} MiB, a dropped file may have ${most / 2 ** 20}; doorforge compose takes 512`);
+    if (tooLarge) return this.refuse('files', `${tooLarge.name}: has ${Math.round(tooLarge.size / 2 ** 20)} MiB, a dropped file may have ${most / 2 ** 20}; doorforge compose takes 512`);
     const kept = {};
     let mesh = null;
     for (const file of files) {
-      const bytes = await this.ask(`/file?name=${encodeURIComponent(file.name)}`, file, 'application/octet-stream');
+      const bytes = await this.ask('files', `/file?name=${encodeURIComponent(file.name)}`, file);
       if (bytes === null) return;
       const content = await Content.fromBytes(bytes);
       kept[content.document.name] = content.document.file;
       if (content.document.shown.length > 0) mesh = content;
     }
-    if (mesh === null) return this.say('drop a mesh: STL, OBJ or GLB');
+    if (mesh === null) return this.refuse('files', 'drop a mesh: STL, OBJ or GLB');
     this.offered?.dispose();
     this.offered = new OwnMesh(mesh, { applied: (own) => this.putOn(own), closed: (own) => own !== this.own && own.dispose() });
     this.offered.files = kept;
@@ -115,9 +118,16 @@ export class ComposerView {
     for (const grid of Object.values(this.grids)) grid.refresh();
   }
 
-  say(message) {
-    this.status.textContent = message;
-    this.status.classList.add('refused');
+  /** A refusal stays until the same is asked again or the user goes on; an answer to something else takes nothing away. */
+  refuse(asked, message) {
+    this.refusals[asked] = message;
+    this.tell();
+  }
+
+  tell() {
+    const said = Object.values(this.refusals).filter(Boolean).join('; ');
+    this.status.textContent = said || (this.pending > 0 ? 'asking ...' : '');
+    this.status.classList.toggle('refused', said !== '');
   }
 
   // The settings behind "More": numbers that are empty as by default, choices, words.
@@ -199,33 +209,37 @@ export class ComposerView {
   }
 
   changed(pause) {
+    this.refusals = {};
+    this.tell();
     clearTimeout(this.waiting);
     this.waiting = setTimeout(() => this.compose(), pause);
   }
 
-  /** The bytes of an answer; what is refused is said, and gives null. */
-  async ask(path, request, type = 'application/json') {
-    this.status.textContent = 'asking ...';
-    this.status.classList.remove('refused');
+  /** The bytes of an answer; what is refused is said if it `counts` still, and gives null. */
+  async ask(asked, path, request, counts = () => true) {
+    const type = request instanceof Blob ? 'application/octet-stream' : 'application/json';
+    ++this.pending;
+    this.tell();
+    let bytes = null;
     let message = '';
     try {
       const answer = await fetch(path, { method: 'POST', headers: { 'Content-Type': type }, body: request });
-      if (answer.ok) {
-        this.status.textContent = '';
-        return new Uint8Array(await answer.arrayBuffer());
-      }
-      message = (await answer.json()).error;
+      if (answer.ok) bytes = new Uint8Array(await answer.arrayBuffer());
+      else message = (await answer.json()).error;
     } catch {
       message = 'the server does not answer; is doorforge serve still running?';
     }
-    this.say(message);
-    return null;
+    --this.pending;
+    if (message && counts()) this.refusals[asked] = message;
+    this.tell();
+    return bytes;
   }
 
   async compose() {
     const { request } = this;
-    const bytes = await this.ask('/compose', request);
-    if (bytes === null || request !== this.request) return; // another one is on its way
+    const counts = () => request === this.request; // else another one is on its way
+    const bytes = await this.ask('door', '/compose', request, counts);
+    if (bytes === null || !counts()) return;
     const content = await Content.fromBytes(bytes);
     this.composed = request;
     this.view.use(content);
@@ -238,7 +252,7 @@ export class ComposerView {
   }
 
   async open() {
-    const bytes = await this.ask('/open', this.request);
+    const bytes = await this.ask('film', '/open', this.request);
     if (bytes === null) return;
     const content = await Content.fromBytes(bytes);
     const film = new EpisodeView(content);
@@ -259,7 +273,7 @@ export class ComposerView {
 
   async download() {
     const format = this.format.value;
-    const bytes = await this.ask(`/download?format=${format}`, this.request);
+    const bytes = await this.ask('download', `/download?format=${format}`, this.request);
     if (bytes === null) return;
     const link = h('a', { href: URL.createObjectURL(new Blob([bytes], { type: 'application/zip' })), download: `${this.view.record.id}${format ? `_${format}` : ''}.zip` });
     link.click();

@@ -117,7 +117,7 @@ export class EpisodeView {
   makeCharts() {
     const { times, hinge, handle, force, net_force: netForce, hidden } = this.episode;
     const angles = { title: 'Angles', unit: '°', least: 0, most: 10, series: [['hinge', hinge.map(degrees)], ['handle', handle.map(degrees)]], keys: [['hinge', 'hinge'], ['handle', 'handle']] };
-    const forces = force && { title: 'Forces on the door', unit: ' N', least: 0, most: 10, series: [['grip', force], ['net', netForce]], keys: [['grip', 'all contacts'], ['net', 'beyond the squeeze of the fingers']], note: 'At the instants of the film; the greatest between them is in the report.' };
+    const forces = force && { title: 'Forces on the door', unit: ' N', least: 0, most: 10, series: [['grip', force], ['net', netForce]], keys: [['grip', 'all contacts'], ['net', 'beyond the squeeze of the fingers']], note: 'At the instants shown; between them they may be greater.' };
     const names = Object.keys(hidden ?? {});
     const shares = names.length > 0 && { title: 'Hidden from the camera', unit: ' %', least: 0, most: 100, series: names.map((name, i) => [`hidden-${i}`, hidden[name].map((share) => 100 * share)]), keys: names.map((name, i) => [`hidden-${i}`, name]) };
     return [angles, forces, shares].filter(Boolean).map((drawn) => ({ ...drawn, chart: curves({ times, ...drawn }) }));

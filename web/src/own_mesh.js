@@ -13,20 +13,27 @@ import { h, number } from './dom.js';
 const AXES = ['x', 'y', 'z', '-x', '-y', '-z'];
 const COLORS = { x: 0xc23b22, y: 0x2c8a3d, z: 0x2a62c4 };
 const SHOWN = 0.4; // [m] longest side on the screen, whatever the file's numbers are
-const SKEW = Math.cos((10 * Math.PI) / 180); // a face further from every axis is none
+const SQUARE = Math.cos((0.5 * Math.PI) / 180); // what is nearer to an axis of the file is meant to lie along it
+const ALONG = 0.9; // cosine above which nothing is up that points out of the door
 const FLAT = 0.999; // cosine between faces of one plane
 
-const vectorOf = (axis) => new Vector3().setComponent('xyz'.indexOf(axis.at(-1)), axis[0] === '-' ? -1 : 1);
-const opposite = (axis) => (axis[0] === '-' ? axis[1] : `-${axis}`);
-const crossesOf = (axis) => AXES.filter((other) => other.at(-1) !== axis.at(-1));
+// The unit vector of "-y", or of "0.6,0.8,0"; null where a text is neither.
+const vectorOf = (text) => {
+  if (AXES.includes(text)) return new Vector3().setComponent('xyz'.indexOf(text.at(-1)), text[0] === '-' ? -1 : 1);
+  const numbers = text.split(',').map((word) => (word.trim() === '' ? NaN : Number(word)));
+  if (numbers.length !== 3 || !numbers.every(Number.isFinite) || !numbers.some(Boolean)) return null;
+  return new Vector3(...numbers).normalize();
+};
+const cosine = (a, b) => vectorOf(a).dot(vectorOf(b));
 
-/** The axis nearest to a direction, or null where it is skew to all. */
-export const axisOf = (direction) => {
+/** What a setting calls a direction: the axis that it lies along, or its numbers where it is skew to all. */
+export const nameOf = (direction) => {
   const best = AXES.reduce((a, b) => (vectorOf(b).dot(direction) > vectorOf(a).dot(direction) ? b : a));
-  return vectorOf(best).dot(direction) >= SKEW ? best : null;
+  if (vectorOf(best).dot(direction) >= SQUARE) return best;
+  return direction.toArray().map((value) => Number(value.toFixed(6)) + 0).join(',');
 };
 
-/** The triangles that lie in one plane with a triangle of a mesh: their corners and the middle of their area. */
+/** The triangles that lie in one plane with a triangle of a mesh: their corners, their normal, the middle of their area. */
 export const planeWith = (meshes, triangle) => {
   const corner = (mesh, k) => new Vector3().fromArray(mesh.positions, 3 * mesh.indices[k]);
   const normalOf = (a, b, c) => b.clone().sub(a).cross(c.clone().sub(a));
@@ -35,6 +42,7 @@ export const planeWith = (meshes, triangle) => {
   const near = 1e-3 * triangle.size;
   const corners = [];
   const middle = new Vector3();
+  const sum = new Vector3(); // corners come in steps of a box, which the whole face evens out
   let area = 0;
   for (const mesh of meshes) {
     for (let k = 0; k < mesh.indices.length; k += 3) {
@@ -44,10 +52,11 @@ export const planeWith = (meshes, triangle) => {
       if (size === 0 || across.dot(normal) < FLAT * size || Math.abs(a.clone().sub(first[0]).dot(normal)) > near) continue;
       corners.push(...a.toArray(), ...b.toArray(), ...c.toArray());
       middle.addScaledVector(a.add(b).add(c), size / 3);
+      sum.add(across);
       area += size;
     }
   }
-  return { corners, normal, middle: middle.divideScalar(area || 1) };
+  return { corners, normal: sum.normalize(), middle: middle.divideScalar(area || 1) };
 };
 
 const field = (id, title, control) => h('div', {}, h('label', { for: id }, title), control);
@@ -63,7 +72,7 @@ export class OwnMesh {
     this.role = 'handle';
     this.mesh = { mechanism: 'none', front: content.document.front || '', up: content.document.up || '' };
     this.meshes = content.document.shown.map((place) => content.mesh(place));
-    this.canvas = h('canvas', { tabindex: 0, role: 'application', 'aria-label': 'The mesh in 3D. Arrow keys turn it, plus and minus zoom, Home shows all. A click chooses the face that lies on the door; so does the field Out of the door.' });
+    this.canvas = h('canvas', { tabindex: 0, role: 'application', 'aria-label': 'The mesh in 3D. Arrow keys turn it, plus and minus zoom, Home shows all. A click chooses the face that lies on the door, or what the field says that a click tells; so do the fields Out of the door and Up.' });
     this.said = h('p', { role: 'status', class: 'asked' });
     this.element = h('dialog', { class: 'own', 'aria-labelledby': 'own-title', onclose: () => this.end() }, h('div', { class: 'record' },
       h('section', { class: 'stage', 'aria-label': 'the mesh in 3D' }, h('div', { class: 'canvas' }, this.canvas)),
@@ -73,7 +82,8 @@ export class OwnMesh {
   form() {
     const pick = (key, title, values, changed) => field(`own-${key}`, title, (this[`field_${key}`] = h('select', { id: `own-${key}`, onchange: ({ target }) => changed(target.value) }, values.map(([value, text]) => h('option', { value }, text)))));
     const numberField = (key, title, changed) => field(`own-${key}`, title, (this[`field_${key}`] = h('input', { type: 'number', id: `own-${key}`, step: 'any', oninput: ({ target }) => changed(target.value) })));
-    const axes = (standard) => [['', standard], ...AXES.map((axis) => [axis, axis])];
+    const axes = (standard) => [['', standard], ...AXES.map((axis) => [axis, axis]), ['skew', 'another direction']];
+    const directionField = (key, title, changed) => (this[`row_${key}`] = field(`own-${key}`, title, (this[`field_${key}`] = h('input', { type: 'text', id: `own-${key}`, placeholder: '0.6,0.8,0', oninput: ({ target }) => vectorOf(target.value) && changed(target.value) }))));
     const { document } = this.content;
     this.mountFields = h('div', { class: 'settings three' }, ['x', 'y', 'z'].map((axis) => numberField(`mount_${axis}`, `Mount ${axis}`, () => this.readMount())));
     this.ofHandle = h('div', { class: 'settings' },
@@ -87,9 +97,11 @@ export class OwnMesh {
     return h('form', { class: 'own-form', onsubmit: (event) => event.preventDefault() },
       h('h1', { id: 'own-title' }, this.name), h('p', { class: 'soft' }, `${sides} along the file's x, y, z. ${document.states_unit ? 'The file says its unit.' : 'The file says no unit.'}`),
       pick('role', 'It is a', [['handle', 'handle'], ['body', 'leaf']], (role) => this.setRole(role)),
+      pick('click', 'A click tells', [['front', 'the face on the door'], ['up', 'a face that points up']], () => this.tellClick()),
       this.told,
-      h('div', { class: 'settings' }, pick('front', 'Out of the door', axes(document.front ? `as the file says: ${document.front}` : 'x if not chosen'), (front) => this.setFront(front)),
-        pick('up', 'Up', axes(document.up ? `as the file says: ${document.up}` : 'z if not chosen'), (up) => this.setUp(up))),
+      h('div', { class: 'settings' }, pick('front', 'Out of the door', axes(document.front ? `as the file says: ${document.front}` : 'x if not chosen'), (front) => this.setFront(front === 'skew' ? '1,0,0' : front)),
+        pick('up', 'Up', axes(document.up ? `as the file says: ${document.up}` : 'z if not chosen'), (up) => this.setUp(up === 'skew' ? '0,0,1' : up)),
+        directionField('front_xyz', 'Out, as x,y,z', (front) => this.setFront(front)), directionField('up_xyz', 'Up, as x,y,z', (up) => this.setUp(up))),
       this.ofHandle, this.ofBody,
       h('div', { class: 'settings' }, pick('unit', 'Unit of its numbers', [['', 'told by the size'], ['m', 'm'], ['cm', 'cm'], ['mm', 'mm'], ['in', 'inch'], ['ft', 'foot']], (unit) => this.set('unit', unit)),
         numberField('size', 'or its longest side [m]', (text) => this.set('size_m', Number(text) || 0))),
@@ -127,16 +139,16 @@ export class OwnMesh {
   addAxes(longest) {
     for (const axis of ['x', 'y', 'z']) {
       const from = this.box.min.clone().addScaledVector(new Vector3(1, 1, 1), -0.06 * longest);
-      this.addArrow(this.group, axis, from, 0.45 * longest, COLORS[axis], axis);
+      this.addArrow(this.group, vectorOf(axis), from, 0.45 * longest, COLORS[axis], axis);
     }
   }
 
-  addArrow(group, axis, from, length, color, text) {
-    const arrow = new ArrowHelper(vectorOf(axis), from, length, color, 0.12 * length, 0.06 * length);
+  addArrow(group, way, from, length, color, text) {
+    const arrow = new ArrowHelper(way, from, length, color, 0.12 * length, 0.06 * length);
     for (const part of [arrow.line, arrow.cone]) Object.assign(part.material, { depthTest: false, transparent: true }); // seen through the mesh
     const name = label(text, color);
     name.scale.multiplyScalar(text.length > 2 ? 2.2 * length : 1.3 * length);
-    name.position.copy(from).addScaledVector(vectorOf(axis), 1.14 * length);
+    name.position.copy(from).addScaledVector(way, 1.14 * length);
     group.add(arrow, name);
   }
 
@@ -160,19 +172,24 @@ export class OwnMesh {
     this.role = role;
     this.ofHandle.hidden = role !== 'handle';
     this.ofBody.hidden = role !== 'body';
-    this.told.textContent = role === 'handle' ? 'Click the face that lies on the door.' : 'Click the face that one sees who opens the door.';
+    this.tellClick();
     this.clearFace();
+  }
+
+  tellClick() {
+    const side = this.role === 'handle' ? 'Click the face that lies on the door.' : 'Click the face that one sees who opens the door.';
+    this.told.textContent = this.field_click.value === 'up' ? 'Click a face that looks up when the door stands.' : side;
   }
 
   setFront(front) {
     this.mesh.front = front;
-    if (this.up.at(-1) === this.front.at(-1)) this.mesh.up = crossesOf(this.front).find((axis) => axis === 'z' || axis === 'y');
+    if (Math.abs(cosine(this.up, this.front)) > ALONG) this.mesh.up = ['z', 'y'].find((axis) => Math.abs(cosine(axis, this.front)) < ALONG);
     this.clearFace();
   }
 
   setUp(up) {
     this.mesh.up = up;
-    if (this.up.at(-1) === this.front.at(-1)) this.mesh.front = crossesOf(this.up)[0];
+    if (Math.abs(cosine(this.up, this.front)) > ALONG) this.mesh.front = ['x', 'y'].find((axis) => Math.abs(cosine(axis, this.up)) < ALONG);
     this.refresh();
   }
 
@@ -197,13 +214,21 @@ export class OwnMesh {
   /** The face lies on the door: out of the door is away from it, and the handle's axis goes through its middle. */
   chooseFace(place, face) {
     const plane = planeWith(this.meshes, { mesh: this.meshes[place], face, size: this.size });
-    const axis = axisOf(plane.normal);
-    if (axis === null) return this.say('This face is skew to the axes of the file: turn the mesh in the program that made it.', true);
-    this.setFront(this.role === 'handle' ? opposite(axis) : axis);
+    if (this.field_click.value === 'up') {
+      this.setUp(nameOf(plane.normal));
+      return this.say(`${this.up} points up.`);
+    }
+    this.setFront(nameOf(this.role === 'handle' ? plane.normal.clone().negate() : plane.normal));
     this.showFace(plane);
-    if (this.role === 'handle') this.mesh.mount = plane.middle.toArray().map((value) => Number((value / this.unit).toPrecision(5)) + 0).map((value) => (Math.abs(value) < (1e-5 * this.size) / this.unit ? 0 : value));
+    if (this.role === 'handle') this.mesh.mount = plane.middle.toArray().map((value) => this.inFile(value));
     this.say(this.role === 'handle' ? `This face lies on the door: ${this.front} points out of it.` : `${this.front} points out of the door.`);
     this.refresh();
+  }
+
+  // A coordinate in the file's numbers, as short as it is exact.
+  inFile(value) {
+    if (Math.abs(value) < 1e-5 * this.size) return 0;
+    return Number((value / this.unit).toPrecision(AXES.includes(this.front) ? 5 : 7)) + 0;
   }
 
   showFace({ corners, normal }) {
@@ -220,20 +245,33 @@ export class OwnMesh {
   }
 
   refresh() {
-    this.field_front.value = this.mesh.front;
-    this.field_up.value = this.mesh.up;
+    for (const key of ['front', 'up']) {
+      const skew = this.mesh[key].includes(',');
+      this[`field_${key}`].value = skew ? 'skew' : this.mesh[key];
+      this[`row_${key}_xyz`].hidden = !skew;
+      if (skew && document.activeElement !== this[`field_${key}_xyz`]) this[`field_${key}_xyz`].value = this.mesh[key];
+    }
     ['x', 'y', 'z'].forEach((axis, i) => (this[`field_mount_${axis}`].value = this.mesh.mount?.[i] ?? ''));
     if (!this.stage) return;
     this.meant?.removeFromParent();
     this.meant = new Group();
     const center = this.box.getCenter(new Vector3());
-    const half = this.box.getSize(new Vector3()).multiplyScalar(0.5);
-    for (const [axis, text] of [[this.front, 'out of the door'], [this.up, 'up']]) {
-      const reach = Math.abs(vectorOf(axis).dot(half));
-      this.addArrow(this.meant, axis, center.clone().addScaledVector(vectorOf(axis), reach), 0.28 * this.size, 0x5a3fa0, text);
+    const front = vectorOf(this.front);
+    const up = vectorOf(this.up);
+    up.addScaledVector(front, -up.dot(front)).normalize(); // what counts of it
+    for (const [way, text] of [[front, 'out of the door'], [up, 'up']]) {
+      this.addArrow(this.meant, way, center.clone().addScaledVector(way, this.reach(way, center)), 0.28 * this.size, 0x5a3fa0, text);
     }
     this.group.add(this.meant);
     this.stage.changed();
+  }
+
+  // How far the mesh goes from a point in a direction.
+  reach({ x, y, z }, from) {
+    let farthest = 0;
+    for (const { positions: p } of this.meshes)
+      for (let i = 0; i < p.length; i += 3) farthest = Math.max(farthest, x * (p[i] - from.x) + y * (p[i + 1] - from.y) + z * (p[i + 2] - from.z));
+    return farthest;
   }
 
   /** The settings that are not as they are where nothing is said. */

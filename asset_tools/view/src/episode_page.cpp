@@ -11,12 +11,14 @@
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
+#include "doorforge/rollout/proprioception.h"
 #include "doorforge/schemas/dataset.h"
 #include "doorforge/schemas/episode_arrays.h"
 
 #include "door_finder.h"
 #include "episode_writer.h"
 #include "expert_film.h"
+#include "film_forces.h"
 #include "html_page.h"
 
 namespace doorforge {
@@ -31,8 +33,8 @@ using Json = PageContent::Json;
 
 struct Stored {
   Film film;
-  std::string door_id;
-  std::string door_sha256;
+  Scene scene;
+  std::vector<JointState> states;  // one a frame
 };
 
 Scene SceneOf(const Json& meta, const std::string& where) {
@@ -81,8 +83,11 @@ FilmFrame FrameOf(const EpisodeArrays& arrays, std::size_t t, const Scene& scene
   frame.hinge_rad = state[kStateHinge];
   frame.handle_rad = state[kStateHandle];
   frame.bolt_m = state[kStateBolt];
-  JointVector position(kRobotJointCount);
-  for (int i = 0; i < kRobotJointCount; ++i) position[i] = state[static_cast<std::size_t>(i)];
+  const ProprioceptionPlaces places = ProprioceptionPlacesOf(robot);
+  JointVector position = JointVector::Zero(robot.joint_count());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places.at(i) >= 0) position[places.at(i)] = state[i];
+  }
   const RobotPose pose = robot.PoseAt(position, scene.world_from_robot_base);
   frame.hand_m = pose.world_from_hand.translation();
   const std::span<const float> action = arrays.action.subspan(9 * t, 3);
@@ -95,11 +100,15 @@ FilmFrame FrameOf(const EpisodeArrays& arrays, std::size_t t, const Scene& scene
   return frame;
 }
 
-// The door's poses are filled in when its joints are known.
-Stored ReadStored(const ShardReader& shard, std::size_t episode, const RobotModel& robot) {
+// The door's poses are filled in when its joints are known. `robot` is loaded, on its base, for the
+// first episode, and the others are of it.
+Stored ReadStored(const ShardReader& shard, std::size_t episode, const ShownRobot& source,
+                  std::optional<RobotModel>& shown) {
   const Json meta = ReadEpisodeMeta(shard, episode);
   const std::string where = shard.Describe(episode, "meta.json");
   const Scene scene = SceneOf(meta, where);
+  if (!shown) shown = LoadRobot(source.urdf, scene.physics.base, source.read_mesh);
+  const RobotModel& robot = *shown;
   const EpisodeArrays arrays = ViewEpisode(shard, episode);
   if (arrays.state.empty())
     throw Error(ErrorCode::kFormat,
@@ -111,6 +120,9 @@ Stored ReadStored(const ShardReader& shard, std::size_t episode, const RobotMode
                     (scene.robot.name.empty() ? "the built-in one" : scene.robot.name) +
                     (scene.robot.name == robot.name() ? ", which has changed since"
                                                       : "; --robot names its URDF"));
+  if (scene.physics.base != robot.base())
+    throw Error(ErrorCode::kInvalidArgument,
+                where + ": its robot stands on another base than that of the first episode");
   const std::string& key = shard.index().episodes[episode].key;
   const std::string stage = shard.index().header.stage;
   const std::string outcome = ValueOf<std::string>(meta, "outcome", where);
@@ -123,14 +135,17 @@ Stored ReadStored(const ShardReader& shard, std::size_t episode, const RobotMode
                            {"Seed, number",
                             std::to_string(scene.seed) + ", " + std::to_string(scene.episode)}},
                  .frames = {}},
-                scene.door_id,
-                scene.door_sha256};
+                scene,
+                {}};
   if (const std::string hidden = HiddenText(meta); !hidden.empty())
     stored.film.facts.emplace_back("Hidden", hidden);
   stored.film.hidden = HiddenShares(meta, arrays.decisions);
   const Json& times = MemberOf(meta, "decision_time_s", where);
   for (std::size_t t = 0; t < arrays.decisions; ++t) {
     stored.film.frames.push_back(FrameOf(arrays, t, scene, robot));
+    const auto state = arrays.state.subspan(t * std::tuple_size_v<JointState>);
+    std::ranges::copy_n(state.begin(), std::tuple_size_v<JointState>,
+                        stored.states.emplace_back().begin());
     FilmFrame& frame = stored.film.frames.back();
     frame.phase = stage;
     frame.time_s = t < times.size() && times[t].is_number() ? times[t].get<double>() : 0;
@@ -161,7 +176,7 @@ std::vector<fs::path> ShardsOf(const DatasetEpisodes& chosen) {
   return shards;
 }
 
-std::vector<Stored> ReadEpisodes(const DatasetEpisodes& chosen, const RobotModel& robot,
+std::vector<Stored> ReadEpisodes(const DatasetEpisodes& chosen, std::optional<RobotModel>& robot,
                                  std::vector<std::string>& faults) {
   std::vector<Stored> episodes;
   for (const fs::path& path : ShardsOf(chosen)) {
@@ -170,7 +185,7 @@ std::vector<Stored> ReadEpisodes(const DatasetEpisodes& chosen, const RobotModel
       if (episodes.size() >= static_cast<std::size_t>(chosen.most)) return episodes;
       if (!chosen.key.empty() && shard.index().episodes[i].key != chosen.key) continue;
       try {
-        episodes.push_back(ReadStored(shard, i, robot));
+        episodes.push_back(ReadStored(shard, i, chosen.robot, robot));
       } catch (const Error& error) {
         if (error.code() != ErrorCode::kInvalidArgument) throw;
         faults.emplace_back(error.what());
@@ -185,14 +200,19 @@ std::vector<Stored> ReadEpisodes(const DatasetEpisodes& chosen, const RobotModel
 ViewPage MakeDatasetPage(const DatasetEpisodes& chosen) {
   Require(chosen.most >= 1 && chosen.points >= 0, ErrorCode::kInvalidArgument,
           "view: at least one episode, and no negative number of points");
-  const RobotModel robot =
-      LoadRobot(chosen.robot.urdf, RobotBase::kSliders, chosen.robot.read_mesh);
+  std::optional<RobotModel> robot;
   ViewPage page;
   std::vector<Stored> episodes = ReadEpisodes(chosen, robot, page.faults);
+  if (episodes.empty())
+    throw Error(ErrorCode::kMissing, page.faults.empty()
+                                         ? chosen.dataset.string() + ": no such episode"
+                                         : page.faults.front());
   internal::DoorFinder doors(chosen.doors, chosen.threads);
-  EpisodeWriter writer(robot, chosen.points);
+  EpisodeWriter writer(*robot, chosen.points);
+  std::optional<internal::FilmForces> forces;
+  if (!chosen.films.empty()) forces.emplace(chosen.films, *robot);
   for (Stored& episode : episodes) {
-    const auto door = doors.Find(episode.door_sha256);
+    const auto door = doors.Find(episode.scene.door_sha256);
     if (!door) {
       page.faults.push_back(
           episode.film.title +
@@ -200,12 +220,13 @@ ViewPage MakeDatasetPage(const DatasetEpisodes& chosen) {
       continue;
     }
     PoseDoor(**door, episode.film);
-    writer.Add(**door, episode.door_sha256, episode.film);
+    if (forces) {
+      std::string fault = forces->AddTo(episode.film, episode.scene, episode.states);
+      if (!fault.empty()) page.faults.push_back(std::move(fault));
+    }
+    writer.Add(**door, episode.scene.door_sha256, episode.film);
   }
-  if (writer.size() == 0)
-    throw Error(ErrorCode::kMissing, page.faults.empty()
-                                         ? chosen.dataset.string() + ": no such episode"
-                                         : page.faults.front());
+  if (writer.size() == 0) throw Error(ErrorCode::kMissing, page.faults.front());
   page.shown = writer.size();
   page.html = internal::HtmlPage(
       "Episodes of " + chosen.dataset.filename().string() + " - doorforge", writer.content());

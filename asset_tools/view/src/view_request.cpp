@@ -13,8 +13,7 @@ namespace doorforge {
 namespace {
 
 ViewPage PageOfDataset(const ViewRequest& request) {
-  Require(request.paths.size() == 1, ErrorCode::kInvalidArgument,
-          "--doors: goes with one data set");
+  Require(request.paths.size() == 1, ErrorCode::kInvalidArgument, "--doors: is of one data set");
   return MakeDatasetPage({.dataset = request.paths[0],
                           .doors = request.doors,
                           .stage = request.stage,
@@ -22,7 +21,8 @@ ViewPage PageOfDataset(const ViewRequest& request) {
                           .most = request.episodes,
                           .points = request.points,
                           .threads = request.threads,
-                          .robot = request.robot});
+                          .robot = request.robot,
+                          .films = request.films});
 }
 
 }  // namespace

@@ -12,13 +12,16 @@ namespace doorforge {
 namespace {
 
 // Refuses what certainly has no room, and warns where there may be none: episodes have about 16
-// decisions where they open, 1 to 25 in general, and clouds are nearly all of their bytes.
+// decisions where they open, 1 to 25 in general, and clouds and pictures are nearly all of their
+// bytes.
 void RequireSpaceForShards(const CollectStageRequest& request) {
   constexpr double kBytesAPoint = 13;
   const StageConfig& config = request.stage.config;
   const double decisions = config.stage == Stage::kGrasp ? 1 : 16;
-  const double whole = static_cast<double>(config.episodes) * decisions * kBytesAPoint *
-                       config.cloud.point_count / request.task.count;
+  const double a_decision = kBytesAPoint * config.cloud.point_count +
+                            PictureBytes(config.pictures, CameraOf(config.scene.camera));
+  const double whole =
+      static_cast<double>(config.episodes) * decisions * a_decision / request.task.count;
   const double needed = whole - BytesBelow(request.out);
   const std::string lack = LackOfSpace(request.out, needed);
   if (lack.empty()) return;

@@ -32,9 +32,7 @@ Measured Measure(StageRun& run, const PlannedEpisode& planned) {
   const CollectedEpisode collected = run.Run(planned);
   if (!IsData(collected)) return measured;
   measured.decisions = static_cast<double>(collected.episode.decisions.size());
-  for (const MemberBytes& member :
-       EncodeEpisode(collected.episode, collected.meta, collected.preview_png))
-    measured.bytes += TarBytes(member);
+  for (const MemberBytes& member : MembersOf(collected)) measured.bytes += TarBytes(member);
   return measured;
 }
 

@@ -34,7 +34,7 @@ CameraFrame RecordingCamera::Render(const SceneSnapshot& snapshot) {
   CameraFrame frame = camera_.Render(snapshot);
   visible_.push_back(frame.sampled.visible_count);
   hidden_.push_back(occlusion_.Measure(frame.ideal, model_, snapshot));
-  depth_.push_back(frame.depth);
+  looks_.push_back({snapshot, frame.depth});
   return frame;
 }
 
@@ -57,15 +57,27 @@ nlohmann::ordered_json RecordingCamera::OcclusionRecord(std::size_t looks) const
   return record;
 }
 
+std::span<const PictureLook> RecordingCamera::Looks(std::size_t looks) const {
+  return std::span(looks_).first(std::min(looks, looks_.size()));
+}
+
 std::string RecordingCamera::PreviewPng(std::size_t looks) const {
-  const std::size_t count = std::min(looks, depth_.size());
-  if (count == 0) return {};
-  const Picture pictures[] = {DepthPreview(depth_.front(), max_depth_m_),
-                              DepthPreview(depth_[count - 1], max_depth_m_)};
+  const std::span<const PictureLook> seen = Looks(looks);
+  if (seen.empty()) return {};
+  const Picture pictures[] = {DepthPreview(seen.front().depth, max_depth_m_),
+                              DepthPreview(seen.back().depth, max_depth_m_)};
   const int width = std::min(model_.width, kWidestPreview);
   const int height = model_.height * width / model_.width;
   return EncodePng(
       ContactSheet(pictures, {}, {.columns = 2, .tile_width = width, .tile_height = height}));
+}
+
+void AddPictures(const PictureScene& scene, const PicturesConfig& config,
+                 const RecordingCamera& camera, CollectedEpisode& collected) {
+  if (!config.IsOn() || !IsData(collected)) return;
+  Pictures pictures = TakePictures(scene, config, camera.Looks(collected.episode.decisions.size()));
+  collected.pictures = std::move(pictures.members);
+  collected.meta["pictures"] = std::move(pictures.record);
 }
 
 }  // namespace doorforge

@@ -3,12 +3,15 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "doorforge/dataset/collect.h"
+#include "doorforge/pictures/take_pictures.h"
 #include "doorforge/rollout/camera_observer.h"
 #include "doorforge/rollout/occlusion.h"
 
@@ -36,6 +39,9 @@ class RecordingCamera : public Observer {
   /// Depth at the first and at the last of the first `looks` looks; empty if there was none. Who
   /// acts after the recorded stage looks through this camera too.
   std::string PreviewPng(std::size_t looks) const;
+  /// The first `looks` looks, for pictures; fewer if there were fewer.
+  std::span<const PictureLook> Looks(std::size_t looks) const;
+  const CameraModel& as_calibrated() const { return camera_.as_calibrated(); }
 
  private:
   CameraFrame Render(const SceneSnapshot& snapshot);
@@ -44,9 +50,14 @@ class RecordingCamera : public Observer {
   double max_depth_m_;
   CameraObserver camera_;
   OcclusionMeter occlusion_;
-  std::vector<DepthImage> depth_;
+  std::vector<PictureLook> looks_;
   std::vector<int> visible_;
   std::vector<Occlusion> hidden_;
 };
+
+/// Adds the pictures of all decisions, as seen with the looks of this camera, unless the episode is
+/// not written.
+void AddPictures(const PictureScene& scene, const PicturesConfig& config,
+                 const RecordingCamera& camera, CollectedEpisode& collected);
 
 }  // namespace doorforge

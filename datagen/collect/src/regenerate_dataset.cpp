@@ -3,7 +3,9 @@
 #include "doorforge/collect/regenerate_dataset.h"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
+#include <optional>
 
 #include "doorforge/collect/stage_run.h"
 #include "doorforge/core/committed_file.h"
@@ -13,6 +15,7 @@
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/progress.h"
+#include "doorforge/schemas/episode_arrays.h"
 
 #include "recorded_robot.h"
 
@@ -60,23 +63,57 @@ std::unique_ptr<StageRun> RecordedRun(const RegenerateDatasetRequest& request) {
   return run;
 }
 
-struct RecordedFailure {
+// An episode of the plan, and how it ended as it is recorded.
+struct RecordedEpisode {
   const PlannedEpisode* planned;
-  FailedEpisode failure;
+  std::string outcome;
+  std::string detail;
+  std::string state_sha256;  // empty: not recorded, as of failures
 };
 
-std::vector<RecordedFailure> FailuresOf(const fs::path& folder, const StageRun& run) {
-  std::vector<RecordedFailure> failures;
+std::optional<RecordedEpisode> FailureOf(const ShardReader& shard, const PlannedEpisode& planned) {
+  const auto& failed = shard.index().failures;
+  const auto found = std::ranges::find(failed, planned.key, &FailedEpisode::key);
+  if (found == failed.end()) return std::nullopt;
+  return RecordedEpisode{&planned, found->outcome, found->detail, ""};
+}
+
+std::optional<RecordedEpisode> StoredOf(const ShardReader& shard, const PlannedEpisode& planned) {
+  const auto& stored = shard.index().episodes;
+  const auto found = std::ranges::find(stored, planned.key, &ShardEpisode::key);
+  if (found == stored.end()) return std::nullopt;
+  const auto place = static_cast<std::size_t>(found - stored.begin());
+  const Episode episode =
+      EpisodeFromMeta(ReadEpisodeMeta(shard, place), shard.Describe(place, "meta.json"));
+  return RecordedEpisode{&planned, std::string(NameOf(episode.outcome)), episode.detail,
+                         episode.state_sha256};
+}
+
+std::vector<RecordedEpisode> RecordedOf(const FilmDatasetRequest& request, const StageRun& run) {
+  const std::size_t most = request.stored > 0 ? static_cast<std::size_t>(request.stored)
+                                              : std::numeric_limits<std::size_t>::max();
+  std::vector<RecordedEpisode> recorded;
   for (const PlannedShard& shard : run.plan().shards) {
-    const ShardReader reader(folder / NameOf(run.config().stage) / shard.split /
+    const ShardReader reader(request.made_with.folder / NameOf(run.config().stage) / shard.split /
                              (ShardStem(shard.number) + ".index.json"));
     for (const PlannedEpisode& planned : shard.episodes) {
-      const auto& failed = reader.index().failures;
-      const auto found = std::ranges::find(failed, planned.key, &FailedEpisode::key);
-      if (found != failed.end()) failures.push_back({&planned, *found});
+      if (recorded.size() >= most) return recorded;
+      const auto found =
+          request.stored > 0 ? StoredOf(reader, planned) : FailureOf(reader, planned);
+      if (found) recorded.push_back(*found);
     }
   }
-  return failures;
+  return recorded;
+}
+
+void RequireSameEnd(const RecordedEpisode& recorded, const EpisodeFilm& film) {
+  const bool same_state =
+      recorded.state_sha256.empty() || recorded.state_sha256 == film.state_sha256;
+  Require(NameOf(film.outcome) == recorded.outcome && film.detail == recorded.detail && same_state,
+          ErrorCode::kInvalidArgument,
+          recorded.planned->key + ": made again it ends as " + std::string(NameOf(film.outcome)) +
+              ", recorded is " + recorded.outcome +
+              (same_state ? "" : " with another final state"));
 }
 
 }  // namespace
@@ -89,18 +126,14 @@ RegenerateResult RegenerateDataset(const RegenerateDatasetRequest& request) {
                              request.fraction, request.threads});
 }
 
-std::vector<EpisodeFilm> FilmFailures(const RegenerateDatasetRequest& request) {
-  const auto run = RecordedRun(request);
-  const std::vector<RecordedFailure> failures = FailuresOf(request.folder, *run);
-  std::vector<EpisodeFilm> films(failures.size());
-  Progress progress("films", failures.size());
-  ParallelFor(failures.size(), request.threads, [&](std::size_t i) {
-    const auto& [planned, failure] = failures[i];
-    films[i] = run->Film(*planned);
-    Require(NameOf(films[i].outcome) == failure.outcome && films[i].detail == failure.detail,
-            ErrorCode::kInvalidArgument,
-            planned->key + ": made again it ends as " + std::string(NameOf(films[i].outcome)) +
-                ", recorded is " + failure.outcome);
+std::vector<EpisodeFilm> FilmDataset(const FilmDatasetRequest& request) {
+  const auto run = RecordedRun(request.made_with);
+  const std::vector<RecordedEpisode> recorded = RecordedOf(request, *run);
+  std::vector<EpisodeFilm> films(recorded.size());
+  Progress progress("films", recorded.size());
+  ParallelFor(recorded.size(), request.made_with.threads, [&](std::size_t i) {
+    films[i] = run->Film(*recorded[i].planned);
+    RequireSameEnd(recorded[i], films[i]);
     progress.Advance();
   });
   return films;

@@ -265,6 +265,9 @@ class Reobservation {
       collected.meta.erase("cloud_within_m");
     }
     Describe(camera, seen, collected);
+    collected.meta.erase("pictures");
+    AddPictures({seen, door, robot, sees_robot && config_.cloud.robot, camera.as_calibrated()},
+                config_.pictures, camera, collected);
   }
 
   void Describe(const RecordingCamera& camera, const Scene& seen,
@@ -312,6 +315,8 @@ SourceConfig ReadSourceConfig(const fs::path& folder, const std::string& robot) 
     Assign(json["grasp_look"], source.config.grasp_camera, path.string() + ".grasp_look");
   if (json.contains("preview"))
     source.config.preview = ValueOf<bool>(json, "preview", path.string());
+  if (json.contains("pictures"))
+    Assign(json["pictures"], source.config.pictures, path.string() + ".pictures");
   if (json.contains("robot") && json["robot"].is_boolean())
     source.config.robot = json["robot"].get<bool>();
   if (json.contains("scene"))
@@ -327,16 +332,19 @@ ReobserveConfig ConfigOf(const ReobserveRequest& request, const ReobserveConfig&
   CheckDepthNoise(config.cloud.noise);
   CheckGraspCamera(config.grasp_camera);
   CheckRememberedView(config.remembered);
+  CheckPictures(config.pictures);
   if (config.own_camera) CameraOf(config.camera);
   return config;
 }
 
-// The clouds alone, which nothing can make smaller.
+// Clouds and pictures alone, which nothing can make smaller.
 void RequireSpaceForClouds(const SourceDataset& source, const ReobserveConfig& config,
                            const fs::path& out) {
   constexpr double kBytesAPoint = 13;
-  const double needed =
-      static_cast<double>(source.decisions()) * config.cloud.point_count * kBytesAPoint;
+  // the episodes' own cameras may be larger than this one, and are not read for it
+  const double a_decision = config.cloud.point_count * kBytesAPoint +
+                            PictureBytes(config.pictures, CameraOf(config.camera));
+  const double needed = static_cast<double>(source.decisions()) * a_decision;
   RequireSpace(out, needed - BytesBelow(out), "make room, or choose another --out");
 }
 

@@ -49,6 +49,7 @@ void CheckStageConfig(const StageConfig& config) {
   CheckRandomGrasp(config.grasp);
   CheckGraspCamera(config.grasp_camera);
   CheckRememberedView(config.remembered);
+  CheckPictures(config.pictures);
   Require(config.sampled_grasps >= 0 && config.sampled_grasps <= 1, ErrorCode::kInvalidConfig,
           "config.sampled_grasps: out of 0..1");
   Require(config.learner_decisions >= 1 && config.learner_decisions <= 1000,

@@ -115,6 +115,9 @@ CollectedEpisode RunRecorded(const EpisodeToRun& run, StagePolicies& policies, F
   collected.keep_failed = at_grasp;
   const bool is_kept = episode.outcome == EpisodeOutcome::kOpened || collected.keep_failed;
   if (config.preview && is_kept) collected.preview_png = camera.PreviewPng(decisions);
+  AddPictures(
+      {recorded_scene, door, robot, !at_grasp && config.cloud.robot, camera.as_calibrated()},
+      config.pictures, camera, collected);
   return collected;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/collect/stage_run.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <set>
 #include <utility>
@@ -15,6 +16,8 @@
 
 namespace doorforge {
 namespace {
+
+constexpr std::size_t kDoorsLookedAtFirst = 8;
 
 RobotModel RobotFor(const StageConfig& config, const RobotMeshReader& read_mesh) {
   RobotModel robot = LoadRobot(config.scene.robot, config.scene.physics.base, read_mesh);
@@ -90,7 +93,27 @@ StageRun::StageRun(const StageRequest& request)
       policies_(std::make_unique<StagePolicies>(config_, request.policies, request.registry)),
       doors_(DoorsFor(request)),
       shelf_(doors_),
-      plan_(MakePlan(PartsOf(doors_), config_.episodes, config_.seed, config_.collection)) {}
+      plan_(MakePlan(PartsOf(doors_), config_.episodes, config_.seed, config_.collection)) {
+  CheckPictures(config_.pictures, robot_);
+  CheckPictureCameras();
+}
+
+// A camera within one door is within others, too: of the first episodes it is said before any work,
+// and whatever episode comes upon it later ends the collection.
+void StageRun::CheckPictureCameras() {
+  if (!config_.pictures.IsOn()) return;
+  const std::vector<PlannedEpisode>& episodes = plan_.shards.front().episodes;
+  for (std::size_t i = 0; i < std::min(kDoorsLookedAtFirst, episodes.size()); ++i) {
+    try {
+      const IdentifiedDoor door = shelf_.Take(episodes[i].door);
+      CheckPictures(config_.pictures,
+                    SampleScene(door, config_.seed, episodes[i].number, config_.scene), *door);
+    } catch (const Error& error) {
+      // a door that cannot be simulated is a failed episode
+      if (error.code() == ErrorCode::kInvalidConfig) throw;
+    }
+  }
+}
 
 // The effective config. A comment names what else decides the bytes, so that a run on other doors,
 // with another build or another policy is noticed when it is resumed.

@@ -140,7 +140,7 @@ std::string FeatureTable(const Json& record) {
       "| array | type | shape | unit | frame | meaning |\n|---|---|---|---|---|---|\n";
   for (const Json& feature : record.at("features")) {
     std::string type = feature.at("dtype").get<std::string>();
-    if (type == "|u1") type = "\\|u1";
+    if (type.starts_with('|')) type.insert(0, 1, '\\');
     text += "| `" + feature.at("name").get<std::string>() + "` | " + type + " | " +
             ShapeText(feature.at("shape")) + " | " + feature.at("unit").get<std::string>() + " | " +
             feature.at("frame").get<std::string>() + " | " +

@@ -30,6 +30,13 @@ bool EndsTheRun(const Error& error) {
 
 }  // namespace
 
+std::vector<MemberBytes> MembersOf(const CollectedEpisode& collected) {
+  std::vector<MemberBytes> members =
+      EncodeEpisode(collected.episode, collected.meta, collected.preview_png);
+  members.insert(members.end(), collected.pictures.begin(), collected.pictures.end());
+  return members;
+}
+
 bool IsData(const CollectedEpisode& collected) {
   const Episode& episode = collected.episode;
   if (episode.decisions.empty()) return false;
@@ -43,7 +50,7 @@ EncodedEpisode RunAndEncode(const PlannedEpisode& planned, const DatasetDoor& do
   try {
     const CollectedEpisode collected = runner(planned);
     if (IsData(collected)) {
-      encoded.members = EncodeEpisode(collected.episode, collected.meta, collected.preview_png);
+      encoded.members = MembersOf(collected);
       encoded.decisions = collected.episode.decisions.size();
     } else {
       encoded.failure = FailureOf(planned, door, collected.episode);

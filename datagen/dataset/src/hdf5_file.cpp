@@ -18,6 +18,8 @@ std::int64_t TypeNamed(std::string_view name) {
   if (name == "<f4") return H5T_IEEE_F32LE;
   if (name == "<f8") return H5T_IEEE_F64LE;
   if (name == "<i8") return H5T_STD_I64LE;
+  if (name == "<u2") return H5T_STD_U16LE;
+  if (name == "|i1") return H5T_STD_I8LE;
   if (name == "|u1") return H5T_STD_U8LE;
   throw Error(ErrorCode::kInvalidArgument, "no HDF5 type for " + std::string(name));
 }

@@ -38,7 +38,7 @@ class Hdf5Writer {
   /// Replaces the file if it is there.
   explicit Hdf5Writer(const std::filesystem::path& path);
 
-  /// An array in C order. `type` is NumPy's: "<f4", "<f8", "<i8" or "|u1".
+  /// An array in C order. `type` is NumPy's: one of NpyHeader.
   void WriteArray(const std::string& path, std::string_view type,
                   const std::vector<std::size_t>& shape, std::span<const std::byte> bytes);
   /// One text of fixed length.

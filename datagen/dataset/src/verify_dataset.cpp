@@ -13,6 +13,7 @@
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/schemas/dataset.h"
+#include "doorforge/schemas/picture_streams.h"
 #include "doorforge/schemas/policy.h"
 
 #include "verify_records.h"
@@ -67,6 +68,7 @@ class EpisodeCheck {
     try {
       CheckArrays(ViewEpisode(reader_, episode_));
       CheckMeta(ReadEpisodeMeta(reader_, episode_));
+      PictureFeaturesOf(reader_, episode_);  // throws on what is none
     } catch (const Error& error) {
       Add("DST005", "", error.what(), "arrays as in dataset.json", kCollectAgain);
     }

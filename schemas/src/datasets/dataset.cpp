@@ -12,6 +12,7 @@
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/record_id.h"
+#include "doorforge/schemas/picture_streams.h"
 
 namespace doorforge {
 namespace {
@@ -21,21 +22,30 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kTrain = "train";
 
-Json FeaturesToJson() {
+Json FeatureToJson(const EpisodeFeature& feature) {
+  Json shape = Json::array({"decisions"});
+  for (const std::size_t length : feature.shape)
+    shape.push_back(length == 0 ? Json("points") : Json(length));
+  return {{"name", feature.name},      {"member", feature.name + ".npy"},
+          {"dtype", feature.type},     {"shape", shape},
+          {"unit", feature.unit},      {"frame", feature.frame},
+          {"meaning", feature.meaning}};
+}
+
+Json FeaturesToJson(const std::vector<EpisodeFeature>& pictures) {
   Json features = Json::array();
-  for (const EpisodeFeature& feature : EpisodeFeatures()) {
-    Json shape = Json::array({"decisions"});
-    for (const std::size_t length : feature.shape)
-      shape.push_back(length == 0 ? Json("points") : Json(length));
-    features.push_back({{"name", feature.name},
-                        {"member", feature.name + ".npy"},
-                        {"dtype", feature.type},
-                        {"shape", shape},
-                        {"unit", feature.unit},
-                        {"frame", feature.frame},
-                        {"meaning", feature.meaning}});
-  }
+  for (const EpisodeFeature& feature : EpisodeFeatures())
+    features.push_back(FeatureToJson(feature));
+  for (const EpisodeFeature& feature : pictures) features.push_back(FeatureToJson(feature));
   return features;
+}
+
+// Adds those that are not known yet; `known` stays sorted by name.
+void AddFeatures(const std::vector<EpisodeFeature>& found, std::vector<EpisodeFeature>& known) {
+  for (const EpisodeFeature& feature : found) {
+    const auto place = std::ranges::lower_bound(known, feature.name, {}, &EpisodeFeature::name);
+    if (place == known.end() || place->name != feature.name) known.insert(place, feature);
+  }
 }
 
 Json PartToJson(const DatasetPart& part) {
@@ -68,6 +78,22 @@ std::vector<double> NumbersFromJson(const Json& json, const std::string& key,
     numbers.push_back(number.get<double>());
   }
   return numbers;
+}
+
+// Those of the features that are arrays of pictures.
+std::vector<EpisodeFeature> PicturesFromJson(const Json& json, const std::string& path) {
+  std::vector<EpisodeFeature> pictures;
+  if (!json.contains("features")) return pictures;
+  for (const Json& feature : json["features"]) {
+    const std::string where = path + ".features";
+    std::vector<std::size_t> shape;
+    for (const Json& length : MemberOf(feature, "shape", where)) {
+      if (length.is_number_unsigned()) shape.push_back(length.get<std::size_t>());
+    }
+    if (auto picture = PictureFeature(ValueOf<std::string>(feature, "name", where), shape))
+      pictures.push_back(std::move(*picture));
+  }
+  return pictures;
 }
 
 // Sums of one feature, from which its statistics follow. Added to in shard order, so that the
@@ -198,7 +224,8 @@ std::set<std::string> FoldersIn(const fs::path& folder) {
 }
 
 DatasetPart SummarizePart(const fs::path& folder, const std::string& stage,
-                          const std::string& split, StatisticsBuilder& statistics) {
+                          const std::string& split, StatisticsBuilder& statistics,
+                          std::vector<EpisodeFeature>& pictures) {
   DatasetPart part{stage, split, 0, 0, 0, 0, 0};
   for (const fs::path& path : ShardIndices(folder, stage, split)) {
     const ShardReader reader(path);
@@ -206,6 +233,7 @@ DatasetPart SummarizePart(const fs::path& folder, const std::string& stage,
     part.episodes += reader.index().episodes.size();
     part.failed_episodes += reader.index().failures.size();
     part.bytes += reader.index().tar_bytes;
+    if (!reader.index().episodes.empty()) AddFeatures(PictureFeaturesOf(reader, 0), pictures);
     for (std::size_t i = 0; i < reader.index().episodes.size(); ++i) {
       part.decisions += reader.index().episodes[i].decisions;
       if (split == kTrain) statistics.Add(ViewEpisode(reader, i));
@@ -250,9 +278,12 @@ Json DatasetToJson(const DatasetRecord& record) {
                         {"standard_deviation", feature.standard_deviation},
                         {"minimum", feature.minimum},
                         {"maximum", feature.maximum}};
-  return {{"schema", "doorforge.dataset"},  {"schema_version", kDatasetSchemaVersion},
-          {"features", FeaturesToJson()},   {"parts", parts},
-          {"train_statistics", statistics}, {"train_cloud_radius_m", record.cloud_radius_m}};
+  return {{"schema", "doorforge.dataset"},
+          {"schema_version", kDatasetSchemaVersion},
+          {"features", FeaturesToJson(record.pictures)},
+          {"parts", parts},
+          {"train_statistics", statistics},
+          {"train_cloud_radius_m", record.cloud_radius_m}};
 }
 
 DatasetRecord DatasetFromJson(const Json& json, const std::string& path) {
@@ -268,6 +299,7 @@ DatasetRecord DatasetFromJson(const Json& json, const std::string& path) {
                                NumbersFromJson(feature, "maximum", where)};
   }
   record.cloud_radius_m = ValueOf<double>(json, "train_cloud_radius_m", path);
+  record.pictures = PicturesFromJson(json, path);
   return record;
 }
 
@@ -449,7 +481,7 @@ DatasetRecord SummarizeShards(const fs::path& folder) {
   for (const std::string& stage : FoldersIn(folder)) {
     if (stage != "open" && stage != "handle" && stage != "grasp") continue;
     for (const std::string& split : FoldersIn(folder / stage))
-      record.parts.push_back(SummarizePart(folder, stage, split, statistics));
+      record.parts.push_back(SummarizePart(folder, stage, split, statistics, record.pictures));
   }
   statistics.StoreIn(record);
   return record;

@@ -193,7 +193,7 @@ RecordSchema DatasetSchema() {
   record.statistics["cloud"] = {{0.0}, {0.0}, {0.0}, {0.0}};
   return SchemaBuilder("dataset", DatasetToJson(record))
       .OneOf("parts[].stage", kStageNames)
-      .OneOf("features[].dtype", std::vector<std::string>{"<f4", "<f8", "<i8", "|u1"})
+      .OneOf("features[].dtype", std::vector<std::string>{"<f4", "<f8", "<i8", "<u2", "|i1", "|u1"})
       .Map("train_statistics")
       .Finish("dataset.json of a doorforge dataset");
 }

@@ -22,7 +22,8 @@ struct ElementType {
   std::string_view name;
   std::size_t size;
 };
-constexpr std::array<ElementType, 4> kTypes = {{{"<f4", 4}, {"<f8", 8}, {"<i8", 8}, {"|u1", 1}}};
+constexpr std::array<ElementType, 6> kTypes = {
+    {{"<f4", 4}, {"<f8", 8}, {"<i8", 8}, {"<u2", 2}, {"|i1", 1}, {"|u1", 1}}};
 
 // The dictionary in the header as Python writes it, with its keys in this order.
 class HeaderText {
@@ -75,8 +76,8 @@ std::size_t ElementSize(std::string_view type, const std::string& path) {
   for (const ElementType& known : kTypes) {
     if (known.name == type) return known.size;
   }
-  throw Error(ErrorCode::kFormat,
-              path + ": element type " + std::string(type) + ", allowed <f4, <f8, <i8, |u1");
+  throw Error(ErrorCode::kFormat, path + ": element type " + std::string(type) +
+                                      ", allowed <f4, <f8, <i8, <u2, |i1, |u1");
 }
 
 // Product of the shape and the element size; throws where it does not fit.

@@ -54,6 +54,7 @@ nlohmann::ordered_json SceneToJson(const Scene& scene) {
       {"grasp_from_noisy_grasp", TransformToJson(scene.grasp_from_noisy_grasp)},
       {"physics", PhysicsToJson(scene.physics)},
       {"camera", CameraToJson(scene.camera)}};
+  if (scene.appearance != SceneAppearance::kOff) json["appearance"] = NameOf(scene.appearance);
   if (scene.limits != EpisodeLimits{}) json["episode_limits"] = ToJson(scene.limits);
   if (scene.robot != RobotIdentity{})
     json["robot"] = {{"name", scene.robot.name}, {"sha256", scene.robot.sha256}};
@@ -84,6 +85,8 @@ Scene SceneFromJson(const nlohmann::ordered_json& json, const std::string& path)
   }
   scene.grasp_from_noisy_grasp = transform("grasp_from_noisy_grasp");
   Assign(MemberOf(json, "physics", path), scene.physics, path + ".physics");
+  if (json.contains("appearance"))
+    Assign(json["appearance"], scene.appearance, path + ".appearance");
   if (json.contains("episode_limits"))
     Assign(json["episode_limits"], scene.limits, path + ".episode_limits");
   scene.camera = CameraFromJson(MemberOf(json, "camera", path), path + ".camera");

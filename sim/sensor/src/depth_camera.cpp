@@ -33,6 +33,7 @@ struct TileRays {
   alignas(64) float y[kRays];
   alignas(64) float z[kRays];
   alignas(64) int valid[kRays];
+  std::uint32_t in_image;  // the same as bits
 };
 
 TileRays MakeTile(const PixelRays& rays, const CameraModel& camera, int left, int top) {
@@ -45,6 +46,7 @@ TileRays MakeTile(const PixelRays& rays, const CameraModel& camera, int left, in
     tile.y[lane] = direction.y();
     tile.z[lane] = direction.z();
     tile.valid[lane] = column < camera.width && row < camera.height ? -1 : 0;
+    if (tile.valid[lane] != 0) tile.in_image |= 1U << static_cast<unsigned>(lane);
   }
   return tile;
 }
@@ -123,9 +125,10 @@ std::uint32_t LanesThatHit(const RTCHit16& hit) {
 
 class TileRenderer {
  public:
+  // `surfaces` receives what lies under the pixels, if it is not null.
   TileRenderer(const SceneGeometry::Runtime& scene, const Eigen::Vector3d& origin,
-               DepthImage& image)
-      : scene_(scene), views_(ViewsOf(scene, origin)), image_(image) {
+               DepthImage& image, SurfaceImage* surfaces = nullptr)
+      : scene_(scene), views_(ViewsOf(scene, origin)), image_(image), surfaces_(surfaces) {
     rtcInitIntersectContext(&context_);
     context_.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     for (int lane = 0; lane < kRays; ++lane) {
@@ -148,7 +151,9 @@ class TileRenderer {
     std::fill_n(packet_.hit.geomID, kRays, RTC_INVALID_GEOMETRY_ID);
     std::fill_n(packet_.hit.instID[0], kRays, RTC_INVALID_GEOMETRY_ID);
     rtcIntersect16(tile.valid, scene_.top(), &context_, &packet_);
-    const std::uint32_t lanes = LanesThatHit(packet_.hit);
+    // of a packet whose rays run side by side, Embree casts those, too, that are marked as not
+    // there
+    const std::uint32_t lanes = LanesThatHit(packet_.hit) & tile.in_image;
     const auto width = static_cast<std::size_t>(image_.width);
     if (lanes != 0)
       Store(lanes, static_cast<std::size_t>(top) * width + static_cast<std::size_t>(left));
@@ -177,7 +182,20 @@ class TileRenderer {
       image_.depth_m[pixel] = depths[static_cast<std::size_t>(lane)];
       image_.link[pixel] = view.link;
       image_.label[pixel] = view.label;
+      if (surfaces_ != nullptr) StoreSurface(static_cast<std::size_t>(lane), pixel);
     }
+  }
+
+  void StoreSurface(std::size_t lane, std::size_t pixel) {
+    const Eigen::Vector3d normal(planes_.x[lane], planes_.y[lane], planes_.z[lane]);
+    const Eigen::Vector3d direction(static_cast<double>(packet_.ray.dir_x[lane]),
+                                    static_cast<double>(packet_.ray.dir_y[lane]),
+                                    static_cast<double>(packet_.ray.dir_z[lane]));
+    surfaces_->mesh[pixel] = static_cast<std::int16_t>(packet_.hit.instID[0][lane]);
+    surfaces_->triangle[pixel] = packet_.hit.primID[lane];
+    surfaces_->u[pixel] = packet_.hit.u[lane];
+    surfaces_->v[pixel] = packet_.hit.v[lane];
+    surfaces_->normal[pixel] = (normal.dot(direction) > 0 ? -normal : normal).cast<float>();
   }
 
   void LookAt(unsigned mesh, unsigned triangle) {
@@ -191,6 +209,7 @@ class TileRenderer {
   const SceneGeometry::Runtime& scene_;
   std::vector<MeshView> views_;
   DepthImage& image_;
+  SurfaceImage* surfaces_;
   SeenPlane plane_{};  // the last one looked at
   PlaneLanes planes_{};
   RTCIntersectContext context_{};
@@ -225,6 +244,14 @@ struct DepthCamera::RayTable {
     }
     camera = wanted;
   }
+
+  void RenderWith(TileRenderer& renderer) const {
+    std::size_t next = 0;
+    for (int top = 0; top < camera->height; top += kTile) {
+      for (int left = 0; left < camera->width; left += kTile)
+        renderer.Render(tiles[next++], left, top);
+    }
+  }
 };
 
 DepthCamera::DepthCamera(std::vector<VisibleMesh> meshes, RayIsa isa)
@@ -233,8 +260,7 @@ DepthCamera::~DepthCamera() = default;
 DepthCamera::DepthCamera(DepthCamera&&) noexcept = default;
 DepthCamera& DepthCamera::operator=(DepthCamera&&) noexcept = default;
 
-DepthImage DepthCamera::Render(const CameraModel& camera,
-                               std::span<const RigidTransform> world_from_link) {
+void DepthCamera::Prepare(const CameraModel& camera) {
   const bool valid =
       camera.width > 0 && camera.height > 0 && camera.width <= 8192 && camera.height <= 8192;
   Require(valid, ErrorCode::kInvalidArgument, "depth camera: image size out of 1..8192 pixels");
@@ -243,16 +269,35 @@ DepthImage DepthCamera::Render(const CameraModel& camera,
           ErrorCode::kInvalidArgument,
           "depth camera: position, target, up and field of view give no pose");
   rays_->Prepare(camera);
+}
+
+DepthImage DepthCamera::Render(const CameraModel& camera,
+                               std::span<const RigidTransform> world_from_link) {
+  Prepare(camera);
   DepthImage image = EmptyImage(camera);
   const DenormalsAreZero denormals_are_zero;
   scene_.MoveLinks(world_from_link);
   TileRenderer renderer(scene_.runtime(), PixelRays(camera).origin(), image);
-  std::size_t next = 0;
-  for (int top = 0; top < camera.height; top += kTile) {
-    for (int left = 0; left < camera.width; left += kTile)
-      renderer.Render(rays_->tiles[next++], left, top);
-  }
+  rays_->RenderWith(renderer);
   return image;
+}
+
+SurfaceImage DepthCamera::RenderSurfaces(const CameraModel& camera,
+                                         std::span<const RigidTransform> world_from_link) {
+  Prepare(camera);
+  SurfaceImage surfaces;
+  surfaces.depth = EmptyImage(camera);
+  const std::size_t count = surfaces.depth.link.size();
+  surfaces.mesh.assign(count, -1);
+  surfaces.triangle.assign(count, 0);
+  surfaces.u.assign(count, 0);
+  surfaces.v.assign(count, 0);
+  surfaces.normal.assign(count, Eigen::Vector3f::Zero());
+  const DenormalsAreZero denormals_are_zero;
+  scene_.MoveLinks(world_from_link);
+  TileRenderer renderer(scene_.runtime(), PixelRays(camera).origin(), surfaces.depth, &surfaces);
+  rays_->RenderWith(renderer);
+  return surfaces;
 }
 
 }  // namespace doorforge

@@ -32,6 +32,9 @@ class SceneGeometry::Runtime {
   const internal::TrianglePlane& PlaneOf(std::size_t mesh, std::size_t triangle) const {
     return trees_[mesh]->planes()[triangle];
   }
+  const internal::CornerNormals& CornerNormalsOf(std::size_t mesh) const {
+    return trees_[mesh]->corner_normals();
+  }
 
  private:
   void AddMesh(unsigned index);

@@ -10,6 +10,8 @@
 
 #include "doorforge/core/error.h"
 
+#include "smooth_normals.h"
+
 namespace doorforge::internal {
 namespace {
 
@@ -78,6 +80,12 @@ MeshTree::MeshTree(std::shared_ptr<const EmbreeDevice> device, const TriangleMes
 
 MeshTree::~MeshTree() {
   if (tree_ != nullptr) rtcReleaseScene(tree_);
+}
+
+const CornerNormals& MeshTree::corner_normals() const {
+  constexpr double kCreaseRad = 0.7;
+  if (corner_normals_.empty()) corner_normals_ = SmoothNormals(mesh_, kCreaseRad);
+  return corner_normals_;
 }
 
 bool MeshTree::IsOf(const TriangleMesh& mesh) const {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -18,6 +19,9 @@ struct alignas(32) TrianglePlane {  // never across two cache lines
   Eigen::Vector3d normal;
   double offset;
 };
+
+/// Of each triangle's corners, in the mesh's frame.
+using CornerNormals = std::vector<std::array<Eigen::Vector3f, 3>>;
 
 /// Embree for one thread and one instruction set.
 class EmbreeDevice {
@@ -46,12 +50,16 @@ class MeshTree {
 
   RTCScene tree() const { return tree_; }  ///< To be instanced; null for a mesh without triangles.
   const std::vector<TrianglePlane>& planes() const { return planes_; }
+  /// Smoothed across edges flatter than 40 degrees; made when they are first asked for. A tree
+  /// belongs to one thread.
+  const CornerNormals& corner_normals() const;
   bool IsOf(const TriangleMesh& mesh) const;  ///< Of a mesh with the same bytes.
 
  private:
   std::shared_ptr<const EmbreeDevice> device_;
   TriangleMesh mesh_;
   std::vector<TrianglePlane> planes_;
+  mutable CornerNormals corner_normals_;
   RTCScene tree_ = nullptr;
 };
 

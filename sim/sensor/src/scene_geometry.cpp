@@ -140,6 +140,11 @@ const std::vector<VisibleMesh>& SceneGeometry::meshes() const { return runtime_-
 const RigidTransform& SceneGeometry::world_from_mesh(std::size_t mesh) const {
   return runtime_->world_from_mesh()[mesh];
 }
+Eigen::Vector3f SceneGeometry::SmoothNormal(std::size_t mesh, std::size_t triangle, float u,
+                                            float v) const {
+  const auto& corners = runtime_->CornerNormalsOf(mesh)[triangle];
+  return ((1 - u - v) * corners[0] + u * corners[1] + v * corners[2]).normalized();
+}
 int SceneGeometry::link_count() const { return runtime_->link_count(); }
 RayIsa SceneGeometry::isa() const { return runtime_->isa(); }
 

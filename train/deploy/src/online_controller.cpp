@@ -88,7 +88,8 @@ std::optional<OnlineController::Actor> OnlineController::LoadHandler(const std::
   const auto classifier = ReadTurnedClassifier(
       folder, ReadPolicy(folder, NameOf(Stage::kHandle)).provenance.dataset_sha256);
   if (!classifier) return actor;
-  auto turning = std::make_unique<TurningPolicy>(std::move(actor->policy), *classifier);
+  auto turning = std::make_unique<TurningPolicy>(std::move(actor->policy), *classifier,
+                                                 setup_.config.policy.switch_probability);
   actor->turning = turning.get();
   actor->policy = std::move(turning);
   return actor;

@@ -141,16 +141,16 @@ void AddTraining(const EvaluationRequest& request, const PolicySetFactory& facto
 }
 
 std::vector<EvaluatedEpisode> RunWithProgress(const std::string& title, const TrialPlan& trials,
-                                              const TrialPolicies& policies, int threads) {
+                                              const TrialPolicies& policies, RunHooks hooks) {
   Progress progress(title, trials.size());
   std::atomic<int> opened = 0;
   std::atomic<int> done = 0;
-  return RunTrials(trials, policies, {.threads = threads, .done = [&](const EvaluatedEpisode& row) {
-                                        opened += row.outcome == EpisodeOutcome::kOpened ? 1 : 0;
-                                        const int percent = 100 * opened / ++done;
-                                        progress.Advance(
-                                            1, "opened " + std::to_string(percent) + " %");
-                                      }});
+  hooks.done = [&](const EvaluatedEpisode& row) {
+    opened += row.outcome == EpisodeOutcome::kOpened ? 1 : 0;
+    const int percent = 100 * opened / ++done;
+    progress.Advance(1, "opened " + std::to_string(percent) + " %");
+  };
+  return RunTrials(trials, policies, hooks);
 }
 
 EvaluationReport NewReport(const EvaluationRequest& request, const std::vector<FoundDoor>& doors) {
@@ -178,9 +178,10 @@ Evaluation EvaluateOpener(const EvaluationRequest& request) {
   AddTraining(request, factory, report);
 
   const TrialPolicies policies = PoliciesOf(factory, request.config);
-  report.episodes = RunWithProgress("evaluate", trials, policies, request.threads);
+  const RunHooks hooks{.threads = request.threads, .done = nullptr, .doors = report.doors};
+  report.episodes = RunWithProgress("evaluate", trials, policies, hooks);
   if (!factory.IsExpertAlone() && request.config.expert_reference)
-    report.reference = RunWithProgress("expert", trials, ExpertPolicies(), request.threads);
+    report.reference = RunWithProgress("expert", trials, ExpertPolicies(), hooks);
 
   evaluation.pictures = TakePictures({trials, report.episodes}, policies, request.threads);
   if (request.films)

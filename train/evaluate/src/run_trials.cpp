@@ -52,13 +52,34 @@ std::size_t TrialPlan::DoorOf(std::size_t trial) const {
   return trial / (seeds_ * episodes_per_door_);
 }
 
+TrialPlan::Taken TrialPlan::Take(std::size_t door) const {
+  try {
+    return {give_door_(door), ""};
+  } catch (const Error& error) {
+    // all were there when the trials were planned; what is wrong with the call is not the door's
+    const ErrorCode code = error.code();
+    if (code != ErrorCode::kMissing && code != ErrorCode::kFormat && code != ErrorCode::kIo) throw;
+    return {{}, error.what()};
+  }
+}
+
+std::shared_ptr<const DoorAsset> TrialPlan::Door(std::size_t door) const {
+  return Take(door).door.door;
+}
+
 TrialPlan::Staged TrialPlan::At(std::size_t trial) const {
-  const std::size_t seed = trial / episodes_per_door_ % seeds_;
-  auto door = give_door_(DoorOf(trial));
-  Scene scene =
-      SampleScene(door, first_seed_ + seed, std::uint64_t{trial % episodes_per_door_}, scene_);
-  scene = PlaceRobotBase(robot_, scene, *door);
-  return {std::move(door.door), std::move(scene)};
+  const std::uint64_t seed = first_seed_ + trial / episodes_per_door_ % seeds_;
+  const std::uint64_t episode = trial % episodes_per_door_;
+  Taken taken = Take(DoorOf(trial));
+  if (taken.door.door == nullptr) {
+    Scene nowhere;
+    nowhere.seed = seed;
+    nowhere.episode = episode;
+    return {nullptr, std::move(nowhere), std::move(taken.gone)};
+  }
+  Scene scene = SampleScene(taken.door, seed, episode, scene_);
+  scene = PlaceRobotBase(robot_, scene, *taken.door);
+  return {std::move(taken.door.door), std::move(scene)};
 }
 
 std::vector<EvaluatedEpisode> RunTrials(const TrialPlan& trials, const TrialPolicies& policies,
@@ -67,13 +88,18 @@ std::vector<EvaluatedEpisode> RunTrials(const TrialPlan& trials, const TrialPoli
   std::vector<EvaluatedEpisode> rows(trials.size());
   ParallelFor(trials.size(), hooks.threads, [&](std::size_t i) {
     Require(StopRequested() == 0, ErrorCode::kIncomplete, "evaluation interrupted");
-    const auto [held, scene] = trials.At(i);
-    const DoorAsset& door = *held;
-    std::unique_ptr<Observer> observer;
-    if (policies.make_observer) observer = policies.make_observer(scene, door);
-    const auto set = pool.Take();
-    rows[i] = RowOf(
-        RunPolicySet({scene, door, trials.robot(), trials.cloud()}, *set, observer.get()), door);
+    const auto [held, scene, gone] = trials.At(i);
+    if (held != nullptr) {
+      const DoorAsset& door = *held;
+      std::unique_ptr<Observer> observer;
+      if (policies.make_observer) observer = policies.make_observer(scene, door);
+      const auto set = pool.Take();
+      rows[i] = RowOf(
+          RunPolicySet({scene, door, trials.robot(), trials.cloud()}, *set, observer.get()), door);
+    } else {
+      Require(!hooks.doors.empty(), ErrorCode::kMissing, gone);
+      rows[i] = RowOfGoneDoor(hooks.doors[trials.DoorOf(i)], scene, gone);
+    }
     if (hooks.done) hooks.done(rows[i]);
   });
   return rows;

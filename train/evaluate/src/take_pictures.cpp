@@ -55,8 +55,7 @@ std::string DoorPng(const DoorAsset& door) {
 std::vector<std::size_t> TrialsToFilm(std::span<const EvaluatedEpisode> rows) {
   std::array<std::optional<std::size_t>, kEpisodeOutcomeCount> first;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    // nothing moves, or it would have to fail in the same way again
-    if (CauseOf(rows[i]) == kNoGraspInView || CauseOf(rows[i]) == kNoAction) continue;
+    if (!CanBeShown(CauseOf(rows[i]))) continue;
     auto& place = first.at(static_cast<std::size_t>(rows[i].outcome));
     if (!place) place = i;
   }
@@ -67,7 +66,7 @@ std::vector<std::size_t> TrialsToFilm(std::span<const EvaluatedEpisode> rows) {
   return trials;
 }
 
-/// Without frames where a policy that need not act alike twice did not.
+/// Without frames where a policy that need not act alike twice did not, or the door is gone.
 struct FilmedTrial {
   ReportFilm film;
   std::optional<SceneSnapshot> first_decision;
@@ -75,7 +74,8 @@ struct FilmedTrial {
 
 FilmedTrial FilmTrial(const FinishedTrials& finished, std::size_t index, const PolicySet& set,
                       const TrialPolicies& policies) {
-  const auto [held, scene] = finished.trials.At(index);
+  const auto [held, scene, gone] = finished.trials.At(index);
+  if (held == nullptr) return {};
   const DoorAsset& door = *held;
   const RobotModel robot = LoadRobot({}, scene.physics.base);
   internal::EpisodeFilm film(policies.make_observer ? policies.make_observer(scene, door)
@@ -93,10 +93,11 @@ FilmedTrial FilmTrial(const FinishedTrials& finished, std::size_t index, const P
   return filmed;
 }
 
-// Nothing where a policy that need not act alike twice did not.
+// Nothing where a policy that need not act alike twice did not, or the door is gone.
 std::optional<EpisodeFilm> FilmOfTrial(const FinishedTrials& finished, std::size_t index,
                                        const PolicySet& set, const TrialPolicies& policies) {
-  const auto [held, scene] = finished.trials.At(index);
+  const auto [held, scene, gone] = finished.trials.At(index);
+  if (held == nullptr) return {};
   const DoorAsset& door = *held;
   const RobotModel robot = LoadRobot({}, scene.physics.base);
   std::unique_ptr<Observer> camera;
@@ -113,7 +114,8 @@ std::optional<EpisodeFilm> FilmOfTrial(const FinishedTrials& finished, std::size
 
 void AddSight(const FinishedTrials& finished, std::size_t index, const SceneSnapshot& snapshot,
               ReportPictures& pictures) {
-  const auto [held, scene] = finished.trials.At(index);
+  const auto [held, scene, gone] = finished.trials.At(index);
+  if (held == nullptr) return;
   const DoorAsset& door = *held;
   const RobotModel robot = LoadRobot({}, scene.physics.base);
   DepthCamera camera(VisibleMeshesOf(door, robot));
@@ -191,10 +193,11 @@ std::string GraspCaption(const EvaluatedEpisode& row, const GraspExplanation& ch
          ": " + row.detail;
 }
 
-// The heat map of a trial's grasp; nothing where none was in view.
+// The heat map of a trial's grasp; nothing where none was in view, or the door is gone.
 std::optional<ReportPicture> GraspPicture(const FinishedTrials& finished, std::size_t index,
                                           const PolicySet& set) {
-  const auto [held, scene] = finished.trials.At(index);
+  const auto [held, scene, gone] = finished.trials.At(index);
+  if (held == nullptr) return {};
   const DoorAsset& door = *held;
   const RobotModel robot = LoadRobot({}, scene.physics.base);
   const auto grasp = GraspOf(set, {scene, door, robot, finished.trials.cloud()});
@@ -222,9 +225,11 @@ void TakeDoorPictures(const FinishedTrials& finished, int threads, ReportPicture
   std::vector<std::pair<std::string, std::string>> shown(count);  // id and picture
   ParallelFor(count, threads, [&](std::size_t i) {
     const auto door = finished.trials.Door(i * all / count);
-    shown[i] = {door->id, DoorPng(*door)};
+    if (door != nullptr) shown[i] = {door->id, DoorPng(*door)};
   });
-  for (auto& [id, png] : shown) pictures.doors[id] = std::move(png);
+  for (auto& [id, png] : shown) {
+    if (!id.empty()) pictures.doors[id] = std::move(png);
+  }
 }
 
 }  // namespace
@@ -233,7 +238,8 @@ std::vector<EpisodeFilm> TakeFilms(const FinishedTrials& finished, const TrialPo
                                    int threads) {
   std::vector<std::size_t> failed;
   for (std::size_t i = 0; i < finished.rows.size(); ++i) {
-    if (finished.rows[i].outcome != EpisodeOutcome::kOpened) failed.push_back(i);
+    const std::string_view cause = CauseOf(finished.rows[i]);
+    if (cause != NameOf(EpisodeOutcome::kOpened) && cause != kDoorGone) failed.push_back(i);
   }
   ObjectPool<PolicySet> pool(policies.make);
   std::vector<std::optional<EpisodeFilm>> taken(failed.size());

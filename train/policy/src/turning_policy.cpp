@@ -6,13 +6,19 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/policy/policy_file.h"
+#include "doorforge/schemas/episode.h"
 
 namespace doorforge {
 
-TurningPolicy::TurningPolicy(std::unique_ptr<Policy> policy, const TurnedClassifier& classifier)
+TurningPolicy::TurningPolicy(std::unique_ptr<Policy> policy, const TurnedClassifier& classifier,
+                             double switch_probability)
     : policy_(std::move(policy)),
       tries_(dynamic_cast<TryingPolicy*>(policy_.get())),
-      classifier_(classifier) {}
+      classifier_(classifier),
+      switch_probability_(switch_probability) {
+  Require(switch_probability > 0 && switch_probability < 1, ErrorCode::kInvalidConfig,
+          "policy.switch_probability: must lie between 0 and 1");
+}
 
 void TurningPolicy::Reset() {
   policy_->Reset();
@@ -32,7 +38,7 @@ Action TurningPolicy::Act(const Observation& observation) {
   // the classifier, too, has learned doors hinged left
   if (tries_ != nullptr && tries_->guess().side == HingeSide::kRight)
     motion = MirroredSideways(motion);
-  turned_ = turned_ || classifier_.Probability(motion) >= 0.5;
+  turned_ = turned_ || classifier_.Probability(motion) >= switch_probability_;
   return action;
 }
 
@@ -54,7 +60,19 @@ std::unique_ptr<TurningPolicy> LoadTurningPolicy(const std::filesystem::path& fo
                     "turned.safetensors, which earlier builds did not write); run its training "
                     "command again with --resume, which adds it, or use the privileged switch");
   return std::make_unique<TurningPolicy>(
-      MakePolicy(std::move(record.networks), options, std::move(finder)), *classifier);
+      MakePolicy(std::move(record.networks), options, std::move(finder)), *classifier,
+      options.switch_probability);
+}
+
+std::unique_ptr<Policy> LoadWholePolicy(const std::filesystem::path& folder,
+                                        std::string_view stage) {
+  PolicyRecord record = ReadPolicy(folder, stage);
+  const auto classifier = stage == NameOf(Stage::kHandle)
+                              ? ReadTurnedClassifier(folder, record.provenance.dataset_sha256)
+                              : std::nullopt;
+  std::unique_ptr<Policy> policy = MakePolicy(std::move(record.networks));
+  if (!classifier) return policy;
+  return std::make_unique<TurningPolicy>(std::move(policy), *classifier);
 }
 
 }  // namespace doorforge

@@ -38,7 +38,7 @@ bool PolicySetFactory::PredictsSwitch() const {
 }
 
 RememberedViewConfig PolicySetFactory::Remembered() const {
-  if (!handler_.IsFolder()) return {.resolution_scale = 0};
+  if (!handler_.IsFolder()) return handler_.motion->remembered;
   const NetworkView view =
       ReadPolicy(handler_.folder, NameOf(Stage::kHandle)).networks.normalisation.view;
   return {view.remembered_finer, static_cast<double>(view.cloud_crop_radius_m)};
@@ -55,6 +55,8 @@ void PolicySetFactory::AddOpener(PolicySet& set, const std::shared_ptr<SideFinde
 void PolicySetFactory::AddHandler(PolicySet& set, const std::shared_ptr<SideFinder>& finder) const {
   if (!handler_.IsFolder()) {
     set.handle = handler_.motion->make(settings_);
+    if (switch_source_ == SwitchSource::kPolicy)
+      set.handle_turned = dynamic_cast<StageSwitch*>(set.handle.get());
   } else if (PredictsSwitch()) {
     auto handler = LoadTurningPolicy(handler_.folder, settings_.network, finder);
     set.handle_turned = handler.get();

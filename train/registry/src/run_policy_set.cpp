@@ -67,7 +67,9 @@ Episode RunPolicySet(const EpisodePlace& place, const PolicySet& set, Observer* 
   EpisodePolicies roles{.grasp = grasp.get(), .handle = set.handle.get(), .open = set.open.get()};
   roles.grasps = set.grasps;
   if (set.handle_turned != nullptr)
-    roles.handle_turned = [turned = set.handle_turned] { return turned->Turned(); };
+    roles.handle_turned = [turned = set.handle_turned] {
+      return turned->Says() ? std::optional(turned->Turned()) : std::nullopt;
+    };
   for (Fallible* policy : FallibleOf(set)) policy->ForgetFailure();
   Episode episode = RunStages(place.scene, place.door, place.robot, roles, observer);
   if (const std::string failure = FailureOf(set); !failure.empty()) {

@@ -17,6 +17,7 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/program.h"
+#include "doorforge/schemas/stage_switch.h"
 
 #include "message.h"
 
@@ -77,6 +78,8 @@ std::string AnswerTo(const std::string& message, Policy& policy) {
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
   Value::Map answer;
   answer["actions"] = {internal::ArrayOf(action.data(), {1, 9})};
+  const auto* turning = dynamic_cast<const StageSwitch*>(&policy);
+  if (turning != nullptr) answer["turned"] = {turning->Turned()};
   answer["server_timing"] = {Value::Map{{"infer_ms", {took.count()}}}};
   return internal::Packed({std::move(answer)});
 }
@@ -84,12 +87,16 @@ std::string AnswerTo(const std::string& message, Policy& policy) {
 std::string Greeting(const PolicyServerConfig& config, bool looks) {
   Value::List arrays = {{std::string("proprioception")}};
   if (looks) arrays.push_back({std::string("cloud")});
-  return internal::Packed({Value::Map{{"server", {"doorforge " + CodeVersion()}},
-                                      {"policy", {config.policy}},
-                                      {"stage", {config.stage}},
-                                      {"observation", {std::move(arrays)}},
-                                      {"action_dim", {std::int64_t{9}}},
-                                      {"action_horizon", {std::int64_t{1}}}}});
+  return internal::Packed(
+      {Value::Map{{"server", {"doorforge " + CodeVersion()}},
+                  {"policy", {config.policy}},
+                  {"stage", {config.stage}},
+                  {"observation", {std::move(arrays)}},
+                  {"remembered",
+                   {Value::Map{{"finer", {std::int64_t{config.remembered_finer}}},
+                               {"within_m", {config.remembered_within_m}}}}},
+                  {"action_dim", {std::int64_t{9}}},
+                  {"action_horizon", {std::int64_t{1}}}}});
 }
 
 /// One who has connected, on a thread of its own.

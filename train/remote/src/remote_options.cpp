@@ -3,6 +3,7 @@
 #include "doorforge/remote/remote_options.h"
 
 #include <charconv>
+#include <utility>
 
 #include "doorforge/cli/command_line.h"
 #include "doorforge/core/error.h"
@@ -25,8 +26,13 @@ using Maker = std::unique_ptr<Policy> (*)(const std::string&, const RemotePolicy
 std::string AddRow(PolicyRegistry& registry, const std::string& word, Maker make,
                    const RemotePolicySettings& settings) {
   const std::string name = make == MakeCommandPolicy ? "command" : "server";
-  registry.Add(MotionPolicyRow{*StageNamed(settings.stage), name,
-                               [=](const PolicySettings&) { return make(word, settings); }});
+  MotionPolicyRow row{*StageNamed(settings.stage), name,
+                      [=](const PolicySettings&) { return make(word, settings); }};
+  if (make == MakeServedPolicy) {
+    const ServerGreeting greeting = GreetingOf(word, settings);
+    row.remembered = {greeting.remembered_finer, greeting.remembered_within_m};
+  }
+  registry.Add(std::move(row));
   return name;
 }
 
@@ -57,15 +63,11 @@ void UseRemotePolicies(const RemoteOptions& options, const std::string& default_
   if (!options.policy.empty()) words.opener = options.policy;
   if (!options.command.empty())
     words.opener = AddRow(registry, options.command, MakeCommandPolicy, settings);
-  if (IsServerAddress(words.opener)) {
-    RequireServer(words.opener, settings);
+  if (IsServerAddress(words.opener))
     words.opener = AddRow(registry, words.opener, MakeServedPolicy, settings);
-  }
   settings.stage = "handle";
-  if (IsServerAddress(words.handler)) {
-    RequireServer(words.handler, settings);
+  if (IsServerAddress(words.handler))
     words.handler = AddRow(registry, words.handler, MakeServedPolicy, settings);
-  }
 }
 
 }  // namespace doorforge

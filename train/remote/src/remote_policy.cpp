@@ -6,10 +6,12 @@
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "doorforge/core/error.h"
 #include "doorforge/schemas/fallible.h"
+#include "doorforge/schemas/stage_switch.h"
 
 #include "address.h"
 #include "link.h"
@@ -62,7 +64,19 @@ std::vector<Action> ActionsOf(const Value& answer) {
   return actions;
 }
 
-class RemotePolicy : public Policy, public Fallible {
+// What an answer says of the handle; nothing: nothing.
+std::optional<bool> TurnedOf(const Value& answer) {
+  const Value* found = answer.Find("turned");
+  if (found == nullptr) return std::nullopt;
+  const bool* turned = found->As<bool>();
+  if (turned == nullptr)
+    throw Error(ErrorCode::kFormat,
+                "turned: expected true or false, whether the handle is turned once the actions "
+                "have been carried out");
+  return *turned;
+}
+
+class RemotePolicy : public Policy, public Fallible, public StageSwitch {
  public:
   RemotePolicy(std::unique_ptr<Link> link, RemotePolicySettings settings)
       : link_(std::move(link)), settings_(std::move(settings)) {}
@@ -70,6 +84,7 @@ class RemotePolicy : public Policy, public Fallible {
   void Reset() override {
     failure_.clear();
     planned_.clear();
+    told_ = {};
     begins_ = true;
   }
 
@@ -90,6 +105,10 @@ class RemotePolicy : public Policy, public Fallible {
 
   void ForgetFailure() override { failure_.clear(); }
   std::string Failure() const override { return failure_; }
+
+  bool Says() const override { return told_.has_value(); }
+  // An answer speaks of the instant after the last of its actions.
+  bool Turned() const override { return planned_.empty() && told_.value_or(false); }
 
  private:
   static Action NoAction() {
@@ -120,7 +139,9 @@ class RemotePolicy : public Policy, public Fallible {
     }
     has_answered_ = true;
     begins_ = false;
-    const std::vector<Action> actions = ActionsOf(internal::Unpacked(answer));
+    const Value unpacked = internal::Unpacked(answer);
+    const std::vector<Action> actions = ActionsOf(unpacked);
+    told_ = TurnedOf(unpacked);
     const auto count = std::min(actions.size(), static_cast<std::size_t>(settings_.chunk));
     planned_.assign(actions.begin(), actions.begin() + static_cast<std::ptrdiff_t>(count));
   }
@@ -128,10 +149,29 @@ class RemotePolicy : public Policy, public Fallible {
   std::unique_ptr<Link> link_;
   RemotePolicySettings settings_;
   std::deque<Action> planned_;
+  std::optional<bool> told_;  // by the last answer, whether the handle is turned
   bool begins_ = true;
   bool has_answered_ = false;  // since it was last asked in vain
   std::string failure_;
 };
+
+// Greetings are free: whatever is not meant for us is nothing.
+ServerGreeting Understood(const std::string& message) {
+  ServerGreeting greeting;
+  try {
+    const Value unpacked = internal::Unpacked(message);
+    const Value* remembered = unpacked.Find("remembered");
+    const Value* finer = remembered == nullptr ? nullptr : remembered->Find("finer");
+    const Value* within = remembered == nullptr ? nullptr : remembered->Find("within_m");
+    if (finer == nullptr || within == nullptr) return greeting;
+    const auto* scale = finer->As<std::int64_t>();
+    const auto* radius = within->As<double>();
+    if (scale != nullptr && radius != nullptr) greeting = {static_cast<int>(*scale), *radius};
+  } catch (const Error&) {
+    // not MessagePack as it is here
+  }
+  return greeting;
+}
 
 void Check(const RemotePolicySettings& settings) {
   Require(settings.timeout_s > 0 && settings.timeout_s <= 1e5 && settings.chunk >= 1,
@@ -157,10 +197,10 @@ std::unique_ptr<Policy> MakeCommandPolicy(const std::string& command,
                                         settings);
 }
 
-void RequireServer(const std::string& address, const RemotePolicySettings& settings) {
+ServerGreeting GreetingOf(const std::string& address, const RemotePolicySettings& settings) {
   Check(settings);
   try {
-    internal::MakeWebSocketLink(address, settings.timeout_s)->Open();
+    return Understood(internal::MakeWebSocketLink(address, settings.timeout_s)->Open());
   } catch (const Error& error) {
     if (error.code() != ErrorCode::kMissing && error.code() != ErrorCode::kIo) throw;
     throw Error(ErrorCode::kMissing,

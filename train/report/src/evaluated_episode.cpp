@@ -11,6 +11,8 @@
 namespace doorforge {
 namespace {
 
+const std::string kGoneDoor = "the door is gone: ";
+
 EpisodeOutcome OutcomeOf(const std::string& name, const std::string& path) {
   if (const auto outcome = EpisodeOutcomeNamed(name)) return *outcome;
   throw Error(ErrorCode::kFormat, path + ".outcome: unknown name \"" + name + '"');
@@ -44,11 +46,34 @@ EvaluatedEpisode RowOf(const Episode& episode, const DoorAsset& door) {
           .state_sha256 = episode.state_sha256};
 }
 
+EvaluatedEpisode RowOfGoneDoor(const DoorIdentity& door, const Scene& scene,
+                               const std::string& reason) {
+  EvaluatedEpisode row;
+  row.door_id = door.id;
+  row.category = door.category;
+  row.mechanism = door.mechanism;
+  row.body = door.body.id;
+  row.handle = door.handle.id;
+  row.seed = scene.seed;
+  row.episode = scene.episode;
+  row.outcome = EpisodeOutcome::kNotReached;
+  row.detail = kGoneDoor + reason;
+  row.grasps = 0;
+  return row;
+}
+
+bool CanBeShown(std::string_view cause) {
+  return cause != kNoGraspInView && cause != kNoAction && cause != kDoorGone;
+}
+
 std::string_view CauseOf(const EvaluatedEpisode& episode) {
   const bool unseen =
       episode.outcome == EpisodeOutcome::kNotReached &&
       episode.detail.find("no point to take hold of is in view") != std::string::npos;
   if (unseen) return kNoGraspInView;
+  const bool gone =
+      episode.outcome == EpisodeOutcome::kNotReached && episode.detail.starts_with(kGoneDoor);
+  if (gone) return kDoorGone;
   const bool failed =
       episode.outcome == EpisodeOutcome::kDiverged && episode.detail.starts_with(kPolicyFailed);
   return failed ? kNoAction : NameOf(episode.outcome);

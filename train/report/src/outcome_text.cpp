@@ -36,6 +36,8 @@ OutcomeText TextOf(std::string_view cause) {
   if (cause == kNoAction)
     return {"Policy failed",
             "A policy had no action to give: it went away, hung or said nonsense."};
+  if (cause == kDoorGone)
+    return {"Door gone", "The door's folder was there in the beginning, and could not be read."};
   const auto outcome = EpisodeOutcomeNamed(cause);
   return outcome ? TextOf(*outcome) : OutcomeText{"Unknown", ""};
 }

@@ -118,9 +118,7 @@ std::string Cause(const EvaluationReport& report, const ReportPictures& pictures
   const EvaluatedEpisode& example = report.episodes[cause.first];
   const double share =
       static_cast<double>(cause.episodes) / static_cast<double>(report.episodes.size());
-  // nothing moves in an episode without a grasp, and a policy that failed is not asked again
-  const bool filmed = cause.name != kNoGraspInView && cause.name != kNoAction;
-  const std::string film = filmed ? FilmFigure(pictures, example.outcome) : "";
+  const std::string film = CanBeShown(cause.name) ? FilmFigure(pictures, example.outcome) : "";
   const std::string text = Fill(R"(<p class="soft">{door}, seed {seed}: {detail}{link}</p>)",
                                 {{"door", Escape(example.door_id)},
                                  {"seed", std::to_string(example.seed)},

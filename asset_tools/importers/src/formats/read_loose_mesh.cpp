@@ -74,12 +74,16 @@ struct FileReading {
   double unit_m = 1;  ///< Metres a unit that are to be applied.
 };
 
+constexpr double kAlong = 0.9;  // cosine above which a direction lies along an axis
+
 // What the user says comes first, then what the file does.
 FileReading ReadingOf(const LooseMeshConfig& config, const FileFrame& frame) {
   FileReading reading;
   reading.up = !config.up.empty() ? config.up : !frame.up.empty() ? frame.up : "z";
-  const bool along_x = reading.up == "x" || reading.up == "-x";
-  const bool fits = !frame.front.empty() && frame.front.back() != reading.up.back();
+  const Eigen::Vector3d up = DirectionNamed(reading.up, "--up");
+  const bool along_x = std::abs(up.x()) > kAlong;
+  const bool fits =
+      !frame.front.empty() && std::abs(up.dot(AxisNamed(frame.front, "--front"))) < kAlong;
   const std::string front = fits ? frame.front : along_x ? "y" : "x";
   reading.front = config.front.empty() ? front : config.front;
   reading.read_m = frame.unit_m;
@@ -126,9 +130,13 @@ struct FileFacts {
   double longest_m = 0;
 };
 
-FileFacts FactsOf(const fs::path& file) {
+// Its sides are those that it has in the axes of the part.
+FileFacts FactsOf(const fs::path& file, const LooseMeshConfig& config) {
   const ImportedMesh mesh = ImportMesh(file);
-  return {file, mesh.frame, BoundsOf(MergedPieces(mesh)).sizes().maxCoeff()};
+  const Eigen::Matrix3d turn = TurnOf(ReadingOf(config, mesh.frame));
+  Eigen::AlignedBox3d bounds;
+  for (const Eigen::Vector3d& vertex : MergedPieces(mesh).vertices) bounds.extend(turn * vertex);
+  return {file, mesh.frame, bounds.sizes().maxCoeff()};
 }
 
 // A config with a unit or a size, and what was assumed.
@@ -261,7 +269,7 @@ std::string NameFor(const fs::path& path) {
 }
 
 ForeignObject ReadHandleMesh(const fs::path& path, const ReadConfig& config) {
-  const FileFacts facts = FactsOf(path);
+  const FileFacts facts = FactsOf(path, config.mesh);
   const KnownUnit known = KnowUnit(config.mesh, facts, kHandleLength);
   const LooseMeshConfig& mesh = known.config;
   const FileReading reading = ReadingOf(mesh, facts.frame);
@@ -278,7 +286,7 @@ ForeignObject ReadHandleMesh(const fs::path& path, const ReadConfig& config) {
   handle.mechanism = *mechanism;
   handle.axis_point_m = MountIn(mesh, reading);
   if (handle.axis_point_m) handle.leaf_plane_m = handle.axis_point_m->x();
-  if (!mesh.rose.empty()) handle.meshes.push_back(MeshFrom(FactsOf(mesh.rose), "rose", mesh));
+  if (!mesh.rose.empty()) handle.meshes.push_back(MeshFrom(FactsOf(mesh.rose, mesh), "rose", mesh));
   handle.meshes.push_back(MeshFrom(facts, "grip", mesh));
   ForeignObject object = ReadHandle(handle);
   object.scale = reading.unit_m * ScaleOf(mesh).x();
@@ -289,7 +297,7 @@ ForeignObject ReadHandleMesh(const fs::path& path, const ReadConfig& config) {
 class BodyMeshReader {
  public:
   BodyMeshReader(const fs::path& path, const ReadConfig& config)
-      : path_(path), config_(config), facts_(FactsOf(path)) {
+      : path_(path), config_(config), facts_(FactsOf(path, config.mesh)) {
     const KnownUnit known = KnowUnit(config.mesh, facts_, kLeafLength);
     AddNotes(known, facts_, object_);
     config_.mesh = known.config;
@@ -305,7 +313,8 @@ class BodyMeshReader {
     object_.scale = reading_.unit_m * ScaleOf(config).x();
     object_.mirrored = config.hinge == "right";
     if (object_.mirrored) object_.notes.push_back("mirrored: the source's hinge is on the right");
-    if (!config.frame.empty()) meshes_.push_back(MeshFrom(FactsOf(config.frame), "frame", config));
+    if (!config.frame.empty())
+      meshes_.push_back(MeshFrom(FactsOf(config.frame, config), "frame", config));
     meshes_.push_back(MeshFrom(facts_, "leaf", config));
     if (object_.mirrored) {
       for (SourceMesh& mesh : meshes_)

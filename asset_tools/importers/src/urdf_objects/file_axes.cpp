@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "urdf_objects/file_axes.h"
 
+#include <charconv>
 #include <cmath>
+#include <optional>
 
 #include <Eigen/Geometry>
 
@@ -10,6 +12,24 @@
 
 namespace doorforge::internal {
 namespace {
+
+// Sine of five degrees: less of an axis that is square to another says nothing.
+constexpr double kLeastApart = 0.0872;
+
+// Three finite numbers between commas.
+std::optional<Eigen::Vector3d> NumbersIn(const std::string& text) {
+  Eigen::Vector3d numbers;
+  const char* at = text.data();
+  const char* end = at + text.size();
+  for (int i = 0; i < 3; ++i) {
+    if (i > 0 && (at == end || *at++ != ',')) return std::nullopt;
+    const auto [next, error] = std::from_chars(at, end, numbers[i]);
+    if (error != std::errc{}) return std::nullopt;
+    at = next;
+  }
+  if (at != end || !numbers.allFinite()) return std::nullopt;
+  return numbers;
+}
 
 Eigen::Matrix3d TurnTo(const Eigen::Vector3d& front, const Eigen::Vector3d& up) {
   Eigen::Matrix3d turn;
@@ -35,13 +55,29 @@ Eigen::Matrix3d UprightFrom(const std::string& up) {
   return TurnTo({std::abs(axis.z()), std::abs(axis.x()), std::abs(axis.y())}, axis);
 }
 
+Eigen::Vector3d DirectionNamed(const std::string& name, const std::string& flag) {
+  if (name.find(',') == std::string::npos) return AxisNamed(name, flag);
+  const std::optional<Eigen::Vector3d> numbers = NumbersIn(name);
+  const double length = numbers ? numbers->stableNorm() : 0;
+  if (!(length > 0) || !std::isfinite(length))
+    throw Error(ErrorCode::kInvalidArgument,
+                flag + ": \"" + name +
+                    "\" is no direction; expected three numbers that are not "
+                    "all 0, such as 0.6,0.8,0");
+  return *numbers / length;
+}
+
 Eigen::Matrix3d PartAxesFrom(const std::string& up, const std::string& front) {
-  const Eigen::Vector3d up_axis = AxisNamed(up, "--up");
-  const Eigen::Vector3d front_axis = AxisNamed(front, "--front");
-  if (std::abs(up_axis.dot(front_axis)) > 0.5)
+  const Eigen::Vector3d front_axis = DirectionNamed(front, "--front");
+  Eigen::Vector3d up_axis = DirectionNamed(up, "--up");
+  const double along = up_axis.dot(front_axis);
+  // axes of the file are square, and stay the numbers that they are
+  if (along != 0) up_axis -= along * front_axis;
+  const double left = up_axis.norm();
+  if (left < kLeastApart)
     throw Error(ErrorCode::kInvalidArgument,
                 "--front: \"" + front + "\" lies along --up \"" + up + "\"; give another axis");
-  return TurnTo(front_axis, up_axis);
+  return TurnTo(front_axis, up_axis / left);
 }
 
 }  // namespace doorforge::internal

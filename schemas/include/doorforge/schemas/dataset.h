@@ -60,6 +60,9 @@ struct DatasetRecord {
   /// Largest distance of a point from the mean of its cloud in the "train" part [m], the constant
   /// by which networks may scale clouds; 0 if there are no episodes.
   double cloud_radius_m = 0;
+  /// Arrays of pictures that the episodes have, sorted by name: those of the first episode of every
+  /// shard together.
+  std::vector<EpisodeFeature> pictures = {};
 };
 
 nlohmann::ordered_json DatasetToJson(const DatasetRecord& record);

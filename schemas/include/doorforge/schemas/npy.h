@@ -13,10 +13,10 @@
 namespace doorforge {
 
 /// The part of NumPy's .npy format, version 1.0, that shards use: C order, little endian, elements
-/// of type `<f4`, `<f8`, `<i8` or `|u1`.
+/// of type `<f4`, `<f8`, `<i8`, `<u2`, `|i1` or `|u1`.
 /// (https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html)
 struct NpyHeader {
-  std::string type;                ///< "<f4", "<f8", "<i8" or "|u1".
+  std::string type;                ///< "<f4", "<f8", "<i8", "<u2", "|i1" or "|u1".
   std::vector<std::size_t> shape;  ///< Empty for a scalar.
   std::size_t data_offset = 0;     ///< The first element begins there, at a multiple of 64.
 };
@@ -35,6 +35,14 @@ constexpr std::string_view NpyTypeOf<double>() {
 template <>
 constexpr std::string_view NpyTypeOf<std::int64_t>() {
   return "<i8";
+}
+template <>
+constexpr std::string_view NpyTypeOf<std::uint16_t>() {
+  return "<u2";
+}
+template <>
+constexpr std::string_view NpyTypeOf<std::int8_t>() {
+  return "|i1";
 }
 template <>
 constexpr std::string_view NpyTypeOf<std::uint8_t>() {

@@ -30,6 +30,20 @@ constexpr std::span<const NamedValue<ArmController>> ValuesOf(ArmController) {
   return kArmControllers;
 }
 
+/// How door, robot and room look in pictures; nothing else depends on it.
+enum class SceneAppearance {
+  kOff,     ///< As their authors coloured them, in a plain room under the same lamps.
+  kColour,  ///< Colours of everything are drawn.
+  kFull,    ///< Materials, textures, lamps, exposure and the camera's faults as well.
+};
+inline constexpr NamedValue<SceneAppearance> kSceneAppearances[] = {
+    {SceneAppearance::kOff, "off"},
+    {SceneAppearance::kColour, "colour"},
+    {SceneAppearance::kFull, "full"}};
+constexpr std::span<const NamedValue<SceneAppearance>> ValuesOf(SceneAppearance) {
+  return kSceneAppearances;
+}
+
 /// Gains of the operational-space controller (Khatib 1987), see docs/robots.md.
 struct OperationalSpaceConfig {
   double kp = 1500;        ///< It pulls the hand [1/s^2], critically damped. UniDoorManip: 200.
@@ -143,6 +157,7 @@ struct Scene {
   EpisodeLimits
       limits;  ///< The record has them, as "episode_limits", where they are not the defaults.
   CameraModel camera;
+  SceneAppearance appearance = SceneAppearance::kOff;  ///< The record has it where it is not off.
 };
 
 /// Settings that joined the record later are left out of it where they have their default value.

@@ -9,8 +9,10 @@ namespace doorforge {
 class StageSwitch {
  public:
   virtual ~StageSwitch() = default;
+  /// Whether it says anything in this episode. Somebody else's policy may not: the simulator does.
+  virtual bool Says() const { return true; }
   /// Whether the handle is turned once the actions so far have been carried out. Stays true until
-  /// the episode ends.
+  /// the episode ends. Read only where Says().
   virtual bool Turned() const = 0;
 };
 

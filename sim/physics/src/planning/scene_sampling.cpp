@@ -249,6 +249,7 @@ Scene Sample(const DoorAsset& door, const std::string& door_sha256, const SceneD
   CheckEpisodeLimits(config.episode, "config.scene.episode");
   scene.limits = config.episode;
   scene.camera = CameraOf(config.camera);
+  scene.appearance = config.appearance;
   if (config.randomisation != "strong") return scene;
   VaryLatch(scene.latch, Rng(draw.seed, stream + "latch"));
   VaryDoor(scene, Rng(draw.seed, stream + "door"));

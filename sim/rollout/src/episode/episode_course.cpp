@@ -73,10 +73,15 @@ double EpisodeCourse::Act(const Action& action) {
   return reward;
 }
 
+// What the policy that turns the handle says of it, if anything.
+std::optional<bool> EpisodeCourse::ToldTurned() const {
+  if (!handle_turned_) return std::nullopt;
+  return state_.actions == 0 ? false : handle_turned_();
+}
+
 // Whether it is time to open, by whoever says so.
 bool EpisodeCourse::SaysTurned() const {
-  if (!handle_turned_) return IsTurned(world_.scene().latch, world_.state());
-  return state_.actions > 0 && handle_turned_();
+  return ToldTurned().value_or(IsTurned(world_.scene().latch, world_.state()));
 }
 
 void EpisodeCourse::EndTurnIfDone() {
@@ -94,7 +99,7 @@ void EpisodeCourse::FinishTurn() {
   world_.Watch(EpisodePhase::kUnlock);
   const bool lost = state_.log.StepsWithoutPads(world_.step()) > physics().steps_per_action;
   const bool said = SaysTurned();
-  if (!said && (lost || !handle_turned_)) return Fail(TurnVerdict(lost));
+  if (!said && (lost || !ToldTurned())) return Fail(TurnVerdict(lost));
   const WorldState& state = world_.state();
   const Latch& latch = world_.scene().latch;
   if (!IsTurned(latch, state) && !state.handle_done)

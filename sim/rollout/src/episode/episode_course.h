@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 
@@ -20,7 +19,7 @@ class EpisodeCourse {
  public:
   /// @param handle_turned As EpisodePolicies::handle_turned.
   /// @param grasps As EpisodePolicies::grasps.
-  EpisodeCourse(EpisodeWorld& world, std::function<bool()> handle_turned, int grasps)
+  EpisodeCourse(EpisodeWorld& world, HandleTurned handle_turned, int grasps)
       : world_(world), handle_turned_(std::move(handle_turned)), grasps_(grasps) {}
 
   /// The stage "grasp"; nothing where no point to take hold of is in view.
@@ -60,6 +59,7 @@ class EpisodeCourse {
   void End(std::optional<Verdict> failure);
   void Fail(Verdict verdict);
   void BeginStage(Stage stage);
+  std::optional<bool> ToldTurned() const;
   bool SaysTurned() const;
   void EndTurnIfDone();
   void FinishTurn();
@@ -71,7 +71,7 @@ class EpisodeCourse {
   std::string Detail() const;
 
   EpisodeWorld& world_;
-  std::function<bool()> handle_turned_;
+  HandleTurned handle_turned_;
   int grasps_;
   State state_;
 };

@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/rollout/camera_observer.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "doorforge/core/error.h"
+#include "doorforge/rollout/solid_around.h"
 
 namespace doorforge {
 namespace {
@@ -15,36 +16,17 @@ namespace {
 constexpr int kDoorLinks = 3;
 constexpr int kWholeShare = 4;  // points of a whole cloud for each that is sampled of it
 
-bool IsInside(const TriangleMesh& hull, const Eigen::Vector3d& point) {
-  return !hull.triangles.empty() &&
-         std::all_of(hull.triangles.begin(), hull.triangles.end(), [&](const auto& triangle) {
-           const Eigen::Vector3d& a = hull.vertices[static_cast<std::size_t>(triangle[0])];
-           const Eigen::Vector3d& b = hull.vertices[static_cast<std::size_t>(triangle[1])];
-           const Eigen::Vector3d& c = hull.vertices[static_cast<std::size_t>(triangle[2])];
-           return (b - a).cross(c - a).dot(point - a) < 0;
-         });
-}
-
 // From inside a leaf everything is hidden, and every cloud would be empty.
 void RequireOutside(const CameraModel& camera, const Scene& scene, const DoorAsset& door) {
-  const auto door_from_link = DoorFromLinks(door, 0, 0);
-  for (std::size_t link = 0; link < door.links.size(); ++link) {
-    const Eigen::Vector3d eye =
-        (scene.world_from_door * door_from_link.at(link)).inverse() * camera.position_m;
-    for (const DoorGeometry& geometry : door.links[link].geometry) {
-      const bool inside = std::any_of(geometry.hulls.begin(), geometry.hulls.end(),
-                                      [&](const auto& hull) { return IsInside(hull, eye); });
-      if (!inside) continue;
-      char text[300];
-      std::snprintf(text, sizeof text,
-                    "the camera at (%.3f, %.3f, %.3f) m is inside the %s of door \"%.120s\"; put "
-                    "scene.camera where it looks at the door from outside",
-                    camera.position_m.x(), camera.position_m.y(), camera.position_m.z(),
-                    link == kBaseLink ? "frame" : (link == kLeafLink ? "leaf" : "handle"),
-                    door.id.c_str());
-      throw Error(ErrorCode::kInvalidArgument, text);
-    }
-  }
+  const std::string_view solid = SolidAround(camera.position_m, scene, door);
+  if (solid.empty()) return;
+  char text[300];
+  std::snprintf(text, sizeof text,
+                "the camera at (%.3f, %.3f, %.3f) m is inside the %s of door \"%.120s\"; put "
+                "scene.camera where it looks at the door from outside",
+                camera.position_m.x(), camera.position_m.y(), camera.position_m.z(),
+                std::string(solid).c_str(), door.id.c_str());
+  throw Error(ErrorCode::kInvalidArgument, text);
 }
 
 std::vector<VisibleMesh> WithoutRobot(std::vector<VisibleMesh> meshes) {

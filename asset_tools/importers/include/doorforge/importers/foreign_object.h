@@ -24,10 +24,11 @@ struct LooseMeshConfig {
   double size_m = 0;  ///< Length of its longest side; replaces unit and scale. 0: not set.
   std::vector<double> scale = {};  ///< One factor or three along the file's axes; empty: 1.
   /// Axis of the file: x, y, z, -x, -y or -z; empty: as the file states (glTF, DAE), else z
-  /// (AKB-48: x).
+  /// (AKB-48: x). Of loose meshes also a direction in the file's axes, "x,y,z", of which counts
+  /// what is square to `front`.
   std::string up = {};
-  /// Axis of the file that points out of the door; empty: as the file states, else x (y if up is
-  /// x).
+  /// Axis of the file, or a direction "x,y,z" in its axes, that points out of the door; empty: as
+  /// the file states, else x (y if up is nearly x).
   std::string front = {};
   std::string hinge = "left";  ///< Who faces the leaf has its hinge to the "left" or "right".
   std::string frame = {};      ///< Mesh file of a leaf's frame, in the same axes and units.

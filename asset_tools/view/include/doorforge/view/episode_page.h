@@ -22,16 +22,20 @@ struct DatasetEpisodes {
   int points = 1024;     ///< Of each cloud, evenly drawn from those stored; 0: no clouds.
   int threads = 0;       ///< 0: all processors.
   ShownRobot robot = {};
+  std::filesystem::path films = {};  ///< Of `dataset films --stored`; empty: no forces are shown.
 };
 
 /// Shows episodes of a data set as they were stored: robot and door at each decision, the cloud in
-/// the colours of its labels, the action, hinge and handle over time, what was hidden. Episodes of
-/// which the door is not found, or has changed since, and those of another robot than the one that
-/// is given, are left out with a message.
+/// the colours of its labels, the action, hinge and handle over time, what was hidden. Forces are
+/// not stored: they are those of a film of the episode where all its joints are, at each decision,
+/// those stored, to 1e-6 (what a film keeps); else there are none, and a message. Episodes of which
+/// the door is not found, or has changed since, and those of another robot than the one that is
+/// given, are left out with a message.
 ///
 /// @throws Error(kMissing) if there is no data set, no door of it, or no episode to show;
 /// Error(kFormat)
-///     on shards without states, as builds of before wrote them; else as ShardReader.
+///     on shards without states, as builds of before wrote them; else as ReadFilms() and
+///     ShardReader.
 ViewPage MakeDatasetPage(const DatasetEpisodes& chosen);
 
 /// How the rule-based expert's episodes are made.

@@ -23,6 +23,7 @@ struct ViewRequest {
   std::string stage;                         ///< Of a data set; empty: all of its stages.
   std::string key;                           ///< Of a data set: one episode; empty: the first ones.
   int episodes = 12;                         ///< Of a data set: at most so many.
+  std::string films;                         ///< Of a data set: a file of its films; may be empty.
   int points = 1024;                         ///< Of each cloud of an episode; 0: none.
   bool gallery = false;                      ///< Few doors and parts are a gallery, too.
   bool episode = false;                      ///< The expert opens each door.

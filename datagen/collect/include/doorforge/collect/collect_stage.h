@@ -27,8 +27,8 @@ struct CollectStageRequest {
 /// the tasks of one collection write side by side, who replaces a dataset writes alone.
 ///
 /// @throws Error(kInvalidArgument) if `out` is a file, holds something else than a dataset, or is
-///     written by somebody else; Error(kIo) if the disk has certainly no room for the clouds; as
-///     StageRun and Collect().
+///     written by somebody else; Error(kIo) if the disk has certainly no room for clouds and
+///     pictures; as StageRun and Collect().
 CollectSummary CollectStage(const CollectStageRequest& request);
 
 }  // namespace doorforge

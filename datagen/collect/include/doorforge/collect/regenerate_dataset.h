@@ -33,12 +33,18 @@ struct RegenerateDatasetRequest {
 ///     RegenerateEpisodes().
 RegenerateResult RegenerateDataset(const RegenerateDatasetRequest& request);
 
-/// Films every planned episode that failed, made again in the same way; `fraction` is not looked
-/// at. At the stage "grasp", where failures are data, there are none. In the order of the plan.
+/// What is filmed of a dataset, and what it was made with; `fraction` is not looked at.
+struct FilmDatasetRequest {
+  RegenerateDatasetRequest made_with;
+  int stored = 0;  ///< 0: every episode that failed; else at most so many of those that are stored.
+};
+
+/// Films planned episodes, made again as RegenerateDataset() does, in the order of the plan. At the
+/// stage "grasp", where failures are data, all are stored and none failed.
 ///
-/// @throws Error(kInvalidArgument) as RegenerateDataset(), or if an episode made again does not
-/// fail
-///     as it is recorded.
-std::vector<EpisodeFilm> FilmFailures(const RegenerateDatasetRequest& request);
+/// @throws Error(kInvalidArgument) as RegenerateDataset(), or if an episode made again does not end
+///     as it is recorded: its outcome and numbers, and of one that is stored the hash of its final
+///     state.
+std::vector<EpisodeFilm> FilmDataset(const FilmDatasetRequest& request);
 
 }  // namespace doorforge

@@ -4,11 +4,13 @@
 
 #include <filesystem>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "doorforge/dataset/collect.h"
 #include "doorforge/physics/load_robot.h"
 #include "doorforge/physics/scene_sampling.h"
+#include "doorforge/pictures/pictures_config.h"
 #include "doorforge/rollout/grasp_camera.h"
 #include "doorforge/rollout/remembered_view.h"
 #include "doorforge/sensor/point_cloud.h"
@@ -26,6 +28,7 @@ struct ReobserveConfig {
   RememberedViewConfig remembered;  ///< At "handle".
   CloudConfig cloud;
   bool preview = true;
+  PicturesConfig pictures;  ///< Written into files only where there are any.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -36,6 +39,7 @@ struct ReobserveConfig {
     visit("remembered", self.remembered);
     visit("cloud", self.cloud);
     visit("preview", self.preview);
+    if (!std::is_const_v<Self> || self.pictures.IsOn()) visit("pictures", self.pictures);
   }
 };
 
@@ -52,9 +56,9 @@ struct ReobserveRequest {
 };
 
 /// Renders the clouds of a dataset anew from its stored joint states, without physics. Everything
-/// but clouds, labels, previews and what meta.json says of the look stays as it is; keys, shards
-/// and failures too, so that the two datasets are pairs. With the settings as they were, the clouds
-/// are the same, byte by byte. Of the stage "grasp", point 0 of a cloud is the visible point
+/// but clouds, labels, previews, pictures and what meta.json says of the look stays as it is; keys,
+/// shards and failures too, so that the two datasets are pairs. With the settings as they were, the
+/// clouds are the same, byte by byte. Of the stage "grasp", point 0 of a cloud is the visible point
 /// nearest to the contact. Stopped, the same call goes on. Locks the new
 /// folder meanwhile.
 ///

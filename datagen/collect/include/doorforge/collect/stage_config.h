@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include "doorforge/dataset/collection_plan.h"
 #include "doorforge/physics/scene_sampling.h"
+#include "doorforge/pictures/pictures_config.h"
 #include "doorforge/rollout/grasp_camera.h"
 #include "doorforge/rollout/handle_expert.h"
 #include "doorforge/rollout/opening_expert.h"
@@ -36,6 +38,7 @@ struct StageConfig {
   CloudConfig cloud;
   /// Adds preview.png to each episode: depth at the first and at the last look.
   bool preview = true;
+  PicturesConfig pictures;  ///< Written into files only where there are any.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -54,6 +57,7 @@ struct StageConfig {
     if (self.stage == Stage::kHandle) visit("remembered", self.remembered);
     visit("cloud", self.cloud);
     visit("preview", self.preview);
+    if (!std::is_const_v<Self> || self.pictures.IsOn()) visit("pictures", self.pictures);
   }
 };
 

@@ -48,6 +48,7 @@ class StageRun {
 
  private:
   std::string ConfigText() const;
+  void CheckPictureCameras();
 
   StageConfig config_;
   RobotModel robot_;

@@ -22,12 +22,16 @@ namespace doorforge {
 /// What running one planned episode gives.
 struct CollectedEpisode {
   Episode episode;
-  nlohmann::ordered_json meta;  ///< Record for meta.json, see EncodeEpisode().
-  std::string preview_png;      ///< For every episode or for none.
+  nlohmann::ordered_json meta;        ///< Record for meta.json, see EncodeEpisode().
+  std::string preview_png;            ///< For every episode or for none.
+  std::vector<MemberBytes> pictures;  ///< Further arrays, the same names for every episode.
   /// A failure is data as well, as at the stage "grasp": written like a success, unless it has no
   /// decisions or its physics became impossible.
   bool keep_failed = false;
 };
+
+/// The episode's members, as EncodeEpisode() and with its pictures. Throws as EncodeEpisode().
+std::vector<MemberBytes> MembersOf(const CollectedEpisode& collected);
 
 /// Whether the episode is written into its shard, or else listed among the failures: there as
 /// "no_decisions" if the door opened although nobody had anything to decide at the recorded stage,

@@ -54,6 +54,9 @@ struct SceneConfig {
   double grasp_noise = 1;  ///< Scales the offset of the expert's grasp; 0: the nominal grasp.
   /// "door": the door's own latch; "none": nothing holds the door, and no handle need be turned.
   std::string latch = "door";
+  /// How everything looks in pictures, drawn for each episode from the stream
+  /// "scene/<door id>/<episode>/appearance". No other draw depends on it.
+  SceneAppearance appearance = SceneAppearance::kOff;
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -68,6 +71,8 @@ struct SceneConfig {
     visit("base_jitter", self.base_jitter);
     visit("grasp_noise", self.grasp_noise);
     if (!std::is_const_v<Self> || self.latch != "door") visit("latch", self.latch);
+    if (!std::is_const_v<Self> || self.appearance != SceneAppearance::kOff)
+      visit("appearance", self.appearance);
   }
 };
 

@@ -48,6 +48,9 @@ class CameraObserver : public Observer {
   /// From now on the clouds of the stage "unlock" are joined with what is remembered.
   void Remember(RememberedView before);
 
+  /// The camera where calibration believes it to be: what clouds are unprojected with.
+  const CameraModel& as_calibrated() const { return camera_as_calibrated_; }
+
   CameraFrame Render(const SceneSnapshot& snapshot);
   LabelledCloud Observe(const SceneSnapshot& snapshot) override;
   std::any Save() const override { return looks_; }

@@ -39,7 +39,7 @@ struct StepperOptions {
   Policy* open = nullptr;    ///< Runs the opening within Step(); null: it is the caller's.
   /// Means what EpisodePolicies::handle_turned does, and is asked after each action at the stage
   /// "handle".
-  std::function<bool()> handle_turned = nullptr;
+  HandleTurned handle_turned = nullptr;
   /// Means what EpisodePolicies::grasps does. After a grasp that led nowhere the next stage is
   /// "grasp" again; above 1 where that stage is the caller's.
   int grasps = 1;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "doorforge/physics/robot_model.h"
 #include "doorforge/rollout/observer.h"
@@ -31,6 +32,9 @@ namespace doorforge {
 Episode RunEpisode(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
                    Policy& opening, Observer* observer);
 
+/// Whether the handle is turned, for who cannot look into the simulator; nothing: it is not said.
+using HandleTurned = std::function<std::optional<bool>()>;
+
 /// Who acts at each stage, and whose decisions the episode holds.
 struct EpisodePolicies {
   Stage recorded = Stage::kOpen;
@@ -39,8 +43,8 @@ struct EpisodePolicies {
   /// Asked after each action of `handle`, and not before the first: whether the handle is turned.
   /// Opening begins after the first yes, whatever the simulator knows, also of doors without a
   /// latch. Null: the simulator's flag, turned to "handle done" and unlocked, which doors without
-  /// a latch are from the start.
-  std::function<bool()> handle_turned = nullptr;
+  /// a latch are from the start; so it is after an action of which nothing is said.
+  HandleTurned handle_turned = nullptr;
   Policy* open = nullptr;  ///< Never null.
   /// Drives the first `learner_decisions` of the recorded stage in the place of that stage's
   /// policy, which is asked at each of them what it would do: the record's action corrects the

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "doorforge/core/rigid_transform.h"
 #include "doorforge/schemas/camera_model.h"
 #include "doorforge/sensor/scene_geometry.h"
@@ -21,6 +23,18 @@ struct DepthImage {
   std::vector<float> depth_m;
   std::vector<std::int16_t> link;   ///< Link index, -1 where nothing is seen.
   std::vector<std::uint8_t> label;  ///< PointLabel values; kOther where nothing is seen.
+};
+
+/// A depth image, and what lies under its pixels; all arrays are height x width likewise.
+struct SurfaceImage {
+  DepthImage depth;
+  std::vector<std::int16_t> mesh;  ///< Index into the scene's meshes, -1 where nothing is seen.
+  std::vector<std::uint32_t> triangle;  ///< Index into its triangles.
+  std::vector<float> u;  ///< Barycentric coordinates of the triangle's second corner,
+  std::vector<float> v;  ///< and of its third.
+  /// Unit normal of the triangle in the world, towards the camera; zero where nothing is seen, or a
+  /// triangle has no area.
+  std::vector<Eigen::Vector3f> normal;
 };
 
 /// An ideal depth camera: one ray through the centre of each pixel, no noise, no near limit.
@@ -44,11 +58,17 @@ class DepthCamera {
   ///     looks along `up`).
   DepthImage Render(const CameraModel& camera, std::span<const RigidTransform> world_from_link);
 
+  /// Renders likewise; `depth` has the bytes that Render() gives.
+  SurfaceImage RenderSurfaces(const CameraModel& camera,
+                              std::span<const RigidTransform> world_from_link);
+
   /// The scene as it was last rendered, for pictures.
   SceneGeometry& scene() { return scene_; }
 
  private:
   struct RayTable;
+
+  void Prepare(const CameraModel& camera);
 
   SceneGeometry scene_;
   std::unique_ptr<RayTable> rays_;

@@ -58,6 +58,11 @@ class SceneGeometry {
 
   const std::vector<VisibleMesh>& meshes() const;
   const RigidTransform& world_from_mesh(std::size_t mesh) const;
+  /// Normal in the mesh's frame at a point of a triangle, smoothed across edges flatter than 40
+  /// degrees; unit but for rounding, out of closed meshes. Kept with the mesh's tree.
+  ///
+  /// @param u,v Barycentric coordinates of the second and the third corner.
+  Eigen::Vector3f SmoothNormal(std::size_t mesh, std::size_t triangle, float u, float v) const;
   int link_count() const;  ///< Largest link index + 1.
   RayIsa isa() const;
 

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "doorforge/evaluate/evaluation_config.h"
@@ -12,6 +14,7 @@
 #include "doorforge/report/evaluated_episode.h"
 #include "doorforge/rollout/observer.h"
 #include "doorforge/schemas/door_asset.h"
+#include "doorforge/schemas/door_identity.h"
 #include "doorforge/schemas/door_set.h"
 #include "doorforge/schemas/policy_set.h"
 #include "doorforge/schemas/scene.h"
@@ -33,17 +36,25 @@ class TrialPlan {
   std::size_t DoorOf(std::size_t trial) const;  ///< The door's number.
 
   struct Staged {
-    std::shared_ptr<const DoorAsset> door;
-    Scene scene;
+    std::shared_ptr<const DoorAsset> door;  ///< Null: it was planned with, and can be read no more.
+    Scene scene;                            ///< Without a door only its seed and episode.
+    std::string gone = {};                  ///< Why there is no door.
   };
-  /// Returns the same in every call. Throws as the doors' giver and SampleScene().
+  /// Returns the same in every call for as long as the door is there. Throws as SampleScene().
   Staged At(std::size_t trial) const;
 
-  std::shared_ptr<const DoorAsset> Door(std::size_t door) const { return give_door_(door).door; }
+  /// Null if it can be read no more.
+  std::shared_ptr<const DoorAsset> Door(std::size_t door) const;
   const RobotModel& robot() const { return robot_; }
   const CloudConfig& cloud() const { return cloud_; }
 
  private:
+  struct Taken {
+    IdentifiedDoor door;
+    std::string gone;
+  };
+  Taken Take(std::size_t door) const;
+
   DoorGiver give_door_;
   std::size_t door_count_;
   std::size_t seeds_;
@@ -63,10 +74,13 @@ struct TrialPolicies {
   std::function<std::unique_ptr<Observer>(const Scene&, const DoorAsset&)> make_observer = nullptr;
 };
 
-/// How episodes are carried out; none of it changes the rows.
+/// How episodes are carried out; but for those of doors that are gone, none of it changes the rows.
 struct RunHooks {
   int threads = 0;                                    ///< 0: all processors.
   std::function<void(const EvaluatedEpisode&)> done;  ///< After each; called from any thread.
+  /// Who the doors are, by their number: of one that can be read no more the row says so, and its
+  /// cause is kDoorGone. Empty: such a door ends the run by Error(kMissing).
+  std::span<const DoorIdentity> doors = {};
 };
 
 /// Runs the trials and gives their rows in their order.

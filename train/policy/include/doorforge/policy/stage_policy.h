@@ -24,6 +24,8 @@ struct PolicyOptions {
   /// kAuto is not the default: a pull without a latch turns neither way, and a policy that tries
   /// the other side lets go of it (docs/design/notes/2026-11-25-both-sides.md).
   SideChoice side = SideChoice::kLeft;
+  /// From this probability on, in (0, 1), a handle policy is believed that the handle is turned.
+  double switch_probability = 0.5;
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -31,6 +33,7 @@ struct PolicyOptions {
     visit("seed", self.seed);
     visit("stall", self.stall);
     visit("side", self.side);
+    visit("switch_probability", self.switch_probability);
   }
 };
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string_view>
 
 #include "doorforge/policy/stage_policy.h"
 #include "doorforge/policy/trying_policy.h"
@@ -17,7 +18,10 @@ namespace doorforge {
 class TurningPolicy : public Policy, public StageSwitch {
  public:
   /// @param policy Turns the handle; not null.
-  TurningPolicy(std::unique_ptr<Policy> policy, const TurnedClassifier& classifier);
+  /// @param switch_probability As PolicyOptions has it.
+  /// @throws Error(kInvalidConfig) if that is not in (0, 1).
+  TurningPolicy(std::unique_ptr<Policy> policy, const TurnedClassifier& classifier,
+                double switch_probability = PolicyOptions().switch_probability);
 
   void Reset() override;
   Action Act(const Observation& observation) override;
@@ -27,13 +31,14 @@ class TurningPolicy : public Policy, public StageSwitch {
   bool UsesPointCloud() const override { return policy_->UsesPointCloud(); }
 
   /// Whether the handle is turned once the actions so far have been carried out: false after
-  /// Reset(), and true from the first action on that the classifier gives one half or more.
+  /// Reset(), and true from the first action on that the classifier gives the probability.
   bool Turned() const override { return turned_; }
 
  private:
   std::unique_ptr<Policy> policy_;
   TryingPolicy* tries_;  // policy_, where that is one; else null
   TurnedClassifier classifier_;
+  double switch_probability_;
   std::optional<Proprioception> first_;
   bool turned_ = false;
   std::optional<Proprioception> first_before_;  // as they were before the last Act()
@@ -47,5 +52,9 @@ class TurningPolicy : public Policy, public StageSwitch {
 std::unique_ptr<TurningPolicy> LoadTurningPolicy(const std::filesystem::path& folder,
                                                  const PolicyOptions& options = {},
                                                  std::shared_ptr<SideFinder> finder = nullptr);
+
+/// LoadPolicy() of either stage; at "handle" a TurningPolicy, where the folder has a classifier.
+std::unique_ptr<Policy> LoadWholePolicy(const std::filesystem::path& folder,
+                                        std::string_view stage);
 
 }  // namespace doorforge

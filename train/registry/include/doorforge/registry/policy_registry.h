@@ -16,6 +16,7 @@
 #include "doorforge/rollout/handle_expert.h"
 #include "doorforge/rollout/opening_expert.h"
 #include "doorforge/rollout/random_grasp.h"
+#include "doorforge/rollout/remembered_view.h"
 #include "doorforge/schemas/episode.h"
 #include "doorforge/schemas/grasp_policy.h"
 #include "doorforge/schemas/policy.h"
@@ -47,6 +48,7 @@ struct MotionPolicyRow {
   /// the rule of RunEpisode() turns the handle.
   std::function<std::unique_ptr<Policy>(const PolicySettings&)> make;
   bool is_own = true;  ///< Not of this toolkit: nobody here knows which doors it has seen.
+  RememberedViewConfig remembered{.resolution_scale = 0};  ///< What its clouds are joined with.
 };
 
 /// A policy that chooses grasps, by name.

@@ -25,7 +25,7 @@ struct PolicyWords {
 /// Who says that the handle is turned and opening may begin.
 enum class SwitchSource {
   kSimulator,
-  /// The policy that turns the handle does, where it is a trained one; else the simulator.
+  /// The policy that turns the handle does, where it says so (StageSwitch); else the simulator.
   kPolicy,
 };
 inline constexpr NamedValue<SwitchSource> kSwitchSources[] = {
@@ -53,13 +53,13 @@ class PolicySetFactory {
   const PolicyChoice& handler() const { return handler_; }
   const PolicyChoice& grasper() const { return grasper_; }
 
-  /// What the policy that turns the handle remembers of the door, by its record; nothing for
-  /// policies that have none. Throws as ReadPolicy().
+  /// What the policy that turns the handle remembers of the door, by its record or its row. Throws
+  /// as ReadPolicy().
   RememberedViewConfig Remembered() const;
 
   /// Whether nothing but the rules of the expert acts.
   bool IsExpertAlone() const;
-  /// Whether the policy that turns the handle says when it is turned.
+  /// Whether the policy that turns the handle is a trained one, which says when it is turned.
   bool PredictsSwitch() const;
 
  private:

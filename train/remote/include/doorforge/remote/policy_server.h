@@ -17,11 +17,15 @@ struct PolicyServerConfig {
   std::uint16_t port = 8000;       ///< 0: one that is free.
   std::string policy;              ///< Its name, for those who connect.
   std::string stage = "open";
+  /// RememberedViewConfig of the clouds that it is to be given, for those who connect.
+  int remembered_finer = 0;
+  double remembered_within_m = 0;
 };
 
 /// Answers whoever connects, in the protocol of MakeServedPolicy(), until the program is asked to
 /// stop (StopRequested()). Each connection has a policy of its own. What is wrong with a request is
-/// said in an answer of text; the connection goes on.
+/// said in an answer of text; the connection goes on. A policy that is a StageSwitch says in each
+/// answer whether the handle is turned.
 ///
 /// @param make A new policy; called from one thread at a time.
 /// @param ready Called with the port once connections are taken.

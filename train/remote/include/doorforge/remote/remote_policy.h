@@ -21,7 +21,8 @@ bool IsServerAddress(const std::string& word);
 
 /// A policy behind a WebSocket, in the protocol of openpi and others (docs/serve-policy.md):
 /// MessagePack with numpy's arrays. It is Fallible: a server that is gone, hangs or answers
-/// nonsense ends the episode, and the next one connects anew. Connects when it is first asked.
+/// nonsense ends the episode, and the next one connects anew. Connects when it is first asked. It
+/// is a StageSwitch, which says what the answers do.
 ///
 /// @throws Error(kInvalidArgument) on an address or settings that are none.
 std::unique_ptr<Policy> MakeServedPolicy(const std::string& address,
@@ -33,9 +34,15 @@ std::unique_ptr<Policy> MakeServedPolicy(const std::string& address,
 std::unique_ptr<Policy> MakeCommandPolicy(const std::string& command,
                                           const RemotePolicySettings& settings = {});
 
+/// What a server says of itself that an evaluation goes by.
+struct ServerGreeting {
+  int remembered_finer = 0;  ///< As in PolicyServerConfig; 0 where it says nothing.
+  double remembered_within_m = 0;
+};
+
 /// Connects to a server and lets go again.
 ///
 /// @throws Error(kMissing) if none answers there within the time.
-void RequireServer(const std::string& address, const RemotePolicySettings& settings = {});
+ServerGreeting GreetingOf(const std::string& address, const RemotePolicySettings& settings = {});
 
 }  // namespace doorforge

@@ -13,6 +13,7 @@
 #include "doorforge/schemas/door_identity.h"
 #include "doorforge/schemas/episode.h"
 #include "doorforge/schemas/names.h"
+#include "doorforge/schemas/scene.h"
 
 namespace doorforge {
 
@@ -41,6 +42,13 @@ struct EvaluatedEpisode {
 /// Drops clouds and actions, keeps what a report says about an episode on `door`.
 EvaluatedEpisode RowOf(const Episode& episode, const DoorAsset& door);
 
+/// The row of an episode that nobody ran, since its door can be read no more; its cause is
+/// kDoorGone.
+///
+/// @param scene Its seed and episode are read.
+EvaluatedEpisode RowOfGoneDoor(const DoorIdentity& door, const Scene& scene,
+                               const std::string& reason);
+
 /// The cause of an episode in which no point of the handle was in the grasper's view. Records know
 /// it as kNotReached, with the reason in the detail.
 inline constexpr std::string_view kNoGraspInView = "no_grasp_in_view";
@@ -49,8 +57,15 @@ inline constexpr std::string_view kNoGraspInView = "no_grasp_in_view";
 /// as kDiverged, with the reason in the detail.
 inline constexpr std::string_view kNoAction = "policy_failed";
 
-/// What became of an episode, for statistics: kNoGraspInView, kNoAction, else the name of its
-/// outcome.
+/// The cause of an episode whose door could be read no more. Records know it as kNotReached, with
+/// the reason in the detail.
+inline constexpr std::string_view kDoorGone = "door_gone";
+
+/// Whether anything moved in the episodes with a cause, and would again, so that one can be shown.
+bool CanBeShown(std::string_view cause);
+
+/// What became of an episode, for statistics: kNoGraspInView, kNoAction, kDoorGone, else the name
+/// of its outcome.
 std::string_view CauseOf(const EvaluatedEpisode& episode);
 
 /// Without what the door's identity says but the category.

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/pictures/take_pictures.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "doorforge/core/rng.h"
+#include "doorforge/rollout/camera_observer.h"
+
+#include "picture_arrays.h"
+#include "rgb_renderer.h"
+
+namespace doorforge {
+namespace {
+
+std::vector<VisibleMesh> MeshesOf(const PictureScene& scene) {
+  std::vector<VisibleMesh> meshes = VisibleMeshesOf(scene.door, scene.robot);
+  if (!scene.sees_robot)
+    std::erase_if(meshes, [](const VisibleMesh& mesh) { return mesh.label == PointLabel::kRobot; });
+  return meshes;
+}
+
+class Photographer {
+ public:
+  Photographer(const PictureScene& scene, const PicturesConfig& config)
+      : scene_(scene), config_(config), depth_(MeshesOf(scene)) {
+    const auto& streams = config.streams;
+    if (std::ranges::find(streams, PictureStream::kRgb) != streams.end())
+      rgb_.emplace(scene, config, depth_.scene());
+  }
+
+  void Take(const PictureCamera& camera, std::span<const PictureLook> looks, Pictures& pictures) {
+    PictureArrays arrays(camera.name, config_.streams);
+    for (std::size_t i = 0; i < looks.size(); ++i) TakeOne(camera, looks[i], i, arrays);
+    arrays.MoveTo(pictures.members);
+    pictures.record[camera.name] = RecordOf(camera);
+  }
+
+ private:
+  void TakeOne(const PictureCamera& camera, const PictureLook& look, std::size_t number,
+               PictureArrays& arrays) {
+    const RigidTransform& hand = look.snapshot.robot.world_from_hand;
+    const CameraModel carried = CameraOf(camera, scene_.scene);
+    const CameraModel model = InWorld(camera.at, carried, hand);
+    const SurfaceImage surfaces = depth_.RenderSurfaces(model, LinkPosesOf(look.snapshot));
+    std::vector<std::uint8_t> rgb;
+    if (rgb_) rgb = rgb_->Render(model, surfaces, number);
+    if (camera.at == CameraPlace::kScene) {
+      arrays.Add({look.depth, surfaces, WorldFromCamera(scene_.as_calibrated), rgb});
+      return;
+    }
+    const std::string stream = "pictures/" + scene_.scene.door_id + "/" +
+                               std::to_string(scene_.scene.episode) + "/" + camera.name + "/";
+    const CameraModel believed = CameraWithCalibrationError(
+        carried, config_.noise, Rng(scene_.scene.seed, stream + "calibration"));
+    const DepthImage depth =
+        WithDepthNoise(surfaces.depth, model, config_.noise,
+                       Rng(scene_.scene.seed, stream + std::to_string(number)));
+    arrays.Add({depth, surfaces, WorldFromCamera(InWorld(camera.at, believed, hand)), rgb});
+  }
+
+  nlohmann::ordered_json RecordOf(const PictureCamera& camera) const {
+    const CameraModel model = CameraOf(camera, scene_.scene);
+    const Eigen::Matrix3d intrinsics = IntrinsicMatrix(model);
+    nlohmann::ordered_json matrix = nlohmann::ordered_json::array();
+    for (Eigen::Index row = 0; row < 3; ++row)
+      matrix.push_back({intrinsics(row, 0), intrinsics(row, 1), intrinsics(row, 2)});
+    return {{"at", NameOf(camera.at)},
+            {"width", model.width},
+            {"height", model.height},
+            {"intrinsic_matrix_px", matrix}};
+  }
+
+  const PictureScene& scene_;
+  const PicturesConfig& config_;
+  DepthCamera depth_;
+  std::optional<RgbRenderer> rgb_;
+};
+
+}  // namespace
+
+Pictures TakePictures(const PictureScene& scene, const PicturesConfig& config,
+                      std::span<const PictureLook> looks) {
+  CheckPictures(config);
+  CheckPictures(config, scene.scene, scene.door);
+  Photographer photographer(scene, config);
+  Pictures pictures;
+  for (const PictureCamera& camera : config.cameras) photographer.Take(camera, looks, pictures);
+  std::ranges::sort(pictures.members, {}, &MemberBytes::name);
+  return pictures;
+}
+
+}  // namespace doorforge

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Colours of pictures.
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "doorforge/physics/load_robot.h"
+#include "doorforge/physics/scene_sampling.h"
+#include "doorforge/pictures/take_pictures.h"
+#include "doorforge/rollout/base_placement.h"
+#include "doorforge/rollout/run_episode.h"
+
+#include "../physics/primitive_door.h"
+
+namespace doorforge {
+namespace {
+
+struct ColorSetting {
+  RobotModel robot = LoadMobileFranka();
+  DoorAsset door = MakePrimitiveDoor({});
+  Scene scene = PlaceRobotBase(robot, SampleScene(door, 1, 0), door);
+  PicturesConfig config;
+
+  ColorSetting() {
+    config.cameras.resize(1);
+    config.cameras[0].name = "front";
+    config.cameras[0].width = config.cameras[0].height = 96;
+    config.streams = {PictureStream::kRgb, PictureStream::kLabel, PictureStream::kDepth32};
+  }
+
+  std::map<std::string, std::string> Take(double hinge_rad = 0.3) const {
+    PictureLook look;
+    look.snapshot.robot = robot.PoseAt(StartPosition(scene, robot), scene.world_from_robot_base);
+    look.snapshot.door = DoorFromLinks(door, hinge_rad, 0);
+    for (RigidTransform& pose : look.snapshot.door) pose = scene.world_from_door * pose;
+    const Pictures pictures =
+        TakePictures({scene, door, robot, true, scene.camera}, config, std::span(&look, 1));
+    std::map<std::string, std::string> members;
+    for (const MemberBytes& member : pictures.members) members[member.name] = member.bytes;
+    return members;
+  }
+};
+
+// The values behind the header.
+std::vector<int> PixelsOf(const std::map<std::string, std::string>& members,
+                          const std::string& name) {
+  const std::string& bytes = members.at(name);
+  std::vector<int> pixels;
+  const std::size_t count = 96U * 96U * (name.starts_with("rgb") ? 3 : 1);
+  for (std::size_t i = bytes.size() - count; i < bytes.size(); ++i)
+    pixels.push_back(static_cast<unsigned char>(bytes[i]));
+  return pixels;
+}
+
+double MeanDifference(const std::vector<int>& a, const std::vector<int>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(a[i] - b[i]);
+  return sum / static_cast<double>(a.size());
+}
+
+TEST(PictureColors, FewRaysGiveNearlyWhatManyGive) {
+  ColorSetting setting;
+  const auto with = [&](int samples) {
+    setting.config.samples = samples;
+    return PixelsOf(setting.Take(), "rgb_front.npy");
+  };
+  const std::vector<int> many = with(256);
+  EXPECT_LT(MeanDifference(with(16), many), 1.0);
+  EXPECT_LT(MeanDifference(with(1), many), 4.0);
+}
+
+// A void would be of one colour, or black.
+TEST(PictureColors, ThereIsARoomAroundTheDoor) {
+  const ColorSetting setting;
+  const auto members = setting.Take();
+  const std::vector<int> rgb = PixelsOf(members, "rgb_front.npy");
+  const std::vector<int> label = PixelsOf(members, "label_front.npy");
+  std::map<int, int> shades;
+  int unseen = 0;
+  for (std::size_t i = 0; i < label.size(); ++i) {
+    if (label[i] != kNothingSeen) continue;
+    ++unseen;
+    ++shades[rgb[3 * i + 1]];
+    EXPECT_GT(rgb[3 * i + 1], 5);
+  }
+  ASSERT_GT(unseen, 500);
+  EXPECT_GT(shades.size(), 20U);
+  for (const auto& [shade, count] : shades) EXPECT_LT(count, unseen / 2) << shade;
+}
+
+TEST(PictureColors, AppearanceChangesColorsByItsOwnStreamAndNothingElse) {
+  ColorSetting setting;
+  std::map<SceneAppearance, std::vector<int>> rgb;
+  const auto plain = setting.Take();
+  for (const auto& [appearance, name] : kSceneAppearances) {
+    setting.scene.appearance = appearance;
+    const auto members = setting.Take();
+    for (const char* other : {"label_front.npy", "depth32_front.npy", "pose_front.npy"})
+      EXPECT_EQ(members.at(other), plain.at(other)) << name;
+    rgb[appearance] = PixelsOf(members, "rgb_front.npy");
+    EXPECT_EQ(setting.Take().at("rgb_front.npy"), members.at("rgb_front.npy"));
+  }
+  EXPECT_GT(MeanDifference(rgb[SceneAppearance::kOff], rgb[SceneAppearance::kColour]), 8);
+  EXPECT_GT(MeanDifference(rgb[SceneAppearance::kFull], rgb[SceneAppearance::kColour]), 4);
+  setting.scene.episode = 1;
+  EXPECT_GT(MeanDifference(PixelsOf(setting.Take(), "rgb_front.npy"), rgb[SceneAppearance::kFull]),
+            8);
+}
+
+TEST(PictureColors, AreTheSameInAnyThread) {
+  ColorSetting setting;
+  setting.scene.appearance = SceneAppearance::kFull;
+  const auto here = setting.Take();
+  std::map<std::string, std::string> there;
+  std::thread([&] { there = setting.Take(); }).join();
+  EXPECT_TRUE(here == there);
+}
+
+}  // namespace
+}  // namespace doorforge

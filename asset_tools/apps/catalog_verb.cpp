@@ -17,8 +17,6 @@
 namespace doorforge {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 struct CatalogOptions {
   CatalogueSelection selection;
   std::string id;
@@ -45,21 +43,13 @@ int Build(const CatalogOptions& options) {
   const std::vector<CatalogueEntry> entries = SelectParts(DataFolder(), options.selection);
   const std::vector<std::string> problems =
       BuildParts(entries, options.out, options.existing, options.threads);
-  std::size_t failed = 0;
-  Json parts = Json::array();
+  std::vector<std::string> told;
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    Json part = EntryToJson(entries[i]);
-    part["built"] = problems[i].empty();
-    part["message"] = problems[i];
-    parts.push_back(part);
-    if (problems[i].empty()) continue;
-    ++failed;
-    PrintNote(entries[i].id + ": " + problems[i]);
+    if (!problems[i].empty()) told.push_back(entries[i].id + ": " + problems[i]);
   }
-  PrintAnswer(options.json,
-              {{"schema", "doorforge.catalog_build"}, {"schema_version", 1}, {"parts", parts}},
-              std::to_string(entries.size() - failed) + " parts built in " + options.out + "\n");
-  return ExitCodeOfBatch(failed);
+  return AnswerOfBatch(
+      told, options.json, BuiltToJson(entries, problems),
+      std::to_string(entries.size() - told.size()) + " parts built in " + options.out + "\n");
 }
 
 }  // namespace

@@ -21,6 +21,7 @@
 #ifdef DOORFORGE_WITH_PREVIEW
 #include "doorforge/preview/draw_records.h"
 #endif
+#include "doorforge/foreign/finding_formats.h"
 #include "doorforge/validate/validate_door.h"
 
 #include "mesh_options.h"
@@ -33,40 +34,44 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ComposeOptions {
+  ComposeRun run;
   std::string body;
   std::string handle;
-  std::string out;
-  std::string parts;
-  std::string category;
   std::string config;
   std::optional<HandlePlace> place;
   std::vector<std::string> settings;
   LooseMeshConfig body_mesh = UnsetMeshOptions();
   LooseMeshConfig handle_mesh = UnsetMeshOptions();
-  int threads = 0;
-  double max_seconds = kObjectSeconds;
-  bool all = false;
-  bool as_imported = false;
-  bool standalone = false;
   bool preview = false;
   bool validate = false;
-  Existing existing = Existing::kRefuse;
   bool json = false;
   bool quiet = false;
   bool rules = false;
 };
 
+// Which pairs, in one of three ways.
+void AddPairs(CLI::App& app, ComposeOptions& options) {
+  auto* body =
+      app.add_option("--body", options.body,
+                     "id in the catalogue or in --parts, a part's folder, a glob of either, or "
+                     "what `doorforge import` reads, such as a mesh file");
+  auto* handle = app.add_option("--handle", options.handle, "the same");
+  const auto add = [&](const char* name, PairChoice pairs, const char* about) {
+    const auto choose = [&options, pairs] { options.run.pairs = pairs; };
+    return app.add_flag_callback(name, choose, about)->excludes(body)->excludes(handle);
+  };
+  auto* all = add("--all", PairChoice::kAll, "every body with every handle of its category");
+  auto* as_imported = add("--as-imported", PairChoice::kAsImported,
+                          "with --parts: the pairs that the imported objects were composed of");
+  as_imported->excludes(all)->needs(
+      app.add_option("--parts", options.run.parts, "folder of parts; the catalogue if left out"));
+}
+
 void AddOptions(CLI::App& app, ComposeOptions& options) {
-  app.add_option("--body", options.body,
-                 "id in the catalogue or in --parts, a part's folder, a glob of either, or what "
-                 "`doorforge import` reads, such as a mesh file");
-  app.add_option("--handle", options.handle, "the same");
-  app.add_option("--out", options.out, "folder of the door; of the doors where there may be many");
-  app.add_flag("--all", options.all, "every body with every handle of its category");
-  app.add_flag("--as-imported", options.as_imported,
-               "with --parts: the pairs that the imported objects were composed of");
-  app.add_option("--parts", options.parts, "folder of parts; the catalogue if left out");
-  app.add_option("--category", options.category,
+  ComposeRun& run = options.run;
+  AddPairs(app, options);
+  app.add_option("--out", run.out, "folder of the door; of the doors where there may be many");
+  app.add_option("--category", run.category,
                  "with many doors: only this category; of a door whose body and handle are both "
                  "imported on the way");
   AddHandleMeshOptions(app, "handle-", options.handle_mesh);
@@ -81,17 +86,16 @@ void AddOptions(CLI::App& app, ComposeOptions& options) {
       "--handle-mount, else seat");
   AddConfig(app, options.config, "YAML file with body, handle and all settings");
   AddSettings(app, options.settings, "overrides one setting");
-  app.add_flag("--standalone", options.standalone,
-               "many doors: each with its own copy of the meshes");
+  app.add_flag("--standalone", run.standalone, "many doors: each with its own copy of the meshes");
   app.add_flag("--validate", options.validate,
                "one door: validate and simulate it, write validation.json; always with imported "
                "parts");
 #ifdef DOORFORGE_WITH_PREVIEW
   app.add_flag("--preview", options.preview, "one door: write its picture thumb.png");
 #endif
-  AddThreads(app, options.threads, "0: all processors; no byte depends on it");
-  AddMaxSeconds(app, options.max_seconds);
-  AddOverwrite(app, options.existing, "replace doors that are there already");
+  AddThreads(app, run.threads, "0: all processors; no byte depends on it");
+  AddMaxSeconds(app, run.max_seconds);
+  AddOverwrite(app, run.existing, "replace doors that are there already");
   AddJson(app, options.json);
   app.add_flag("--quiet", options.quiet, "print nothing but errors");
   app.add_flag("--rules", options.rules, "list the rules of pairs and the presets, and end");
@@ -108,24 +112,20 @@ void AddOptions(CLI::App& app, ComposeOptions& options) {
       "  doorforge compose --all --category interior --out doors");
 }
 
-void CheckOptions(const ComposeOptions& options) {
-  const auto fail = [](const std::string& why) {
-    throw Error(ErrorCode::kInvalidArgument, why + "; see `doorforge compose --help`");
-  };
-  if (options.out.empty()) fail("--out is required");
-  if (options.all && options.as_imported) fail("--all and --as-imported exclude each other");
-  if ((options.all || options.as_imported) && !(options.body.empty() && options.handle.empty()))
-    fail("--all and --as-imported take no --body and --handle");
-  if (options.as_imported && options.parts.empty()) fail("--as-imported needs --parts");
-  if (!options.category.empty()) RequireCategory("--category", options.category);
-}
-
 ComposeOptions ParseCompose(int argc, char** argv) {
   ComposeOptions options;
   CLI::App app("Composes doors: a body and a handle of one category.", "doorforge compose");
   AddOptions(app, options);
   ParseVerb(app, argc, argv);
-  if (!options.rules) CheckOptions(options);
+  Require(options.rules || !options.run.out.empty(), ErrorCode::kInvalidArgument,
+          "--out is required; see `doorforge compose --help`");
+  if (!options.run.category.empty()) RequireCategory("--category", options.run.category);
+  options.run.note = PrintNote;
+  // a name that no option gave is the settings file's
+  if (!options.config.empty() && options.body.empty())
+    options.run.body_named_by = options.config + ": body";
+  if (!options.config.empty() && options.handle.empty())
+    options.run.handle_named_by = options.config + ": handle";
   return options;
 }
 
@@ -134,92 +134,53 @@ ComposeRequest RequestOf(const ComposeOptions& options) {
   if (!options.body.empty()) request.body = options.body;
   if (!options.handle.empty()) request.handle = options.handle;
   if (options.place) request.door.place = *options.place;
-  if (!options.category.empty()) request.category = options.category;
+  if (!options.run.category.empty()) request.category = options.run.category;
   AssignGiven(options.body_mesh, UnsetMeshOptions(), request.body_mesh);
   AssignGiven(options.handle_mesh, UnsetMeshOptions(), request.handle_mesh);
-  if (options.all || options.as_imported) return request;
-  if (request.body.empty() || request.handle.empty())
-    throw Error(
-        ErrorCode::kInvalidArgument,
-        (options.config.empty() ? "" : options.config + " names no pair of parts: ") +
-            "--body and --handle (or both in --config), --all or --as-imported is required; "
-            "see `doorforge compose --help`");
+  const bool named = !request.body.empty() && !request.handle.empty();
+  Require(named || options.run.pairs != PairChoice::kNamed, ErrorCode::kInvalidArgument,
+          (options.config.empty() ? "" : options.config + " names no pair of parts: ") +
+              "--body and --handle (or both in --config), --all or --as-imported is required; "
+              "see `doorforge compose --help`");
   return request;
 }
 
-ComposeRun RunOf(const ComposeOptions& options) {
-  ComposeRun run{.out = options.out, .parts = options.parts};
-  if (options.all) run.pairs = PairChoice::kAll;
-  if (options.as_imported) run.pairs = PairChoice::kAsImported;
-  run.category = options.category;
-  run.standalone = options.standalone;
-  run.existing = options.existing;
-  run.threads = options.threads;
-  run.max_seconds = options.max_seconds;
-  run.note = PrintNote;
-  // a name that no option gave is the settings file's
-  if (!options.config.empty() && options.body.empty())
-    run.body_named_by = options.config + ": body";
-  if (!options.config.empty() && options.handle.empty())
-    run.handle_named_by = options.config + ": handle";
-  return run;
-}
-
 int Finish(const std::vector<ComposedDoor>& doors, const ComposeOptions& options) {
-  std::size_t failed = 0;
-  std::size_t kept = 0;
-  for (const ComposedDoor& door : doors) {
-    kept += door.kept ? 1 : 0;
-    if (door.problem.empty()) continue;
-    ++failed;
-    PrintNote(door.id + ": " + door.problem);
-  }
-  const auto also = [](std::size_t count, const char* what) {
-    return count == 0 ? std::string() : ", " + std::to_string(count) + what;
-  };
-  if (options.json || !options.quiet)
-    PrintAnswer(options.json, ComposedToJson(doors),
-                Counted(doors.size() - failed, "door") + " composed in " + options.out +
-                    also(kept, " of them there already") + also(failed, " not") + "\n");
-  return ExitCodeOfBatch(failed);
+  const bool silent = options.quiet && !options.json;
+  return AnswerOfBatch(ProblemsOf(doors), options.json, ComposedToJson(doors),
+                       silent ? "" : ComposedText(doors, options.run.out));
 }
 
 // The door as it was written: what was imported is always looked at.
 int Check(const ComposeOptions& options, bool imported) {
+  const fs::path& folder = options.run.out;
+  const bool silent = options.quiet || options.json;
   int errors = 0;
   if (options.validate || imported) {
     const std::unique_ptr<DoorValidator> openable = OpenableValidator();
-    const ValidationReport report =
-        openable ? openable->Door(options.out) : ValidateDoor(options.out);
-    WriteJsonFile(fs::path(options.out) / "validation.json", ToJson(std::span(&report, 1)));
+    const ValidationReport report = openable ? openable->Door(folder) : ValidateDoor(folder);
+    WriteJsonFile(folder / "validation.json", ToJson(std::span(&report, 1)));
     errors = report.errors;
     for (const Finding& finding : report.findings)
       PrintNote(finding.code + " " + std::string(NameOf(finding.severity)) + " " + finding.where +
-                ": measured " + finding.measured + "; allowed " + finding.allowed +
-                "; to fix: " + finding.fix);
-    if (!options.json && !options.quiet)
-      PrintText("validated: " + CountedFindings(report.errors, report.warnings) + "\n");
+                ": " + SentenceOf(finding));
+    if (!silent) PrintText("validated: " + CountedFindings(report.errors, report.warnings) + "\n");
   }
 #ifdef DOORFORGE_WITH_PREVIEW
   if (options.preview) {
-    const fs::path png = fs::path(options.out) / "thumb.png";
-    const fs::path folder = options.out;
-    WritePng(png, DrawRecords({&folder, 1}, {.focus = "all"}));
-    if (!options.json && !options.quiet) PrintText("picture: " + png.string() + "\n");
+    WritePng(folder / "thumb.png", DrawRecords({&folder, 1}, {.focus = "all"}));
+    if (!silent) PrintText("picture: " + (folder / "thumb.png").string() + "\n");
   }
 #endif
   return errors == 0 ? 0 : 1;
 }
 
 int Compose(const ComposeOptions& options, const ComposeRequest& request) {
-  const ComposeRun run = RunOf(options);
-  if (MeansManyDoors(run, request)) {
-    const ComposedDoors composed = ComposeManyDoors(run, request);
-    const int code = Finish(composed.doors, options);
-    return code == 0 && composed.damaged_parts > 0 ? 1 : code;
-  }
-  const ComposedDoors composed = ComposeOneDoor(run, request);
+  const bool many = MeansManyDoors(options.run, request);
+  const ComposedDoors composed =
+      many ? ComposeManyDoors(options.run, request) : ComposeOneDoor(options.run, request);
   const int code = Finish(composed.doors, options);
+  if (many) return code == 0 && composed.damaged_parts > 0 ? 1 : code;
   return std::max(code, Check(options, composed.imported));
 }
 

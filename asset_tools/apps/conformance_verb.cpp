@@ -18,7 +18,7 @@ namespace doorforge {
 namespace {
 
 struct ConformanceOptions {
-  std::vector<std::string> paths;
+  std::vector<std::filesystem::path> paths;
   ConformanceRun run;
   ConformanceFormat format = ConformanceFormat::kText;
 };
@@ -53,14 +53,13 @@ ConformanceOptions ParseConformance(int argc, char** argv) {
 
 int RunConformanceVerb(int argc, char** argv) {
   const ConformanceOptions options = ParseConformance(argc, argv);
-  const auto found = FindDoors({options.paths.begin(), options.paths.end()});
+  const auto found = FindDoors(options.paths);
   const std::vector<std::filesystem::path> doors(found.begin(), found.end());
   const ConformanceReport report = RunConformance(doors, options.run);
   PrintText(DocumentOf(report, options.format));
   if (report.rows.empty()) return ExitCodeOf(ErrorCode::kMissing);
-  return ExitCodeOfBatch(static_cast<std::size_t>(std::count_if(
-      report.rows.begin(), report.rows.end(),
-      [](const ConformanceRow& row) { return !(row.loads && row.held() && row.opened()); })));
+  const auto failed = std::ranges::count(report.rows, false, &ConformanceRow::passed);
+  return ExitCodeOfBatch(static_cast<std::size_t>(failed));
 }
 
 }  // namespace doorforge

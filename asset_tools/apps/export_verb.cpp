@@ -10,18 +10,15 @@
 #include "doorforge/authoring/export_batch.h"
 #include "doorforge/cli/answer.h"
 #include "doorforge/cli/command_line.h"
-#include "doorforge/core/error.h"
-#include "doorforge/validate/validate_door.h"
+#include "doorforge/schemas/find_doors.h"
 
 #include "verbs.h"
 
 namespace doorforge {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct ExportOptions {
-  std::vector<std::string> paths;
+  std::vector<std::filesystem::path> paths;
   std::vector<std::string> formats;
   ExportRun run;
   bool json = false;
@@ -49,39 +46,19 @@ ExportOptions ParseExport(int argc, char** argv) {
   return options;
 }
 
-std::vector<fs::path> DoorsOf(const ExportOptions& options) {
-  std::vector<fs::path> doors;
-  for (const std::string& path : options.paths) {
-    for (const fs::path& folder : FindRecords(path)) {
-      if (fs::exists(folder / "door.json")) doors.push_back(folder);
-    }
-  }
-  if (doors.empty())
-    throw Error(ErrorCode::kMissing,
-                "export: no door.json there; `doorforge compose` makes doors of parts");
-  return doors;
-}
-
-int Finish(const std::vector<ExportedDoor>& doors, const ExportOptions& options) {
-  std::size_t failed = 0;
-  for (const ExportedDoor& door : doors) {
-    if (door.problem.empty()) continue;
-    ++failed;
-    PrintNote(door.folder + ": " + door.problem);
-  }
-  PrintAnswer(options.json, ExportedToJson(doors),
-              std::to_string(doors.size() - failed) + " doors exported to " +
-                  options.run.out.string() + "\n");
-  return ExitCodeOfBatch(failed);
-}
-
 }  // namespace
 
 int RunExportVerb(int argc, char** argv) {
   ExportOptions options = ParseExport(argc, argv);
   for (const std::string& name : options.formats)
     options.run.formats.push_back(*DoorFormatNamed(name));
-  return Finish(ExportDoors(DoorsOf(options), options.run), options);
+  const auto found = FindDoors(options.paths);
+  const std::vector<std::filesystem::path> folders(found.begin(), found.end());
+  const std::vector<ExportedDoor> doors = ExportDoors(folders, options.run);
+  const std::vector<std::string> problems = ProblemsOf(doors);
+  return AnswerOfBatch(problems, options.json, ExportedToJson(doors),
+                       std::to_string(doors.size() - problems.size()) + " doors exported to " +
+                           options.run.out.string() + "\n");
 }
 
 }  // namespace doorforge

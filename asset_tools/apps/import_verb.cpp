@@ -99,10 +99,9 @@ int RunImportVerb(int argc, char** argv) {
   const ImportReport report = NamingConfig(options.config, [&] {
     return ImportObjects(objects, options.out, config, options.existing);
   });
-  for (const std::string& fault : FaultsOf(report)) PrintNote(fault);
-  PrintAnswer(options.json, ToJson(report), ImportText(report));
+  const int code =
+      AnswerOfBatch(FaultsOf(report), options.json, ToJson(report), ImportText(report));
   // a single object is the input itself
-  const int code = ExitCodeOfBatch(FaultsOf(report).size());
   return code == 1 && report.objects.size() == 1 ? 3 : code;
 }
 

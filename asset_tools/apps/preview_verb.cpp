@@ -80,31 +80,20 @@ PreviewOptions ParsePreview(int argc, char** argv) {
   return options;
 }
 
-#ifdef DOORFORGE_WITH_OPENABLE
-void DrawEpisodes(const std::vector<fs::path>& folders, const PreviewOptions& options) {
-  const EpisodeSheet sheet = DrawEpisodeSheet(folders, {.seed = options.seed,
-                                                        .frames = options.frames,
-                                                        .width = options.preview.width,
-                                                        .threads = options.preview.threads});
-  WritePng(options.out, sheet.picture);
-  for (std::size_t i = 0; i < folders.size(); ++i)
-    std::printf("%s: %s\n", folders[i].filename().c_str(),
-                std::string(NameOf(sheet.outcomes[i])).c_str());
-}
-#endif
-
 }  // namespace
 
 int RunPreviewVerb(int argc, char** argv) {
   const PreviewOptions options = ParsePreview(argc, argv);
   RequireNoFile(options.out, options.overwrite);
-  std::vector<fs::path> folders;
-  for (const std::string& path : options.paths) {
-    for (fs::path& folder : FindRecords(path)) folders.push_back(std::move(folder));
-  }
+  const std::vector<fs::path> folders = FindRecords(options.paths);
 #ifdef DOORFORGE_WITH_OPENABLE
   if (options.episode) {
-    DrawEpisodes(folders, options);
+    const EpisodeSheet sheet = DrawEpisodeSheet(folders, {.seed = options.seed,
+                                                          .frames = options.frames,
+                                                          .width = options.preview.width,
+                                                          .threads = options.preview.threads});
+    WritePng(options.out, sheet.picture);
+    std::printf("%s", OutcomesText(folders, sheet).c_str());
     return 0;
   }
 #endif

@@ -12,8 +12,8 @@
 #include "doorforge/cli/command_line.h"
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/config_file.h"
-#include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
+#include "doorforge/core/output_file.h"
 #include "doorforge/mesh/mesh_writer.h"
 #include "doorforge/mesh/repair_file.h"
 
@@ -73,9 +73,7 @@ RepairConfig ConfigOf(const RepairOptions& options) {
 void CheckOutputs(const RepairOptions& options) {
   WriterFor(options.output);
   for (const std::string& path : {options.output, options.report}) {
-    if (options.existing == Existing::kRefuse && fs::exists(fs::symlink_status(path)))
-      throw Error(ErrorCode::kInvalidArgument,
-                  path + ": already exists; pass --overwrite to replace it");
+    RequireNoFile(path, options.existing == Existing::kReplace);
     RequireWritable(fs::absolute(path).parent_path());
   }
 }

@@ -28,7 +28,7 @@ namespace {
 struct ValidateOptions {
   ValidationRequest request;
   ValidationSettings given;  // on the command line; empty: what the file says
-  std::string profile = "physics";
+  ValidationProfile profile = ValidationProfile::kPhysics;
   std::string config;
   std::optional<FindingFormat> format;
   std::optional<FailOn> fail_on;
@@ -73,10 +73,9 @@ ValidateOptions ParseValidate(int argc, char** argv) {
   CLI::App app("Checks doors, parts and anybody's URDF, MJCF, SDF, USDA, glTF and meshes.",
                "doorforge validate");
   app.add_option("PATH", options.request.paths, "doors, parts, files, or folders that hold some");
-  app.add_option("--profile", options.profile,
-                 "urdf: what loading needs; physics: all but simulation (default); openable: all, "
-                 "with every door simulated")
-      ->check(CLI::IsMember({"urdf", "physics", "openable"}));
+  AddChoice(app, "--profile", options.profile,
+            "urdf: what loading needs; physics: all but simulation; openable: all, with every door "
+            "simulated");
   auto* fix = app.add_flag("--fix", options.fix,
                            "mend what can be mended, then validate; --rules says which");
   app.add_flag("--dry-run", options.dry_run, "with --fix: show what would be mended")->needs(fix);
@@ -98,19 +97,17 @@ ValidateOptions ParseValidate(int argc, char** argv) {
       "  doorforge validate urdf --format sarif --out findings.sarif\n"
       "  doorforge validate --rules --json");
   ParseVerb(app, argc, argv);
-  if (options.request.paths.empty() && !options.rules)
-    throw Error(ErrorCode::kInvalidArgument, "PATH is required; see `doorforge validate --help`");
+  Require(options.rules || !options.request.paths.empty(), ErrorCode::kInvalidArgument,
+          "PATH is required; see `doorforge validate --help`");
   if (options.fix) checks.fix = options.dry_run ? FixMode::kDryRun : FixMode::kWrite;
   return options;
 }
 
-std::unique_ptr<DoorValidator> ValidatorFor(const std::string& profile) {
-  if (profile == "urdf") return std::make_unique<DoorValidator>(ValidationProfile::kUrdf);
-  if (profile == "physics") return std::make_unique<DoorValidator>(ValidationProfile::kPhysics);
+std::unique_ptr<DoorValidator> ValidatorFor(ValidationProfile profile) {
+  if (profile != ValidationProfile::kOpenable) return std::make_unique<DoorValidator>(profile);
   auto validator = OpenableValidator();
-  if (validator == nullptr)
-    throw Error(ErrorCode::kInvalidArgument,
-                "--profile openable: this build lacks the simulation (sim/rollout)");
+  Require(validator != nullptr, ErrorCode::kInvalidArgument,
+          "--profile openable: this build lacks the simulation (sim/rollout)");
   return validator;
 }
 

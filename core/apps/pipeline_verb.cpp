@@ -24,16 +24,6 @@ struct Options {
   bool dry_run = false;
 };
 
-std::string PresetLines() {
-  std::string lines;
-  for (const std::string& name : PipelinePresets()) {
-    const Pipeline pipeline = ReadPipeline(name, {});
-    lines += "  " + name + std::string(name.size() < 11 ? 11 - name.size() : 1, ' ') +
-             pipeline.about + "\n";
-  }
-  return lines;
-}
-
 void ParseOptions(int argc, char** argv, Options& options) {
   CLI::App app(
       "The conditioned chain: collect and train a stage, then the one before it with what was\n"
@@ -57,23 +47,15 @@ void ParseOptions(int argc, char** argv, Options& options) {
       "--any-build", options.run.any_build,
       "keep finished steps of other builds where nothing else has changed; each policy and\n"
       "data set names the build that made it");
-  app.footer("presets:\n" + PresetLines() +
+  app.footer("presets:\n" + PresetsText() +
              "\nexamples:\n"
              "  doorforge pipeline plan quick --out run/quick\n"
              "  doorforge pipeline quick --out run/quick\n"
              "  doorforge pipeline paper --out run/paper --doors run/doors --set open_epochs=8");
   ParseVerb(app, argc, argv);
-  if (options.preset.size() == 2) {
-    if (options.preset[0] != "plan")
-      throw Error(ErrorCode::kInvalidArgument,
-                  "\"" + options.preset[0] +
-                      "\": expected one preset, or "
-                      "`plan` and one; see `doorforge pipeline --help`");
-    options.dry_run = true;
-    options.preset.erase(options.preset.begin());
-  }
-  if (options.run.json && !options.dry_run)
-    throw Error(ErrorCode::kInvalidArgument, "--json: belongs to `pipeline plan`");
+  if (TakePlan(options.preset)) options.dry_run = true;
+  Require(options.dry_run || !options.run.json, ErrorCode::kInvalidArgument,
+          "--json: belongs to `pipeline plan`");
 }
 
 }  // namespace

@@ -88,6 +88,12 @@ std::string PngUri(std::string_view png) {
   return uri;
 }
 
+std::string AddressOn(const std::filesystem::path& page, const std::filesystem::path& file) {
+  if (file.empty()) return {};
+  const std::filesystem::path folder = std::filesystem::absolute(page).parent_path();
+  return std::filesystem::absolute(file).lexically_relative(folder).generic_string();
+}
+
 std::string Fixed(double value, int digits) {
   char text[64];
   const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, digits);

@@ -96,14 +96,18 @@ void AddSlurmOptions(CLI::App& app, DatagenOptions& options) {
 // What belongs to a run that writes.
 void AddOutput(CLI::App& app, DatagenOptions& options) {
   app.add_option("--out", options.out, "folder of the dataset")->required();
-  app.add_option("--task", options.task,
-                 "i/N: only task i, from 0, of N; `doorforge dataset merge` joins them");
-  app.add_option("--tasks", options.tasks,
-                 "N: the same, with i from SLURM_ARRAY_TASK_ID or JOB_COMPLETION_INDEX; with "
-                 "--slurm the number of tasks")
-      ->check(CLI::Range(1, kMostTasks));
+  auto* task =
+      app.add_option("--task", options.task,
+                     "i/N: only task i, from 0, of N; `doorforge dataset merge` joins them");
+  auto* tasks =
+      app.add_option("--tasks", options.tasks,
+                     "N: the same, with i from SLURM_ARRAY_TASK_ID or JOB_COMPLETION_INDEX; with "
+                     "--slurm the number of tasks")
+          ->check(CLI::Range(1, kMostTasks))
+          ->excludes(task);
   app.add_option("--task-offset", options.task_offset, "added to the i of --tasks")
-      ->check(CLI::Range(0, kMostTasks));
+      ->check(CLI::Range(0, kMostTasks))
+      ->needs(tasks);
   app.add_flag("--resume", options.resume,
                "go on in --out, which is done without it where the settings are the same");
   app.add_flag("--overwrite", options.overwrite, "replace the dataset in --out");
@@ -119,10 +123,6 @@ StageRequest RequestOf(const DatagenOptions& options) {
 }
 
 CollectionTask TaskOf(const DatagenOptions& options) {
-  Require(options.task.empty() || options.tasks == 0, ErrorCode::kInvalidArgument,
-          "--task and --tasks: give one of them");
-  Require(options.task_offset == 0 || options.tasks > 0, ErrorCode::kInvalidArgument,
-          "--task-offset: belongs to --tasks");
   if (options.tasks > 0) return TaskFromEnvironment(options.tasks, options.task_offset);
   const CollectionTask task = options.task.empty() ? CollectionTask{} : ParseTask(options.task);
   Require(task.count == 1 || !options.overwrite, ErrorCode::kInvalidArgument,
@@ -160,18 +160,13 @@ int GiveToSlurm(const DatagenOptions& options, const std::vector<std::string>& a
   Require(options.task.empty() && options.task_offset == 0, ErrorCode::kInvalidArgument,
           "--task and --task-offset: --slurm numbers the tasks itself; give --tasks N");
   SlurmScript script = options.script;
-  script.program = (ProgramFolder() / "doorforge").string();
-  script.work_folder = fs::current_path().string();
   script.dataset = options.out;
   script.arguments = arguments;
   script.tasks = options.tasks;
   script.threads = options.threads;
   const std::string& file = options.script_file;
-  const CollectionScript written =
-      WriteCollectionScript({RequestOf(options), file, script, options.overwrite});
-  PrintNote(file + ": " + std::to_string(written.tasks) + " tasks of " +
-            std::to_string(written.shards) + " shards in " + std::to_string(written.arrays) +
-            " arrays");
+  PrintNote(ScriptText(WriteCollectionScript({RequestOf(options), file, script, options.overwrite}),
+                       file));
   if (options.submit) return RunChild({"/bin/bash", fs::absolute(file).string()});
   PrintText("bash " + file + "\n");
   return 0;

@@ -4,7 +4,6 @@
 // The subcommands of `doorforge dataset`.
 
 #include <chrono>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -21,6 +20,7 @@
 #include "doorforge/collect/reobserve.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/folder_lock.h"
+#include "doorforge/core/html_text.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/output_file.h"
 #include "doorforge/core/program.h"
@@ -41,8 +41,6 @@
 namespace doorforge {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// A subcommand of `doorforge dataset`.
 struct Subcommand {
   CLI::App* app = nullptr;
@@ -60,16 +58,6 @@ struct DatasetVerifyOptions {
   bool json = false;
 };
 
-void Regenerate(DatasetVerifyOptions& options, std::vector<DatasetFinding>& findings) {
-  options.regenerate.folder = options.request.folder;
-  options.regenerate.threads = options.request.threads;
-  options.regenerate.robot_meshes = RobotMeshes();
-  const RegenerateResult result = RegenerateDataset(options.regenerate);
-  PrintNote(std::to_string(result.episodes) + " episodes made again, " +
-            std::to_string(result.findings.size()) + " differences");
-  findings.insert(findings.end(), result.findings.begin(), result.findings.end());
-}
-
 std::vector<DatasetFinding> VerifyWithProgress(VerifyRequest request) {
   Progress progress("verify", CountShards(request.folder));
   request.on_shard = [&] { progress.Advance(); };
@@ -77,11 +65,17 @@ std::vector<DatasetFinding> VerifyWithProgress(VerifyRequest request) {
 }
 
 int Verify(DatasetVerifyOptions& options) {
-  if (!options.share.empty()) options.regenerate.fraction = ParseFraction(options.share);
-  Require(options.share.empty() || !options.regenerate.doors.empty(), ErrorCode::kInvalidArgument,
-          "--regenerate: needs --doors, with what the dataset was made with");
+  const bool again = !options.share.empty();
+  if (again) options.regenerate.fraction = ParseFraction(options.share);
   std::vector<DatasetFinding> findings = VerifyWithProgress(options.request);
-  if (!AnyFault(findings) && !options.share.empty()) Regenerate(options, findings);
+  if (again && !AnyFault(findings)) {
+    options.regenerate.folder = options.request.folder;
+    options.regenerate.threads = options.request.threads;
+    const RegenerateResult result = RegenerateDataset(options.regenerate);
+    PrintNote(std::to_string(result.episodes) + " episodes made again, " +
+              std::to_string(result.findings.size()) + " differences");
+    findings.insert(findings.end(), result.findings.begin(), result.findings.end());
+  }
   PrintAnswer(options.json, FindingsToJson(findings),
               FindingsText(findings, options.request.folder));
   return AnyFault(findings) ? 1 : 0;
@@ -90,6 +84,7 @@ int Verify(DatasetVerifyOptions& options) {
 // What a dataset was made with, for who makes episodes again.
 std::vector<CLI::Option*> AddMadeWithOptions(CLI::App& app, RegenerateDatasetRequest& given) {
   CollectionWords& who = given.policies;
+  given.robot_meshes = RobotMeshes();
   return {app.add_option("--doors", given.doors, "the doors that the dataset was made with"),
           app.add_option("--robot", given.robot, kRobotOption),
           app.add_option("--handler", who.handler, "the policy that turned the handle"),
@@ -110,6 +105,7 @@ Subcommand AddVerify(CLI::App& dataset) {
                                 "make a share of the episodes again from their seeds, such as 1%, "
                                 "and compare every byte");
   for (CLI::Option* option : AddMadeWithOptions(*app, options->regenerate)) option->needs(share);
+  share->needs(app->get_option("--doors"));
   app->footer(
       "examples:\n  doorforge dataset verify data/open\n"
       "  doorforge dataset verify data/open --regenerate 1% --doors doors/train");
@@ -236,13 +232,6 @@ struct DatasetInfoOptions {
   bool json = false;
 };
 
-// The page names the films by their path from its own folder.
-std::string FilmsAddress(const DatasetInfoOptions& options) {
-  if (options.films.empty()) return {};
-  const fs::path folder = fs::absolute(options.html).parent_path();
-  return fs::absolute(options.films).lexically_relative(folder).generic_string();
-}
-
 int Info(const DatasetInfoOptions& options) {
   RequireNoFile(options.png, options.overwrite);
   RequireNoFile(options.html, options.overwrite);
@@ -251,7 +240,8 @@ int Info(const DatasetInfoOptions& options) {
       options.folder, options.html.empty() ? 0 : options.examples, options.threads);
   if (!options.png.empty()) WritePng(options.png, EpisodeCharts(episodes));
   if (!options.html.empty())
-    CommitFile(options.html, DatasetPage(dataset, episodes, FilmsAddress(options)));
+    CommitFile(options.html,
+               DatasetPage(dataset, episodes, page::AddressOn(options.html, options.films)));
   const std::string text = DescriptionText(dataset) + StagesText(episodes);
   dataset["stages"] = StagesToJson(episodes);
   PrintAnswer(options.json, dataset, text);
@@ -354,7 +344,6 @@ struct DatasetFilmsOptions {
 
 int Films(DatasetFilmsOptions& options) {
   RequireNoFile(options.out, options.overwrite);
-  options.request.made_with.robot_meshes = RobotMeshes();
   const std::vector<EpisodeFilm> films = FilmDataset(options.request);
   WriteFilms(options.out, films);
   PrintText(options.out + ": " + std::to_string(films.size()) + " films\n");

@@ -47,6 +47,7 @@ TEST(BenchmarkTable, EveryRowHasSixFiguresOfThePaperOrNoneAndEverySizeItsRows) {
   EXPECT_EQ(BenchmarkSizes(), (std::vector<std::string>{"paper", "quick"}));
   for (const std::string& size : BenchmarkSizes()) {
     const Benchmark benchmark = ReadBenchmark(size, {}, {});
+    EXPECT_NE(SizesText().find(" " + benchmark.size.about + "\n"), std::string::npos) << size;
     EXPECT_EQ(benchmark.rows.back().name, "ours") << size;  // what the others are compared with
     for (const BenchmarkRow& row : benchmark.rows)
       EXPECT_TRUE(row.paper.empty() || row.paper.size() == std::size(kCategories)) << row.name;

@@ -15,6 +15,7 @@
 #include "doorforge/collect/collection_script.h"
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
+#include "doorforge/core/program.h"
 #include "doorforge/schemas/dataset.h"
 
 #include "../physics/primitive_door.h"
@@ -176,6 +177,17 @@ TEST_F(CollectStageTest, AScriptReplacesNoOtherFile) {
   request.replace = true;
   WriteCollectionScript(request);
   EXPECT_NE(ReadFile(request.file), before);
+}
+
+TEST_F(CollectStageTest, AScriptRunsThisProgramHereUnlessItIsTold) {
+  CollectionScriptRequest request = ScriptFor({"datagen", "open"});
+  request.script.program = "";
+  request.script.work_folder = "";
+  const CollectionScript script = WriteCollectionScript(request);
+  EXPECT_EQ(ScriptText(script, "s.sh"), "s.sh: 5 tasks of 5 shards in 1 arrays");
+  const std::string text = ReadFile(request.file);
+  EXPECT_NE(text.find((ProgramFolder() / "doorforge").string()), std::string::npos) << text;
+  EXPECT_NE(text.find(fs::current_path().string()), std::string::npos) << text;
 }
 
 }  // namespace

@@ -98,5 +98,22 @@ TEST(PipelinePresets, AChangeOfAnArgumentThatThereIsNotIsRefused) {
   fs::remove(file);
 }
 
+TEST(TakePlan, IsTheFirstOfTwoWordsAndNoOther) {
+  std::vector<std::string> words = {"plan", "quick"};
+  EXPECT_TRUE(TakePlan(words));
+  EXPECT_EQ(words, std::vector<std::string>{"quick"});
+  EXPECT_FALSE(TakePlan(words));
+  EXPECT_EQ(words, std::vector<std::string>{"quick"});
+  words = {"quick", "paper"};
+  EXPECT_THROW(TakePlan(words), Error);
+}
+
+TEST(PresetsText, HasALineForEachPreset) {
+  const std::string text = PresetsText();
+  for (const std::string& name : PipelinePresets())
+    EXPECT_NE(text.find("  " + name + " "), std::string::npos) << text;
+  EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(text, '\n')), PipelinePresets().size());
+}
+
 }  // namespace
 }  // namespace doorforge

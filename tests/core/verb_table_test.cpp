@@ -3,6 +3,7 @@
 #include "doorforge/cli/verb_table.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "doorforge/cli/answer.h"
 #include "doorforge/core/error.h"
@@ -51,6 +52,15 @@ TEST(Answer, CountsAsPeopleWriteIt) {
 TEST(Answer, ABatchFailsWhereAnyOfItFailed) {
   EXPECT_EQ(ExitCodeOfBatch(0), 0);
   EXPECT_EQ(ExitCodeOfBatch(3), 1);
+}
+
+TEST(Answer, OfABatchTellsItsProblemsApart) {
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(AnswerOfBatch({"a: broken"}, false, nullptr, "1 door\n"), 1);
+  EXPECT_EQ(AnswerOfBatch({}, false, nullptr, "2 doors\n"), 0);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "1 door\n2 doors\n");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "doorforge: a: broken\n");
 }
 
 }  // namespace

@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "doorforge/authoring/compose_doors.h"
 #include "doorforge/authoring/export_batch.h"
@@ -116,6 +118,27 @@ TEST(Authoring, ASelectionIsOfOneCategoryAndAnUnknownOneIsRefused) {
   for (const CatalogueEntry& entry : SelectParts(kData, {.category = "safe"}))
     EXPECT_EQ(entry.category, Category::kSafe);
   EXPECT_THROW(SelectParts(kData, {.category = "gate"}), Error);
+}
+
+TEST(Authoring, WhatCameOfManyDoorsIsSaidInALine) {
+  const std::vector<ComposedDoor> doors = {{"a", "", true}, {"b", "", false}, {"c", "bad", false}};
+  EXPECT_EQ(ComposedText(doors, "out"),
+            "2 doors composed in out, 1 of them there already, 1 not\n");
+  EXPECT_EQ(ComposedText(std::span(doors).subspan(1, 1), "out"), "1 door composed in out\n");
+  EXPECT_EQ(ProblemsOf(doors), std::vector<std::string>{"c: bad"});
+  const std::vector<ExportedDoor> exported = {{"x/a", "a", ""}, {"x/b", "", "worse"}};
+  EXPECT_EQ(ProblemsOf(exported), std::vector<std::string>{"x/b: worse"});
+}
+
+TEST(Authoring, TheRecordOfABatchSaysOfEachPartWhetherItWasBuilt) {
+  const std::vector<CatalogueEntry> parts = SelectParts(kData, {.category = "safe"});
+  const std::vector<std::string> problems = {"", "no room"};
+  const auto json = BuiltToJson(std::span(parts).first(2), problems);
+  EXPECT_EQ(json.at("schema"), "doorforge.catalog_build");
+  EXPECT_EQ(json.at("parts").at(0).at("built"), true);
+  EXPECT_EQ(json.at("parts").at(1).at("built"), false);
+  EXPECT_EQ(json.at("parts").at(1).at("message"), "no room");
+  EXPECT_EQ(json.at("parts").at(1).at("id"), parts[1].id);
 }
 
 }  // namespace

@@ -194,6 +194,9 @@ TEST(ValidateDoor, FindsAllDoorsBelowAFolder) {
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[0].filename(), "a");
   EXPECT_EQ(found[1].filename(), "b");
+  const std::vector<std::string> paths = {ValidationFolder("many/sub"), ValidationFolder("many")};
+  ASSERT_EQ(FindRecords(paths).size(), 3u);
+  EXPECT_EQ(FindRecords(paths)[0].filename(), "b");
 }
 
 TEST(ValidateDoor, WritesFindingsAndCountsAsJson) {

@@ -3,16 +3,21 @@
 #include "doorforge/report/report.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "doorforge/core/error.h"
 #include "doorforge/report/html_numbers.h"
+#include "doorforge/report/report_folder.h"
 
 #include "example_report.h"
 
 namespace doorforge {
 namespace {
+
+namespace fs = std::filesystem;
 
 TEST(Report, ReadsBackWhatItWrote) {
   const auto json = ReportToJson(ExampleReport());
@@ -75,6 +80,19 @@ TEST(Report, RefusesWhatIsNotAReport) {
   refused([](auto& json) { json["episodes"][0]["outcome"] = "teleported"; });
   refused([](auto& json) { json["losses"][0]["train"].erase(0); });
   refused([](auto& json) { json.erase("doors"); });
+}
+
+TEST(Report, IsReadFromItsFolderOrByItsFile) {
+  const fs::path folder = fs::temp_directory_path() / ("report_test_" + std::to_string(::getpid()));
+  {
+    StagedFolder staged(folder, kReportFolder, Existing::kReplace);
+    WriteReportFolder(ExampleReport(), {}, staged);
+  }
+  const std::string written = ReportToJson(ExampleReport()).dump();
+  EXPECT_EQ(ReportToJson(ReadReport(folder)).dump(), written);
+  EXPECT_EQ(ReportToJson(ReadReport(folder / "report.json")).dump(), written);
+  fs::remove_all(folder);
+  EXPECT_THROW(ReadReport(folder), Error);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "doorforge/core/error.h"
+#include "doorforge/rollout/episode_sheet.h"
 
 #include "../physics/primitive_door.h"
 
@@ -42,6 +43,12 @@ TEST(EpisodeStrip, RefusesASingleFrame) {
   EpisodeStripConfig config;
   config.frames = 1;
   EXPECT_THROW(DrawEpisode(MakePrimitiveDoor({}), LoadMobileFranka(), config), Error);
+}
+
+TEST(EpisodeSheet, SaysHowEachDoorEnded) {
+  const std::filesystem::path doors[] = {"doors/a", "b"};
+  const EpisodeSheet sheet{{}, {EpisodeOutcome::kOpened, EpisodeOutcome::kDoorStuck}};
+  EXPECT_EQ(OutcomesText(doors, sheet), "a: opened\nb: door_stuck\n");
 }
 
 }  // namespace

@@ -92,6 +92,14 @@ TEST_F(DoorSetTest, FindsDoorsAtAnyDepthAndSortsThemById) {
   EXPECT_EQ(doors[1].folder, folder_ / "x/deep/first");
 }
 
+TEST_F(DoorSetTest, WhatAKilledProgramLeftIsNoDoor) {
+  Write("a", "doors/a");
+  Write("b", "doors/.staged/b");
+  ASSERT_EQ(Find().size(), 1U);
+  EXPECT_EQ(Find()[0].identity.id, "a");
+  EXPECT_EQ(Find({.folders = {folder_ / "doors/.staged"}}).size(), 1U) << "it is named itself";
+}
+
 TEST_F(DoorSetTest, ASelectionTakesSomeOfEachCategoryWhetherThereIsAnIndexOrNot) {
   for (const char* id : {"a", "b", "c", "d", "e", "f"}) Write(id, id);
   std::vector<std::string> drawn[2];

@@ -3,8 +3,6 @@
 
 // From a real depth picture and a robot's state to the hand's next pose.
 
-#include <cmath>
-#include <cstdlib>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -98,10 +96,8 @@ void AddAnswers(CLI::App& app, Options& options) {
 
 // What does not go together, before anything is read.
 void CheckOptions(const Options& options) {
-  const auto require = [](bool condition, const char* problem) {
-    if (!condition)
-      throw Error(ErrorCode::kInvalidArgument,
-                  std::string(problem) + "; see `doorforge act --help`");
+  const auto require = [](bool condition, const std::string& problem) {
+    Require(condition, ErrorCode::kInvalidArgument, problem + "; see `doorforge act --help`");
   };
   const bool one = !options.depth.empty() && options.state.empty() != options.handle.empty();
   const bool none = options.depth.empty() && options.state.empty() && options.handle.empty();
@@ -115,25 +111,10 @@ void CheckOptions(const Options& options) {
           "--picture is of one answer, and --stream gives many; leave one of them out");
 }
 
-// "off" switches a hold off, a number sets its threshold.
-void SetHold(const std::string& text, const char* option, bool& on, double& threshold) {
-  if (text.empty()) return;
-  on = text != "off";
-  if (!on) return;
-  char* end = nullptr;
-  threshold = std::strtod(text.c_str(), &end);
-  if (*end != '\0' || !std::isfinite(threshold))
-    throw Error(ErrorCode::kInvalidArgument,
-                std::string(option) + ": found \"" + text + "\", expected a number or off");
-}
-
 OnlineControllerConfig ConfigOf(const Options& options) {
   auto config = LoadConfig<OnlineControllerConfig>(options.config, options.settings);
   if (options.candidates) config.policy.candidates = *options.candidates;
-  HoldConfig& hold = config.hold;
-  SetHold(options.foreign_limit, "--foreign-limit", hold.foreign, hold.foreign_percentile);
-  SetHold(options.least_gain, "--least-gain", hold.gain, hold.least_gain_rad);
-  SetHold(options.least_gain, "--least-gain", hold.gain, hold.least_door_angle_rad);
+  SetHolds(options.foreign_limit, options.least_gain, config.hold);
   return config;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstddef>
 #include <exception>
 #include <limits>
@@ -248,6 +249,26 @@ nlohmann::ordered_json ComposedToJson(std::span<const ComposedDoor> doors) {
                     {"kept", door.kept},
                     {"message", door.problem}});
   return {{"schema", "doorforge.compose"}, {"schema_version", 1}, {"doors", list}};
+}
+
+std::string ComposedText(std::span<const ComposedDoor> doors, const fs::path& out) {
+  const auto failed = static_cast<std::size_t>(
+      std::ranges::count_if(doors, [](const ComposedDoor& door) { return !door.problem.empty(); }));
+  const auto kept = static_cast<std::size_t>(std::ranges::count(doors, true, &ComposedDoor::kept));
+  const auto also = [](std::size_t count, const char* what) {
+    return count == 0 ? std::string() : ", " + std::to_string(count) + what;
+  };
+  const std::size_t composed = doors.size() - failed;
+  return std::to_string(composed) + (composed == 1 ? " door" : " doors") + " composed in " +
+         out.string() + also(kept, " of them there already") + also(failed, " not") + "\n";
+}
+
+std::vector<std::string> ProblemsOf(std::span<const ComposedDoor> doors) {
+  std::vector<std::string> problems;
+  for (const ComposedDoor& door : doors) {
+    if (!door.problem.empty()) problems.push_back(door.id + ": " + door.problem);
+  }
+  return problems;
 }
 
 }  // namespace doorforge

@@ -54,4 +54,12 @@ nlohmann::ordered_json ExportedToJson(std::span<const ExportedDoor> doors) {
   return {{"schema", "doorforge.export"}, {"schema_version", 1}, {"doors", list}};
 }
 
+std::vector<std::string> ProblemsOf(std::span<const ExportedDoor> doors) {
+  std::vector<std::string> problems;
+  for (const ExportedDoor& door : doors) {
+    if (!door.problem.empty()) problems.push_back(door.folder + ": " + door.problem);
+  }
+  return problems;
+}
+
 }  // namespace doorforge

@@ -4,6 +4,9 @@
 
 #include <exception>
 
+#include <nlohmann/json.hpp>
+
+#include "doorforge/catalogue/describe_catalogue.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
@@ -33,6 +36,18 @@ std::vector<std::string> BuildParts(std::span<const CatalogueEntry> entries,
     progress.Advance();
   });
   return problems;
+}
+
+nlohmann::ordered_json BuiltToJson(std::span<const CatalogueEntry> entries,
+                                   std::span<const std::string> problems) {
+  auto parts = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    nlohmann::ordered_json part = EntryToJson(entries[i]);
+    part["built"] = problems[i].empty();
+    part["message"] = problems[i];
+    parts.push_back(std::move(part));
+  }
+  return {{"schema", "doorforge.catalog_build"}, {"schema_version", 1}, {"parts", parts}};
 }
 
 }  // namespace doorforge

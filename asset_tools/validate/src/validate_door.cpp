@@ -428,6 +428,14 @@ std::vector<fs::path> FindRecords(const fs::path& path) {
   return folders;
 }
 
+std::vector<fs::path> FindRecords(const std::vector<std::string>& paths) {
+  std::vector<fs::path> folders;
+  for (const std::string& path : paths) {
+    for (fs::path& folder : FindRecords(fs::path(path))) folders.push_back(std::move(folder));
+  }
+  return folders;
+}
+
 nlohmann::ordered_json ToJson(std::span<const ValidationReport> reports) {
   auto findings = nlohmann::ordered_json::array();
   int errors = 0;

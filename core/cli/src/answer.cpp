@@ -35,6 +35,13 @@ int ExitCodeOfBatch(std::size_t failed) {
   return failed == 0 ? 0 : 1;
 }
 
+int AnswerOfBatch(const std::vector<std::string>& problems, bool as_json,
+                  const nlohmann::ordered_json& json, const std::string& text) {
+  for (const std::string& problem : problems) PrintNote(problem);
+  PrintAnswer(as_json, json, text);
+  return ExitCodeOfBatch(problems.size());
+}
+
 int ExitCodeOfStopped(int signal, const std::string& what_is_kept) {
   PrintNote("stopped; " + what_is_kept);
   return 128 + signal;

@@ -368,4 +368,13 @@ double CostOf(const CostTerms& terms, const Json& settings) {
   return sum;
 }
 
+std::string PresetsText() {
+  std::string lines;
+  for (const std::string& name : PipelinePresets()) {
+    const std::string space(name.size() < 11 ? 11 - name.size() : 1, ' ');
+    lines += "  " + name + space + ReadPipeline(name, {}).about + "\n";
+  }
+  return lines;
+}
+
 }  // namespace doorforge

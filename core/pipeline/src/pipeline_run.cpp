@@ -329,4 +329,12 @@ std::string PlanPipeline(const Pipeline& pipeline, const PipelineRun& run) {
                     width, "together", "", minutes, mebibytes, ThreadCount(run.threads));
 }
 
+bool TakePlan(std::vector<std::string>& words) {
+  if (words.size() < 2) return false;
+  Require(words[0] == "plan", ErrorCode::kInvalidArgument,
+          "\"" + words[0] + "\": expected one name, or `plan` and one");
+  words.erase(words.begin());
+  return true;
+}
+
 }  // namespace doorforge

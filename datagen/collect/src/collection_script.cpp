@@ -9,6 +9,7 @@
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/folder_lock.h"
+#include "doorforge/core/program.h"
 
 #include "dataset_folder.h"
 
@@ -77,6 +78,8 @@ void CommitScript(const fs::path& file, const std::string& text, Existing existi
 CollectionScript WriteCollectionScript(const CollectionScriptRequest& request) {
   const StageRun run(request.stage);
   SlurmScript script = request.script;
+  if (script.program.empty()) script.program = (ProgramFolder() / "doorforge").string();
+  if (script.work_folder.empty()) script.work_folder = fs::current_path().string();
   {
     const FolderLock lock = LockDatasetFolder(script.dataset, request.replace);
     PrepareDatasetFolder(script.dataset, request.replace);
@@ -89,6 +92,12 @@ CollectionScript WriteCollectionScript(const CollectionScriptRequest& request) {
   CommitScript(request.file, SlurmScriptText(script),
                request.replace ? Existing::kReplace : Existing::kRefuse);
   return {script.tasks, shards, CutIntoArrays(script.tasks, script.array_size).size()};
+}
+
+std::string ScriptText(const CollectionScript& written, const fs::path& file) {
+  return file.string() + ": " + std::to_string(written.tasks) + " tasks of " +
+         std::to_string(written.shards) + " shards in " + std::to_string(written.arrays) +
+         " arrays";
 }
 
 }  // namespace doorforge

@@ -1,15 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cstdio>
 #include <string_view>
 
+#include "doorforge/core/html_text.h"
 #include "doorforge/dataset/describe_episodes.h"
 
 namespace doorforge {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using page::Escape;
+using page::Fixed;
+using page::PngUri;
 
 constexpr std::string_view kStyle = R"css(
 :root {
@@ -64,45 +67,10 @@ figcaption b { color: var(--ink); }
 img { display: block; width: 100%; height: auto; border-radius: 6px; margin-bottom: 8px; background: #ffffff; }
 )css";
 
-std::string Escape(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '&') escaped += "&amp;";
-    if (c == '<') escaped += "&lt;";
-    if (c == '>') escaped += "&gt;";
-    if (c == '"') escaped += "&quot;";
-    const bool is_plain = c != '&' && c != '<' && c != '>' && c != '"';
-    // control characters may stand neither in HTML nor in XML
-    if (is_plain && (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t')) escaped += c;
-  }
-  return escaped;
-}
-
-// RFC 4648
-std::string PngUri(std::string_view png) {
-  constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string uri = "data:image/png;base64,";
-  for (std::size_t i = 0; i < png.size(); i += 3) {
-    unsigned group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = (group << 8) | (i + k < png.size() ? static_cast<unsigned char>(png[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k)
-      uri += i + k <= png.size() ? kDigits[(group >> (18 - 6 * k)) & 63U] : '=';
-  }
-  return uri;
-}
-
 // Groups of three digits, with a narrow space that does not break.
 std::string Number(std::uint64_t value) {
   std::string text = std::to_string(value);
   for (std::size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, "\u202f");
-  return text;
-}
-
-std::string Fixed(double value, int digits) {
-  char text[48];
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
   return text;
 }
 

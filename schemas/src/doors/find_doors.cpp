@@ -14,8 +14,12 @@ std::set<fs::path> DoorsBelow(const fs::path& folder) {
     throw Error(ErrorCode::kMissing, folder.string() + ": no such folder of doors");
   std::set<fs::path> found;
   if (fs::exists(folder / "door.json")) found.insert(folder);
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.path().filename() == "door.json") found.insert(entry.path().parent_path());
+  const auto end = fs::recursive_directory_iterator();
+  for (auto entry = fs::recursive_directory_iterator(folder); entry != end; ++entry) {
+    const fs::path name = entry->path().filename();
+    if (name == "door.json") found.insert(entry->path().parent_path());
+    // what a killed program left
+    if (name.string().starts_with('.') && entry->is_directory()) entry.disable_recursion_pending();
   }
   if (found.empty())
     throw Error(ErrorCode::kMissing,

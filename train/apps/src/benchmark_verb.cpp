@@ -14,7 +14,6 @@
 #include "doorforge/cli/answer.h"
 #include "doorforge/cli/command_line.h"
 #include "doorforge/core/committed_file.h"
-#include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/pipeline/pipeline_run.h"
@@ -30,14 +29,6 @@ struct BenchmarkOptions {
   PipelineRun run;
   bool dry_run = false;
 };
-
-std::string SizeLines() {
-  std::string lines;
-  for (const std::string& name : BenchmarkSizes())
-    lines += "  " + name + std::string(name.size() < 8 ? 8 - name.size() : 1, ' ') +
-             ReadBenchmark(name, {}, {}).size.about + "\n";
-  return lines;
-}
 
 BenchmarkOptions ParseBenchmark(int argc, char** argv) {
   BenchmarkOptions options;
@@ -64,17 +55,12 @@ BenchmarkOptions ParseBenchmark(int argc, char** argv) {
                "replace what steps made whose inputs have changed since");
   app.add_flag("--any-build", options.run.any_build,
                "keep finished steps of other builds where nothing else has changed");
-  app.footer("sizes:\n" + SizeLines() +
+  app.footer("sizes:\n" + SizesText() +
              "\nexamples:\n"
              "  doorforge benchmark plan quick --out run/benchmark\n"
              "  doorforge benchmark quick --out run/benchmark --rows expert gapartnet ours");
   ParseVerb(app, argc, argv);
-  if (options.size.size() == 2) {
-    Require(options.size[0] == "plan", ErrorCode::kInvalidArgument,
-            "\"" + options.size[0] + "\": expected one size, or `plan` and one");
-    options.dry_run = true;
-    options.size.erase(options.size.begin());
-  }
+  if (TakePlan(options.size)) options.dry_run = true;
   return options;
 }
 
@@ -91,14 +77,9 @@ int RunBenchmark(BenchmarkOptions& options) {
   const BenchmarkResult result = ReadBenchmarkResult(benchmark, plan, options.run.out);
   CommitFile(options.run.out / "benchmark.html", BenchmarkPage(result));
   WriteJsonFile(options.run.out / "benchmark.json", BenchmarkToJson(result));
-  if (options.run.json) {
-    PrintJson(BenchmarkToJson(result));
-    return 0;
-  }
-  PrintText(
-      BenchmarkText(result) + "\npage: " +
-      std::filesystem::absolute(options.run.out / "benchmark.html").lexically_normal().string() +
-      "\n");
+  const auto page = std::filesystem::absolute(options.run.out / "benchmark.html");
+  PrintAnswer(options.run.json, BenchmarkToJson(result),
+              BenchmarkText(result) + "\npage: " + page.lexically_normal().string() + "\n");
   return 0;
 }
 

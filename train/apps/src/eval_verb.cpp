@@ -16,7 +16,7 @@
 #include "doorforge/core/environment_preset.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/program.h"
-#include "doorforge/evaluate/evaluate_opener.h"
+#include "doorforge/evaluate/evaluation_folder.h"
 #include "doorforge/registry/policy_options.h"
 #include "doorforge/remote/remote_options.h"
 #include "doorforge/report/report_folder.h"
@@ -57,8 +57,9 @@ void AddOptions(CLI::App& app, Options& options) {
                  "at most so many doors of each category, all handles and bodies as evenly as "
                  "the number allows; 0: all")
       ->check(CLI::NonNegativeNumber);
-  app.add_option("--out", options.out,
-                 "folder for report.json and report.html; without it only the table is printed");
+  auto* out = app.add_option(
+      "--out", options.out,
+      "folder for report.json and report.html; without it only the table is printed");
   app.add_option("--data", options.request.data,
                  "data sets that the opener was trained from: the report lists and shows their "
                  "doors");
@@ -77,7 +78,8 @@ void AddOptions(CLI::App& app, Options& options) {
                "evaluate on doors with parts that the policy was trained on, too");
   app.add_flag("--films", options.request.films,
                "with --out: run every failure once more and keep its course in films.jsonl, with "
-               "films.html to look at it and links from report.html");
+               "films.html to look at it and links from report.html")
+      ->needs(out);
   AddJson(app, options.json, "print report.json's document instead of a table");
   AddOverwrite(app, options.existing, "replace the report in --out");
 }
@@ -100,8 +102,6 @@ Options Parse(int argc, char** argv, const EvalVerbSetup& setup) {
   ParseVerb(app, argc, argv);
   UseRemotePolicies(options.remote, setup.opener, options.request.registry,
                     options.request.policies);
-  Require(!options.request.films || !options.out.empty(), ErrorCode::kInvalidArgument,
-          "--films: goes with --out");
   Require(!options.request.policies.opener.empty(), ErrorCode::kInvalidArgument,
           "--opener is required: " + setup.registry.Choices(Stage::kOpen) + "; see `" +
               setup.program + " --help`");
@@ -122,24 +122,6 @@ EvaluationConfig ConfigOf(const Options& options) {
   return config;
 }
 
-// The page of films is made by `doorforge view`, a program of its own for its licence.
-int MakeFilmsPage(const Options& options) {
-  for (const fs::path& folder : ProgramFolders()) {
-    const fs::path program = folder / "doorforge-assets";
-    if (!fs::exists(program)) continue;
-    std::vector<std::string> command = {program.string(),
-                                        "view",
-                                        options.out,
-                                        "--out",
-                                        (fs::path(options.out) / "films.html").string(),
-                                        "--doors"};
-    for (const fs::path& doors : options.request.doors.folders) command.push_back(doors.string());
-    return RunChild(command);
-  }
-  PrintNote("films.html: doorforge-assets, which makes it, is not installed");
-  return 1;
-}
-
 int Evaluate(Options& options) {
   // refused before hours of work, not after
   std::optional<StagedFolder> staged;
@@ -155,11 +137,14 @@ int Evaluate(Options& options) {
   for (const std::string& note : evaluation.notes) PrintProgress("note: " + note + "\n");
   int code = 0;
   if (staged) {
-    if (!evaluation.films.empty()) WriteFilms(staged->path() / "films.jsonl", evaluation.films);
-    WriteReportFolder(evaluation.report, evaluation.pictures, *staged);
+    WriteEvaluation(evaluation, *staged);
     const fs::path page = fs::absolute(fs::path(options.out) / "report.html").lexically_normal();
     PrintProgress("report: " + page.string() + "\n");
-    if (!evaluation.films.empty()) code = MakeFilmsPage(options);
+  }
+  if (staged && !evaluation.films.empty()) {
+    const auto made = MakeFilmsPage(options.out, options.request.doors.folders);
+    if (!made) PrintNote("films.html: doorforge-assets, which makes it, is not installed");
+    code = made.value_or(1);
   }
   PrintAnswer(options.json, ReportToJson(evaluation.report), ReportTable(evaluation.report));
   return code;

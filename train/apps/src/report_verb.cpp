@@ -10,9 +10,9 @@
 
 #include "doorforge/cli/answer.h"
 #include "doorforge/cli/command_line.h"
-#include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/report/over_trainings.h"
+#include "doorforge/report/report_folder.h"
 
 namespace doorforge {
 namespace {
@@ -38,11 +38,6 @@ ReportOptions Parse(int argc, char** argv) {
   app.footer("example:\n  doorforge report run1/report run2/report run3/report");
   ParseVerb(app, argc, argv);
   return options;
-}
-
-EvaluationReport ReadReport(const fs::path& place) {
-  const std::string file = (fs::is_directory(place) ? place / "report.json" : place).string();
-  return ReportFromJson(ReadJsonFile(file), file);
 }
 
 }  // namespace

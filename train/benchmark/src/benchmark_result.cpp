@@ -10,17 +10,12 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
-#include "doorforge/report/report.h"
+#include "doorforge/report/report_folder.h"
 
 namespace doorforge {
 namespace {
 
 namespace fs = std::filesystem;
-
-EvaluationReport ReadReport(const fs::path& folder) {
-  const std::string path = (folder / "report.json").string();
-  return ReportFromJson(ReadJsonFile(path), path);
-}
 
 template <class T>
 void Append(const std::vector<T>& from, std::vector<T>& to) {

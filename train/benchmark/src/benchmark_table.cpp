@@ -80,4 +80,13 @@ Benchmark ReadBenchmark(const std::string& name, const std::vector<std::string>&
   return benchmark;
 }
 
+std::string SizesText() {
+  std::string lines;
+  for (const std::string& name : BenchmarkSizes()) {
+    const std::string space(name.size() < 8 ? 8 - name.size() : 1, ' ');
+    lines += "  " + name + space + ReadBenchmark(name, {}, {}).size.about + "\n";
+  }
+  return lines;
+}
+
 }  // namespace doorforge

@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/deploy/act_answer.h"
 
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <numbers>
 
 #include <nlohmann/json.hpp>
+
+#include "doorforge/core/error.h"
 
 namespace doorforge {
 namespace {
@@ -44,6 +48,16 @@ void JudgeGain(const HoldConfig& config, ActAnswer& answer) {
                 answer.expected_gain_rad, Grasps(answer) ? "this grasp" : "this action", least));
 }
 
+void SetHold(const std::string& word, const char* option, bool& on, double& threshold) {
+  if (word.empty()) return;
+  on = word != "off";
+  if (!on) return;
+  char* end = nullptr;
+  threshold = std::strtod(word.c_str(), &end);
+  Require(*end == '\0' && std::isfinite(threshold), ErrorCode::kInvalidArgument,
+          std::string(option) + ": found \"" + word + "\", expected a number or off");
+}
+
 Json ForeignToJson(const std::optional<Foreignness>& foreign) {
   if (!foreign) return nullptr;
   return {{"distance", foreign->distance},
@@ -79,6 +93,12 @@ std::string PositionText(const Eigen::Vector3d& position) {
 }
 
 }  // namespace
+
+void SetHolds(const std::string& foreign_limit, const std::string& least_gain, HoldConfig& config) {
+  SetHold(foreign_limit, "--foreign-limit", config.foreign, config.foreign_percentile);
+  SetHold(least_gain, "--least-gain", config.gain, config.least_gain_rad);
+  SetHold(least_gain, "--least-gain", config.gain, config.least_door_angle_rad);
+}
 
 void Judge(const HoldConfig& config, ActAnswer& answer) {
   answer.hold_reasons.clear();

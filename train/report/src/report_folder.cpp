@@ -21,4 +21,10 @@ void WriteReportFolder(const EvaluationReport& report, const ReportPictures& pic
   folder.Commit();
 }
 
+EvaluationReport ReadReport(const std::filesystem::path& place) {
+  const bool is_folder = std::filesystem::is_directory(place);
+  const std::string file = (is_folder ? place / "report.json" : place).string();
+  return ReportFromJson(ReadJsonFile(file), file);
+}
+
 }  // namespace doorforge

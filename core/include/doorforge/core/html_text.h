@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -23,6 +24,10 @@ std::string Fill(std::string_view pattern,
 
 /// "data:image/png;base64,..." (RFC 2397, RFC 4648).
 std::string PngUri(std::string_view png);
+
+/// The address of a file on a page: relative to the page's folder, so that both may be moved
+/// together. Empty for an empty `file`.
+std::string AddressOn(const std::filesystem::path& page, const std::filesystem::path& file);
 
 std::string Fixed(double value, int digits);
 std::string Plural(std::size_t count, const std::string& noun);  ///< "1 door", "3 doors"

@@ -38,4 +38,11 @@ EpisodeSheet DrawEpisodeSheet(std::span<const std::filesystem::path> doors,
   return sheet;
 }
 
+std::string OutcomesText(std::span<const std::filesystem::path> doors, const EpisodeSheet& sheet) {
+  std::string text;
+  for (std::size_t i = 0; i < doors.size(); ++i)
+    text += doors[i].filename().string() + ": " + std::string(NameOf(sheet.outcomes[i])) + "\n";
+  return text;
+}
+
 }  // namespace doorforge

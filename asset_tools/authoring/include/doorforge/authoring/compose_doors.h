@@ -101,4 +101,10 @@ ComposedDoors ComposeManyDoors(const ComposeRun& run, const ComposeRequest& requ
 /// {"schema": "doorforge.compose", "doors": [{"id", "composed", "kept", "message"}]}.
 nlohmann::ordered_json ComposedToJson(std::span<const ComposedDoor> doors);
 
+/// Says it for people: "2 doors composed in OUT, 1 of them there already, 1 not".
+std::string ComposedText(std::span<const ComposedDoor> doors, const std::filesystem::path& out);
+
+/// "<id>: <why>" of each door that could not be composed.
+std::vector<std::string> ProblemsOf(std::span<const ComposedDoor> doors);
+
 }  // namespace doorforge

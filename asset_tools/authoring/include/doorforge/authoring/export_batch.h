@@ -40,4 +40,7 @@ std::vector<ExportedDoor> ExportDoors(std::span<const std::filesystem::path> fol
 /// {"schema": "doorforge.export", "doors": [{"folder", "id", "exported", "message"}]}.
 nlohmann::ordered_json ExportedToJson(std::span<const ExportedDoor> doors);
 
+/// "<folder>: <why>" of each door that could not be exported.
+std::vector<std::string> ProblemsOf(std::span<const ExportedDoor> doors);
+
 }  // namespace doorforge

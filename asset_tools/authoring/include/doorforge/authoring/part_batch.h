@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "doorforge/catalogue/catalogue.h"
 #include "doorforge/core/committed_file.h"
 
@@ -20,5 +22,11 @@ namespace doorforge {
 std::vector<std::string> BuildParts(std::span<const CatalogueEntry> entries,
                                     const std::filesystem::path& out, Existing existing,
                                     int threads);
+
+/// {"schema": "doorforge.catalog_build", "parts": [EntryToJson() and "built", "message"]}.
+///
+/// @param problems What BuildParts() returned of the entries.
+nlohmann::ordered_json BuiltToJson(std::span<const CatalogueEntry> entries,
+                                   std::span<const std::string> problems);
 
 }  // namespace doorforge

@@ -48,6 +48,7 @@ struct ConformanceRow {
 
   bool held() const { return !latched || (held_deg && *held_deg <= kHeldDeg); }
   bool opened() const { return open_s.has_value(); }
+  bool passed() const { return loads && held() && opened(); }
 };
 
 /// An engine that was asked for: its version, or why it did not run and what to do about it.

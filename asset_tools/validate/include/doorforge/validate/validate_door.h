@@ -13,6 +13,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "doorforge/core/named_enum.h"
 #include "doorforge/schemas/door_asset.h"
 
 namespace doorforge {
@@ -77,6 +78,13 @@ enum class ValidationProfile {
   kPhysics,   ///< All rules but SWP and OPN.
   kOpenable,  ///< All rules.
 };
+inline constexpr NamedValue<ValidationProfile> kValidationProfiles[] = {
+    {ValidationProfile::kUrdf, "urdf"},
+    {ValidationProfile::kPhysics, "physics"},
+    {ValidationProfile::kOpenable, "openable"}};
+constexpr std::span<const NamedValue<ValidationProfile>> ValuesOf(ValidationProfile) {
+  return kValidationProfiles;
+}
 
 /// SWP and OPN: what a simulation of the door finds. This room may not simulate, so the program
 /// that can hands the check in. It must be a pure function and bear several threads.
@@ -133,6 +141,8 @@ ValidationReport ValidatePart(const std::filesystem::path& folder,
 /// Folders of doors and parts at or below `path`, sorted; those whose name begins with a dot are
 /// left out: what a killed program left. Throws Error(kMissing) if there is none.
 std::vector<std::filesystem::path> FindRecords(const std::filesystem::path& path);
+/// Those of all paths, path by path.
+std::vector<std::filesystem::path> FindRecords(const std::vector<std::string>& paths);
 
 /// {"schema": "doorforge.validation", "findings": [{"folder", "code", "severity", "where",
 /// "measured", "allowed", "fix", "fixable"}], "counts": {"folders", "errors", "warnings",

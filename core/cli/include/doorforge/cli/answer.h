@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -31,6 +32,11 @@ void PrintNote(const std::string& line);
 /// The exit code of a verb that works on many objects: 128 + the signal that stopped it, else 1 if
 /// any object failed, else 0.
 int ExitCodeOfBatch(std::size_t failed);
+
+/// Ends such a verb: tells each problem as PrintNote() does, prints the answer as PrintAnswer()
+/// does, and returns ExitCodeOfBatch() of their number.
+int AnswerOfBatch(const std::vector<std::string>& problems, bool as_json,
+                  const nlohmann::ordered_json& json, const std::string& text);
 
 /// The exit code of a verb that a signal stopped, after it said what is kept and how to go on.
 int ExitCodeOfStopped(int signal, const std::string& what_is_kept);

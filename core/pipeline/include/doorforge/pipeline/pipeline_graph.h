@@ -56,6 +56,9 @@ Pipeline ReadPipeline(const std::string& name, const std::vector<std::string>& c
 /// Names of the presets.
 std::vector<std::string> PipelinePresets();
 
+/// What each preset is about, a line each, for the help.
+std::string PresetsText();
+
 /// Lets folders stand for the output of a step and of those that are given with it, and leaves out
 /// the steps that only they needed.
 /// Throws Error(kInvalidArgument) if there is no such step.

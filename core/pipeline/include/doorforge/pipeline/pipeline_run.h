@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "doorforge/pipeline/pipeline_graph.h"
 
@@ -38,5 +39,10 @@ int RunPipeline(const Pipeline& pipeline, const PipelineRun& run);
 /// Returns the steps, what would be done about each and why, and the time and space that the preset
 /// expects, as a table or, with PipelineRun::json, as a document. Changes nothing.
 std::string PlanPipeline(const Pipeline& pipeline, const PipelineRun& run);
+
+/// Takes a "plan" from before the one name that a user gives, and returns whether it was there.
+///
+/// @param words One or two. Throws Error(kInvalidArgument) if the first of two is another word.
+bool TakePlan(std::vector<std::string>& words);
 
 }  // namespace doorforge

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
 
 #include "doorforge/collect/stage_run.h"
 #include "doorforge/dataset/slurm_script.h"
@@ -16,7 +17,8 @@ struct CollectionScriptRequest {
   std::filesystem::path file;  ///< The script was written there.
   /// What the tasks are and may take. Here `dataset` may be relative; `arguments` are those of the
   /// call that asks for the script, of which a task gets what is its own; of `tasks`, 0 means one a
-  /// shard, at most 1000; of `threads`, 0 means 1.
+  /// shard, at most 1000; of `threads`, 0 means 1. An empty `program` is the doorforge beside this
+  /// one, an empty `work_folder` the current folder.
   SlurmScript script;
   /// True: another script in `file` is replaced, and a dataset in `script.dataset` removed.
   bool replace = false;
@@ -36,5 +38,8 @@ struct CollectionScript {
 /// folder
 ///     holds something else; as StageRun and SlurmScriptText().
 CollectionScript WriteCollectionScript(const CollectionScriptRequest& request);
+
+/// "FILE: 8 tasks of 16 shards in 1 arrays".
+std::string ScriptText(const CollectionScript& written, const std::filesystem::path& file);
 
 }  // namespace doorforge

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "doorforge/schemas/episode.h"
@@ -29,5 +30,8 @@ struct EpisodeSheet {
 /// several a row each. Throws Error(kInvalidArgument) for the folder of a part, else as ReadDoor().
 EpisodeSheet DrawEpisodeSheet(std::span<const std::filesystem::path> doors,
                               const EpisodeSheetConfig& config);
+
+/// "<folder's name>: <how it ended>", a line a door.
+std::string OutcomesText(std::span<const std::filesystem::path> doors, const EpisodeSheet& sheet);
 
 }  // namespace doorforge

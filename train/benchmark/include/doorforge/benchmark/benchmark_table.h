@@ -71,6 +71,9 @@ struct Benchmark {
 /// Names of the sizes in data/benchmarks.
 std::vector<std::string> BenchmarkSizes();
 
+/// What each size is about, a line each, for the help.
+std::string SizesText();
+
 /// Reads data/benchmarks/rows.yaml and a size.
 ///
 /// @param name "quick", or a path that ends with ".yaml".

@@ -36,6 +36,14 @@ struct HoldConfig {
   }
 };
 
+/// Takes thresholds as a user writes them: "off" switches a hold off, a number switches it on and
+/// is its threshold, an empty word leaves it as it is.
+///
+/// @param foreign_limit Sets `foreign_percentile`.
+/// @param least_gain Sets `least_gain_rad` and `least_door_angle_rad`.
+/// @throws Error(kInvalidArgument), which names --foreign-limit or --least-gain, on anything else.
+void SetHolds(const std::string& foreign_limit, const std::string& least_gain, HoldConfig& config);
+
 /// How far the picture is from those that the policy was trained on, see
 /// doorforge/policy/familiarity.h.
 struct Foreignness {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
+
 #include "doorforge/core/committed_file.h"
 #include "doorforge/report/report.h"
 #include "doorforge/report/report_page.h"
@@ -18,5 +20,9 @@ inline constexpr FolderKind kReportFolder{"a report", "report.json", "doorforge.
 /// @throws Error(kIo) as CommitFile().
 void WriteReportFolder(const EvaluationReport& report, const ReportPictures& pictures,
                        StagedFolder& folder);
+
+/// Reads the record of a report's folder, or a report.json that is named itself. Throws
+/// Error(kMissing) if it is not there, Error(kFormat) as ReportFromJson().
+EvaluationReport ReadReport(const std::filesystem::path& place);
 
 }  // namespace doorforge

@@ -242,6 +242,77 @@ class DroppedMeshes(ServedTest):
         self.assertIn("--body my_leaf.stl", self.browser.js("document.querySelector('.command code').textContent"))
         self.check_equal("leaf", "body")
 
+    def test_a_leaf_and_a_handle_of_one_s_own_make_a_door(self) -> None:
+        self.compose_page()
+        self.drop(self.file("own_leaf.stl", stl(box((0, 0, 0), (40, 800, 1900)))))
+        self.set("own-role", "body")
+        self.click_face(0, 40)
+        self.put_on()
+        self.drop(self.file("own_lever.stl", stl(LEVER)))
+        self.click_face(2, 0)
+        self.set("own-up", "y")
+        self.set("own-mechanism", "lever")
+        self.put_on()
+        command = self.browser.js("document.querySelector('.command code').textContent")
+        for word in ("--body own_leaf.stl", "--handle own_lever.stl", "--category interior"):
+            self.assertIn(word, command)
+        self.check_equal("both")
+        self.assertIn("body/part.json", self.downloaded())
+        # what is changed and cancelled counts for nothing
+        before = self.browser.js("doorforge.composer.request")
+        self.browser.click_on("#own-row-handle .own-edit")
+        self.set("own-up", "x")
+        self.browser.key("Escape")
+        self.browser.wait("document.querySelector('dialog[open]') === null")
+        self.assertEqual(self.browser.js("doorforge.composer.request"), before)
+        self.browser.click_on("#own-row-body .own-remove")
+        self.settled()
+        command = self.browser.js("document.querySelector('.command code').textContent")
+        self.assertNotIn("own_leaf.stl", command)
+        self.assertIn("own_lever.stl", command)
+
+    def test_a_rose_in_a_file_of_its_own_stays_fixed(self) -> None:
+        rose = self.file("ring.stl", stl(box((-26, -26, 0), (26, 26, 8))))
+        grip = self.file("rosed.stl", stl(LEVER))
+        self.compose_page()
+        self.drop(rose, grip)
+        self.set("own-which", "rosed.stl")
+        self.browser.wait("doorforge.composer.offered.name === 'rosed.stl'")
+        self.set("own-beside", "ring.stl")
+        self.click_face(2, 0)
+        self.set("own-up", "y")
+        self.set("own-mechanism", "lever")
+        self.put_on()
+        self.assertIn("--handle-rose=ring.stl", self.browser.js("document.querySelector('.command code').textContent"))
+        got = self.downloaded()
+        self.assertEqual([piece["name"] for piece in json.loads(got["handle/part.json"])["pieces"]], ["rose", "grip"])
+        self.check_equal("rose")
+
+    def test_a_frame_in_a_file_of_its_own_stands(self) -> None:
+        leaf = self.file("framed.stl", stl(box((0, 0, 0), (40, 800, 1900))))
+        frame = self.file("posts.stl", stl(box((0, -60, 0), (40, -3, 1960)) + box((0, 803, 0), (40, 860, 1960))))
+        self.compose_page()
+        self.drop(leaf, frame)
+        self.set("own-role", "body")
+        self.set("own-beside", "posts.stl")
+        self.assertEqual(self.browser.js("document.querySelector('label[for=own-beside]').textContent"), "Its frame")
+        self.put_on()
+        self.assertIn("--body-frame=posts.stl", self.browser.js("document.querySelector('.command code').textContent"))
+        self.assertEqual({piece["name"] for piece in json.loads(self.downloaded()["body/part.json"])["pieces"]}, {"frame", "leaf"})
+        self.check_equal("frame", "body")
+
+    def test_two_files_of_one_name_on_one_door_are_refused(self) -> None:
+        self.compose_page()
+        self.drop(self.file("same.stl", stl(LEVER)))
+        self.set("own-front", "z")
+        self.put_on()
+        self.drop(self.file("same.stl", stl(box((0, 0, 0), (40, 800, 1900)))))
+        self.set("own-role", "body")
+        self.browser.click_on("#own-apply")
+        self.browser.wait("document.querySelector('.actions .asked').classList.contains('refused')")
+        self.assertIn("same.stl: another file of this name", self.browser.js("document.querySelector('.actions .asked').textContent"))
+        self.assertIn("--handle same.stl", self.browser.js("document.querySelector('.command code').textContent"))
+
     def test_every_setting_of_compose_has_its_field(self) -> None:
         self.compose_page()
         self.assertEqual(self.browser.js("Object.keys(doorforge.document.settings).filter((key) => document.getElementById(key) === null)"), [])
@@ -256,7 +327,7 @@ class DroppedMeshes(ServedTest):
         self.assertEqual(self.browser.js("doorforge.composer.offered.mesh.front"), "z")
         self.put_on()
         self.assertIn("plate.stl", self.browser.js("document.querySelector('.command code').textContent"))
-        self.browser.click_on("#own-remove")
+        self.browser.click_on("#own-row-handle .own-remove")
         self.settled()
         self.assertNotIn("plate.stl", self.browser.js("document.querySelector('.command code').textContent"))
 
@@ -316,7 +387,7 @@ class DroppedMeshes(ServedTest):
         self.assertEqual(self.ask("POST", "/compose", json.dumps(request))[0], 200)
         for change, code in (({"handle": "../a.stl", "files": {"../a.stl": digest}}, 400), ({"files": {"/elsewhere/a.stl": digest}}, 400), ({"files": {"a.stl": "../../etc/passwd"}}, 404),
                              ({"files": {"a.stl": 3}}, 400), ({"files": [digest]}, 400), ({"files": {}}, 404), ({"handle": "/etc/passwd"}, 404), ({"files": {f"{i}.stl": digest for i in range(17)}}, 400),
-                             ({"handle_mesh": {"rose": "/etc/passwd"}}, 400), ({"body_mesh": {"frame": "../x.stl"}}, 400), ({"handle_mesh": {"front": "q"}}, 400)):
+                             ({"handle_mesh": {"rose": "/etc/passwd"}}, 400), ({"body_mesh": {"frame": "../x.stl"}}, 400), ({"handle_mesh": {"rose": "b.stl"}}, 400), ({"handle_mesh": {"front": "q"}}, 400)):
             status, said = self.ask("POST", "/compose", json.dumps(request | change))
             self.assertEqual(status, code, (change, said))
             self.assertNotIn(b"/doorforge-composer", said)

@@ -41,7 +41,7 @@ export class ComposerView {
     this.copy = copyButton('', 'command');
     this.copyYaml = copyButton('', 'YAML', 'copy as YAML');
     this.notes = h('ul', { class: 'notes', hidden: true, 'aria-label': 'what was assumed of your mesh' });
-    this.own = null; // the mesh that was dropped and is on the door
+    this.own = {}; // meshes that were dropped and are on the door, by role
     this.element = h('div', { class: 'composer' }, this.shelf(), h('div', { class: 'made' }, this.controls(), this.view.element));
   }
 
@@ -56,12 +56,13 @@ export class ComposerView {
 
   // Files of one's own: dropped anywhere on the page, or chosen.
   dropZone() {
-    const input = h('input', { type: 'file', id: 'file', multiple: true, accept: '.stl,.obj,.glb,.mtl,.png,.jpg,.jpeg', onchange: () => this.drop([...input.files]) });
-    this.ownName = h('span', { class: 'name' });
-    this.ownRow = h('div', { class: 'own-row', hidden: true }, this.ownName,
-      h('button', { type: 'button', class: 'small', id: 'own-edit', onclick: () => this.own.show() }, 'turn it'),
-      h('button', { type: 'button', class: 'small', id: 'own-remove', onclick: () => this.removeOwn() }, 'remove'));
-    const zone = h('div', { class: 'drop' }, h('label', { for: 'file' }, 'Your own handle or leaf: drop an STL, OBJ or GLB here'), input, this.ownRow);
+    const input = h('input', { type: 'file', id: 'file', multiple: true, accept: '.stl,.obj,.glb,.mtl,.png,.jpg,.jpeg', onchange: () => {
+      const files = [...input.files];
+      input.value = ''; // so that the same file can be chosen again
+      this.drop(files);
+    } });
+    this.ownRows = Object.fromEntries(['body', 'handle'].map((role) => [role, this.ownRow(role)]));
+    const zone = h('div', { class: 'drop' }, h('label', { for: 'file' }, 'Your own handle or leaf: drop an STL, OBJ or GLB here'), input, Object.values(this.ownRows));
     for (const kind of ['dragover', 'drop']) window.addEventListener(kind, (event) => event.preventDefault());
     window.addEventListener('dragover', () => zone.classList.add('over'));
     window.addEventListener('dragleave', () => zone.classList.remove('over'));
@@ -72,46 +73,70 @@ export class ComposerView {
     return zone;
   }
 
-  /** Sends the files to the server, which reads them; then asks how the mesh is meant. */
+  ownRow(role) {
+    const named = role === 'body' ? 'leaf' : role;
+    return h('div', { class: 'own-row', id: `own-row-${role}`, hidden: true }, h('span', { class: 'name' }),
+      h('button', { type: 'button', class: 'small own-edit', 'aria-label': `turn it: your ${named}`, onclick: () => this.own[role].show(this.element) }, 'turn it'),
+      h('button', { type: 'button', class: 'small own-remove', 'aria-label': `remove: your ${named}`, onclick: () => this.removeOwn(role) }, 'remove'));
+  }
+
+  /** Sends the files to the server, which reads them; then asks how the mesh is meant, and the others beside it. */
   async drop(files) {
     this.refuse('files', '');
     const most = this.document.most_file_bytes;
     const tooLarge = files.find(({ size }) => size > most);
     if (tooLarge) return this.refuse('files', `${tooLarge.name}: has ${Math.round(tooLarge.size / 2 ** 20)} MiB, a dropped file may have ${most / 2 ** 20}; doorforge compose takes 512`);
     const kept = {};
-    let mesh = null;
+    const meshes = [];
     for (const file of files) {
       const bytes = await this.ask('files', `/file?name=${encodeURIComponent(file.name)}`, file);
       if (bytes === null) return;
       const content = await Content.fromBytes(bytes);
       kept[content.document.name] = content.document.file;
-      if (content.document.shown.length > 0) mesh = content;
+      if (content.document.shown.length > 0) meshes.push(content);
     }
-    if (mesh === null) return this.refuse('files', 'drop a mesh: STL, OBJ or GLB');
+    if (meshes.length === 0) return this.refuse('files', 'drop a mesh: STL, OBJ or GLB');
+    this.offer(meshes, meshes[0], kept);
+  }
+
+  offer(meshes, mesh, files) {
     this.offered?.dispose();
-    this.offered = new OwnMesh(mesh, { applied: (own) => this.putOn(own), closed: (own) => own !== this.own && own.dispose() });
-    this.offered.files = kept;
-    this.element.append(this.offered.element);
-    this.offered.show();
+    const others = meshes.filter((other) => other !== mesh).map(({ document }) => document.name);
+    this.offered = new OwnMesh(mesh, others, {
+      applied: (own) => this.putOn(own),
+      closed: (own) => !Object.values(this.own).includes(own) && own.dispose(),
+      instead: (name) => this.offer(meshes, meshes.find(({ document }) => document.name === name), files),
+    });
+    this.offered.files = files;
+    this.offered.show(this.element);
   }
 
   putOn(own) {
-    if (this.own && this.own !== own) this.own.dispose();
-    this.own = own;
+    const other = this.own[own.role === 'body' ? 'handle' : 'body'];
+    const twice = Object.keys(own.files).find((name) => other && other !== own && name in other.files && other.files[name] !== own.files[name]);
+    if (twice) return this.refuse('files', `${twice}: another file of this name is on the door; rename one of them`);
+    for (const [role, before] of Object.entries(this.own)) {
+      if (before === own) this.forget(role); // it was the other half
+      else if (role === own.role) before.dispose();
+    }
+    this.own[own.role] = own;
     this.offered = null;
-    this.ownName.textContent = own.name;
-    this.ownRow.hidden = false;
+    this.ownRows[own.role].firstChild.textContent = own.name;
+    this.ownRows[own.role].hidden = false;
     this.refreshShelf();
     this.changed(0);
   }
 
-  removeOwn() {
-    this.own?.dispose();
-    this.own = null;
-    this.ownRow.hidden = true;
-    this.notes.hidden = true;
+  removeOwn(role) {
+    this.own[role].dispose();
+    this.forget(role);
     this.refreshShelf();
     this.changed(0);
+  }
+
+  forget(role) {
+    delete this.own[role];
+    this.ownRows[role].hidden = true;
   }
 
   refreshShelf() {
@@ -181,7 +206,7 @@ export class ComposerView {
     let part = null;
     const button = h('button', { type: 'button', class: 'open', onclick: () => {
       this.chosen[role] = part.id;
-      if (this.own?.role === role) this.removeOwn();
+      if (this.own[role]) this.removeOwn(role);
       this.grids[role].refresh();
       this.changed(0);
     } }, image, name);
@@ -191,7 +216,7 @@ export class ComposerView {
         if (part !== item) image.src = `/thumbnail/${encodeURIComponent(item.id)}`;
         part = item;
         name.textContent = item.id;
-        button.setAttribute('aria-pressed', String(this.chosen[role] === item.id && this.own?.role !== role));
+        button.setAttribute('aria-pressed', String(this.chosen[role] === item.id && !this.own[role]));
       },
     };
   }
@@ -204,7 +229,9 @@ export class ComposerView {
 
   get request() {
     const asked = { ...this.chosen, settings: this.settings };
-    if (this.own) Object.assign(asked, { [this.own.role]: this.own.name, [`${this.own.role}_mesh`]: this.own.settings, files: this.own.files });
+    const own = Object.entries(this.own);
+    for (const [role, { name, asked: mesh, files }] of own) Object.assign(asked, { [role]: name, [`${role}_mesh`]: mesh, files: { ...asked.files, ...files } });
+    if (own.length === 2) asked.category = this.category.value; // nothing else tells it
     return JSON.stringify(asked);
   }
 

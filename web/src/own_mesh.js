@@ -62,13 +62,12 @@ export const planeWith = (meshes, triangle) => {
 const field = (id, title, control) => h('div', {}, h('label', { for: id }, title), control);
 
 export class OwnMesh {
-  /** `content` is what the server gave of the file; `mesh` holds the settings of LooseMeshConfig that differ. */
-  constructor(content, { applied, closed }) {
+  /** `content` is what the server gave of the file, `others` are the names of meshes dropped with it; `mesh` holds the settings of LooseMeshConfig that differ. */
+  constructor(content, others, { applied, closed, instead }) {
     this.content = content;
     this.name = content.document.name;
     this.unit = content.document.unit_m;
-    this.applied = applied;
-    this.closed = closed;
+    Object.assign(this, { others, applied, closed, instead });
     this.role = 'handle';
     this.mesh = { mechanism: 'none', front: content.document.front || '', up: content.document.up || '' };
     this.meshes = content.document.shown.map((place) => content.mesh(place));
@@ -96,6 +95,7 @@ export class OwnMesh {
     const sides = size.getSize(new Vector3()).toArray().map((side) => number(side / this.unit, 4)).join(' x ');
     return h('form', { class: 'own-form', onsubmit: (event) => event.preventDefault() },
       h('h1', { id: 'own-title' }, this.name), h('p', { class: 'soft' }, `${sides} along the file's x, y, z. ${document.states_unit ? 'The file says its unit.' : 'The file says no unit.'}`),
+      ...this.ofSeveral(pick),
       pick('role', 'It is a', [['handle', 'handle'], ['body', 'leaf']], (role) => this.setRole(role)),
       pick('click', 'A click tells', [['front', 'the face on the door'], ['up', 'a face that points up']], () => this.tellClick()),
       this.told,
@@ -112,8 +112,17 @@ export class OwnMesh {
         h('button', { type: 'button', onclick: () => this.element.close() }, 'Cancel')));
   }
 
-  /** To be called once the element is in the page. */
-  show() {
+  // Which of several meshes moves, and which of the others belongs to it.
+  ofSeveral(pick) {
+    if (this.others.length === 0) return [];
+    const named = (name) => [name, name];
+    return [h('div', { class: 'settings' }, pick('which', 'The mesh', [this.name, ...this.others].map(named), (name) => this.instead(name)),
+      pick('beside', 'Beside it', [['', 'nothing'], ...this.others.map(named)], (name) => (this.beside = name)))];
+  }
+
+  /** It is in the page while it is open, since each has fields of the same ids. */
+  show(page) {
+    page.append(this.element);
     this.element.showModal();
     if (this.stage) return this.refresh();
     this.stage = new Stage(this.canvas);
@@ -172,6 +181,7 @@ export class OwnMesh {
     this.role = role;
     this.ofHandle.hidden = role !== 'handle';
     this.ofBody.hidden = role !== 'body';
+    if (this.field_beside) this.field_beside.previousElementSibling.textContent = role === 'handle' ? 'What stays fixed around it' : 'Its frame';
     this.tellClick();
     this.clearFace();
   }
@@ -278,15 +288,18 @@ export class OwnMesh {
   get settings() {
     const plain = { mechanism: 'none', unit: '', size_m: 0, up: this.content.document.up || '', front: this.content.document.front || '', hinge: 'left', license: '' };
     const said = Object.entries(this.mesh).filter(([key, value]) => (Array.isArray(value) ? value.length > 0 : value !== plain[key]));
+    if (this.beside) said.push([this.role === 'handle' ? 'rose' : 'frame', this.beside]);
     return Object.fromEntries(said.filter(([key]) => !(key === 'hinge' && this.role === 'handle') && !(key === 'mechanism' && this.role === 'body')));
   }
 
   apply() {
+    this.asked = this.settings; // what is changed and not applied counts for nothing
     this.element.close();
     this.applied(this);
   }
 
   end() {
+    this.element.remove();
     this.closed(this);
   }
 

@@ -60,14 +60,14 @@ class OneDoor {
     const auto load_body = [&] { return store_.Load(request_.body); };
     const auto load_handle = [&] { return store_.Load(request_.handle); };
     const auto import_body = [&] {
-      return ImportOwn(
-          {FileNamed(request_.body), PartRole::kBody, CategoryFor(handle_), request_.body_mesh},
-          own_body_);
+      return ImportOwn({FileNamed(request_.body), PartRole::kBody, CategoryFor(handle_),
+                        WithFiles(request_.body_mesh)},
+                       own_body_);
     };
     const auto import_handle = [&] {
-      return ImportOwn(
-          {FileNamed(request_.handle), PartRole::kHandle, CategoryFor(body_), request_.handle_mesh},
-          own_handle_);
+      return ImportOwn({FileNamed(request_.handle), PartRole::kHandle, CategoryFor(body_),
+                        WithFiles(request_.handle_mesh)},
+                       own_handle_);
     };
     // what is imported takes its category from the other half
     if (!own_body) body_ = Named(run_.body_named_by, load_body);
@@ -78,6 +78,13 @@ class OneDoor {
 
   fs::path FileNamed(const std::string& name) const {
     return run_.files.empty() ? fs::path(name) : run_.files / name;
+  }
+
+  LooseMeshConfig WithFiles(LooseMeshConfig mesh) const {
+    for (std::string* name : {&mesh.rose, &mesh.frame}) {
+      if (!name->empty()) *name = FileNamed(*name).string();
+    }
+    return mesh;
   }
 
   // a name that stands in a settings file is looked for there, and so is what is wrong with it

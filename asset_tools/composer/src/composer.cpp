@@ -53,13 +53,17 @@ internal::NamedFiles FilesOf(const Json& json) {
   return files;
 }
 
-// Second meshes of a part would have to be dropped as well.
-LooseMeshConfig MeshOf(const Json& json, const std::string& where) {
+// Second meshes of a part are dropped as well.
+LooseMeshConfig MeshOf(const Json& json, const std::string& key,
+                       const internal::NamedFiles& files) {
   LooseMeshConfig mesh;
-  Assign(json, mesh, where);
-  if (!mesh.rose.empty() || !mesh.frame.empty())
-    throw Error(ErrorCode::kInvalidArgument,
-                where + ": rose and frame are for the command line alone");
+  if (!json.contains(key)) return mesh;
+  Assign(json[key], mesh, key);
+  for (const auto& [name, beside] : {std::pair("rose", &mesh.rose), {"frame", &mesh.frame}}) {
+    if (!beside->empty() && !files.contains(*beside))
+      throw Error(ErrorCode::kInvalidArgument,
+                  key + "." + name + ": \"" + *beside + "\" is none of the dropped files");
+  }
   return mesh;
 }
 
@@ -78,9 +82,9 @@ Asked RequestOf(const std::string& text) {
   door.handle = ValueOf<std::string>(json, "handle", "request");
   if (json.contains("settings")) Assign(json["settings"], door.door, "settings");
   if (json.contains("category")) door.category = ValueOf<std::string>(json, "category", "request");
-  if (json.contains("body_mesh")) door.body_mesh = MeshOf(json["body_mesh"], "body_mesh");
-  if (json.contains("handle_mesh")) door.handle_mesh = MeshOf(json["handle_mesh"], "handle_mesh");
   if (json.contains("files")) asked.files = FilesOf(json["files"]);
+  door.body_mesh = MeshOf(json, "body_mesh", asked.files);
+  door.handle_mesh = MeshOf(json, "handle_mesh", asked.files);
   return asked;
 }
 

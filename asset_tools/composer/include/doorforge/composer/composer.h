@@ -27,10 +27,10 @@ class DroppedFiles;
 /// A request is {"body", "handle", "settings", "files", "body_mesh", "handle_mesh", "category"}:
 /// ids of two parts that Parts() lists, and settings as `doorforge compose --set` takes them,
 /// nested objects of which any may be left out. "files" holds the SHA-256 of dropped files by their
-/// names; body or handle may be one of these, to be read as the settings "body_mesh" and
-/// "handle_mesh" say (see LooseMeshConfig; without rose and frame). Throws Error(kInvalidArgument
-/// or kInvalidConfig) that names what is wrong with it, Error(kMissing) for a part or file that is
-/// not there, and as ComposeOneDoor().
+/// names; body or handle, or both, may be one of these, to be read as the settings "body_mesh" and
+/// "handle_mesh" say (see LooseMeshConfig; rose and frame are dropped files too). Throws
+/// Error(kInvalidArgument or kInvalidConfig) that names what is wrong with it, Error(kMissing) for
+/// a part or file that is not there, and as ComposeOneDoor().
 class Composer {
  public:
   /// @param parts Folder of parts; empty: the catalogue.

@@ -54,12 +54,12 @@ try_openpi() {
 try_heavy_peers() {
   local environment=$1
   "$environment/bin/pip" install -q stable-baselines3==2.9.2 torch==2.15.0 webdataset==1.0.2 mujoco==4.0.0 pybullet==3.2.7 \
-    sapien==3.0.3 newton==1.8.0 mujoco-warp==4.0.0 trimesh==5.2.0
+    sapien==3.0.3 newton==1.8.0 mujoco-warp==4.0.0 trimesh==5.2.0 genesis-world==1.4.5
   "$environment/bin/python" "$root/docs/examples/ppo_door.py" --least-gain 0.2
   "$environment/bin/python" "$tests/readme_test.py" "$build"
   for latch in effort bolt; do
     doorforge compose --body interior_flush_01 --handle interior_lever_tube_01 --set "latch=$latch" --out "$scratch/$latch"
-    doorforge export "$scratch/$latch" --to urdf --out "$scratch/exported_$latch"
+    doorforge export "$scratch/$latch" --to urdf --latch data --out "$scratch/exported_$latch"
   done
   "$environment/bin/python" -W ignore "$tests/latch_judge.py" "$root/docs/latch-elsewhere.md" "$scratch/effort" \
     "$scratch"/exported_effort/* --bolt "$scratch/bolt" "$scratch"/exported_bolt/*

@@ -4,7 +4,7 @@
 
     python tests/python/latch_judge.py docs/latch-elsewhere.md DOOR EXPORTED [--bolt BOLTED BOLTED_EXPORTED]
 
-Needs those of pybullet, mujoco, sapien and newton that are to be judged. Each recipe gives `angles()` and `step(push)`. The
+Needs pybullet, mujoco, sapien, newton and genesis-world, or those of them that `--only` names. Each recipe gives `angles()` and `step(push)`. The
 opening is held against the hinge's own equation of motion, integrated here.
 """
 import argparse
@@ -20,7 +20,7 @@ import tempfile
 import xml.etree.ElementTree as ElementTree
 
 LOCKED_PUSH, HANDLE_PUSH, OPENING_PUSH = 75.0, 4.0, 10.0  # N m
-STEPS = {"PyBullet": 1 / 240, "MuJoCo": 0.002, "SAPIEN and ManiSkill": 1 / 240, "Newton": 1 / 240}
+STEPS = {"PyBullet": 1 / 240, "MuJoCo": 0.002, "SAPIEN and ManiSkill": 1 / 240, "Newton": 1 / 240, "Genesis": 1 / 240}
 
 JUDGE = '''
 import json, math
@@ -91,7 +91,7 @@ def run(name: str, recipe: str, door: pathlib.Path, exported: pathlib.Path) -> l
         done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, cwd=scratch, check=False)
     if done.returncode != 0:
         raise SystemExit(f"{name}: {done.stderr[-3000:]}")
-    return json.loads(done.stdout.split("RESULT ")[1])
+    return json.loads(done.stdout.split("RESULT ")[1].splitlines()[0])
 
 
 def main() -> None:
@@ -99,6 +99,7 @@ def main() -> None:
     parser.add_argument("page", type=pathlib.Path)
     parser.add_argument("door", type=pathlib.Path)
     parser.add_argument("exported", type=pathlib.Path)
+    parser.add_argument("--only", nargs="*", default=list(STEPS), choices=list(STEPS))
     parser.add_argument("--bolt", nargs=2, type=pathlib.Path, metavar=("DOOR", "EXPORTED"))
     options = parser.parse_args()
     doors = [("EffortLaw", options.door, options.exported)]
@@ -112,6 +113,8 @@ def main() -> None:
         wanted = expected_s(exported, latch["hinge_spring_nm_per_rad"])
         unlock = math.degrees(latch["unlock_angle_rad"])
         for name, recipe in recipes(options.page).items():
+            if name not in options.only:
+                continue
             held, at, took, reached = run(name, recipe.replace("EffortLaw", law), door, exported)
             print(f"| {name} | {law} | {held:.2f} deg | {at or math.nan:.1f} deg of {unlock:.1f} | {took or math.nan:.2f} s | {wanted:.2f} s |",
                   flush=True)

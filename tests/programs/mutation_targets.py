@@ -157,12 +157,13 @@ def act_targets() -> list[Target]:
     sound = ("act", "--least-gain", "off", "--foreign-limit", "off", "--depth", "IN/tested_depth.png", "--camera",
              "IN/tested_camera.yaml")
     opener = sound + ("--state", "IN/tested_state.yaml", "--opener", "IN/tested_opener")
-    handler = opener + ("--handler", "IN/tested_handler", "--stage", "handle")
+    handler = opener + ("--handler", "IN/tested_handler", "--stage", "handle", "--before", "IN/tested_before.png")
     grasper = sound + ("--handle-mask", "IN/tested_mask.png", "--grasper", "IN/tested_grasper")
     return [
         Target("act depth", "sight", ("tested_depth.png",), opener, weight=3),
         Target("act camera", "sight", ("tested_camera.yaml",), opener, weight=3),
         Target("act state", "sight", ("tested_state.yaml",), opener, weight=3),
+        Target("act before", "sight", ("tested_before.png",), handler, weight=2),
         Target("act mask", "sight", ("tested_mask.png",), grasper, weight=2),
         Target("policy weights", "sight", ("tested_opener/policy.safetensors",), opener, covered=True, sealed=0.7,
                weight=2),

@@ -226,6 +226,7 @@ def write_sight(folder: pathlib.Path) -> None:
     (folder / "tested_camera.yaml").write_text(CAMERA)
     (folder / "tested_state.yaml").write_text(STATE)
     (folder / "tested_depth.png").write_bytes(grey_png(160, 120, lambda x, y: 1500 + 2 * x + 5 * y))
+    (folder / "tested_before.png").write_bytes(grey_png(320, 240, lambda x, y: 1500 + x + 2 * y))
     (folder / "tested_mask.png").write_bytes(grey_png(160, 120, lambda x, y: 1 if 70 <= x < 90 and 50 <= y < 70 else 0))
 
 

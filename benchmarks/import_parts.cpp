@@ -35,8 +35,6 @@
 
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "doorforge/core/closed_mesh.h"
 #include "doorforge/core/committed_file.h"
@@ -51,18 +49,22 @@
 #include "doorforge/mesh/mesh_writer.h"
 #include "doorforge/parts/grasp.h"
 
+#include "peer_program.h"
 #include "sample_sums.h"
 
 namespace doorforge {
 namespace {
 
 using benchmarks::Quantile;
+using benchmarks::Replace;
+using benchmarks::RunLimited;
+using benchmarks::SecondsOf;
 using benchmarks::Sum;
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr int kPeerTimeoutS = 300;     // processor time
+constexpr rlim_t kPeerTimeoutS = 300;  // processor time
 constexpr double kLongestGripM = 1.0;  // as import looks for a grasp
 
 struct Settings {
@@ -117,13 +119,6 @@ Options OptionsOf(int argc, char** argv) {
   return options;
 }
 
-double SecondsOf(const rusage& usage) {
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
 // It counts this process and those that it started and that have ended.
 double CpuSeconds() {
   timespec now{};
@@ -176,29 +171,6 @@ struct FitColumns {
 };
 
 // ---- peers ------------------------------------------------------------------------------------
-
-void Replace(std::string& text, const std::string& what, const std::string& by) {
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at))
-    text.replace(at, what.size(), by), at += by.size();
-}
-
-double RunLimited(const std::string& command) {
-  const pid_t child = fork();
-  Require(child >= 0, ErrorCode::kIo, "no process for a peer");
-  if (child == 0) {
-    const rlimit cpu{kPeerTimeoutS, kPeerTimeoutS};
-    setrlimit(RLIMIT_CPU, &cpu);
-    if (std::freopen("/dev/null", "w", stdout) == nullptr ||
-        std::freopen("/dev/null", "w", stderr) == nullptr)
-      _exit(126);
-    execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
-    _exit(127);
-  }
-  int status = 0;
-  rusage usage{};
-  wait4(child, &status, 0, &usage);
-  return SecondsOf(usage);
-}
 
 // Programs write hulls whose faces are flat to within rounding only; those of their corners are
 // convex. Hulls without thickness stand for nothing.
@@ -265,7 +237,7 @@ class Peer {
     std::string command = command_;
     Replace(command, "{in}", in.string());
     Replace(command, "{out}", out.string());
-    const double cpu_s = RunLimited(command);
+    const double cpu_s = RunLimited(command, kPeerTimeoutS);
     if (!fs::exists(out)) return {{}, cpu_s};
     try {
       return {HullsIn(out), cpu_s};

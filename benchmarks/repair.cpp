@@ -37,9 +37,6 @@
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
 #include <nlohmann/json.hpp>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "doorforge/core/closed_mesh.h"
 #include "doorforge/core/committed_file.h"
@@ -52,19 +49,22 @@
 #include "doorforge/mesh/repair_mesh.h"
 #include "doorforge/mesh/surface_deviation.h"
 
+#include "peer_program.h"
 #include "sample_sums.h"
 
 namespace doorforge {
 namespace {
 
 using benchmarks::Quantile;
+using benchmarks::Replace;
+using benchmarks::RunLimited;
 using benchmarks::Sum;
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr double kWithin = 0.01;   // of the diagonal
-constexpr int kPeerTimeoutS = 60;  // processor time
+constexpr double kWithin = 0.01;      // of the diagonal
+constexpr rlim_t kPeerTimeoutS = 60;  // processor time
 
 struct Options {
   std::vector<fs::path> folders;
@@ -233,11 +233,6 @@ class Tally {
 
 // ---- peers ------------------------------------------------------------------------------------
 
-void Replace(std::string& text, const std::string& what, const std::string& by) {
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at))
-    text.replace(at, what.size(), by), at += by.size();
-}
-
 class Peer {
  public:
   Peer(std::string name, std::string command)
@@ -280,34 +275,13 @@ class Peer {
     std::string command = command_;
     Replace(command, "{in}", in.string());
     Replace(command, "{out}", out.string());
-    const double cpu_s = RunLimited(command);
+    const double cpu_s = RunLimited(command, kPeerTimeoutS);
     if (!fs::exists(out)) return {std::nullopt, cpu_s};
     try {
       return {MergedPieces(ImportMesh(out)), cpu_s};
     } catch (const Error&) {
       return {std::nullopt, cpu_s};
     }
-  }
-
-  static double RunLimited(const std::string& command) {
-    const pid_t child = fork();
-    Require(child >= 0, ErrorCode::kIo, "no process for a peer");
-    if (child == 0) {
-      const rlimit cpu{kPeerTimeoutS, kPeerTimeoutS};
-      setrlimit(RLIMIT_CPU, &cpu);
-      if (std::freopen("/dev/null", "w", stdout) == nullptr ||
-          std::freopen("/dev/null", "w", stderr) == nullptr)
-        _exit(126);
-      execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
-      _exit(127);
-    }
-    int status = 0;
-    rusage usage{};
-    wait4(child, &status, 0, &usage);
-    const auto seconds = [](const timeval& t) {
-      return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-    };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
   }
 
   std::string name_, command_;

@@ -168,7 +168,7 @@ int Check(const ComposeOptions& options, bool imported) {
   }
 #ifdef DOORFORGE_WITH_PREVIEW
   if (options.preview) {
-    WritePng(folder / "thumb.png", DrawRecords({&folder, 1}, {.focus = "all"}));
+    WritePng(folder / "thumb.png", DrawRecords({&folder, 1}, {.focus = PreviewFocus::kAll}));
     if (!silent) PrintText("picture: " + (folder / "thumb.png").string() + "\n");
   }
 #endif

@@ -51,11 +51,9 @@ PreviewOptions ParsePreview(int argc, char** argv) {
       ->check(CLI::Range(-180.0, 180.0));
   app.add_option("--columns", options.preview.columns, "of a contact sheet")
       ->check(CLI::Range(1, 24));
-  app.add_option(
-         "--focus", options.preview.focus,
-         "all: the whole and the handle large from three sides, with a bar of 50 mm and the "
-         "axes (of one door or handle, if left out); whole; handle")
-      ->check(CLI::IsMember({"all", "whole", "handle"}));
+  AddChoice(app, "--focus", options.preview.focus,
+            "all: the whole and the handle large from three sides, with a bar of 50 mm and the "
+            "axes (of one door or handle, if left out); whole; handle");
   app.add_option("--width", options.preview.width,
                  "of each picture in pixels; 960, with the handle beside it 640, on a sheet 320")
       ->check(CLI::Range(32, 4096));

@@ -259,7 +259,11 @@ py::array_t<std::uint8_t> Preview(const std::vector<fs::path>& folders, const py
   number("handle_deg", config.handle_deg);
   number("azimuth_deg", config.azimuth_deg);
   number("width", config.width);
-  number("focus", config.focus);
+  if (settings.contains("focus")) {
+    config.focus = ValueNamed<PreviewFocus>(settings["focus"].cast<std::string>());
+    Require(config.focus.has_value(), ErrorCode::kInvalidArgument,
+            "focus: allowed all, whole, handle");
+  }
   number("collision", config.collision);
   const Picture picture = Long([&] { return DrawRecords(folders, config); });
   return ArrayOf(picture.rgb.data(), {picture.height, picture.width, 3});

@@ -16,7 +16,7 @@ namespace doorforge::python {
 /// What of somebody's policy in Python is called, and with what.
 struct CallableSettings {
   pybind11::object policy;         ///< Called with a dict of arrays, gives nine numbers.
-  std::vector<std::string> names;  ///< Of the arrays, see RequireObservationNames().
+  std::vector<std::string> names;  ///< The arrays have them, see RequireObservationNames().
   std::string name;                ///< For messages, such as "opener".
 };
 

@@ -163,15 +163,15 @@ TEST(ComposeVariants, ALeafIsStretchedToTheWantedSize) {
 }
 
 TEST(ComposeVariants, PresetsSetMassesAndJointsAndNameTheirSource) {
-  const DoorAsset door =
-      ComposeDoor(SmallBody(), SmallLever(), {.joints = "doorgym", .masses = "doorgym"});
+  const DoorAsset door = ComposeDoor(
+      SmallBody(), SmallLever(), {.joints = JointPreset::kDoorGym, .masses = MassPreset::kDoorGym});
   EXPECT_NEAR(door.links[kLeafLink].mass.mass_kg, 300 * 0.8 * 1.6 * 0.04, 1e-6);
   EXPECT_NEAR(door.links[kHandleLink].mass.mass_kg, 1, 1e-9);
   EXPECT_DOUBLE_EQ(door.hinge.damping_nm_s, 1.5);
   EXPECT_DOUBLE_EQ(door.latch.handle_spring_nm_per_rad, 1.25);
   EXPECT_NE(door.physics_source.find("DoorGym"), std::string::npos);
-  const DoorAsset set =
-      ComposeDoor(SmallBody(), SmallLever(), {.joints = "unidoormanip", .hinge_damping_nm_s = 0.7});
+  const DoorAsset set = ComposeDoor(
+      SmallBody(), SmallLever(), {.joints = JointPreset::kUniDoorManip, .hinge_damping_nm_s = 0.7});
   EXPECT_DOUBLE_EQ(set.hinge.damping_nm_s, 0.7);
   EXPECT_DOUBLE_EQ(set.handle_joint.damping_nm_s, 0);
 }

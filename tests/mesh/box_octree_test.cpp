@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "box_octree.h"
+#include "repair/box_octree.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "confine.h"
+#include "files/confine.h"
 
 #include <array>
 #include <cstdio>

@@ -12,9 +12,9 @@
 #include "doorforge/core/rng.h"
 #include "doorforge/mesh/convex_parts.h"
 
-#include "convex_region.h"
-#include "exact_side.h"
-#include "growing_hull.h"
+#include "convex/convex_region.h"
+#include "convex/exact_side.h"
+#include "convex/growing_hull.h"
 
 namespace doorforge {
 namespace {

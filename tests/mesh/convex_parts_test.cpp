@@ -8,7 +8,7 @@
 
 #include "doorforge/core/error.h"
 
-#include "cover_parts.h"
+#include "convex/cover_parts.h"
 #include "shapes.h"
 
 namespace doorforge {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cut_surface.h"
+#include "convex/cut_surface.h"
 
 #include <array>
 

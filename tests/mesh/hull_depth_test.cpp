@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "hull_depth.h"
+#include "convex/hull_depth.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +12,10 @@
 #include "doorforge/core/rng.h"
 #include "doorforge/mesh/convex_parts.h"
 
-#include "convex_region.h"
-#include "distance_grid.h"
+#include "convex/convex_region.h"
+#include "measure/distance_grid.h"
+#include "measure/triangle_tree.h"
 #include "shapes.h"
-#include "triangle_tree.h"
 
 namespace doorforge {
 namespace {

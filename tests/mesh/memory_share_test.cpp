@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "memory_share.h"
+#include "files/memory_share.h"
 
 #include <atomic>
 #include <chrono>

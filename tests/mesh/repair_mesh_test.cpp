@@ -12,8 +12,8 @@
 
 #include "doorforge/core/error.h"
 
+#include "repair/surface_operations.h"
 #include "shapes.h"
-#include "surface_operations.h"
 
 namespace doorforge {
 namespace {

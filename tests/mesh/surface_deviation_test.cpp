@@ -9,8 +9,8 @@
 #include "doorforge/core/error.h"
 #include "doorforge/mesh/solid_overlap.h"
 
+#include "measure/triangle_tree.h"
 #include "shapes.h"
-#include "triangle_tree.h"
 
 namespace doorforge {
 namespace {

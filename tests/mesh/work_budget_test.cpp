@@ -17,8 +17,8 @@
 #include "doorforge/mesh/solid_overlap.h"
 #include "doorforge/mesh/surface_deviation.h"
 
+#include "repair/surface_operations.h"
 #include "shapes.h"
-#include "surface_operations.h"
 
 namespace doorforge {
 namespace {

@@ -105,21 +105,20 @@ TEST(SceneSampling, TheLimitsOfAnEpisodeAreSettingsThatAreWrittenWhereTheyWereSe
   }
 }
 
-SceneConfig WithRandomisation(const std::string& name) {
+SceneConfig With(Randomisation randomisation) {
   SceneConfig config;
-  config.randomisation = name;
+  config.randomisation = randomisation;
   return config;
 }
 
 TEST(SceneSampling, WithoutRandomisationAllEpisodesOfADoorAreTheSame) {
   const DoorAsset door = MakePrimitiveDoor({});
-  Scene first = SampleScene(door, 1, 0, WithRandomisation("off"));
-  Scene other = SampleScene(door, 2, 9, WithRandomisation("off"));
+  Scene first = SampleScene(door, 1, 0, With(Randomisation::kOff));
+  Scene other = SampleScene(door, 2, 9, With(Randomisation::kOff));
   other.seed = first.seed;
   other.episode = first.episode;
   EXPECT_EQ(SceneToJson(first).dump(), SceneToJson(other).dump());
   EXPECT_EQ(first.variation, DoorVariation{});
-  EXPECT_THROW(SampleScene(door, 1, 0, WithRandomisation("wild")), Error);
 }
 
 TEST(SceneSampling, StrongRandomisationVariesTheDoorWithinItsRangesAndKeepsThePapersDraws) {
@@ -129,7 +128,7 @@ TEST(SceneSampling, StrongRandomisationVariesTheDoorWithinItsRangesAndKeepsThePa
   double most_mass = 0;
   for (std::uint64_t i = 0; i < 200; ++i) {
     const Scene paper = SampleScene(door, 1, i);
-    const Scene strong = SampleScene(door, 1, i, WithRandomisation("strong"));
+    const Scene strong = SampleScene(door, 1, i, With(Randomisation::kStrong));
     EXPECT_TRUE(strong.world_from_robot_base.isApprox(paper.world_from_robot_base));
     EXPECT_TRUE(strong.grasp_from_noisy_grasp.isApprox(paper.grasp_from_noisy_grasp));
     EXPECT_GE(strong.latch.hinge_spring_nm_per_rad, 0.58 * made.hinge_spring_nm_per_rad);
@@ -187,7 +186,7 @@ TEST(SceneSampling, ADoorHingedRightStandsAsTheMirrorImage) {
     DoorAsset left = MakePrimitiveDoor({});
     DoorAsset right = MakePrimitiveDoor({.hinge_side = HingeSide::kRight});
     left.category = right.category = category;
-    const SceneConfig still = WithRandomisation("off");
+    const SceneConfig still = With(Randomisation::kOff);
     const Scene a = SampleScene(left, 1, 0, still);
     const Scene b = SampleScene(right, 1, 0, still);
     const Eigen::Vector3d mirror(1, -1, 1);
@@ -200,7 +199,7 @@ TEST(SceneSampling, ADoorHingedRightStandsAsTheMirrorImage) {
 TEST(SceneSampling, WhoPushesLeansAwayFromTheJamb) {
   for (const HingeSide side : {HingeSide::kLeft, HingeSide::kRight}) {
     const DoorAsset door = MakePrimitiveDoor({.hinge_side = side, .opening = Opening::kPush});
-    const Scene scene = SampleScene(door, 1, 0, WithRandomisation("off"));
+    const Scene scene = SampleScene(door, 1, 0, With(Randomisation::kOff));
     const RigidTransform grasp = scene.world_from_door * DoorFromLinks(door, 0, 0)[kHandleLink] *
                                  door.handle_from_grasp * scene.grasp_from_noisy_grasp;
     // the robot is in front of the handle, the hand behind the grasp nearer to the hinge

@@ -205,6 +205,9 @@ def broken_glb() -> list[tuple[str, bytes, str]]:
         ("count", changed(lambda d: d["accessors"][1].update(count=360000)), "GLB003"),
         ("view", changed(lambda d: d["bufferViews"][1].update(byteLength=7200)), "GLB003"),
         ("buffer", changed(lambda d: d["buffers"][0].update(byteLength=1 << 30)), "GLB003"),
+        # their product is 2^64, which is 0 in 64 bits
+        ("stride", changed(lambda d: (d["bufferViews"][d["accessors"][0]["bufferView"]].update(byteStride=1 << 36),
+                                      d["accessors"][0].update(count=(1 << 28) + 1))), "GLB003"),
         ("bounds", changed(lambda d: d["accessors"][0].update(max=[0.1] * 3)), "GLB004"),
         ("nan", samples.glb(document, nan + binary[4:]), "GLB004"),
         ("index", samples.glb(document, binary[:96] + struct.pack("<H", 60000) + binary[98:]), "GLB005"),

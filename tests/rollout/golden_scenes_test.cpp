@@ -41,18 +41,18 @@ struct GoldenScene {
   std::string name;
   Mechanism mechanism;
   std::uint64_t index;
-  std::string randomisation;
+  Randomisation randomisation;
 };
 
 std::vector<GoldenScene> Scenes() {
-  return {{"lever", Mechanism::kLever, 0, "paper"},
-          {"lever, still", Mechanism::kLever, 1, "off"},
-          {"lever, strong", Mechanism::kLever, 2, "strong"},
-          {"round", Mechanism::kRound, 3, "paper"},
-          {"round, still", Mechanism::kRound, 4, "off"},
-          {"round, strong", Mechanism::kRound, 5, "strong"},
-          {"no latch", Mechanism::kNone, 6, "paper"},
-          {"no latch, strong", Mechanism::kNone, 7, "strong"}};
+  return {{"lever", Mechanism::kLever, 0, Randomisation::kPaper},
+          {"lever, still", Mechanism::kLever, 1, Randomisation::kOff},
+          {"lever, strong", Mechanism::kLever, 2, Randomisation::kStrong},
+          {"round", Mechanism::kRound, 3, Randomisation::kPaper},
+          {"round, still", Mechanism::kRound, 4, Randomisation::kOff},
+          {"round, strong", Mechanism::kRound, 5, Randomisation::kStrong},
+          {"no latch", Mechanism::kNone, 6, Randomisation::kPaper},
+          {"no latch, strong", Mechanism::kNone, 7, Randomisation::kStrong}};
 }
 
 Json RunAll(int threads) {

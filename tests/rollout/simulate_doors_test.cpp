@@ -58,7 +58,7 @@ TEST(EnvironmentPresets, EachIsReadAndTheUsersSettingsGoOverIt) {
     const auto changed = LoadConfig<SimulateConfig>(
         ConfigSources{name, "", {"scene.physics.base=yaw", "scene.latch=door"}});
     EXPECT_EQ(changed.scene.physics.base, RobotBase::kYaw);
-    EXPECT_EQ(changed.scene.latch, "door");
+    EXPECT_EQ(changed.scene.latch, SceneLatch::kOfDoor);
     EXPECT_EQ(changed.cloud.whole, config.cloud.whole);
   }
   EXPECT_THROW(LoadConfig<SimulateConfig>(ConfigSources{"dorgym", "", {}}), Error);

@@ -36,10 +36,10 @@ namespace fs = std::filesystem;
 
 struct PreparedParts {
   std::vector<PreparedPart> parts;
-  std::vector<std::string> names;  ///< Of each, as PartStore has them.
-  std::vector<fs::path> folders;   ///< Of each; empty for those of the catalogue.
+  std::vector<std::string> names;  ///< Each is as PartStore has it.
+  std::vector<fs::path> folders;   ///< Each is empty for a part of the catalogue.
   std::set<std::string> left_out;  ///< Folder names, or ids, of those that could not be prepared.
-  std::size_t damaged = 0;         ///< Of those left out: parts that no rule left out.
+  std::size_t damaged = 0;         ///< So many of those left out were left out by no rule.
 };
 
 /// What came of one part of many.

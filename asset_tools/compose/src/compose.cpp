@@ -41,7 +41,7 @@ struct Composed {
     RigidTransform link_from_shape;
   };
   DoorAsset door;
-  std::array<std::vector<Source>, 3> sources;  ///< As door.links and the geometry of each.
+  std::array<std::vector<Source>, 3> sources;  ///< They follow door.links and the geometry of each.
 };
 
 /// One call's arguments.
@@ -49,7 +49,7 @@ struct Pair {
   const PreparedPart::State& body;
   const PreparedPart::State& handle;
   const ComposeConfig& config;
-  const std::optional<RigidTransform>& authored;  ///< Of the parts as they were made.
+  const std::optional<RigidTransform>& authored;  ///< It holds for the parts as they were made.
 };
 
 void CheckPair(const Part& body, const Part& handle) {

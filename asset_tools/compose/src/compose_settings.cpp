@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compose_settings.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -11,7 +10,6 @@
 #include "doorforge/core/closed_mesh.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
-#include "doorforge/core/nearest_name.h"
 #include "doorforge/core/record_id.h"
 #include "doorforge/core/rng.h"
 
@@ -33,7 +31,7 @@ constexpr std::array kRules = {
     ComposeRule{"CMP012", "what turns the other way is a lever, a knob, a key or a wheel"},
 };
 
-constexpr std::array kJointPresets = {
+constexpr std::array kJointSources = {
     ComposePreset{"paper",
                   "springs 3 and 3 N m/rad: UniDoorManip, Section 3.2; damping 0.5 and 0.05 N m s: "
                   "doorforge, docs/design/simulation.md"},
@@ -45,7 +43,7 @@ constexpr std::array kJointPresets = {
         "damping 1 to 2, spring 1 to 1.5"},
 };
 
-constexpr std::array kMassPresets = {
+constexpr std::array kMassSources = {
     ComposePreset{"part",
                   "the parts' own masses: finishes of the catalogue, or densities of usual "
                   "constructions, docs/design/door.md"},
@@ -69,7 +67,7 @@ struct JointRanges {
   Range handle_damping;
 };
 
-// in the order of kJointPresets
+// in the order of JointPreset
 constexpr std::array kJointRanges = {
     JointRanges{{3, 3}, {3, 3}, {0.5, 0.5}, {0.05, 0.05}},
     JointRanges{{3, 3}, {3, 3}, {0, 0}, {0, 0}},
@@ -96,24 +94,10 @@ void CheckUnless(const char* name, double value, double unset, const Range& rang
     Fail(name, Text(value), Text(unset) + " or " + Text(range.low) + " to " + Text(range.high));
 }
 
-void CheckName(const char* name, const std::string& value, std::vector<std::string> allowed) {
-  if (std::find(allowed.begin(), allowed.end(), value) != allowed.end()) return;
-  std::string list;
-  for (const std::string& entry : allowed) list += (list.empty() ? "" : ", ") + entry;
-  Fail(name, '"' + value + '"', list + "; did you mean \"" + NearestName(value, allowed) + "\"?");
-}
-
-template <class Presets>
-std::vector<std::string> NamesOf(const Presets& presets) {
-  std::vector<std::string> names;
-  for (const ComposePreset& preset : presets) names.emplace_back(preset.name);
-  return names;
-}
-
-std::string_view SourceOf(std::span<const ComposePreset> presets, const std::string& name) {
-  const auto found = std::find_if(presets.begin(), presets.end(),
-                                  [&](const ComposePreset& preset) { return preset.name == name; });
-  return found == presets.end() ? std::string_view() : found->source;
+template <class Preset>
+std::string WithSource(Preset preset, std::span<const ComposePreset> sources) {
+  return std::string(NameOf(preset)) + " (" +
+         std::string(sources[static_cast<std::size_t>(preset)].source) + ")";
 }
 
 MassProperties Scaled(MassProperties mass, double factor) {
@@ -133,8 +117,8 @@ void CheckPlace(const ComposeConfig& config) {
 }  // namespace
 
 std::span<const ComposeRule> ComposeRules() { return kRules; }
-std::span<const ComposePreset> JointPresets() { return kJointPresets; }
-std::span<const ComposePreset> MassPresets() { return kMassPresets; }
+std::span<const ComposePreset> JointPresets() { return kJointSources; }
+std::span<const ComposePreset> MassPresets() { return kMassSources; }
 
 std::string ComposeRulesText() {
   std::string text;
@@ -166,12 +150,10 @@ void CheckComposeConfig(const ComposeConfig& config) {
   CheckRange("lock_effort_nm", config.lock_effort_nm, {0, 1000});
   if (config.relatch && config.unlocks_ajar) Fail("unlocks_ajar", "true", "false with relatch");
   CheckRange("bolt_throw_m", config.bolt_throw_m, {0.002, 0.03});
-  CheckName("joints", config.joints, NamesOf(kJointPresets));
   CheckUnless("hinge_spring_nm_per_rad", config.hinge_spring_nm_per_rad, -1, {0, 1000});
   CheckUnless("handle_spring_nm_per_rad", config.handle_spring_nm_per_rad, -1, {0, 1000});
   CheckUnless("hinge_damping_nm_s", config.hinge_damping_nm_s, -1, {0, 1000});
   CheckUnless("handle_damping_nm_s", config.handle_damping_nm_s, -1, {0, 1000});
-  CheckName("masses", config.masses, NamesOf(kMassPresets));
 }
 
 std::string MovesTheHandle(const ComposeConfig& config) {
@@ -196,9 +178,7 @@ void RefusePair(std::string_view code, const std::string& why) {
 }
 
 JointNumbers JointNumbersOf(const ComposeConfig& config, const std::string& pair) {
-  const std::vector<std::string> names = NamesOf(kJointPresets);
-  const auto at = std::find(names.begin(), names.end(), config.joints) - names.begin();
-  const JointRanges& ranges = kJointRanges.at(static_cast<std::size_t>(at));
+  const JointRanges& ranges = kJointRanges.at(static_cast<std::size_t>(config.joints));
   const auto number = [&](double wanted, const Range& range, const char* name) {
     if (wanted >= 0) return wanted;
     if (config.seed == 0) return (range.low + range.high) / 2;
@@ -210,20 +190,18 @@ JointNumbers JointNumbersOf(const ComposeConfig& config, const std::string& pair
           number(config.handle_damping_nm_s, ranges.handle_damping, "handle_damping")};
 }
 
-MassProperties PresetMass(const PartPiece& piece, PartRole role, const std::string& preset) {
+MassProperties PresetMass(const PartPiece& piece, PartRole role, MassPreset preset) {
   const double mass = piece.mass.mass_kg;
-  if (preset == "part" || !(mass > 0)) return piece.mass;
+  if (preset == MassPreset::kPart || !(mass > 0)) return piece.mass;
   const double volume = MeasureTopology(piece.mesh).volume_m3;
-  if (preset == "unidoormanip") return Scaled(piece.mass, 1000 * volume / mass);
+  if (preset == MassPreset::kUniDoorManip) return Scaled(piece.mass, 1000 * volume / mass);
   if (role == PartRole::kHandle) return Scaled(piece.mass, 1 / mass);
   return piece.name == "leaf" ? Scaled(piece.mass, 300 * volume / mass) : piece.mass;
 }
 
 std::string PhysicsSourceOf(const ComposeConfig& config) {
-  std::string text = "masses " + config.masses + " (" +
-                     std::string(SourceOf(kMassPresets, config.masses)) + "); joints " +
-                     config.joints + " (" + std::string(SourceOf(kJointPresets, config.joints)) +
-                     ")";
+  const std::string text = "masses " + WithSource(config.masses, kMassSources) + "; joints " +
+                           WithSource(config.joints, kJointSources);
   const bool set = config.hinge_spring_nm_per_rad >= 0 || config.handle_spring_nm_per_rad >= 0 ||
                    config.hinge_damping_nm_s >= 0 || config.handle_damping_nm_s >= 0;
   return set ? text + ", some numbers set by hand" : text;

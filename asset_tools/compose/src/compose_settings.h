@@ -28,7 +28,7 @@ struct JointNumbers {
 JointNumbers JointNumbersOf(const ComposeConfig& config, const std::string& pair);
 
 /// The piece's mass as the config's preset has it. `volume_m3` is that of its mesh.
-MassProperties PresetMass(const PartPiece& piece, PartRole role, const std::string& preset);
+MassProperties PresetMass(const PartPiece& piece, PartRole role, MassPreset preset);
 
 /// For DoorAsset::physics_source.
 std::string PhysicsSourceOf(const ComposeConfig& config);

@@ -105,7 +105,7 @@ std::string Without(std::string message, const fs::path& folder) {
   return message;
 }
 
-// By the confined process; its own folder is no matter of the page.
+// The confined process reads; its own folder is no matter of the page.
 ImportedMesh ReadDropped(const std::string& name, const std::string& bytes) {
   const internal::ScratchFolder scratch;
   CommitFile(scratch.path() / name, bytes);

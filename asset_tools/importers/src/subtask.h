@@ -20,7 +20,7 @@ struct Subtask {
 /// Name of an object's folder, also for "." and paths that end in a slash.
 std::string ObjectNameOf(const std::filesystem::path& folder);
 
-/// By `category` if given, else by the folder that the object lies in, else by mesh names and ids.
+/// `category` decides if given, else the folder that the object lies in, else mesh names and ids.
 /// Throws Error(kInvalidArgument) if `category` is no category or none of these tells.
 Subtask SubtaskOf(const std::filesystem::path& folder, const UrdfModel& model,
                   const std::string& category);

@@ -194,9 +194,9 @@ std::string NameOf(const fs::path& folder) {
 std::vector<CaptionedPicture> TilesOf(const fs::path& folder, const PreviewConfig& config,
                                       int width) {
   std::vector<CaptionedPicture> tiles;
-  if (config.focus != "whole")
+  if (config.focus != PreviewFocus::kWhole)
     tiles = HandleViews(LoadHandle(folder, config), width, width * 3 / 4);
-  if (tiles.empty() || config.focus == "all")
+  if (tiles.empty() || config.focus == PreviewFocus::kAll)
     tiles.insert(tiles.begin(), {DrawWhole(folder, config, width), "", NameOf(folder)});
   return tiles;
 }
@@ -217,7 +217,7 @@ Picture SheetOf(const std::vector<CaptionedPicture>& tiles, int columns) {
 
 Picture DrawOne(const fs::path& folder, const PreviewConfig& config) {
   const auto width = [&](int usual) { return config.width > 0 ? config.width : usual; };
-  if (config.focus == "whole") return DrawWhole(folder, config, width(kWidth));
+  if (config.focus == PreviewFocus::kWhole) return DrawWhole(folder, config, width(kWidth));
   const std::vector<CaptionedPicture> tiles = TilesOf(folder, config, width(kTileWidth));
   if (tiles.size() == 1) return DrawWhole(folder, config, width(kWidth));
   return SheetOf(tiles, tiles.size() == 4 ? 2 : 3);
@@ -249,7 +249,7 @@ Picture DrawSheet(std::span<const fs::path> folders, const PreviewConfig& config
 Picture DrawRecords(std::span<const fs::path> folders, const PreviewConfig& config) {
   PreviewConfig chosen = config;
   const bool sheet = folders.size() > 1;
-  if (chosen.focus.empty()) chosen.focus = sheet ? "whole" : "all";
+  if (!chosen.focus) chosen.focus = sheet ? PreviewFocus::kWhole : PreviewFocus::kAll;
   return sheet ? DrawSheet(folders, chosen) : DrawOne(folders[0], chosen);
 }
 

@@ -163,7 +163,7 @@ double VolumeOf(const MeshOnDisk& mesh, ValidationMemory& memory) {
 struct DoorOnDisk {
   DoorAsset door;
   DoorFiles files;
-  std::array<std::vector<PieceOnDisk>, 3> pieces;  ///< As DoorAsset::links.
+  std::array<std::vector<PieceOnDisk>, 3> pieces;  ///< They follow DoorAsset::links.
 };
 
 DoorOnDisk ReadDoorOnDisk(const fs::path& folder, RecordMeshes& meshes) {
@@ -220,7 +220,7 @@ bool Counts(const Finding& finding, ValidationProfile profile) {
   return family != "COL" && family != "MEC" && family != "HND";
 }
 
-ValidationReport Report(const fs::path& folder, const char* kind, const Findings& findings,
+ValidationReport Report(const fs::path& folder, ValidatedKind kind, const Findings& findings,
                         ValidationProfile profile) {
   ValidationReport report{.folder = folder, .findings = {}, .kind = kind};
   for (const ValidationRule& rule : ValidationRules()) {
@@ -373,14 +373,14 @@ ValidationReport DoorValidator::Door(const fs::path& folder) const {
   RequireRecord(folder / "door.json");
   const Findings findings = Contained(
       folder, "door.json", [&] { return DoorFindings(folder, opening_check_, *memory_); });
-  return Report(folder, "door", findings, profile_);
+  return Report(folder, ValidatedKind::kDoor, findings, profile_);
 }
 
 ValidationReport DoorValidator::Part(const fs::path& folder) const {
   RequireRecord(folder / "part.json");
   const Findings findings =
       Contained(folder, "part.json", [&] { return PartFindings(folder, *memory_); });
-  return Report(folder, "part", findings, profile_);
+  return Report(folder, ValidatedKind::kPart, findings, profile_);
 }
 
 ValidationReport DoorValidator::Validate(const fs::path& folder) const {

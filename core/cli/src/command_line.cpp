@@ -23,7 +23,7 @@ constexpr const char* kSet = "--set";  // as AddSettings() calls it
 
 bool IsOption(const std::string& word) { return word.size() > 1 && word.starts_with('-'); }
 
-// As they are typed, "--body" and "-n" alike.
+// Names are as people type them, "--body" and "-n" alike.
 std::vector<std::string> OptionNames(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options()) {

@@ -37,7 +37,7 @@ void Tell(const PipelineTextSink& sink, const std::string& text) {
 /// What a step would be made from now, and what is to be done about it.
 struct JudgedStep {
   StepInputs inputs;
-  std::string output_sha256;  ///< Of what is there.
+  std::string output_sha256;  ///< It is that of what is there.
   StepDecision decision;
 };
 

@@ -60,7 +60,7 @@ std::string FolderText(const std::string& folder) {
   return path.string();
 }
 
-// The same script again is no loss.
+// Writing an equal script again is no loss.
 void CommitScript(const fs::path& file, const std::string& text, Existing existing) {
   const bool is_there = fs::exists(fs::symlink_status(file));
   if (is_there && existing == Existing::kRefuse) {

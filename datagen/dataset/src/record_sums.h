@@ -27,7 +27,7 @@ class RecordSums {
   /// Empty where Read() throws.
   static RecordSums ReadOrEmpty(const std::filesystem::path& folder);
 
-  /// By the path from the dataset's folder.
+  /// The keys are paths from the dataset's folder.
   const std::map<std::string, std::string>& sums() const { return sums_; }
   bool Has(const std::string& record) const { return sums_.contains(record); }
   void Set(const std::string& record, std::string_view content);

@@ -273,7 +273,7 @@ class RecordCheck {
     }
   }
 
-  // Of a dataset without a list of hashes it is a card of ours, or a user's.
+  // Where a dataset has no list of hashes it is a card of ours, or a user's.
   void CheckReadme() {
     if (!IsThere(kReadmeRecord)) {
       if (dataset_) Add("DST001", kReadmeRecord, "missing", "present");

@@ -22,6 +22,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kTrain = "train";
 
+// A length of 0 stands for the number of points, which each data set chooses for itself.
 Json FeatureToJson(const EpisodeFeature& feature) {
   Json shape = Json::array({"decisions"});
   for (const std::size_t length : feature.shape)
@@ -179,6 +180,7 @@ double RadiusOf(std::span<const float> xyz) {
   return std::sqrt(largest);
 }
 
+// Only what a training takes its normalisation from is summed; times and hidden shares are not.
 class StatisticsBuilder {
  public:
   void Add(const EpisodeArrays& arrays) {
@@ -236,9 +238,10 @@ DatasetPart SummarizePart(const fs::path& folder, const std::string& stage,
     if (!reader.index().episodes.empty()) AddFeatures(PictureFeaturesOf(reader, 0), pictures);
     for (std::size_t i = 0; i < reader.index().episodes.size(); ++i) {
       part.decisions += reader.index().episodes[i].decisions;
+      // held-out episodes must not tell a training anything, not even a mean
       if (split == kTrain) statistics.Add(ViewEpisode(reader, i));
     }
-    reader.RequireWhole();
+    reader.RequireWhole();  // what was cut meanwhile has been read as zeros
   }
   return part;
 }
@@ -330,6 +333,7 @@ PlannedPart PlannedFromJson(const Json& json, const std::string& path) {
   part.shards = ValueOf<std::uint64_t>(json, "shards", path);
   part.episodes = ValueOf<std::uint64_t>(json, "episodes", path);
   part.episodes_per_shard = ValueOf<std::uint64_t>(json, "episodes_per_shard", path);
+  // the shards of a part are full but the last, so the three numbers must agree
   if (part.shards > 1000000 || part.episodes_per_shard < 1 ||
       part.episodes > part.shards * part.episodes_per_shard ||
       (part.shards > 0 && part.episodes <= (part.shards - 1) * part.episodes_per_shard))
@@ -372,6 +376,7 @@ Json ProvenanceToJson(const DatasetProvenance& provenance) {
                {"config_sha256", provenance.config_sha256},
                {"seed", provenance.seed},
                {"planned", planned}};
+  // data sets by rules alone keep the bytes that they had before there were policies
   if (!provenance.policies.empty()) {
     json["policies"] = Json::array();
     for (const DatasetPolicy& policy : provenance.policies)
@@ -393,6 +398,7 @@ DatasetProvenance ProvenanceFromJson(const Json& json, const std::string& path) 
   provenance.seed = ValueOf<std::uint64_t>(json, "seed", path);
   for (const Json& door : MemberOf(json, "doors", path))
     provenance.doors.push_back(DoorFromJson(door, path + ".doors"));
+  // records of the first builds have neither
   if (json.contains("planned")) {
     for (const Json& part : json["planned"])
       provenance.planned.push_back(PlannedFromJson(part, path + ".planned"));

@@ -52,7 +52,7 @@ Places TurnsOfHandles(std::span<const DoorIdentity> doors,
   return SpreadTurns(names);
 }
 
-// By a hash of their names: bodies of one family are not neighbours, and what is dealt together
+// Sorts by a hash of the names: bodies of one family are not neighbours, and what is dealt together
 // with the handles is no pattern of both lists.
 Places TurnsOfBodies(std::span<const DoorIdentity> doors, const std::vector<std::size_t>& members) {
   std::map<std::string, std::string> by_hash;

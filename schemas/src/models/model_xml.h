@@ -16,7 +16,8 @@
 namespace doorforge::internal {
 
 inline constexpr std::uint64_t kMaxModelBytes = 16ULL << 20;
-inline constexpr std::size_t kMaxModelElements = 2000;  ///< Of links, and of joints.
+inline constexpr std::size_t kMaxModelElements =
+    2000;  ///< A model has at most so many links, and joints.
 
 /// "<tag>".
 std::string TagOf(const tinyxml2::XMLElement& element);

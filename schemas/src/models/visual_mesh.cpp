@@ -29,8 +29,10 @@ std::string Named(const std::string& sha256, const char* ending) {
   return sha256.substr(0, kDigitsInTextureName) + ending;
 }
 
+// Files hold floats; what is hashed and drawn before writing must be what is read afterwards.
 double AsFiled(double number) { return static_cast<double>(static_cast<float>(number)); }
 
+// Other programs end a name at the first blank.
 bool IsWord(const std::string& name) {
   return !name.empty() && std::none_of(name.begin(), name.end(),
                                        [](unsigned char c) { return c <= ' ' || c == 127; });
@@ -58,6 +60,7 @@ void Check(const VisualMesh& mesh) {
   }
 }
 
+// The shortest digits that read back as the same float, so that equal meshes have equal files.
 template <class Vector>
 void AppendVector(const char* key, const Vector& vector, std::string& text) {
   text += key;
@@ -82,6 +85,7 @@ std::string MaterialsText(const VisualMesh& mesh) {
 
 std::string MeshText(const VisualMesh& mesh, const std::string& materials_file) {
   std::string text = "mtllib " + materials_file + '\n';
+  // a vertex has about 40 characters, so the text is seldom moved as it grows
   text.reserve(mesh.vertices.size() * 40 + mesh.texcoords.size() * 30);
   for (const Eigen::Vector3d& vertex : mesh.vertices) AppendVector("v", vertex, text);
   for (const Eigen::Vector2d& texcoord : mesh.texcoords) AppendVector("vt", texcoord, text);
@@ -115,6 +119,7 @@ class RecordedLines {
     return true;
   }
 
+  // People edit files, and their editors end lines in two ways.
   bool IsBlank() const { return line_.empty() || line_.starts_with('#'); }
 
   /// What follows `key` and a blank, or nothing.
@@ -159,6 +164,7 @@ std::string BaseName(const std::string& path) { return path.substr(path.rfind('/
 Textures ReadTextures(const VisualFiles& files, const FileReader& read) {
   Textures textures;
   for (const RecordedFile& file : files.textures) {
+    // what is wrong with a picture does not say which picture it was
     try {
       textures[BaseName(file.path)] = MakeVisualTexture(read(file));
     } catch (const Error& error) {
@@ -206,6 +212,8 @@ MaterialsByName ReadMaterials(const VisualFiles& files, const Textures& textures
   return materials;
 }
 
+// Reads what MeshText() writes and nothing else of OBJ: anything more was not written by us, and
+// passing it over would show another surface than the one that is recorded.
 class MeshLines {
  public:
   MeshLines(const VisualFiles& files, const MaterialsByName& materials, const FileReader& read)
@@ -237,6 +245,7 @@ class MeshLines {
     }
   }
 
+  // A material is a surface, so it comes once; two runs of one would be two surfaces of one name.
   void Begin(const std::string& name) {
     const auto material = materials_.find(name);
     if (material == materials_.end()) lines_.Fail("unknown material \"" + name + '"');

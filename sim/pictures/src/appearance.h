@@ -33,8 +33,8 @@ struct Exposure {
 
 /// How everything looks in the pictures of an episode.
 struct Appearance {
-  std::vector<Finish> meshes;  ///< By mesh of the scene.
-  Finish pane;                 ///< Of a window's leaf, where it is thin.
+  std::vector<Finish> meshes;  ///< Each mesh of the scene has one.
+  Finish pane;                 ///< A window's leaf has it where it is thin.
   std::array<Finish, kRoomPartCount> room;
   std::vector<Lamp> lamps;  ///< 1 to kMostLamps before the door's wall.
   Lamp lamp_behind;         ///< In the room behind it.

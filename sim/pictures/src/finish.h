@@ -29,7 +29,7 @@ struct Finish {
   LinearColor color{0.5F, 0.5F, 0.5F};
   LinearColor second{0.5F, 0.5F, 0.5F};  ///< Where the texture is at 1.
   Texture texture = Texture::kPlain;
-  float scale_m = 0.1F;    ///< Of the texture.
+  float scale_m = 0.1F;    ///< The texture repeats after it.
   float gloss = 0.05F;     ///< Height of a lamp's highlight,
   float exponent = 20.0F;  ///< and how sharp it is.
   float mirror = 0.0F;     ///< Share of the room that is mirrored, seen straight on.

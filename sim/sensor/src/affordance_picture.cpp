@@ -128,7 +128,7 @@ class Colouring {
     pixel = sum / (kSamples * kSamples);
   }
 
-  // Of a sample: the map's colour with a trace of the shading, or the grey of what is no handle.
+  // A sample has the map's colour with a trace of the shading, or the grey of what is no handle.
   cv::Vec3d ColorOf(int column, int row, double light) const {
     const auto i = static_cast<std::size_t>(row) * static_cast<std::size_t>(samples_.width) +
                    static_cast<std::size_t>(column);

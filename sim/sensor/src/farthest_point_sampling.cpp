@@ -185,7 +185,7 @@ struct Vector {
 alignas(64) constexpr std::int32_t kLaneNumbers[kWidest] = {0, 1, 2,  3,  4,  5,  6,  7,
                                                             8, 9, 10, 11, 12, 13, 14, 15};
 
-// By reference: passing wide vectors by value has no portable convention.
+// It takes a reference, since passing wide vectors by value has no portable convention.
 template <int kLanes>
 [[gnu::always_inline]] inline void Load(typename Vector<kLanes>::Float& vector, const float* from) {
   vector = *reinterpret_cast<const typename Vector<kLanes>::Float*>(from);

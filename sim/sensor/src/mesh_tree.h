@@ -53,7 +53,7 @@ class MeshTree {
   /// Smoothed across edges flatter than 40 degrees; made when they are first asked for. A tree
   /// belongs to one thread.
   const CornerNormals& corner_normals() const;
-  bool IsOf(const TriangleMesh& mesh) const;  ///< Of a mesh with the same bytes.
+  bool IsOf(const TriangleMesh& mesh) const;  ///< Whether that mesh has the same bytes.
 
  private:
   std::shared_ptr<const EmbreeDevice> device_;

@@ -63,7 +63,7 @@ std::string Format(const char* pattern, Values... values) {
   return text;
 }
 
-// Of the category, over the trainings; nothing where no door of it was evaluated.
+// The category's group over the trainings; nothing where no door of it was evaluated.
 const GroupOverTrainings* GroupOf(const TrainingsSummary& summary, Category category) {
   const auto found =
       std::ranges::find(summary.groups, EpisodeGroup{category, {}}, &GroupOverTrainings::group);

@@ -54,7 +54,7 @@ std::vector<float> ColumnPanels(const float* matrix, int rows, int columns, Grad
   return packed;
 }
 
-// The same of the transposed matrix.
+// Packs the transposed matrix.
 std::vector<float> RowPanels(const float* matrix, int rows, int columns, int panel) {
   std::vector<float> packed(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
   for (int row = 0; row < rows; ++row) {

@@ -281,7 +281,7 @@ void ScatterToNeighbours(const Kernels& kernels, const CloudGeometry::Upsampling
   }
 }
 
-// The same over the skip connection, to the points' own features; at level 0 they are positions.
+// Goes over the skip connection, to the points' own features; at level 0 they are positions.
 void ScatterToOwn(const Kernels& kernels, const CloudGeometry& geometry, std::size_t l,
                   const internal::Rows& rows, FeatureGradients& gradients) {
   if (l == 0) return;

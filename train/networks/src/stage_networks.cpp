@@ -27,6 +27,8 @@ void AddBranch(const std::string& name, std::initializer_list<int> sizes, Parame
     layout.Add(name + "." + std::to_string(i), size[0], size[1]);
 }
 
+// The order of the layers is that of the numbers in policies on disk. Sizes of actor and critic are
+// UniDoorManip's.
 ParameterLayout MakeActorLayout(EncoderNorm norm) {
   ParameterLayout layout;
   AddEncoderLayers("encoder.", layout, norm);
@@ -73,6 +75,8 @@ LayoutsByNorm OfBothNorms(ParameterLayout (*make)(EncoderNorm)) {
   return {make(EncoderNorm::kNone), make(EncoderNorm::kBatch)};
 }
 
+// What gives a result begins near 0, so that an untrained network answers with about the mean of
+// the data; a scale of batch normalisation begins at 1.
 std::vector<float> Initial(const ParameterLayout& layout, std::uint64_t seed,
                            const std::string& prefix) {
   std::vector<float> parameters = HeInitialisation(layout, seed, prefix);
@@ -92,7 +96,9 @@ std::vector<float> Initial(const ParameterLayout& layout, std::uint64_t seed,
   return parameters;
 }
 
-// `value(sample)` gives the array to measure; `least` is the lower bound of each deviation.
+// `value(sample)` gives the array to measure. `least` is the lower bound of each deviation: a
+// number that hardly varies in the data would otherwise be told in units of its noise. Two passes,
+// since the difference of two large sums has no digits left.
 template <std::size_t N, class Value>
 Normaliser<N> Measure(std::span<const TrainingSample> samples, const std::array<float, N>& least,
                       const Value& value) {
@@ -122,6 +128,7 @@ constexpr std::array<float, N> Filled(float value) {
   return array;
 }
 
+// In double precision: a data set has hundreds of millions of points.
 std::array<float, 3> MeanPoint(std::span<const TrainingSample> samples) {
   std::array<double, 3> sum{};
   double count = 0;
@@ -206,6 +213,7 @@ NetworkView ViewFromJson(const Json& json, const std::string& path) {
 
 namespace {
 
+// Six numbers of a rotation: its first two rows, from which the third follows without a jump.
 void TellHand(const Proprioception& proprioception, PolicyState& state) {
   const Eigen::Matrix3f world_from_hand = HandRotationOf(proprioception).cast<float>();
   const Eigen::Vector2f fingers = FingerOpeningsOf(proprioception);
@@ -214,6 +222,8 @@ void TellHand(const Proprioception& proprioception, PolicyState& state) {
   for (std::size_t i = 0; i < 2; ++i) state[6 + i] = fingers[static_cast<Eigen::Index>(i)];
 }
 
+// The hand's y axis enters by its products, which are the same when the fingers change places: a
+// gripper turned by half a turn about its approach is the same gripper.
 void TellGripper(const Proprioception& proprioception, PolicyState& state) {
   const Eigen::Matrix3f world_from_hand = HandRotationOf(proprioception).cast<float>();
   const Eigen::Vector3f z = world_from_hand.col(2);
@@ -259,10 +269,12 @@ CloudWindow WindowOf(const StageNormalisation& normalisation,
 StageNormalisation MeasureNormalisation(std::span<const TrainingSample> samples,
                                         const NetworkView& view) {
   Require(!samples.empty(), ErrorCode::kInvalidArgument, "no sample to train from");
+  // the least deviations: half a centimetre, 3 degrees
   constexpr float kPosition = 0.005F;
   constexpr float kRotation = 0.05F;
   StageNormalisation normalisation;
   normalisation.view = view;
+  // in the hand's frame clouds have the hand in their middle already
   if (view.frame == ViewFrame::kWorld) normalisation.cloud_centre_m = MeanPoint(samples);
   normalisation.state = Measure<18>(
       samples, Filled<18>(TellsOfTheHand(view.state) ? 0.005F : 0.02F),
@@ -322,6 +334,7 @@ NetworkNames NamesOf(NetworkFamily family) {
                                          : NetworkNames{"actor", "critic"};
 }
 
+// Made once: whoever reads a policy asks for them at every layer.
 const ParameterLayout& ActorLayout(NetworkFamily family, EncoderNorm norm) {
   static const LayoutsByNorm kActor = OfBothNorms(MakeActorLayout);
   static const LayoutsByNorm kAffordance = OfBothNorms(MakeAffordanceLayout);

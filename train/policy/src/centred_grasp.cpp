@@ -20,7 +20,7 @@ constexpr double kPadHalfWidthM = 0.012;
 constexpr double kStepM = 0.015;
 constexpr double kSpanM = 0.07;
 
-// As the hand sees them, 0 at the contact.
+// The hand sees them so, with 0 at the contact.
 std::vector<Eigen::Vector2d> AtPads(const LabelledCloud& visible, const Eigen::Vector3d& contact_m,
                                     const Eigen::Matrix3d& world_from_hand) {
   std::vector<Eigen::Vector2d> places;

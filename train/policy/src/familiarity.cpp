@@ -51,7 +51,7 @@ std::ptrdiff_t CountWithin(const Points& points, float radius) {
       points, [&](const Eigen::Vector3f& point) { return point.squaredNorm() < radius * radius; });
 }
 
-// Of half a reach each; the outermost hold all that lies beyond them as well.
+// A cell is half a reach wide; the outermost hold all that lies beyond them as well.
 void AppendCells(const Points& points, SightNumbers& out) {
   std::array<std::ptrdiff_t, kCells> counts{};
   for (const Eigen::Vector3f& point : points) {

@@ -71,7 +71,7 @@ class NetworkGraspPolicy : public GraspPolicy {
   }
 
  private:
-  // As the clouds were sampled that the networks learned from.
+  // Samples as the clouds were that the networks learned from.
   LabelledCloud Sample(const GraspObservation& seen, const Eigen::Vector3d& start) const {
     return seen.sample(start,
                        static_cast<double>(networks_.normalisation.view.cloud_crop_radius_m));
@@ -119,7 +119,8 @@ class NetworkGraspPolicy : public GraspPolicy {
     Eigen::Matrix3d world_from_hand_rotation;
   };
 
-  // Of every orientation at every tried point, `clouds[i]` beginning with the i-th; best first.
+  // There is one for every orientation at every tried point, `clouds[i]` beginning with the i-th;
+  // best first.
   std::vector<Candidate> Candidates(const GraspObservation& seen,
                                     const std::vector<LabelledCloud>& clouds,
                                     const std::vector<double>& affordance_rad) const {

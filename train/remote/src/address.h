@@ -7,7 +7,7 @@
 namespace doorforge::internal {
 
 struct ServerAddress {
-  std::string text;  ///< As it was given.
+  std::string text;  ///< It is as it was given.
   std::string host;
   std::string port;
   std::string path;

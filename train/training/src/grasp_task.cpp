@@ -102,7 +102,7 @@ class GraspTask : public StageTask {
                        {GraspWindow(normalisation, begun), rated.points});
   }
 
-  // Of a sample on a step, whichever part of the batch a process has.
+  // It depends on sample and step, not on which part of the batch a process has.
   Eigen::Matrix3d AugmentationOf(const Minibatch& batch, std::size_t index) const {
     if (batch.set != SampleSet::kTrain) return Eigen::Matrix3d::Identity();
     Rng rng(input_.config->seed,

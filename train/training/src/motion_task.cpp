@@ -68,7 +68,7 @@ class MotionTask : public StageTask {
   }
 
  private:
-  // By a coin of the sample's own on each step, whichever part of the batch a process has.
+  // A coin of the sample's own decides on each step, whichever part of the batch a process has.
   bool IsMirrored(const Minibatch& batch, std::size_t index) const {
     if (batch.set != SampleSet::kTrain || !input_.config->augment_mirror) return false;
     Rng rng(input_.config->seed,

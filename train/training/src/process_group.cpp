@@ -100,7 +100,7 @@ class GlooGroup : public ProcessGroup {
     return all;
   }
 
-  // By recursive doubling: half the bytes of a gather, and none copied on the way. Both of a pair
+  // Recursive doubling sends half the bytes of a gather, and none copied on the way. Both of a pair
   // add the same two numbers, and addition commutes to the last bit.
   void Sum(std::span<float> mine) override {
     const auto count = static_cast<std::int64_t>(mine.size());

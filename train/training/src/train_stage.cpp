@@ -315,7 +315,7 @@ class Trainer {
             step};
   }
 
-  // Of this process's share of the step's batch.
+  // These are of this process's share of the step's batch.
   Geometries GeometriesAt(const Phase& phase, std::uint64_t step) {
     if (next_step_ == step) return std::exchange(next_, {});
     return task_->GeometriesOf(phase.number, OwnShare(BatchAt(phase, step)));
@@ -388,7 +388,7 @@ class Trainer {
     return losses;
   }
 
-  // The same, both networks side by side: libtorch has one thread for each.
+  // Both networks run side by side: libtorch has one thread for each.
   StageLosses StepInTorch(const std::vector<Network*>& learning, const Minibatch& batch,
                           const Geometries& geometries) {
     std::vector<std::vector<float>> own(learning.size());
@@ -433,7 +433,7 @@ class Trainer {
   }
   bool LearnsInTorch() const { return OnDevice() || Normalises(); }
 
-  // As packed for this step.
+  // Their weights are packed for this step.
   std::vector<PointEncoder> EncodersOf(const std::vector<Network*>& networks,
                                        const Geometries& geometries) const {
     if (geometries.empty()) return {};

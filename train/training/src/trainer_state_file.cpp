@@ -130,8 +130,8 @@ const std::string& MetadataOf(const TensorFile& file, const std::string& key,
   return found->second;
 }
 
-// Of all that the file holds but this hash: a training that goes on from a damaged number would end
-// in a policy that nobody can tell from a sound one.
+// It covers all that the file holds but itself: a training that goes on from a damaged number would
+// end in a policy that nobody can tell from a sound one.
 std::string StateHash(const TensorFile& file) {
   Sha256 hash;
   const auto add = [&](const std::string& text) {

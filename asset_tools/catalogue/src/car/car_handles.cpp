@@ -22,8 +22,8 @@ constexpr double kPivotM = 0.012;            // how far from its axis a grip is 
 /// What all car handles share: a grip that reaches from an upright axis towards the free edge.
 struct CarHandle {
   double length_m = 0.2;
-  double height_m = 0.026;      ///< Of the grip, along z: what the fingers close across.
-  double depth_m = 0.012;       ///< Of the grip, along x.
+  double height_m = 0.026;      ///< The grip has it along z; the fingers close across it.
+  double depth_m = 0.012;       ///< The grip has it along x.
   double projection_m = 0.034;  ///< From the leaf to the grip's centre line.
   double squareness = 3;        ///< Exponent of the section.
   double tip_scale = 1;         ///< Height at the free end relative to the axis.

@@ -17,7 +17,7 @@ constexpr double kRoseHullToleranceM = 0.001;
 /// A plane outline that can be inset.
 struct Outline {
   Eigen::Vector2d half_size_m;
-  double radius_m = 0;    ///< Of the corners.
+  double radius_m = 0;    ///< The corners have it.
   bool cut = false;       ///< Corners are cut instead of rounded.
   bool elliptic = false;  ///< An ellipse; the radius does not count.
 };

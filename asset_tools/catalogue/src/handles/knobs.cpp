@@ -13,9 +13,9 @@ namespace {
 
 /// A turned knob: neck and head, one solid of revolution about the handle's axis.
 struct Knob {
-  double diameter_m = 0.06;     ///< Of the head.
+  double diameter_m = 0.06;     ///< The head has it.
   double projection_m = 0.066;  ///< From the leaf to the front of the head.
-  double head_depth_m = 0.04;   ///< Of the head, along x.
+  double head_depth_m = 0.04;   ///< The head has it along x.
   double neck_diameter_m = 0.022;
   double squareness = 2;  ///< Exponent of the head's outline: 2 round, 4 a rounded square.
   double aspect = 1;      ///< Height relative to the diameter.

@@ -31,7 +31,7 @@ struct WaveLever : Lever {
 };
 
 struct DroopedLever : Lever {
-  double droop_m = 0.012;  ///< Of the tip below the axis; negative rises.
+  double droop_m = 0.012;  ///< The tip lies so far below the axis; negative rises.
   double bow_m = 0.004;    ///< Outward bulge of the bar's middle.
 
   template <class Self, class Visitor>

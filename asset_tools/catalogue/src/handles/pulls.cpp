@@ -18,8 +18,8 @@ constexpr double kPullHullToleranceM = 0.001;
 struct Pull {
   double span_m = 0.16;         ///< Between the two feet's centres, along z.
   double projection_m = 0.042;  ///< From the leaf to the bar's centre line.
-  double width_m = 0.012;       ///< Of the bar, along y: what the fingers close across.
-  double depth_m = 0.012;       ///< Of the bar, along x where it runs parallel to the leaf.
+  double width_m = 0.012;       ///< The bar has it along y; the fingers close across it.
+  double depth_m = 0.012;       ///< The bar has it along x where it runs parallel to the leaf.
   double squareness = 2;        ///< Exponent of the section: 2 ellipse, 8 nearly a rectangle.
   double middle_scale = 1;      ///< Width in the middle relative to the feet.
   std::string finish = "brushed_steel";

@@ -45,7 +45,7 @@ inline constexpr NamedValue<BladeForm> kBladeFormWords[] = {
 constexpr std::span<const NamedValue<BladeForm>> ValuesOf(BladeForm) { return kBladeFormWords; }
 
 struct BladeLever : Lever {
-  double root_height_m = 0.036;  ///< Of the blade at the handle's axis.
+  double root_height_m = 0.036;  ///< The blade has it at the handle's axis.
   double tip_height_m = 0.022;
   BladeForm outline = BladeForm::kTapered;
 
@@ -61,7 +61,7 @@ struct BladeLever : Lever {
 struct CrankedLever : Lever {
   double crank_m = 0.018;       ///< How far the outer part lies above (below if negative) the axis.
   double crank_at_m = 0.035;    ///< Where the step begins, from the axis.
-  double crank_width_m = 0.02;  ///< Of the step, along y.
+  double crank_width_m = 0.02;  ///< The step has it along y.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {

@@ -40,8 +40,8 @@ struct VisionBody : InteriorBody {
   double lite_width_m = 0.15;
   double lite_height_m = 0.8;
   double spacing_m = 0.1;  ///< Between openings.
-  double center_y = 0.45;  ///< Of all of them, relative to the leaf's width.
-  double center_z = 0.62;  ///< Of all of them, relative to the leaf's height.
+  double center_y = 0.45;  ///< All of them have it, relative to the leaf's width.
+  double center_z = 0.62;  ///< All of them have it, relative to the leaf's height.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {

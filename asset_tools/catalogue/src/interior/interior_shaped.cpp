@@ -24,7 +24,7 @@ inline constexpr NamedValue<ArchedPart> kArchedPartWords[] = {{ArchedPart::kHead
 constexpr std::span<const NamedValue<ArchedPart>> ValuesOf(ArchedPart) { return kArchedPartWords; }
 
 struct ArchedBody : PanelledBody {
-  double rise_m = 0.1;  ///< Of the arch over the leaf's width.
+  double rise_m = 0.1;  ///< The arch rises so far over the leaf's width.
   ArchedPart arch = ArchedPart::kHead;
 
   template <class Self, class Visitor>
@@ -45,7 +45,7 @@ inline constexpr NamedValue<FixedLeaf> kFixedLeafWords[] = {{FixedLeaf::kLeaf, "
 constexpr std::span<const NamedValue<FixedLeaf>> ValuesOf(FixedLeaf) { return kFixedLeafWords; }
 
 struct DoubleBody : PanelledBody {
-  double fixed_width_m = 0.6;  ///< Of the leaf beside the moving one.
+  double fixed_width_m = 0.6;  ///< The leaf beside the moving one has it.
   FixedLeaf fixed = FixedLeaf::kLeaf;
   int fixed_rows = 1;  ///< Openings of a light.
 
@@ -62,7 +62,7 @@ struct LouvredBody : PanelledBody {
   int louvred_rows = 1;    ///< So many rows of fields from the top hold slats.
   double pitch_m = 0.04;   ///< From slat to slat.
   double slat_m = 0.007;   ///< Thickness of a slat.
-  double slope_rad = 0.9;  ///< Of the slats against the horizontal, down to the front.
+  double slope_rad = 0.9;  ///< The slats lean so far from the horizontal, down to the front.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {

@@ -55,12 +55,12 @@ struct Refrigerator {
   double leaf_width_m = 0.55;
   double leaf_height_m = 0.8;
   double thickness_m = 0.055;
-  double depth_m = 0.5;  ///< Of the cabinet, without the leaf.
+  double depth_m = 0.5;  ///< The cabinet has it, without the leaf.
   double wall_m = 0.035;
-  double corner_radius_m = 0.02;  ///< Of the outline, seen from the front.
-  double edge_radius_m = 0.008;   ///< Of the leaf's front edge.
+  double corner_radius_m = 0.02;  ///< The outline has it, seen from the front.
+  double edge_radius_m = 0.008;   ///< The leaf's front edge has it.
   double leaf_mass_kg = 8;
-  double mount_height = 0.55;      ///< Of the leaf's height.
+  double mount_height = 0.55;      ///< It is a share of the leaf's height.
   double mount_to_edge_m = 0.055;  ///< From the free edge.
   int shelves = 3;
   SecondFront other = SecondFront::kNone;
@@ -103,7 +103,7 @@ struct Refrigerator {
 };
 
 struct ArchedRefrigerator : Refrigerator {
-  double rise_m = 0.12;  ///< Of the arch over leaf and cabinet.
+  double rise_m = 0.12;  ///< The arch over leaf and cabinet rises so far.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -113,7 +113,7 @@ struct ArchedRefrigerator : Refrigerator {
 };
 
 struct IceboxRefrigerator : Refrigerator {
-  double drum_diameter_m = 0.28;  ///< Of the compressor on top.
+  double drum_diameter_m = 0.28;  ///< The compressor on top has it.
   double drum_height_m = 0.14;
 
   template <class Self, class Visitor>
@@ -149,7 +149,7 @@ struct FrontLayout {
   Rectangle leaf;
   std::vector<Rectangle> others;   ///< Fronts that stand still.
   std::vector<double> levels_m;    ///< Between the rooms of the cabinet.
-  std::vector<double> uprights_m;  ///< Likewise, places along y.
+  std::vector<double> uprights_m;  ///< These are places along y.
 };
 
 void AddOther(const Refrigerator& body, FrontLayout& front) {

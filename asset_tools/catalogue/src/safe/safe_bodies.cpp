@@ -85,13 +85,13 @@ constexpr std::span<const NamedValue<SafeBase>> ValuesOf(SafeBase) { return kSaf
 struct SafeBody {
   double leaf_width_m = 0.36;
   double leaf_height_m = 0.4;
-  double thickness_m = 0.04;  ///< Of the leaf.
-  double wall_m = 0.05;       ///< Of the box, around the leaf's opening.
-  double depth_m = 0.45;      ///< Of the box.
+  double thickness_m = 0.04;  ///< The leaf has it.
+  double wall_m = 0.05;       ///< The box has it around the leaf's opening.
+  double depth_m = 0.45;      ///< The box has it.
   double corner_radius_m = 0.012;
   double leaf_mass_kg = 14;     ///< With its filling and bolt work.
-  double mount_forward = 0.55;  ///< Of the leaf's width, from the hinge.
-  double mount_height = 0.5;    ///< Of the leaf's height.
+  double mount_forward = 0.55;  ///< It is a share of the leaf's width, from the hinge.
+  double mount_height = 0.5;    ///< It is a share of the leaf's height.
   SafeFace face = SafeFace::kSunk;
   SafeOutline outline = SafeOutline::kBox;
   double outline_m = 0.05;  ///< Rise of the arch, cut of a corner, lean of a side.
@@ -100,7 +100,7 @@ struct SafeBody {
   bool till = false;  ///< A locked drawer below the cavity's top.
   SafeBase base = SafeBase::kFeet;
   double base_height_m = 0.04;
-  double hinges_apart = 0.64;  ///< Of the leaf's height.
+  double hinges_apart = 0.64;  ///< It is a share of the leaf's height.
   std::string finish = "sheet_grey";
   std::string leaf_finish = "sheet_grey";
 
@@ -190,7 +190,7 @@ struct HotelSafe : SafeBody {
 };
 
 struct AntiqueSafe : SafeBody {
-  int steps = 3;  ///< Of the mouldings above and below.
+  int steps = 3;  ///< The mouldings above and below have so many.
   double step_m = 0.014;
 
   template <class Self, class Visitor>

@@ -79,7 +79,7 @@ struct SafeKey {
   double reach_m = 0.042;  ///< From the leaf to the middle of the bow.
   KeyBow bow = KeyBow::kOval;
   double barrel_radius_m = 0.013;
-  double barrel_m = 0.012;  ///< Of the lock's barrel, along x, in front of the plate.
+  double barrel_m = 0.012;  ///< The lock's barrel stands out so far along x from the plate.
   SafePlate plate;
   std::string finish = "polished_brass";
 
@@ -153,8 +153,8 @@ struct SafeEll : SafeBars {
 
 struct SafeDialLever : SafeEll {
   double dial_diameter_m = 0.056;
-  double dial_height_m = 0.085;  ///< Of the dial's axis above the lever's.
-  double dial_shift_m = 0;       ///< Likewise, towards the free edge.
+  double dial_height_m = 0.085;  ///< The dial's axis lies so far above the lever's.
+  double dial_shift_m = 0;       ///< It lies so far towards the free edge.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -181,7 +181,7 @@ struct SafeSpokes : SafeBars {
 
 struct SafeWheel : SafeBars {
   int spokes = 3;
-  double rim_width_m = 0.014;  ///< Of the rim's section, along the radius.
+  double rim_width_m = 0.014;  ///< The rim's section has it along the radius.
   double rim_depth_m = 0.014;
   double over_m = 0;  ///< How far the spokes stand out beyond the rim, as on a ship's wheel.
   double dish_m = 0;  ///< How much farther out than the hub the rim is.

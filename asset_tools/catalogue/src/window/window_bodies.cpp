@@ -58,7 +58,7 @@ struct WindowBody {
   double leaf_height_m = 1.0;
   double thickness_m = 0.045;
   double stile_m = 0.07;  ///< Width of the leaf's own frame; the handle sits on it.
-  HeadShape head;         ///< Of the leaf, or of the light above it where there is one.
+  HeadShape head;         ///< The leaf has it, or the light above it where there is one.
   WindowFrame frame;
   FixedLight above;
   FixedLight below;

@@ -20,8 +20,8 @@ constexpr double kWindowHandleJointM = 0.0002;  // between solids of one grip th
 struct WindowHandle {
   double length_m = 0.115;      ///< From the axis to the tip, along z.
   double projection_m = 0.045;  ///< From the leaf to the grip's centre line.
-  double width_m = 0.016;       ///< Of the grip, along y: what the fingers close across.
-  double depth_m = 0.012;       ///< Of the grip, along x.
+  double width_m = 0.016;       ///< The grip has it along y; the fingers close across it.
+  double depth_m = 0.012;       ///< The grip has it along x.
   double squareness = 3;        ///< Exponent of the section.
   double tip_scale = 1;         ///< Width at the tip relative to the neck.
   double neck_diameter_m = 0.016;

@@ -26,8 +26,8 @@ constexpr std::array<std::string_view, 2> kPackages = {"package://", "model://"}
 
 /// A format that describes an articulated object in one file of XML.
 struct ModelKind {
-  const char* name;    ///< As --format says it.
-  const char* called;  ///< As messages do.
+  const char* name;    ///< --format takes it.
+  const char* called;  ///< Messages call it so.
   const char* extension;
   const char* root;  ///< The tag by which a file is known; null: the extension tells enough.
   UrdfModel (*read)(const fs::path& file, std::vector<UrdfFault>& faults);

@@ -26,7 +26,7 @@ struct LeafMotion {
   std::string refusal;  ///< Why it is no door; the rest then means nothing.
   /// Turns the leaf, and what it carries, shut; in the authored frame.
   RigidTransform closing = RigidTransform::Identity();
-  double ajar_rad = 0;  ///< By how much the leaf was authored open.
+  double ajar_rad = 0;  ///< The leaf was authored open by so much.
   /// A turn about z, and the mirror at y = 0 if `mirrored`.
   Eigen::Affine3d part_from_authored = Eigen::Affine3d::Identity();
   bool mirrored = false;

@@ -17,12 +17,12 @@ inline constexpr int kAnswerDescriptor = 3;
 
 struct ChildLimits {
   double seconds = 60;                       ///< Wall clock.
-  std::uint64_t answer_bytes = 2ULL << 30U;  ///< Of its answer; more ends it.
+  std::uint64_t answer_bytes = 2ULL << 30U;  ///< A longer answer ends the child.
 };
 
 struct ChildAnswer {
   std::string message;    ///< What it wrote to kAnswerDescriptor.
-  int status = 0;         ///< As of waitpid(); meaningless where the answer is too long.
+  int status = 0;         ///< It is what waitpid() says; meaningless where the answer is too long.
   bool too_long = false;  ///< It was ended because of ChildLimits::answer_bytes.
 };
 

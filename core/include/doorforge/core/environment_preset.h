@@ -23,7 +23,7 @@ std::filesystem::path EnvironmentPresetFile(const std::string& word);
 /// The places that a verb's settings come from, each over those before it.
 struct ConfigSources {
   std::string preset;                 ///< Word for EnvironmentPresetFile(); empty: none.
-  std::string file;                   ///< Of the user's; empty: none.
+  std::string file;                   ///< The user's own settings lie there; empty: none.
   std::vector<std::string> settings;  ///< "a.b=c".
 
   /// The file that NamingConfig() is to name: the last there is.

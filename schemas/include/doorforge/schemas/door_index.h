@@ -36,7 +36,7 @@ class DoorIndex {
   /// Null if the index has no entry for a door.json of these bytes.
   const DoorIdentity* Find(const std::string& record_sha256) const;
   std::size_t size() const { return doors_.size(); }
-  /// By SHA-256 of door.json.
+  /// The keys are the SHA-256 of each door.json.
   const std::map<std::string, DoorIdentity>& doors() const { return doors_; }
 
   void Add(const std::string& record_sha256, DoorIdentity identity);
@@ -44,7 +44,7 @@ class DoorIndex {
   std::string ToText() const;
 
  private:
-  std::map<std::string, DoorIdentity> doors_;  ///< By SHA-256 of door.json.
+  std::map<std::string, DoorIdentity> doors_;  ///< The keys are the SHA-256 of each door.json.
 };
 
 /// The index in a folder of doors; an empty one if there is none. Throws Error(kIo or kFormat) that

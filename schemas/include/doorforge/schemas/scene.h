@@ -32,7 +32,7 @@ constexpr std::span<const NamedValue<ArmController>> ValuesOf(ArmController) {
 
 /// How door, robot and room look in pictures; nothing else depends on it.
 enum class SceneAppearance {
-  kOff,     ///< As their authors coloured them, in a plain room under the same lamps.
+  kOff,     ///< Doors have their authors' colours, in a plain room under the same lamps.
   kColour,  ///< Colours of everything are drawn.
   kFull,    ///< Materials, textures, lamps, exposure and the camera's faults as well.
 };

@@ -32,7 +32,7 @@ class GraspProbe::Runtime {
                    double cutoff) const;
 
   std::vector<Hull> hand;                   ///< In the tool centre's frame.
-  std::array<std::vector<Hull>, 2> finger;  ///< The same, at finger position 0.
+  std::array<std::vector<Hull>, 2> finger;  ///< They stand at finger position 0.
   std::array<Eigen::Vector3d, 2> opening;   ///< Direction in which each finger opens.
   double most_open;
   int left_finger;

@@ -171,18 +171,12 @@ double HeightShift(const SceneConfig& config, Rng rng) {
 
 // How much of the paper's own jitter there is.
 double PaperShare(const SceneConfig& config) {
-  if (config.randomisation == "off") return 0;
-  if (config.randomisation == "paper" || config.randomisation == "strong") return 1;
-  throw Error(ErrorCode::kInvalidConfig, "config.scene.randomisation: found \"" +
-                                             config.randomisation +
-                                             "\", allowed off, paper, strong");
+  return config.randomisation == Randomisation::kOff ? 0 : 1;
 }
 
 Latch LatchOf(const DoorAsset& door, const SceneConfig& config) {
-  Require(config.latch == "door" || config.latch == "none", ErrorCode::kInvalidConfig,
-          "config.scene.latch: found \"" + config.latch + "\", allowed door, none");
   Latch latch = door.latch;
-  if (config.latch == "none") latch.type = LatchType::kNone;
+  if (config.latch == SceneLatch::kNone) latch.type = LatchType::kNone;
   return latch;
 }
 
@@ -250,7 +244,7 @@ Scene Sample(const DoorAsset& door, const std::string& door_sha256, const SceneD
   scene.limits = config.episode;
   scene.camera = CameraOf(config.camera);
   scene.appearance = config.appearance;
-  if (config.randomisation != "strong") return scene;
+  if (config.randomisation != Randomisation::kStrong) return scene;
   VaryLatch(scene.latch, Rng(draw.seed, stream + "latch"));
   VaryDoor(scene, Rng(draw.seed, stream + "door"));
   VaryView(scene, Rng(draw.seed, stream + "camera"));

@@ -88,7 +88,7 @@ void AddLinks(const UrdfModel& urdf, const std::map<std::string, RobotFrame>& fr
     std::vector<RobotPiece> hulls;
     for (const UrdfShape& shape : link.collisions)
       hulls.push_back(shapes.Hull(link.name, shape, frame));
-    if (options.visuals == "collision") {
+    if (options.visuals == RobotVisuals::kCollision) {
       robot.visuals.insert(robot.visuals.end(), hulls.begin(), hulls.end());
     } else {
       for (const UrdfShape& shape : link.visuals)
@@ -136,8 +136,6 @@ void CheckOptions(const RobotOptions& options, std::size_t arm_joints, RobotFaul
   if (!options.rest_rad.empty() && options.rest_rad.size() != arm_joints)
     faults.Add("rest_rad: expected " + std::to_string(arm_joints) + " numbers, found " +
                std::to_string(options.rest_rad.size()));
-  if (options.visuals != "mesh" && options.visuals != "collision")
-    faults.Add("visuals: found \"" + options.visuals + "\", allowed mesh, collision");
 }
 
 RobotModel Build(const std::string& name, const UrdfModel& given, const RobotSource& source,

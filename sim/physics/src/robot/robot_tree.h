@@ -36,7 +36,7 @@ struct RobotRoles {
 };
 
 /// Reads the roles from the tree. Where that fails, the faults say why and the roles are not whole.
-/// Of a robot whose hand is to fly only hand and fingers are looked for.
+/// Where the hand is to fly, only hand and fingers are looked for.
 RobotRoles FindRoles(const UrdfModel& urdf, const RobotOptions& options, RobotBase base,
                      RobotFaults& faults);
 

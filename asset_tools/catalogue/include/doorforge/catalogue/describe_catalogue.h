@@ -14,7 +14,7 @@ namespace doorforge {
 
 /// Which parts of the catalogue are meant.
 struct CatalogueSelection {
-  std::string category = {};  ///< By name; empty: all.
+  std::string category = {};  ///< This is its name; empty: all.
   std::string split = {};     ///< A name in data/splits, or a file of the user's; empty: all.
 };
 

@@ -53,6 +53,22 @@ inline constexpr NamedValue<HandleSense> kHandleSenses[] = {{HandleSense::kAsMad
                                                             {HandleSense::kReversed, "reversed"}};
 constexpr std::span<const NamedValue<HandleSense>> ValuesOf(HandleSense) { return kHandleSenses; }
 
+/// Where springs and damping come from, see JointPresets().
+enum class JointPreset { kPaper, kUniDoorManip, kDoorGym };
+inline constexpr NamedValue<JointPreset> kJointPresets[] = {
+    {JointPreset::kPaper, "paper"},
+    {JointPreset::kUniDoorManip, "unidoormanip"},
+    {JointPreset::kDoorGym, "doorgym"}};
+constexpr std::span<const NamedValue<JointPreset>> ValuesOf(JointPreset) { return kJointPresets; }
+
+/// Where densities come from, see MassPresets().
+enum class MassPreset { kPart, kUniDoorManip, kDoorGym };
+inline constexpr NamedValue<MassPreset> kMassPresets[] = {
+    {MassPreset::kPart, "part"},
+    {MassPreset::kUniDoorManip, "unidoormanip"},
+    {MassPreset::kDoorGym, "doorgym"}};
+constexpr std::span<const NamedValue<MassPreset>> ValuesOf(MassPreset) { return kMassPresets; }
+
 /// How a door differs from what the authors of its parts made. Where a number is "0: as ..." or
 /// "-1: by preset", any other value replaces what the parts, the category or the preset say.
 struct ComposeConfig {
@@ -76,13 +92,13 @@ struct ComposeConfig {
   double lock_effort_nm = 150;
   bool relatch = false;
   bool unlocks_ajar = false;  ///< The released code's latch; see Latch. Not together with relatch.
-  double bolt_throw_m = 0.012;          ///< 0.002 to 0.03.
-  std::string joints = "paper";         ///< A preset of springs and damping, see JointPresets().
+  double bolt_throw_m = 0.012;  ///< 0.002 to 0.03.
+  JointPreset joints = JointPreset::kPaper;
   double hinge_spring_nm_per_rad = -1;  ///< -1: by preset, as the three below.
   double handle_spring_nm_per_rad = -1;
   double hinge_damping_nm_s = -1;
   double handle_damping_nm_s = -1;
-  std::string masses = "part";  ///< A preset of densities, see MassPresets().
+  MassPreset masses = MassPreset::kPart;
   /// SPDX expressions that a part may have; empty: any.
   std::vector<std::string> license_allow = {};
   /// Not 0: leaf width and height (of each body) and handle height (of each pair) vary by +-5 %
@@ -132,7 +148,7 @@ struct ComposeRule {
 };
 std::span<const ComposeRule> ComposeRules();
 
-/// A named choice with the source of its numbers.
+/// A preset with the source of its numbers; those of each kind are in the order of their enum.
 struct ComposePreset {
   std::string_view name;
   std::string_view source;

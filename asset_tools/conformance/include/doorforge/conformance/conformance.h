@@ -40,7 +40,7 @@ struct ConformanceRow {
   bool loads = false;
   std::string problem;                   ///< What the engine said, in one line; empty if nothing.
   std::optional<double> mass_error;      ///< Relative, the largest of leaf and handle.
-  std::optional<double> limit_error;     ///< Of the joints' limits, the largest [rad].
+  std::optional<double> limit_error;     ///< The largest of the joints' limits [rad].
   std::optional<double> held_deg;        ///< Largest hinge angle under 75 N, the handle left alone.
   std::optional<double> unlock_deg;      ///< Handle angle at which a door under 20 N gives way.
   std::optional<double> law_unlock_deg;  ///< That of the door's own latch.
@@ -57,7 +57,7 @@ struct ConformanceEngine {
   std::string version;  ///< Empty if it is absent.
   std::string absent;
   std::map<std::string, std::string> loader =
-      {};  ///< By format: what loading takes beyond the file.
+      {};  ///< Each format has what loading takes beyond the file.
 };
 
 struct ConformanceReport {

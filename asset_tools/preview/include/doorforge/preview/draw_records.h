@@ -3,12 +3,26 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
-#include <string>
 
+#include "doorforge/core/named_enum.h"
 #include "doorforge/sensor/picture.h"
 
 namespace doorforge {
+
+/// What a picture is of.
+enum class PreviewFocus {
+  kAll,  ///< The whole, and the handle large from three sides with a bar of 50 mm and the axes.
+  kWhole,
+  kHandle,
+};
+inline constexpr NamedValue<PreviewFocus> kPreviewFocuses[] = {{PreviewFocus::kAll, "all"},
+                                                               {PreviewFocus::kWhole, "whole"},
+                                                               {PreviewFocus::kHandle, "handle"}};
+constexpr std::span<const NamedValue<PreviewFocus>> ValuesOf(PreviewFocus) {
+  return kPreviewFocuses;
+}
 
 /// How doors and parts are drawn.
 struct PreviewConfig {
@@ -18,9 +32,7 @@ struct PreviewConfig {
   int columns = 6;           ///< A contact sheet has so many.
   int width = 0;             ///< Each picture has so many pixels across; 0: what is drawn decides.
   int threads = 0;           ///< 0: all processors.
-  /// "all": the whole, and the handle large from three sides with a bar of 50 mm and the axes;
-  /// "whole"; "handle"; empty: "all" of one record, "whole" of several.
-  std::string focus = {};
+  std::optional<PreviewFocus> focus = {};  ///< Nothing: kAll of one record, kWhole of several.
   bool collision = false;  ///< The collision shapes are drawn instead of the surfaces.
 };
 

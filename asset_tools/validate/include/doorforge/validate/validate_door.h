@@ -90,12 +90,24 @@ constexpr std::span<const NamedValue<ValidationProfile>> ValuesOf(ValidationProf
 /// that can hands the check in. It must be a pure function and bear several threads.
 using OpeningCheck = std::function<std::vector<Finding>(const DoorAsset&)>;
 
+/// What was judged: a record of doorforge, or a file from outside by its format.
+enum class ValidatedKind { kDoor, kPart, kUrdf, kMjcf, kSdf, kUsda, kGltf, kMesh, kUnknown };
+inline constexpr NamedValue<ValidatedKind> kValidatedKinds[] = {
+    {ValidatedKind::kDoor, "door"},      {ValidatedKind::kPart, "part"},
+    {ValidatedKind::kUrdf, "urdf"},      {ValidatedKind::kMjcf, "mjcf"},
+    {ValidatedKind::kSdf, "sdf"},        {ValidatedKind::kUsda, "usda"},
+    {ValidatedKind::kGltf, "gltf"},      {ValidatedKind::kMesh, "mesh"},
+    {ValidatedKind::kUnknown, "unknown"}};
+constexpr std::span<const NamedValue<ValidatedKind>> ValuesOf(ValidatedKind) {
+  return kValidatedKinds;
+}
+
 struct ValidationReport {
   std::filesystem::path folder;
-  std::vector<Finding> findings;  ///< By family in the order of ValidationRules(), then by place.
+  std::vector<Finding> findings;  ///< Families are in the order of ValidationRules(), then places.
   int errors = 0;
   int warnings = 0;
-  std::string kind = {};                ///< "door", "part", or the format of a file from outside.
+  ValidatedKind kind = ValidatedKind::kDoor;
   std::vector<std::string> notes = {};  ///< What was assumed and what was not asked.
 };
 
@@ -115,10 +127,10 @@ class DoorValidator {
   DoorValidator(const DoorValidator&) = delete;
   DoorValidator& operator=(const DoorValidator&) = delete;
 
-  /// By the record that the folder holds. Deterministic; never throws on what the folder holds: a
-  /// check that takes too much time (see work_budget.h) or memory is finding REC003.
-  /// Throws Error(kMissing) if it has neither door.json nor part.json. May be called from several
-  /// threads at once.
+  /// The record that the folder holds decides what is checked. Deterministic; never throws on what
+  /// the folder holds: a check that takes too much time (see work_budget.h) or memory is finding
+  /// REC003. Throws Error(kMissing) if it has neither door.json nor part.json. May be called from
+  /// several threads at once.
   ValidationReport Validate(const std::filesystem::path& folder) const;
   /// These do the same where the kind is known, and throw Error(kMissing) if its record is missing.
   ValidationReport Door(const std::filesystem::path& folder) const;

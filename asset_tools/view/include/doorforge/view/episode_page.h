@@ -19,10 +19,11 @@ struct DatasetEpisodes {
   std::string stage = {};                        ///< "open", "handle" or "grasp"; empty: all.
   std::string key = {};  ///< One episode, such as "ep000012"; empty: the first ones.
   int most = 12;         ///< At most so many, at least 1.
-  int points = 1024;     ///< Of each cloud, evenly drawn from those stored; 0: no clouds.
-  int threads = 0;       ///< 0: all processors.
+  int points = 1024;  ///< Each cloud shows so many, evenly drawn from those stored; 0: no clouds.
+  int threads = 0;    ///< 0: all processors.
   ShownRobot robot = {};
-  std::filesystem::path films = {};  ///< Of `dataset films --stored`; empty: no forces are shown.
+  std::filesystem::path films =
+      {};  ///< `dataset films --stored` wrote it; empty: no forces are shown.
 };
 
 /// Shows episodes of a data set as they were stored: robot and door at each decision, the cloud in
@@ -41,7 +42,7 @@ ViewPage MakeDatasetPage(const DatasetEpisodes& chosen);
 /// How the rule-based expert's episodes are made.
 struct ExpertEpisodes {
   std::uint64_t seed = 1;
-  int points = 1024;  ///< Of each cloud; 0: none.
+  int points = 1024;  ///< Each cloud shows so many; 0: none.
   int threads = 0;    ///< 0: all processors.
   ShownRobot robot = {};
 };

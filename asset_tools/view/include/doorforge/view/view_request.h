@@ -20,15 +20,15 @@ struct ViewRequest {
   /// Folders of doors and parts, or folders that hold some; or one data set; or one report.
   std::vector<std::string> paths;
   std::vector<std::filesystem::path> doors;  ///< Folders with the doors of a data set or report.
-  std::string stage;                         ///< Of a data set; empty: all of its stages.
-  std::string key;                           ///< Of a data set: one episode; empty: the first ones.
-  int episodes = 12;                         ///< Of a data set: at most so many.
-  std::string films;                         ///< Of a data set: a file of its films; may be empty.
-  int points = 1024;                         ///< Of each cloud of an episode; 0: none.
-  bool gallery = false;                      ///< Few doors and parts are a gallery, too.
-  bool episode = false;                      ///< The expert opens each door.
-  std::uint64_t seed = 1;                    ///< Of the expert's scene.
-  int threads = 0;                           ///< 0: all processors.
+  std::string stage;                         ///< A data set shows it; empty: all of its stages.
+  std::string key;         ///< A data set shows this one episode; empty: the first ones.
+  int episodes = 12;       ///< A data set shows at most so many.
+  std::string films;       ///< A data set may have a file of its films; may be empty.
+  int points = 1024;       ///< Each cloud of an episode shows so many; 0: none.
+  bool gallery = false;    ///< Few doors and parts are a gallery, too.
+  bool episode = false;    ///< The expert opens each door.
+  std::uint64_t seed = 1;  ///< The expert's scene is drawn with it.
+  int threads = 0;         ///< 0: all processors.
   ShownRobot robot = {};
 };
 

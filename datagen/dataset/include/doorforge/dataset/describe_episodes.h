@@ -66,7 +66,7 @@ struct EpisodeDescription {
   std::vector<StageEpisodes> stages;  ///< Sorted by name.
   std::vector<ExampleEpisode>
       examples;  ///< They are the first of every category that have a preview.
-  std::vector<UnwrittenEpisode> unwritten;  ///< By part and shard.
+  std::vector<UnwrittenEpisode> unwritten;  ///< They are in the order of parts and shards.
 };
 
 /// Reads the indices and every episode's meta.json. Does not depend on the number of threads.

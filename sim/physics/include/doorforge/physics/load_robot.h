@@ -4,13 +4,21 @@
 
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "doorforge/core/named_enum.h"
 #include "doorforge/physics/robot_model.h"
 #include "doorforge/schemas/urdf.h"
 
 namespace doorforge {
+
+/// Which of a robot's shapes a camera sees.
+enum class RobotVisuals { kMesh, kCollision };
+inline constexpr NamedValue<RobotVisuals> kRobotVisuals[] = {
+    {RobotVisuals::kMesh, "mesh"}, {RobotVisuals::kCollision, "collision"}};
+constexpr std::span<const NamedValue<RobotVisuals>> ValuesOf(RobotVisuals) { return kRobotVisuals; }
 
 /// What a URDF does not say, or what is guessed wrongly. Read from NAME.robot.yaml beside NAME.urdf
 /// where there is one.
@@ -23,7 +31,7 @@ struct RobotOptions {
   std::vector<double> tcp_rpy_rad;
   std::vector<double> rest_rad;  ///< Posture of the arm joints at the start. Empty: 0.3 (low + up).
   double density_kg_m3 = 0;      ///< Links without inertia get it; 0: they are a fault.
-  std::string visuals = "mesh";  ///< "collision": the collision shapes are what a camera sees.
+  RobotVisuals visuals = RobotVisuals::kMesh;
   std::vector<std::string> package_folders;  ///< Where package:// is looked for besides.
 
   template <class Self, class Visitor>

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
 
+#include "doorforge/core/named_enum.h"
 #include "doorforge/schemas/door_asset.h"
 #include "doorforge/schemas/door_identity.h"
 #include "doorforge/schemas/scene.h"
@@ -35,6 +37,29 @@ struct CameraConfig {
 /// numbers, neither above the other, the image has a size, and the view is within (0, pi) wide.
 CameraModel CameraOf(const CameraConfig& config);
 
+/// What varies from one episode of a door to the next, see docs/design/simulation.md for the ranges
+/// and their sources.
+enum class Randomisation {
+  kOff,     ///< Every episode of a door is the same, but for the policies' own noise.
+  kPaper,   ///< The robot's place and the grasp vary, as in UniDoorManip's released code.
+  kStrong,  ///< Friction, masses, damping, springs, unlock angle, camera and start pose vary too.
+};
+inline constexpr NamedValue<Randomisation> kRandomisations[] = {{Randomisation::kOff, "off"},
+                                                                {Randomisation::kPaper, "paper"},
+                                                                {Randomisation::kStrong, "strong"}};
+constexpr std::span<const NamedValue<Randomisation>> ValuesOf(Randomisation) {
+  return kRandomisations;
+}
+
+/// What holds a scene's door shut.
+enum class SceneLatch {
+  kOfDoor,  ///< The door's own latch.
+  kNone,    ///< Nothing does, and no handle need be turned.
+};
+inline constexpr NamedValue<SceneLatch> kSceneLatches[] = {{SceneLatch::kOfDoor, "door"},
+                                                           {SceneLatch::kNone, "none"}};
+constexpr std::span<const NamedValue<SceneLatch>> ValuesOf(SceneLatch) { return kSceneLatches; }
+
 struct SceneConfig {
   PhysicsConfig physics;
   EpisodeLimits episode;  ///< Written into files only where they are not the defaults.
@@ -42,18 +67,13 @@ struct SceneConfig {
   /// URDF of the robot; empty: the built-in one. Programs load it by LoadRobot(); SampleScene()
   /// does not look at it.
   std::string robot = {};
-  /// "off": every episode of a door is the same, but for the policies' own noise; "paper": the
-  /// robot's place and the grasp vary, as in UniDoorManip's released code; "strong": friction,
-  /// masses, damping, springs, unlock angle, camera and start pose as well, see
-  /// docs/design/simulation.md for the ranges and their sources.
-  std::string randomisation = "paper";
+  Randomisation randomisation = Randomisation::kPaper;
   /// The door stands higher or lower by up to this, drawn for each episode: robots are not all as
   /// tall, and handles that one category has low, another has high. Camera and robot stay.
   double height_jitter_m = 0;
   double base_jitter = 1;  ///< Scales the spread of the robot's place; 0: always the same.
   double grasp_noise = 1;  ///< Scales the offset of the expert's grasp; 0: the nominal grasp.
-  /// "door": the door's own latch; "none": nothing holds the door, and no handle need be turned.
-  std::string latch = "door";
+  SceneLatch latch = SceneLatch::kOfDoor;
   /// How everything looks in pictures, drawn for each episode from the stream
   /// "scene/<door id>/<episode>/appearance". No other draw depends on it.
   SceneAppearance appearance = SceneAppearance::kOff;
@@ -70,7 +90,7 @@ struct SceneConfig {
     visit("height_jitter_m", self.height_jitter_m);
     visit("base_jitter", self.base_jitter);
     visit("grasp_noise", self.grasp_noise);
-    if (!std::is_const_v<Self> || self.latch != "door") visit("latch", self.latch);
+    if (!std::is_const_v<Self> || self.latch != SceneLatch::kOfDoor) visit("latch", self.latch);
     if (!std::is_const_v<Self> || self.appearance != SceneAppearance::kOff)
       visit("appearance", self.appearance);
   }
@@ -91,9 +111,9 @@ struct SceneConfig {
 /// that is pulled, with the robot on the handle's side, and the grasp of whoever pushes leans 20
 /// degrees away from the jamb and, on a knob, is rolled back by half its turn. Throws as
 /// RequireSimulatable(); Error(kInvalidArgument) where the frame of a pushed door stands between
-/// robot and handle, as the back of a cupboard does; Error(kInvalidConfig) on an unknown
-/// randomisation or latch, a height_jitter_m out of 0..0.5, as CheckEpisodeLimits() and as
-/// CameraOf(). A stronger randomisation leaves the draws of a weaker one as they are.
+/// robot and handle, as the back of a cupboard does; Error(kInvalidConfig) on a height_jitter_m
+/// out of 0..0.5, as CheckEpisodeLimits() and as CameraOf(). A stronger randomisation leaves the
+/// draws of a weaker one as they are.
 Scene SampleScene(const IdentifiedDoor& door, std::uint64_t seed, std::uint64_t episode,
                   const SceneConfig& config = {});
 /// This one takes a door that was made or changed in memory. It writes all meshes as text to hash

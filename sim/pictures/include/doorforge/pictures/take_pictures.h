@@ -35,7 +35,7 @@ struct PictureScene {
 struct Pictures {
   /// "depth_front.npy" and so on, sorted by name; see PictureStream. The leading axis is the looks.
   std::vector<MemberBytes> members;
-  /// By camera: place, size, intrinsic matrix.
+  /// Each camera has its place, size and intrinsic matrix.
   nlohmann::ordered_json record;
 };
 

@@ -91,8 +91,7 @@ class EpisodeStepper {
   ///
   /// @param observer Makes the clouds; null: they are empty.
   /// @throws Error(kInvalidArgument) if the scene is of another door or robot, or as DoorWorld
-  /// does;
-  ///     Error(kInvalidConfig) as CheckEpisodeLimits().
+  ///     does; Error(kInvalidConfig) as CheckEpisodeLimits().
   Observation Reset(const Scene& scene, Observer* observer = nullptr);
 
   /// Carries out an action for PhysicsConfig::steps_per_action steps, and whatever the options
@@ -101,8 +100,7 @@ class EpisodeStepper {
   ///
   /// @return now(), until the next call.
   /// @throws Error(kInvalidArgument) before Reset(), after the end of the episode, and for an
-  /// action
-  ///     as BadAction says.
+  ///     action as BadAction says.
   const StepResult& Step(const Action& action);
   /// The stage "grasp" with all that a SnapshotGraspPolicy says; nothing: there is none to take
   /// hold of.

@@ -11,7 +11,7 @@ struct HandleExpertConfig {
   /// does not wind it up. UniDoorManip's rules: 20 to 25 degrees on knobs, 6 cm on levers.
   double step_rad = 0.2;
   double first_step_rad = 0.1;  ///< The first action goes so far: the grasp still settles.
-  double most_slip_rad = 0.4;   ///< By which the hand may get ahead of what it holds.
+  double most_slip_rad = 0.4;   ///< The hand may get ahead of what it holds by so much.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {

@@ -28,7 +28,7 @@ struct SceneSnapshot {
   std::array<RigidTransform, 3> door;  ///< Indexed by DoorLinkIndex.
   double time_s = 0;
   EpisodePhase phase = EpisodePhase::kStart;
-  // Of an episode that runs; of a scene that was put together they are not filled in.
+  // An episode that runs fills these in, a scene that was put together does not.
   JointVector robot_position = {};  ///< Joints of the robot in their order [m or rad].
   double hinge_rad = 0;
   double handle_rad = 0;

@@ -22,7 +22,7 @@ struct BenchmarkPart {
 /// A benchmark as a pipeline, and what its evaluations are.
 struct BenchmarkPlan {
   Pipeline pipeline;
-  std::vector<BenchmarkPart> parts;  ///< By row, training and side.
+  std::vector<BenchmarkPart> parts;  ///< They are in the order of rows, trainings and sides.
 };
 
 /// Joins what trains the rows, see PipelineJoiner, and adds an evaluation of each row, training and

@@ -26,7 +26,8 @@ struct BenchmarkRowResult {
 struct BenchmarkComparison {
   std::size_t first = 0;  ///< Index into BenchmarkResult::rows.
   std::size_t second = 0;
-  ClusteredDifference difference;  ///< Of the second over the first, of means over trainings.
+  ClusteredDifference
+      difference;  ///< The second is so much over the first, in means over trainings.
 };
 
 struct BenchmarkResult {

@@ -16,7 +16,7 @@ struct BenchmarkRow {
   std::string pipeline = {};       ///< A preset that trains what `evaluate` names; may be empty.
   std::vector<std::string>
       evaluate;             ///< Arguments of `doorforge eval`, with {steps} of it and {data}.
-  double core_seconds = 1;  ///< Of a door and seed of the evaluation.
+  double core_seconds = 1;  ///< A door and seed of the evaluation takes it.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -34,9 +34,9 @@ struct BenchmarkSize {
   std::string about;
   std::vector<std::string> rows;       ///< Names of rows of data/benchmarks/rows.yaml, or of `own`.
   std::vector<BenchmarkRow> own = {};  ///< Rows of the user's; they go before others of their name.
-  int doors = 6;                       ///< Of each category, on either side.
+  int doors = 6;                       ///< Each category has so many, on either side.
   int seeds = 3;                       ///< Scenes of each door.
-  int trainings = 1;                   ///< Of each row that is trained; their seeds follow `seed`.
+  int trainings = 1;  ///< Each row that is trained has so many; their seeds follow `seed`.
   std::uint64_t seed = 7;
   std::vector<std::string> settings;  ///< "key=value" of the pipelines that train.
   std::string split = "full:test";    ///< The side of held-out doors.

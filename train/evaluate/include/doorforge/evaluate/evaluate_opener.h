@@ -35,7 +35,7 @@ struct Evaluation {
   std::vector<std::string> notes;  ///< On the doors, see DoorSet.
   EvaluationReport report;
   ReportPictures pictures;
-  std::vector<EpisodeFilm> films;  ///< Of the failures, where they were asked for.
+  std::vector<EpisodeFilm> films;  ///< These show the failures, where they were asked for.
 };
 
 /// Closed-loop evaluation of the opening stage (UniDoorManip, Section 5): in every scene somebody

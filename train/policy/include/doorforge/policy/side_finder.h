@@ -16,7 +16,7 @@ namespace doorforge {
 
 /// Where a policy takes the hinge to be.
 enum class SideChoice {
-  kAuto,  ///< As the picture says; where that leads nowhere, on the other side.
+  kAuto,  ///< The picture says; where that leads nowhere, on the other side.
   kLeft,
   kRight,
 };
@@ -39,7 +39,7 @@ class SideFinder : public EpisodeMemory {
   bool WantsPicture() const override { return classifier_ && choice_ == SideChoice::kAuto; }
   void Begin(std::optional<LabelledCloud> before) override;
 
-  /// Of which episode this is, from 1 on; 0 before the first.
+  /// Counts episodes from 1 on; 0 before the first.
   std::uint64_t episode() const { return episode_; }
   /// The next grasp of the episode: unless the picture was clear about it, it begins with the other
   /// side than the one before.

@@ -24,7 +24,7 @@ using HandMotion = std::array<float, 12>;
 HandMotion HandMotionOf(const Proprioception& first, const Proprioception& now,
                         const ActionVector& action);
 
-/// The same in the mirror image of the scene, see mirror.h.
+/// What it is in the mirror image of the scene, see mirror.h.
 HandMotion MirroredSideways(const HandMotion& motion);
 
 /// A decision of the handle policy's data.

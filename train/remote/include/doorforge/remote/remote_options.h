@@ -16,7 +16,7 @@ namespace doorforge {
 
 /// Policies of other processes, as a verb is told of them.
 struct RemoteOptions {
-  std::string policy;   ///< The same as --opener, and its earlier name.
+  std::string policy;   ///< It means what --opener does, and is its earlier name.
   std::string command;  ///< A program that opens.
   std::string timeout = "10";
   std::string chunk = "1";

@@ -11,8 +11,8 @@ namespace doorforge {
 
 /// How somebody else's policy is asked.
 struct RemotePolicySettings {
-  double timeout_s = 10;  ///< For connecting, and for each answer; greater than 0.
-  int chunk = 1;          ///< Of the actions in an answer, so many are carried out; at least 1.
+  double timeout_s = 10;       ///< For connecting, and for each answer; greater than 0.
+  int chunk = 1;               ///< So many actions of an answer are carried out; at least 1.
   std::string stage = "open";  ///< Told to the policy.
 };
 
@@ -36,7 +36,7 @@ std::unique_ptr<Policy> MakeCommandPolicy(const std::string& command,
 
 /// What a server says of itself that an evaluation goes by.
 struct ServerGreeting {
-  int remembered_finer = 0;  ///< As in PolicyServerConfig; 0 where it says nothing.
+  int remembered_finer = 0;  ///< PolicyServerConfig has it; 0 where it says nothing.
   double remembered_within_m = 0;
 };
 

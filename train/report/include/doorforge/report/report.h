@@ -60,7 +60,7 @@ bool IsSwitchPredicted(const ReportProvenance& provenance);
 struct EvaluationReport {
   ReportProvenance provenance;
   std::vector<DoorIdentity> doors;  ///< Evaluated, sorted by id.
-  SeenParts trained_on;             ///< By any of the policies; empty for the expert.
+  SeenParts trained_on;             ///< Any of the policies was; empty for the expert.
   std::vector<DoorIdentity>
       training_doors;  ///< They are those of the opener's data set, if it was given.
   std::vector<EvaluatedEpisode> episodes;   ///< Sorted by door, seed, episode.

@@ -34,7 +34,7 @@ struct ReportGrasp {
 struct ReportPictures {
   std::map<std::string, std::string> doors;       ///< PNG by id, of doors and training doors.
   std::map<EpisodeOutcome, ReportFilm> episodes;  ///< An episode for each way to end.
-  std::vector<ReportGrasp> grasps;  ///< By category, one that opened before one that failed.
+  std::vector<ReportGrasp> grasps;  ///< Each category has one that opened before one that failed.
   ReportPicture scene;              ///< What the policy's camera looks at, shaded.
   ReportPicture depth;              ///< It shows the depth image.
   std::set<std::string> filmed;     ///< FilmAddress() of the rows that films.html beside has.

@@ -45,10 +45,10 @@ struct ClusteredTrial {
 /// The order of the trials does not matter.
 SuccessRate ClusteredRate(std::span<const ClusteredTrial> trials);
 
-/// By how much one policy succeeds more often than another on the same trials.
+/// How much more often one policy succeeds than another on the same trials.
 struct ClusteredDifference {
-  double mean = 0;  ///< Of the differences, in [-1, 1].
-  double low = 0;   ///< Of the 95 % interval of the mean.
+  double mean = 0;  ///< The differences' mean, in [-1, 1].
+  double low = 0;   ///< The 95 % interval of the mean begins there.
   double high = 0;  ///< Its upper end.
   int trials = 0;
 
@@ -98,7 +98,7 @@ struct SuccessSummary {
   double median_opening_s = 0;  ///< Simulated time of episodes that opened; 0 where none did.
   double median_force_n = 0;  ///< It is that of the episodes' peaks; 0 where there are no episodes.
   double peak_force_n = 0;    ///< Greatest of them.
-  double median_net_force_n = 0;  ///< The same of EvaluatedEpisode::peak_net_force_n,
+  double median_net_force_n = 0;  ///< It is the median of EvaluatedEpisode::peak_net_force_n,
   double most_net_force_n = 0;    ///< which 99 % of the episodes do not pass,
   double peak_net_force_n = 0;    ///< and no episode.
   /// Opened without passing a net force, at kForceLimits, in order.

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "doorforge/foreign/articulated_object.h"
+#include "doorforge/validate/validate_door.h"
+
+#include "text/xml_text.h"
+
+namespace doorforge::foreign {
+
+/// What a finding says was measured, in words and, where it is one, as a number.
+struct Measured {
+  Measured(std::string says) : text(std::move(says)) {}  // NOLINT: words alone are the usual case
+  Measured(const char* says) : text(says) {}             // NOLINT
+  Measured(double number, std::string of_unit);
+
+  std::string text;
+  std::optional<double> value;
+  std::string unit;
+};
+
+/// The findings about one file. Those beyond kMost of one rule are counted and told in one.
+class FaultList {
+ public:
+  static constexpr int kMost = 200;
+
+  void Add(std::string_view code, const SourcePlace& place, const Measured& measured);
+  /// The order is that of the codes in ForeignRules(), then of lines; nothing is repeated.
+  std::vector<Finding> Sorted() const;
+  bool HasError() const;
+  bool Has(std::string_view code) const;
+
+ private:
+  std::vector<Finding> findings_;
+  std::map<std::string, int, std::less<>> counts_;  // by code, of all
+};
+
+/// Six significant digits.
+std::string Digits(double value);
+
+/// "file:3: /robot/link[@name='a']", as far as the place says.
+std::string WhereOf(const SourcePlace& place);
+
+SourcePlace PlaceOf(const std::string& file, const XmlElement& element);
+SourcePlace PlaceOf(const std::string& file, const XmlElement& element,
+                    const XmlAttribute& attribute);
+
+}  // namespace doorforge::foreign

@@ -1,0 +1,396 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/foreign/validate_foreign.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <fstream>
+#include <set>
+
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/error.h"
+#include "doorforge/foreign/foreign_rules.h"
+#include "doorforge/mesh/import_mesh.h"
+#include "doorforge/mesh/work_budget.h"
+
+#include "check/check_hinge.h"
+#include "check/checks.h"
+#include "read/glb_file.h"
+#include "read/raw_mesh.h"
+#include "read/readers.h"
+#include "run/second_opinion.h"
+
+namespace doorforge {
+namespace foreign {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::uint64_t kMostTextBytes = 16ULL << 20U;
+constexpr std::size_t kMostLinks = 2000;
+
+}  // namespace
+
+std::optional<std::string> ForeignText(const fs::path& path, FaultList& faults) {
+  std::error_code error;
+  const std::uint64_t size = fs::file_size(path, error);
+  if (!error && size > kMostTextBytes) {
+    faults.Add("FIL003", {path.string(), 0, 0, {}},
+               std::to_string(size) + " bytes, more than the 16 MiB allowed");
+    return std::nullopt;
+  }
+  try {
+    return ReadFile(path, kMostTextBytes);
+  } catch (const Error& problem) {
+    faults.Add("FIL001", {path.string(), 0, 0, {}}, problem.what());
+    return std::nullopt;
+  }
+}
+
+std::optional<XmlDocument> ForeignXml(std::string_view text, const std::string& file,
+                                      FaultList& faults) {
+  try {
+    return ParseXml(text);
+  } catch (const XmlFault& fault) {
+    const char* code = fault.kind == XmlFaultKind::kLimit         ? "FIL003"
+                       : fault.kind == XmlFaultKind::kDeclaration ? "FIL004"
+                                                                  : "FIL002";
+    faults.Add(code, {file, fault.line, fault.column, {}}, fault.what());
+    return std::nullopt;
+  }
+}
+
+namespace {
+
+std::string LowerEndingOf(const fs::path& path) {
+  std::string ending = path.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
+
+/// One file's check, from its bytes to its report.
+class FileCheck {
+ public:
+  FileCheck(const fs::path& file, const fs::path& searched, const ForeignChecks& checks,
+            MeshMemory& memory)
+      : file_(file), name_(file.string()), checks_(checks), memory_(memory) {
+    root_ = checks_.root.empty() ? RootAbove(file_, searched)
+                                 : fs::absolute(checks_.root).lexically_normal();
+  }
+
+  ValidationReport Run() {
+    const std::string ending = LowerEndingOf(file_);
+    if (const std::string problem = FileProblem(); !problem.empty()) {
+      faults_.Add("FIL001", Whole(), problem);
+    } else if (ending == ".glb" || ending == ".gltf") {
+      Gltf();
+    } else if (IsMesh(ending)) {
+      Mesh();
+    } else if (ending == ".usda" || ending == ".usd" || ending == ".usdc" || ending == ".usdz") {
+      Usd();
+    } else if (ending == ".xacro") {
+      kind_ = ValidatedKind::kUrdf;
+      faults_.Add("FIL010", Whole(), "a xacro file");
+    } else if (IsXml(ending)) {
+      Xml(ending);
+    } else {
+      faults_.Add("FIL011", Whole(), "the ending \"" + ending + '"');
+    }
+    return Report();
+  }
+
+  static bool IsMesh(const std::string& ending) {
+    static const std::set<std::string> endings = {".obj", ".stl", ".ply", ".off",
+                                                  ".dae", ".fbx", ".3ds"};
+    return endings.contains(ending);
+  }
+  static bool IsXml(const std::string& ending) {
+    static const std::set<std::string> endings = {".urdf", ".sdf",   ".xml",
+                                                  ".mjcf", ".world", ".model"};
+    return endings.contains(ending);
+  }
+
+  ValidationReport Report() {
+    ValidationReport report;
+    report.folder = file_;
+    report.findings = faults_.Sorted();
+    report.kind = kind_;
+    report.notes = notes_;
+    for (const Finding& finding : report.findings) {
+      report.errors += finding.severity == Severity::kError;
+      report.warnings += finding.severity == Severity::kWarning;
+    }
+    return report;
+  }
+
+  FaultList& faults() { return faults_; }
+  SourcePlace Whole() const { return {name_, 0, 0, {}}; }
+
+ private:
+  std::string FileProblem() const {
+    std::error_code error;
+    const fs::file_status status = fs::status(file_, error);
+    if (!fs::exists(status)) return "no such file";
+    if (!fs::is_regular_file(status)) return "not a regular file";
+    if (fs::file_size(file_, error) == 0) return "the file is empty";
+    return {};
+  }
+
+  MeshFiles Files() const {
+    const fs::path folder = fs::absolute(file_).lexically_normal().parent_path();
+    return {{folder, root_, checks_.packages}, memory_};
+  }
+
+  void Xml(const std::string& ending) {
+    kind_ = ending == ".urdf"   ? ValidatedKind::kUrdf
+            : ending == ".mjcf" ? ValidatedKind::kMjcf
+            : ending == ".sdf"  ? ValidatedKind::kSdf
+                                : ValidatedKind::kUnknown;
+    const auto text = ForeignText(file_, faults_);
+    if (!text) return;
+    const auto document = ForeignXml(*text, name_, faults_);
+    if (!document) return Ask();
+    const XmlElement& root = *document->root;
+    if (root.name == "mujocoinclude") {
+      kind_ = ValidatedKind::kMjcf;
+      return notes_.push_back("a fragment, which is judged with the files that include it");
+    }
+    const std::array<std::pair<const char*, ValidatedKind>, 3> kinds = {
+        {{"robot", ValidatedKind::kUrdf},
+         {"mujoco", ValidatedKind::kMjcf},
+         {"sdf", ValidatedKind::kSdf}}};
+    const auto known = std::find_if(kinds.begin(), kinds.end(),
+                                    [&](const auto& one) { return root.name == one.first; });
+    const bool other =
+        known != kinds.end() && kind_ != ValidatedKind::kUnknown && kind_ != known->second;
+    if (known == kinds.end() || other)
+      return faults_.Add("FIL005", PlaceOf(name_, root), "the root element is <" + root.name + ">");
+    kind_ = known->second;
+    if (kind_ == ValidatedKind::kUrdf) Judge(ReadForeignUrdf(*document, name_, faults_));
+    if (kind_ == ValidatedKind::kMjcf) Judge(ReadForeignMjcf(*document, name_, root_, faults_));
+    if (kind_ == ValidatedKind::kSdf) Judge(ReadForeignSdf(*document, name_, faults_));
+  }
+
+  void Usd() {
+    kind_ = ValidatedKind::kUsda;
+    std::array<char, 8> begin{};
+    std::ifstream(file_, std::ios::binary).read(begin.data(), begin.size());
+    const std::string_view magic(begin.data(), begin.size());
+    if (magic == "PXR-USDC" || magic.starts_with("PK")) {
+      kind_ = ValidatedKind::kUnknown;
+      const bool crate = magic == "PXR-USDC";
+      return faults_.Add("FIL011", Whole(), crate ? "binary USD (crate)" : "a package (usdz)");
+    }
+    const auto text = ForeignText(file_, faults_);
+    if (!text) return;
+    if (!text->starts_with("#usda"))
+      return faults_.Add("FIL005", Whole(), "the file does not begin with #usda");
+    const ArticulatedObject object = ReadForeignUsda(*text, name_, faults_);
+    if (!faults_.HasError() || !(faults_.Has("FIL002") || faults_.Has("FIL003"))) Judge(object);
+  }
+
+  void Judge(const ArticulatedObject& object) {
+    if (faults_.Has("FIL010")) return;
+    if (object.links.size() > kMostLinks || object.joints.size() > kMostLinks)
+      return faults_.Add("FIL003", object.place,
+                         std::to_string(object.links.size()) + " links and " +
+                             std::to_string(object.joints.size()) +
+                             " joints, more than the 2000 allowed");
+    // a stage without bodies, and a world that includes all, have no links
+    const bool needs_links = kind_ == ValidatedKind::kUrdf;
+    if (needs_links || !object.links.empty()) CheckTree(object, faults_);
+    CheckJoints(object, faults_);
+    const ObjectTree tree(object);
+    MeshFiles files = Files();
+    const std::vector<LinkBounds> bounds = CheckShapes(object, tree, files, faults_);
+    CheckInertials(object, tree, bounds, faults_);
+    CheckHinge({object, tree, bounds, files, checks_.hinge, checks_.handle}, faults_, notes_);
+    Ask();
+  }
+
+  // What others say is a finding where our rules found nothing, else a note.
+  void Say(const SecondOpinion& opinion, const char* code) {
+    if (opinion.opinion == Opinion::kTakes) {
+      notes_.push_back(opinion.program + " takes it");
+    } else if (opinion.opinion == Opinion::kNotAsked) {
+      notes_.push_back(opinion.program + " was not asked: " + opinion.words);
+    } else if (faults_.HasError()) {
+      notes_.push_back(opinion.program + " refuses it as well: " + opinion.words);
+    } else {
+      faults_.Add(code, Whole(), opinion.program + " refuses it: " + opinion.words);
+    }
+  }
+
+  bool Asks(const char* program) const {
+    return std::find(checks_.ask.begin(), checks_.ask.end(), program) != checks_.ask.end();
+  }
+
+  void Ask() {
+    if (kind_ == ValidatedKind::kUrdf) {
+      if (Asks("urdfdom"))
+        Say(AskProgram("urdfdom", file_), "EXT001");
+      else
+        notes_.push_back("urdfdom was not asked");
+    }
+    if (kind_ == ValidatedKind::kMjcf) {
+      if (Asks("mujoco"))
+        Say(AskProgram("mujoco", fs::absolute(file_)), "EXT002");
+      else
+        notes_.push_back("MuJoCo was not asked");
+    }
+  }
+
+  // What doorforge's own readers import they are asked for in their process, too.
+  void AskAssimp() {
+    const std::string ending = LowerEndingOf(file_);
+    const bool own = ending == ".obj" || ending == ".stl" || ending == ".ply";
+    const std::string name = own ? "`doorforge import`" : "assimp";
+    if (!Asks("assimp")) return notes_.push_back(name + " was not asked");
+    SecondOpinion opinion{Opinion::kTakes, name, {}};
+    try {
+      ImportMesh(file_, {.files_below = root_});
+    } catch (const Error& error) {
+      opinion.opinion =
+          error.code() == ErrorCode::kMissing ? Opinion::kNotAsked : Opinion::kRefuses;
+      opinion.words = error.what();
+    }
+    Say(opinion, "EXT003");
+  }
+
+  void Gltf() {
+    kind_ = ValidatedKind::kGltf;
+    const MeshFiles files = Files();
+    const BufferReader buffers = [&](const ForeignFileName& name) -> std::optional<std::string> {
+      const auto path = files.Find(name, faults_);
+      if (!path) return std::nullopt;
+      return ReadFile(*path, 512ULL << 20U);
+    };
+    try {
+      const std::string bytes = ReadFile(file_, 512ULL << 20U);
+      const TriangleMesh mesh = CheckGltf(bytes, name_, buffers, faults_);
+      if (!faults_.HasError() && !mesh.triangles.empty()) {
+        const MeshMeasure measure = MeasureTriangles(mesh);
+        CheckScale(measure);
+      }
+    } catch (const Error& error) {
+      faults_.Add("FIL001", Whole(), error.what());
+    }
+    AskAssimp();
+  }
+
+  void Mesh() {
+    kind_ = ValidatedKind::kMesh;
+    try {
+      std::vector<ForeignFileName> named;
+      const MeshMeasure measure = MeasureTriangles(TrianglesOf(file_, root_, named));
+      CheckTriangles(measure, Whole(), "", faults_);
+      CheckScale(measure);
+      const MeshFiles files = Files();
+      for (const ForeignFileName& name : named) files.Find(name, faults_);
+    } catch (const RawMeshFault& fault) {
+      faults_.Add("GEO005", {name_, fault.line, 0, {}}, fault.what());
+    } catch (const Error& error) {
+      faults_.Add("GEO005", Whole(), error.what());
+    }
+    AskAssimp();
+  }
+
+  void CheckScale(const MeshMeasure& measure) {
+    const double diagonal = measure.topology.bounds.diagonal().norm();
+    constexpr double kSmallest = 0.001;
+    if (diagonal > AnyRule("GEO008").limit || diagonal < kSmallest)
+      faults_.Add("GEO008", Whole(), Measured(diagonal, "m"));
+  }
+
+  fs::path file_;
+  std::string name_;
+  const ForeignChecks& checks_;
+  MeshMemory& memory_;
+  fs::path root_;
+  ValidatedKind kind_ = ValidatedKind::kUnknown;
+  std::vector<std::string> notes_;
+  FaultList faults_;
+};
+
+}  // namespace
+}  // namespace foreign
+
+struct ForeignValidator::Memory {
+  foreign::MeshMemory meshes;
+};
+
+ForeignValidator::ForeignValidator(ForeignChecks checks)
+    : checks_(std::move(checks)), memory_(std::make_unique<Memory>()) {}
+ForeignValidator::~ForeignValidator() = default;
+
+ValidationReport ForeignValidator::Validate(const std::filesystem::path& file,
+                                            const std::filesystem::path& searched) const {
+  const WorkBudget budget(file.string());
+  foreign::FileCheck check(file, searched, checks_, memory_->meshes);
+  try {
+    return check.Run();
+  } catch (const std::exception&) {
+    check.faults().Add("FIL012", check.Whole(), CurrentProblem(file.string()));
+    return check.Report();
+  }
+}
+
+namespace {
+
+bool BeginsWithRoot(const std::filesystem::path& file) {
+  std::string begin(2048, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(stream.gcount()));
+  const auto has = [&](std::string_view tag) {
+    const std::size_t at = begin.find(tag);
+    return at != std::string::npos && at + tag.size() < begin.size() &&
+           std::string_view(" \t\r\n>/").find(begin[at + tag.size()]) != std::string_view::npos;
+  };
+  return has("<mujoco") || has("<robot") || has("<sdf");
+}
+
+enum class FileKind { kOther, kObject, kMesh };
+
+FileKind KindOf(const std::filesystem::path& file) {
+  const std::string ending = foreign::LowerEndingOf(file);
+  static const std::set<std::string> objects = {".urdf", ".sdf",  ".mjcf", ".usda",
+                                                ".usd",  ".usdc", ".usdz"};
+  if (objects.contains(ending)) return FileKind::kObject;
+  if ((ending == ".xml" || ending == ".world") && BeginsWithRoot(file)) return FileKind::kObject;
+  if (ending == ".glb" || ending == ".gltf" || foreign::FileCheck::IsMesh(ending))
+    return FileKind::kMesh;
+  return FileKind::kOther;
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> FindForeignFiles(const std::filesystem::path& path) {
+  namespace fs = std::filesystem;
+  if (!fs::is_directory(path)) return {path};
+  std::vector<fs::path> objects;
+  std::vector<fs::path> meshes;
+  std::error_code error;
+  auto entry = fs::recursive_directory_iterator(path, error);
+  for (; !error && entry != fs::end(entry); entry.increment(error)) {
+    const fs::path& at = entry->path();
+    std::error_code gone;
+    if (entry->is_directory(gone)) {
+      const bool record = fs::exists(at / "door.json", gone) || fs::exists(at / "part.json", gone);
+      if (record || at.filename().string().starts_with('.')) entry.disable_recursion_pending();
+    } else if (entry->is_regular_file(gone)) {
+      const FileKind kind = KindOf(at);
+      if (kind == FileKind::kObject) objects.push_back(at);
+      if (kind == FileKind::kMesh) meshes.push_back(at);
+    }
+  }
+  if (error)
+    throw Error(ErrorCode::kIo, path.string() + ": cannot be searched: " + error.message());
+  std::vector<fs::path> found = objects.empty() ? std::move(meshes) : std::move(objects);
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace doorforge

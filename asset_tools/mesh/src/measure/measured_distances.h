@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "measure/distance_grid.h"
+#include "measure/triangle_tree.h"
+
+namespace doorforge {
+
+/// Distances to the surface of a solid, measured at the centres of a grid's cells when they are
+/// first asked for, and between them linear along each axis. Above a plane that is the distance
+/// itself; elsewhere it is off by half a cell's diagonal at most, near edges of the surface. For
+/// one thread.
+class MeasuredDistances {
+ public:
+  /// Both must outlive this, and be of the same solid.
+  MeasuredDistances(const DistanceGrid& solid, const TriangleTree& surface);
+
+  const DistanceGrid& solid() const { return *solid_; }
+  double At(const Eigen::Vector3d& point);
+
+ private:
+  double AtCell(int i, int j, int k);
+
+  const DistanceGrid* solid_;
+  const TriangleTree* surface_;
+  std::vector<float> distance_m_;  // negative where it was not asked for
+};
+
+}  // namespace doorforge

@@ -1,0 +1,227 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "repair/separate_pieces.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "doorforge/core/closed_mesh.h"
+#include "doorforge/core/mesh_transform.h"
+
+#include "convex/convex_region.h"
+#include "measure/mesh_pieces.h"
+#include "measure/triangle_tree.h"
+#include "repair/surface_operations.h"
+#include "repair/thicken_sheet.h"
+
+namespace doorforge {
+namespace {
+
+// A union takes about a tenth of a millisecond for each pair of triangles that meet.
+constexpr std::size_t kManyPairs = 5'000;   // drawn twice: then a wrap is quicker than another draw
+constexpr std::size_t kMostPairs = 15'000;  // a wrap is quicker than the first
+
+struct Meetings {
+  std::size_t pairs = 0;  // of triangles
+  std::set<std::size_t> with_themselves;
+  std::vector<std::vector<std::size_t>> groups;  // of pieces that hang together; two at least
+};
+
+Meetings MeetingsOf(const std::vector<TriangleMesh>& pieces) {
+  std::vector<std::size_t> piece_of;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    piece_of.insert(piece_of.end(), pieces[i].triangles.size(), i);
+  std::vector<std::size_t> root(pieces.size());
+  std::iota(root.begin(), root.end(), std::size_t{0});
+  const auto root_of = [&](std::size_t i) {
+    while (root[i] != i) i = root[i] = root[root[i]];
+    return i;
+  };
+  Meetings meetings;
+  for (const auto& [s, t] : CrossingTriangles(Merged(pieces))) {
+    ++meetings.pairs;
+    const std::size_t a = piece_of[static_cast<std::size_t>(s)];
+    const std::size_t b = piece_of[static_cast<std::size_t>(t)];
+    if (a == b) meetings.with_themselves.insert(a);
+    const std::size_t root_a = root_of(a);
+    const std::size_t root_b = root_of(b);
+    root[std::max(root_a, root_b)] = std::min(root_a, root_b);
+  }
+  std::map<std::size_t, std::vector<std::size_t>> members;
+  for (std::size_t i = 0; i < pieces.size(); ++i) members[root_of(i)].push_back(i);
+  for (auto& [first, group] : members) {
+    if (group.size() > 1) meetings.groups.push_back(std::move(group));
+  }
+  return meetings;
+}
+
+// A cavity and the smallest piece around it are one solid.
+void JoinCavities(std::vector<TriangleMesh>& pieces) {
+  std::vector<TriangleMesh> cavities;
+  std::erase_if(pieces, [&](const TriangleMesh& piece) {
+    if (VolumeOf(piece) >= 0) return false;
+    cavities.push_back(piece);
+    return true;
+  });
+  for (const TriangleMesh& cavity : cavities) {
+    TriangleMesh* around = nullptr;
+    for (TriangleMesh& piece : pieces) {
+      if (TriangleTree(piece).WindingNumber(cavity.vertices[0]) < 0.5) continue;
+      if (around == nullptr || VolumeOf(piece) < VolumeOf(*around)) around = &piece;
+    }
+    if (around == nullptr)
+      pieces.push_back(cavity);
+    else
+      *around = Merged(std::array{*around, cavity});
+  }
+}
+
+// Moves sheets of one surface apart that touch or barely cross.
+std::optional<TriangleMesh> Untangled(const TriangleMesh& piece, double shift_m) {
+  for (const double way : {-1.0, 1.0, -5.0, 5.0}) {
+    TriangleMesh moved = Offset(piece, way * shift_m);
+    if (!SelfIntersects(moved)) return moved;
+  }
+  return std::nullopt;
+}
+
+// A wall as thick as it can be without crossing itself.
+std::optional<TriangleMesh> SimpleWallOf(const TriangleMesh& sheet, double half_m) {
+  for (const double share : {1.0, 0.25, 0.06}) {
+    TriangleMesh wall = Thickened(sheet, share * half_m);
+    if (ClosedMesh::From(wall) && !SelfIntersects(wall)) return wall;
+  }
+  return std::nullopt;
+}
+
+// Too narrow for a wall: its long sides lie in its neighbours, and a wall of it would be all
+// sliver.
+bool IsNeedle(const TriangleMesh& patch, double half_m) {
+  constexpr double kNarrow = 1e-3;  // of half the wall
+  const MeshTopology topology = MeasureTopology(patch);
+  return !(2 * topology.area_m2 > kNarrow * half_m * topology.bounds.diagonal().norm());
+}
+
+// Walls of the surface's patches, and of their patches where one makes no simple wall. False where
+// there would be too many.
+bool AddWalls(const TriangleMesh& surface, double half_m, std::vector<TriangleMesh>& walls) {
+  constexpr std::size_t kMostWalls = 250;
+  constexpr std::size_t kMostTriangles = 4000;  // a wrap is quicker
+  if (surface.triangles.size() > kMostTriangles) return false;
+  for (const TriangleMesh& patch : Patches(surface)) {
+    if (walls.size() >= kMostWalls) return false;
+    if (IsNeedle(patch, half_m)) continue;
+    std::optional<TriangleMesh> wall = SimpleWallOf(patch, half_m);
+    if (wall)
+      walls.push_back(*std::move(wall));
+    else if (patch.triangles.size() == surface.triangles.size() || !AddWalls(patch, half_m, walls))
+      return false;
+  }
+  return true;
+}
+
+TriangleMesh WithoutCavities(const TriangleMesh& solid) {
+  std::vector<TriangleMesh> shells = PiecesOf(solid);
+  std::erase_if(shells, [](const TriangleMesh& shell) { return VolumeOf(shell) < 0; });
+  return Merged(shells);
+}
+
+// Where faces nearly coincide, a union has slivers, which cross each other by rounding; most vanish
+// when what costs less than the shift is collapsed.
+std::optional<TriangleMesh> SimpleUnion(const std::vector<TriangleMesh>& solids, double shift_m,
+                                        std::size_t pairs, int attempt) {
+  constexpr int kRepeats = 6;
+  // of many, the second draw is one that moves them farther
+  const int step = pairs > kManyPairs ? kRepeats - 2 : 1;
+  for (int repeat = 0; repeat < kRepeats; repeat += step) {
+    const std::optional<TriangleMesh> whole =
+        United(solids, (1 + 0.5 * repeat) * shift_m, kRepeats * attempt + repeat);
+    if (!whole) continue;
+    const TriangleMesh simple =
+        Simplified(*whole, std::numeric_limits<int>::max() / 4, 0.5 * shift_m);
+    for (const TriangleMesh& mesh : {simple, *whole}) {
+      if (ClosedMesh::From(mesh) && !SelfIntersects(mesh)) return mesh;
+    }
+  }
+  return std::nullopt;
+}
+
+// Puts the union of each group in the place of its first member. False where there is none.
+bool Unite(std::vector<TriangleMesh>& pieces, const Meetings& meetings,
+           const SeparationLimits& limits, int attempt) {
+  std::vector<char> gone(pieces.size(), 0);
+  for (const std::vector<std::size_t>& group : meetings.groups) {
+    std::vector<TriangleMesh> members;
+    for (const std::size_t i : group) {
+      members.push_back(std::move(pieces[i]));
+      gone[i] = i != group.front();
+    }
+    std::optional<TriangleMesh> whole =
+        SimpleUnion(members, limits.shift_m, meetings.pairs, attempt);
+    if (!whole) return false;
+    pieces[group.front()] = limits.fill_cavities ? WithoutCavities(*whole) : *std::move(whole);
+  }
+  std::size_t index = 0;
+  std::erase_if(pieces, [&](const TriangleMesh&) { return gone[index++] != 0; });
+  return true;
+}
+
+}  // namespace
+
+std::optional<TriangleMesh> WallsOf(const TriangleMesh& surface, double half_m) {
+  if (MeasureTopology(surface).boundary_edges > 0) {
+    if (std::optional<TriangleMesh> wall = SimpleWallOf(surface, half_m)) return wall;
+  }
+  std::vector<TriangleMesh> walls;
+  if (!AddWalls(surface, half_m, walls) || walls.empty()) return std::nullopt;
+  const Separation separation =
+      Separated(std::move(walls), {.shift_m = 0.05 * half_m, .fill_cavities = true});
+  if (separation.solids.empty()) return std::nullopt;
+  return Merged(separation.solids);
+}
+
+Separation Separated(std::vector<TriangleMesh> pieces, const SeparationLimits& limits) {
+  constexpr int kGrowthRounds = 4;  // growing pieces may make them meet others
+  Separation separation;
+  const std::size_t before = pieces.size();
+  JoinCavities(pieces);
+  const std::size_t solids = pieces.size();
+  for (int round = 0; round < kGrowthRounds; ++round) {
+    const Meetings meetings = MeetingsOf(pieces);
+    if (meetings.groups.empty() && meetings.with_themselves.empty()) {
+      separation.united = round > 0 ? static_cast<int>(solids - pieces.size()) : 0;
+      separation.solids = std::move(pieces);
+      return separation;
+    }
+    if (meetings.pairs > kMostPairs) {
+      separation.problem = std::to_string(meetings.pairs) + " pairs of triangles meet, more than " +
+                           std::to_string(kMostPairs) + ", from which on a wrap is quicker";
+      return separation;
+    }
+    for (const std::size_t i : meetings.with_themselves) {
+      std::optional<TriangleMesh> moved = Untangled(pieces[i], limits.shift_m);
+      if (!moved && limits.half_wall_m > 0) moved = WallsOf(pieces[i], limits.half_wall_m);
+      if (!moved) {
+        separation.problem = "a piece of " + std::to_string(pieces[i].triangles.size()) +
+                             " triangles crosses itself";
+        return separation;
+      }
+      pieces[i] = *std::move(moved);
+      ++separation.untangled;
+    }
+    if (!Unite(pieces, meetings, limits, round)) {
+      separation.problem = std::to_string(before) + " pieces that meet have no simple union";
+      return separation;
+    }
+  }
+  separation.problem = "pieces still cross after they were united";
+  return separation;
+}
+
+}  // namespace doorforge

@@ -51,6 +51,8 @@ Json GeometryToJson(const DoorGeometry& geometry, const internal::GeometryHashes
   return json;
 }
 
+// Writes every mesh as text to hash it: for doors that were made in memory. Whoever read a door
+// knows the hashes from its record.
 internal::DoorHashes HashesOf(const DoorAsset& door) {
   internal::DoorHashes hashes;
   for (std::size_t i = 0; i < hashes.size(); ++i) {
@@ -70,6 +72,7 @@ Json PooledGeometryToJson(const DoorGeometry& geometry, const GeometryFiles& fil
                {"label", kLabelNames.at(static_cast<std::size_t>(geometry.label))},
                {"color_rgba", internal::ColorToJson(geometry.color_rgba)},
                {"shape", shape}};
+  // only an exact identity is left out: what is read must be what was written, to the last bit
   if (!files.link_from_files.isApprox(RigidTransform::Identity(), 0))
     json["link_from_shape"] = TransformToJson(files.link_from_files);
   return json;
@@ -85,6 +88,7 @@ class DoorSource {
   DoorSource(const Json& record, const std::filesystem::path& folder, const std::string& path) {
     const auto entry = record.find("mesh_pool");
     if (entry == record.end()) return;
+    // a record from outside must not lead to files anywhere
     if (*entry != kMeshPoolPath)
       throw Error(ErrorCode::kFormat, path + ".mesh_pool: found " + entry->dump() +
                                           "; the only pool a door may share is \"../pool\"");
@@ -221,6 +225,7 @@ Json HeadToJson(const DoorAsset& door) {
                {"handle_joint", JointToJson(door.handle_joint)},
                {"handle_from_grasp", TransformToJson(door.handle_from_grasp)},
                {"grasp_half_extent_m", Vector3ToJson(door.grasp_half_extent_m)}};
+  // doors of earlier builds had none and keep their bytes, and so their hashes
   if (!door.physics_source.empty()) json["physics_source"] = door.physics_source;
   return json;
 }
@@ -322,8 +327,10 @@ void RequireDoorRecord(const Json& json, const std::string& path) {
 // Own files by path below the folder, pooled ones by hash.
 MeshReader internal::DoorMeshReader(const std::filesystem::path& folder, const std::string& path) {
   const MeshReader own = internal::ReaderBelow(folder, path);
+  // opened when the first pooled mesh is asked for, and shared by the copies of the function
   const auto pool = std::make_shared<std::optional<MeshPool>>();
   return [folder, path, own, pool](const std::string& relative, const std::string& sha256) {
+    // a name that does not follow from its hash is a file of the door's own
     const bool pooled = relative.starts_with(std::string(kMeshPoolPath) + "/") &&
                         relative == PooledMeshPath(sha256);
     if (!pooled) return own(relative, sha256);
@@ -419,6 +426,7 @@ void RequireSimulatable(const DoorAsset& door, std::string_view user) {
           "has no hinge that opens", "set the hinge's limits in door.json");
   const Eigen::Vector3d grasp =
       door.handle_joint.parent_from_child_at_zero * door.handle_from_grasp.translation();
+  // where the grasp moves as the door begins to open; x points out of the door
   const double opens = door.hinge.axis.cross(grasp).x();
   require(door.opening == Opening::kPull ? opens > 0 : opens < 0,
           "moves its handle the other way than its opening says",
@@ -438,6 +446,7 @@ void RequireSimulatable(const DoorAsset& door, std::string_view user) {
               latch.unlock_angle_rad <= door.handle_joint.upper_rad,
           "has a bolt that its handle cannot draw back",
           "give the latch a bolt_throw_m and an unlock_angle_rad within the handle's range");
+  // the strike stands beyond the leaf's free edge, which is upright only if the hinge is
   const double outward = door.hinge_side == HingeSide::kLeft ? grasp.y() : -grasp.y();
   require(std::abs(door.hinge.axis.z()) > 0.99 && outward > 0,
           "has a bolt, but not an upright hinge on its hinge_side",

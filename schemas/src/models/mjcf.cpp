@@ -41,6 +41,7 @@ class Given {
     auto known = settings.classes.find(named != nullptr ? named : body_class);
     if (named != nullptr && known == settings.classes.end())
       source.Fail(element, "class \"" + std::string(named) + "\" does not exist");
+    // a childclass that there is not gives nothing
     if (known == settings.classes.end()) return;
     const auto kind = known->second.find(element.Name());
     if (kind != known->second.end()) defaults_ = &kind->second;
@@ -182,6 +183,7 @@ class MjcfReader {
   }
 
   Eigen::Matrix3d Orientation(const Given& given) const {
+    // MuJoCo refuses two of these together; here the first of them holds
     const double unit = settings_.degrees ? std::numbers::pi / 180 : 1;
     const auto count = [&](const char* attribute, std::size_t wanted) {
       const std::vector<double> numbers = given.Numbers(attribute);
@@ -251,6 +253,7 @@ class MjcfReader {
     const XMLElement* world = root_.FirstChildElement("worldbody");
     if (world == nullptr) source_.Stop(root_.GetLineNum(), "<mujoco>: no <worldbody> in it");
     const XMLElement* body = world->FirstChildElement("body");
+    // one body that stands still is the base itself; else the world is, and holds what stands in it
     const bool alone = body != nullptr && body->NextSiblingElement("body") == nullptr &&
                        world->FirstChildElement("geom") == nullptr &&
                        body->FirstChildElement("joint") == nullptr;
@@ -289,6 +292,8 @@ class MjcfReader {
     const std::string name = BodyName(body);
     RigidTransform link_from_body =
         link_from_parent * PoseOf(Given(body, settings_, around, source_));
+    // a URDF link has one joint above it, so a body of several hangs on links without shape; a
+    // joint's place in the body is the origin of its link
     std::vector<const XMLElement*> joints;
     for (const XMLElement* e = body.FirstChildElement("joint"); e != nullptr;
          e = e->NextSiblingElement("joint"))

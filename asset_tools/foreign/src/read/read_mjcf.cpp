@@ -87,6 +87,7 @@ class MjcfDefaults {
     const std::string name = named != nullptr ? named->value : depth == 0 ? "main" : "";
     if (depth > 0 && name.empty())
       source.faults().Add("FIL007", source.At(element), "no attribute class");
+    // a class begins as a copy of the one around it, so that one must be whole before those within
     classes_[name] = parent.empty() ? std::map<std::string, Values>() : classes_[parent];
     for (const XmlElement* child : element.children) {
       if (child->name == "default") continue;
@@ -134,8 +135,10 @@ class MjcfReader {
     object_.place = main_.At(mujoco);
     if (const XmlAttribute* model = mujoco.Attribute("model")) object_.name = model->value;
     tops_.push_back({&mujoco, &main_});
+    // what is included may include; the list grows while it is walked
     for (std::size_t i = 0; i < tops_.size(); ++i) FollowIncludes(i);
     for (const Top& top : tops_) top.source->CheckSpelling(*top.root, MjcfElements());
+    // sections come in any order and in any of the files, while each needs what those before it say
     Each("compiler",
          [&](const XmlElement& element, const XmlSource& source) { Compiler(element, source); });
     Each("default", [&](const XmlElement& element, const XmlSource& source) {
@@ -175,6 +178,7 @@ class MjcfReader {
     }
   }
 
+  // A stack of its own, here and for bodies: how deep a file goes is up to whoever wrote it.
   void FollowIncludes(std::size_t top) {
     std::vector<const XmlElement*> pending{tops_[top].root};
     while (!pending.empty()) {
@@ -200,6 +204,7 @@ class MjcfReader {
     std::error_code error;
     if (!fs::is_regular_file(path, error))
       return faults_.Add("GEO001", source.At(include, "file"), "\"" + *name + "\": no such file");
+    // ends circles that the paths do not show, such as those of links
     if (documents_.size() >= 64)
       return faults_.Add("FIL003", source.At(include), "more than the 64 includes allowed");
     if (!included_.insert(absolute.string()).second) return;
@@ -353,6 +358,7 @@ class MjcfReader {
         faults_.Add("TRE011", source.At(body, "childclass"), "default class \"" + of_class + '"');
     }
     const std::size_t parent = visit.parent;
+    // classes say nothing of bodies, only of what is in them
     const RigidTransform frame = visit.frame * Frame(body, source, "");
     const std::string parent_name = object_.links[parent].name;
     const std::string name = link.name;
@@ -465,6 +471,7 @@ class MjcfReader {
     return ForeignJointType::kOther;
   }
 
+  // A range holds where it is said to, or where nothing is said and the compiler does not mind.
   void Range(const XmlElement& element, const XmlSource& source, const std::string& of_class,
              ForeignJoint& joint) {
     const XmlElement* by = defaults_.StatedBy(element, "range", of_class);
@@ -519,6 +526,7 @@ class MjcfReader {
       const XmlElement* by = stated(attribute);
       return by != nullptr && by->Attribute(attribute)->value == "0";
     };
+    // what may touch nothing is there to be seen
     shape.use = off("contype") && off("conaffinity") ? ShapeUse::kVisual : ShapeUse::kBoth;
     if (const XmlElement* by = stated("mass"); by != nullptr) {
       const auto mass = source.Number(*by, "mass");
@@ -566,6 +574,7 @@ class MjcfReader {
         faults_.Add("FIL006", shape.place, std::to_string(size->size()) + " numbers, expected 3");
         return {};
       }
+      // sizes are halves
       return ForeignBox{2 * Eigen::Vector3d((*size)[0], (*size)[1], (*size)[2])};
     }
     if (size->size() < 2) {
@@ -604,6 +613,7 @@ class MjcfReader {
         continue;
       for (const char* key : keys) {
         const auto name = source.Text(*element, key, false);
+        // a name may be that of a body in a file which could not be placed
         if (!name || includes_) continue;
         const bool known = element->name == "joint" ? joint_names_.contains(*name) : HasLink(*name);
         if (!known)
@@ -646,6 +656,7 @@ class MjcfReader {
   std::set<std::string> assets_;
   std::vector<ForeignFileName> textures_used_;
   std::set<std::string> joint_names_;
+  // what MuJoCo takes where a file says nothing
   bool degrees_ = true;
   bool auto_limits_ = true;
   bool strip_ = false;

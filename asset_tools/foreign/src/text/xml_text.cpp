@@ -77,6 +77,8 @@ void NameSteps(const std::vector<XmlElement*>& children) {
   }
 }
 
+// Strict where a library would go on, since what it makes of a fault is not what another program
+// does; and it knows line and column of each attribute.
 class XmlParser {
  public:
   XmlParser(std::string_view text, const XmlLimits& limits) : text_(text), limits_(limits) {}
@@ -108,6 +110,7 @@ class XmlParser {
                          XmlFaultKind kind = XmlFaultKind::kNotWellFormed) const {
     throw XmlFault(kind, line_, Column(), problem);
   }
+  // Bytes, as compilers count: an editor that counts letters is off by those beyond ASCII.
   int Column() const { return static_cast<int>(at_ - line_begin_) + 1; }
   bool Sees(std::string_view word) const { return text_.substr(at_).starts_with(word); }
   bool AtEnd() const { return at_ >= text_.size(); }
@@ -151,6 +154,7 @@ class XmlParser {
   }
 
   void Instruction() {
+    // a byte order mark may stand before it
     const bool first = at_ == 0 || (at_ == 3 && line_ == 1 && text_.starts_with("\xEF\xBB\xBF"));
     Advance(2);
     const std::string name = Name();
@@ -213,7 +217,7 @@ class XmlParser {
     const std::string_view name =
         end == std::string_view::npos
             ? ""
-            : text_.substr(at_ + 1, std::min<std::size_t>(end - at_ - 1, 12));
+            : text_.substr(at_ + 1, std::min<std::size_t>(end - at_ - 1, 12));  // none is longer
     constexpr std::pair<std::string_view, char> kKnown[] = {
         {"lt", '<'}, {"gt", '>'}, {"amp", '&'}, {"quot", '"'}, {"apos", '\''}};
     const auto* known = std::find_if(std::begin(kKnown), std::end(kKnown),
@@ -255,6 +259,7 @@ class XmlParser {
     if (open_.size() >= limits_.depth)
       Fail("more than the " + std::to_string(limits_.depth) + " levels of elements allowed",
            XmlFaultKind::kLimit);
+    // elements lie in a deque, so that pointers to them hold while more are added
     if (open_.empty() && document_.root != nullptr) Fail("a second root element");
     XmlElement& element = document_.elements.emplace_back();
     element.line = line_;

@@ -152,13 +152,16 @@ fs::path DataFolder() {
                   "DOORFORGE_DATA to the folder that holds catalog/ and robots/");
 }
 
-int RunChild(const std::vector<std::string>& argv) {
+int RunChild(const std::vector<std::string>& argv, ChildOutput output) {
   const Pipe failure = OpenPipe();
   const pid_t parent = ::getpid();
   const pid_t child = ::fork();
   if (child < 0)
     throw Error(ErrorCode::kIo, argv[0] + ": cannot be started: " + std::strerror(errno));
-  if (child == 0) BecomeProgram(argv, parent, failure);
+  if (child == 0) {
+    if (output == ChildOutput::kStandardError) ::dup2(STDERR_FILENO, STDOUT_FILENO);
+    BecomeProgram(argv, parent, failure);
+  }
   ::close(failure.write_end);
   int cause = 0;
   const bool failed = ::read(failure.read_end, &cause, sizeof cause) == sizeof cause;

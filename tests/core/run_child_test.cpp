@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -39,6 +40,19 @@ bool Runs(pid_t process) {
 TEST(RunChild, ReturnsTheExitCodeAndTheSignal) {
   EXPECT_EQ(RunChild({"/bin/sh", "-c", "exit 7"}), 7);
   EXPECT_EQ(RunChild({"/bin/sh", "-c", "kill -15 $$"}), 128 + SIGTERM);
+}
+
+// `eval --films --json` printed a line of the program that makes the page before its document.
+TEST(RunChild, WhatAChildPrintsMayGoAmongTheMessages) {
+  const std::vector<std::string> program = {"/bin/sh", "-c", "echo printed"};
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  RunChild(program, ChildOutput::kStandardError);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "printed\n");
+  testing::internal::CaptureStdout();
+  RunChild(program);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "printed\n");
 }
 
 TEST(RunChild, FindsANameOnThePath) { EXPECT_EQ(RunChild({"true"}), 0); }

@@ -169,7 +169,7 @@ int RunStep(const PipelineStep& step, const Workshop& workshop, const PipelineRu
   if (resume && !step.resume->empty()) command.push_back(*step.resume);
   Tell(run.progress, "   $ " + Line(command) + "\n");
   command.insert(command.begin(), (ProgramFolder() / "doorforge").string());
-  return RunChild(command);
+  return RunChild(command, run.json ? ChildOutput::kStandardError : ChildOutput::kStandardOutput);
 }
 
 /// Brings one step to its end; the signal's exit code if it was stopped, else 0.

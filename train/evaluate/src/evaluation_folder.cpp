@@ -25,7 +25,7 @@ std::optional<int> MakeFilmsPage(const fs::path& folder, std::span<const fs::pat
     std::vector<std::string> command = {program.string(), "view", folder.string(),
                                         "--out",          page,   "--doors"};
     for (const fs::path& one : doors) command.push_back(one.string());
-    return RunChild(command);
+    return RunChild(command, ChildOutput::kStandardError);
   }
   return std::nullopt;
 }

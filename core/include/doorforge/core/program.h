@@ -32,11 +32,16 @@ std::vector<std::filesystem::path> ProgramFolders();
 /// machine that built it is known, so both may be moved. Throws Error(kMissing).
 std::filesystem::path DataFolder();
 
+/// Where the standard output of a child goes: with that of its parent, or among the messages, where
+/// the parent's standard output is one document.
+enum class ChildOutput { kStandardOutput, kStandardError };
+
 /// Runs a program (argv[0] is its path, or a name on $PATH) and waits. Returns its exit code, or
 /// 128 + signal. A stop request is passed on to it, and it is killed as soon as the calling thread
 /// ends without having waited, as when the whole process is killed. Throws Error(kMissing) if it
 /// cannot be started.
-int RunChild(const std::vector<std::string>& argv);
+int RunChild(const std::vector<std::string>& argv,
+             ChildOutput output = ChildOutput::kStandardOutput);
 
 /// Version and source commit of this build, such as "0.1.0+1a2b3c4".
 std::string CodeVersion();

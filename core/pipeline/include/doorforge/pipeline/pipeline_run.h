@@ -21,7 +21,8 @@ struct PipelineRun {
   bool overwrite = false;     ///< Outputs of steps whose inputs changed may be replaced.
   /// What other builds finished counts as done where nothing else has changed.
   bool any_build = false;
-  bool json = false;  ///< The plan as one JSON document.
+  /// Standard output is for one JSON document: what steps print goes among the messages.
+  bool json = false;
   /// For messages: how the user goes on after an interruption.
   std::string again = "give the same command again";
   PipelineTextSink progress = {};  ///< It hears of each step as it begins; may be empty.

@@ -434,7 +434,7 @@ TEST_F(StagesTest, ThePreviewEndsWithTheLastLookThatIsRecorded) {
           robot.PoseAt(JointVector::Zero(robot.joint_count()), scene.world_from_robot_base);
       snapshot.door = DoorFromLinks(door, hinge_rad, 0);
       for (RigidTransform& pose : snapshot.door) pose = scene.world_from_door * pose;
-      camera.LookAtAll(snapshot);
+      camera.ObserveAll(snapshot);
     }
     return camera.PreviewPng(recorded);
   };

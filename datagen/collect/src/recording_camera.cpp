@@ -26,7 +26,7 @@ LabelledCloud RecordingCamera::Observe(const SceneSnapshot& snapshot) {
   return Render(snapshot).sampled.cloud;
 }
 
-LabelledCloud RecordingCamera::LookAtAll(const SceneSnapshot& snapshot) {
+LabelledCloud RecordingCamera::ObserveAll(const SceneSnapshot& snapshot) {
   return Render(snapshot).visible;
 }
 

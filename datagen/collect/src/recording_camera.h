@@ -29,8 +29,8 @@ class RecordingCamera : public Observer {
   void Remember(RememberedView before) { camera_.Remember(std::move(before)); }
 
   LabelledCloud Observe(const SceneSnapshot& snapshot) override;
-  /// Looks likewise, but keeps every point that is visible.
-  LabelledCloud LookAtAll(const SceneSnapshot& snapshot);
+  /// Observes too, but keeps every point that is visible.
+  LabelledCloud ObserveAll(const SceneSnapshot& snapshot);
 
   /// Points inside the crop before sampling, of the first `looks` looks.
   std::vector<int> Visible(std::size_t looks) const;

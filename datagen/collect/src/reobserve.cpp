@@ -204,7 +204,7 @@ class Reobservation {
                 const std::vector<FoundDoor>& doors)
       : source_(source), config_(config), robot_file_(std::move(robot)), shelf_(doors) {}
 
-  CollectedEpisode Look(const PlannedEpisode& planned) {
+  CollectedEpisode Observe(const PlannedEpisode& planned) {
     const Source& source = source_.SourceOf(planned.key);
     if (!source.episode) return FailedAgain(*source.failure);
     const ShardReader& reader = source_.shards()[source.shard];
@@ -250,7 +250,7 @@ class Reobservation {
       const Eigen::Vector3d start =
           at_grasp ? Eigen::Vector3d(decision.action[0], decision.action[1], decision.action[2])
                    : snapshot.robot.world_from_tcp.translation();
-      LabelledCloud visible = camera.LookAtAll(snapshot);
+      LabelledCloud visible = camera.ObserveAll(snapshot);
       const bool joins = before && !visible.label.empty();
       decision.cloud = joins ? before->With(std::move(visible), start)
                              : SampleCloud(visible, start, extent).cloud;
@@ -375,7 +375,7 @@ CollectSummary ReobserveDataset(const ReobserveRequest& request) {
                         "\n" + JsonText(ToJson(config), 2) + "\n";
   SystemFiles().CreateFolder(request.out);
   return Collect(
-      source.plan(), [&](const PlannedEpisode& planned) { return reobservation.Look(planned); },
+      source.plan(), [&](const PlannedEpisode& planned) { return reobservation.Observe(planned); },
       collect);
 }
 

@@ -67,7 +67,7 @@ CollectedEpisode RunRecorded(const EpisodeToRun& run, StagePolicies& policies, F
       policies_camera->Remember({scene, door, robot, config.cloud, policies.remembered()});
   }
   const CloudExtent extent{config.cloud.point_count, crop_radius_m};
-  const auto look = [&](const SceneSnapshot& snapshot) { return before->LookAtAll(snapshot); };
+  const auto look = [&](const SceneSnapshot& snapshot) { return before->ObserveAll(snapshot); };
   EpisodePolicies roles{.recorded = config.stage, .open = set->open.get()};
   if (config.stage != Stage::kOpen) roles.handle = set->handle.get();
   std::optional<GraspFromPolicy> grasp;

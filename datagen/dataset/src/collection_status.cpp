@@ -65,9 +65,9 @@ double PatienceWith(const ShardStatus& shard) {
   return std::max(kLeastPatience, kPatienceEpisodes * (shard.end_s - shard.begin_s) / intervals);
 }
 
-class Look {
+class StatusReading {
  public:
-  explicit Look(const StatusRequest& request) : request_(request) {
+  explicit StatusReading(const StatusRequest& request) : request_(request) {
     status_.folder = request.folders.front().string();
   }
 
@@ -271,7 +271,7 @@ const TaskStatus* CollectionStatus::SlowestTask() const {
 
 CollectionStatus StatusOfCollection(const StatusRequest& request) {
   Require(!request.folders.empty(), ErrorCode::kInvalidArgument, "status: no folder");
-  return Look(request).Take();
+  return StatusReading(request).Take();
 }
 
 CollectionStatus LookAtCollection(StatusRequest request, const ShowStatus& show) {

@@ -78,7 +78,7 @@ struct SeenPlane {
   double height;  // of the plane over the camera, along the normal
 };
 
-SeenPlane Look(const internal::TrianglePlane& plane, const MeshView& view) {
+SeenPlane PlaneSeenFrom(const internal::TrianglePlane& plane, const MeshView& view) {
   SeenPlane seen;
   seen.normal_in_world = view.world_from_mesh * plane.normal;
   seen.height = plane.offset - plane.normal.dot(view.origin_in_mesh);
@@ -201,7 +201,7 @@ class TileRenderer {
   void LookAt(unsigned mesh, unsigned triangle) {
     if (mesh == plane_.mesh && triangle == plane_.triangle)
       return;  // neighbours often hit the same
-    plane_ = Look(scene_.PlaneOf(mesh, triangle), views_[mesh]);
+    plane_ = PlaneSeenFrom(scene_.PlaneOf(mesh, triangle), views_[mesh]);
     plane_.mesh = mesh;
     plane_.triangle = triangle;
   }

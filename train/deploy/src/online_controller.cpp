@@ -19,10 +19,10 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kMostPictureBytes = 512ULL << 20U;
 
 // What of a picture does not fit its camera or another picture is said of these inputs.
-template <class Look>
-auto NamingInputs(const std::string& inputs, const Look& look) {
+template <class Work>
+auto NamingInputs(const std::string& inputs, const Work& work) {
   try {
-    return look();
+    return work();
   } catch (const Error& error) {
     throw Error(error.code(), inputs + ": " + error.what());
   }

@@ -22,12 +22,12 @@ void SideFinder::Begin(std::optional<LabelledCloud> before) {
 HingeSide SideFinder::SideFor(const Eigen::Vector3f& hand_m) {
   if (choice_ != SideChoice::kAuto)
     return choice_ == SideChoice::kLeft ? HingeSide::kLeft : HingeSide::kRight;
-  if (!side_) first_ = Look(hand_m);
+  if (!side_) first_ = SideFromPicture(hand_m);
   if (!side_) side_ = first_;
   return *side_;
 }
 
-HingeSide SideFinder::Look(const Eigen::Vector3f& hand_m) {
+HingeSide SideFinder::SideFromPicture(const Eigen::Vector3f& hand_m) {
   if (!classifier_ || !before_ || before_->xyz.empty()) return HingeSide::kLeft;
   const double odds = classifier_->LogOddsOfLeft(SideNumbersOf(before_->xyz, hand_m));
   is_clear_ = std::fabs(odds) > kClearLogOdds;

@@ -46,7 +46,7 @@ class StagePolicy : public TwoWayPolicy {
     const CloudGeometry geometry =
         BuildGeometry(observation.cloud.xyz,
                       WindowOf(networks_.normalisation, {hand_m.x(), hand_m.y(), hand_m.z()}));
-    HeadInputs batch = Conditions({observation.proprioception, way});
+    HeadInputs batch = RobotInputs({observation.proprioception, way});
     AppendCopies(actor_.Forward(geometry).features, batch.size, batch.features);
     const std::vector<float> actions = actor_head_.Decode(batch, Latents());
     const std::size_t best = critic_ ? Best(geometry, actions, batch) : 0;
@@ -62,7 +62,7 @@ class StagePolicy : public TwoWayPolicy {
     return internal::TargetOf(action, HandRotationOf(proprioception));
   }
 
-  HeadInputs Conditions(const internal::RobotCondition& robot) const {
+  HeadInputs RobotInputs(const internal::RobotCondition& robot) const {
     HeadInputs batch;
     batch.size = options_.candidates;
     for (int i = 0; i < batch.size; ++i)

@@ -56,7 +56,7 @@ class SideFinder : public EpisodeMemory {
   void Confirm(HingeSide side);
 
  private:
-  HingeSide Look(const Eigen::Vector3f& hand_m);
+  HingeSide SideFromPicture(const Eigen::Vector3f& hand_m);
 
   SideChoice choice_;
   std::optional<SideClassifier> classifier_;

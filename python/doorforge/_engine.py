@@ -46,9 +46,8 @@ def _set_data_folder() -> None:
     if (bundled / "robots").is_dir():
         os.environ.setdefault("DOORFORGE_DATA", str(bundled))
     else:
-        installed = pathlib.Path(__file__).parents[4] / "share" / "doorforge"
-        beside = pathlib.Path(__file__).parents[2] / "share" / "doorforge"
-        for folder in (beside, installed):
+        for prefix in list(pathlib.Path(__file__).parents)[2:5:2]:  # beside the package, and four folders up
+            folder = prefix / "share" / "doorforge"
             if (folder / "robots").is_dir():
                 os.environ.setdefault("DOORFORGE_DATA", str(folder))
 
@@ -84,4 +83,26 @@ def require() -> types.ModuleType:
     """The extension. Raises ImportError that says what is missing and how to get it."""
     if core is None:
         raise ImportError(problem)
+    if core.Door.__doc__ in (None, ""):
+        _describe(core)
     return core
+
+
+def _describe(module: types.ModuleType) -> None:
+    """What `_core.pyi` says of the classes, for help(). The methods of an extension take no text: it goes to their class."""
+    import ast
+
+    stub = pathlib.Path(__file__).with_name("_core.pyi").read_text(encoding="utf-8")
+    for node in ast.parse(stub).body:
+        if not isinstance(node, ast.ClassDef):
+            continue
+        described, texts = getattr(module, node.name), [ast.get_docstring(node) or "", ""]
+        for member in node.body:
+            if not isinstance(member, ast.FunctionDef) or member.name.startswith("_"):
+                continue
+            text = ast.get_docstring(member) or ""
+            if not any(ast.unparse(word) == "property" for word in member.decorator_list):
+                texts.append(f"{member.name}({ast.unparse(member.args)}): {text}")
+            elif isinstance(vars(described).get(member.name), property):
+                vars(described)[member.name].__doc__ = text
+        described.__doc__ = "\n".join(texts).rstrip()

@@ -20,6 +20,12 @@ def load_policy(word: Path = "expert", stage: str = "open", config: Optional[dic
     `policy.act(observation)` gives an Action; `policy.reset()` begins an episode. The observation is a Stepper's, or a
     dict with "cloud" float32 (4096, 3) [m, world; point 0 nearest to the hand] and "proprioception" float32 (32,), which
     is enough for trained policies; the expert reads what only the simulator knows. MissingError with the nearest name.
+
+    A handler may remember what the camera saw before the robot came, since the hand hides the handle: `policy.remembered`
+    then has a "finer" above 0, as that of the policies in `data/policies`. With a Stepper: Stepper(door,
+    remembered=policy.remembered, ...). With arrays of your own: policy.reset(before=points), float32 (points, 3) [m, world],
+    of a camera with "finer" times as many pixels along each side, and as "cloud" every point that is visible, not 4096 of
+    them; or a cloud that holds both, with "remembered": True in the dict. InvalidArgumentError where it is given neither.
     """
     return _core.Policy(os.fspath(word), stage, config)
 

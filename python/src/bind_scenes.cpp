@@ -57,21 +57,21 @@ void BindActions(py::module_& module) {
         const ActionVector vector = ToVector(action);
         return ArrayOf(vector.data(), {static_cast<py::ssize_t>(vector.size())});
       });
-  py::class_<Observation>(module, "Observation")
+  py::class_<ShownObservation>(module, "Observation")
       .def(py::init(&ObservationFrom))
       .def("arrays",
-           [](const Observation& seen, const std::vector<std::string>& names) {
+           [](const ShownObservation& seen, const std::vector<std::string>& names) {
              RequireObservationNames(names);
              return ToPython(seen, names);
            })
       .def_property_readonly("hinge_rad",
-                             [](const Observation& seen) { return seen.privileged.hinge_rad; })
-      .def_property_readonly("handle_rad",
-                             [](const Observation& seen) { return seen.privileged.handle_rad; })
+                             [](const ShownObservation& seen) { return seen.privileged.hinge_rad; })
+      .def_property_readonly(
+          "handle_rad", [](const ShownObservation& seen) { return seen.privileged.handle_rad; })
       .def_property_readonly(
           "world_from_hand",
-          [](const Observation& seen) { return ToPython(seen.privileged.world_from_hand); })
-      .def_property_readonly("world_from_handle", [](const Observation& seen) {
+          [](const ShownObservation& seen) { return ToPython(seen.privileged.world_from_hand); })
+      .def_property_readonly("world_from_handle", [](const ShownObservation& seen) {
         return ToPython(seen.privileged.world_from_handle);
       });
 }

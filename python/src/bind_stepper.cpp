@@ -24,12 +24,6 @@
 namespace doorforge::python {
 namespace {
 
-Stage StageOf(const std::string& name) {
-  if (const auto stage = StageNamed(name)) return *stage;
-  throw Error(ErrorCode::kInvalidArgument,
-              "stage: there is no \"" + name + "\"; there are grasp, handle, open");
-}
-
 /// What a stepper in Python is made with.
 struct StepperSettings {
   StepperOptions options;
@@ -82,6 +76,7 @@ class HeldStepper {
   const EpisodeStepper& stepper() const { return stepper_; }
   const Scene& scene() const { return scene_; }
   const Door& door() const { return door_; }
+  bool remembers() const { return settings_.remembered.IsOn(); }
 
  private:
   // The physics of one world may not be entered twice; a second thread is told so.
@@ -242,7 +237,10 @@ void BindStepper(py::module_& module) {
           "stage",
           [](const HeldStepper& held) { return std::string(NameOf(held.stepper().now().stage)); })
       .def_property_readonly(
-          "observation", [](const HeldStepper& held) { return held.stepper().now().observation; })
+          "observation",
+          [](const HeldStepper& held) {
+            return ShownObservation{held.stepper().now().observation, held.remembers()};
+          })
       .def("arrays",
            [](const HeldStepper& held, const std::vector<std::string>& names) {
              return ToPython(held.stepper().now().observation, names);

@@ -138,8 +138,26 @@ Action ActionFrom(const py::object& value, const std::string& what) {
   return FromNumbers(numbers);
 }
 
-Observation ObservationFrom(const py::dict& values) {
-  Observation observation;
+Stage StageOf(const std::string& name) {
+  if (const auto stage = StageNamed(name)) return *stage;
+  throw Error(ErrorCode::kInvalidArgument,
+              "stage: there is no \"" + name + "\"; there are grasp, handle, open");
+}
+
+LabelledCloud CloudFrom(const py::object& value, const std::string& what) {
+  const auto array = ArrayFrom<float>(value, what);
+  if (array.ndim() != 2 || array.shape(1) != 3)
+    throw Error(ErrorCode::kInvalidArgument,
+                what + ": shape " + ShapeOf(array) + ", expected (points, 3)");
+  LabelledCloud cloud;
+  cloud.xyz.assign(array.data(), array.data() + array.size());
+  cloud.label.assign(static_cast<std::size_t>(array.shape(0)),
+                     static_cast<std::uint8_t>(PointLabel::kOther));
+  return cloud;
+}
+
+ShownObservation ObservationFrom(const py::dict& values) {
+  ShownObservation observation;
   if (!values.contains("proprioception"))
     throw Error(ErrorCode::kInvalidArgument,
                 "observation: no \"proprioception\", which every policy reads");
@@ -149,19 +167,15 @@ Observation ObservationFrom(const py::dict& values) {
                 "observation[\"proprioception\"]: shape " + ShapeOf(felt) + ", expected (32,)");
   std::copy_n(felt.data(), felt.size(), observation.proprioception.begin());
   if (!values.contains("cloud")) return observation;
-  const auto cloud = ArrayFrom<float>(values["cloud"], "observation[\"cloud\"]");
-  if (cloud.ndim() != 2 || cloud.shape(1) != 3)
-    throw Error(ErrorCode::kInvalidArgument,
-                "observation[\"cloud\"]: shape " + ShapeOf(cloud) + ", expected (points, 3)");
-  observation.cloud.xyz.assign(cloud.data(), cloud.data() + cloud.size());
-  observation.cloud.label.assign(static_cast<std::size_t>(cloud.shape(0)),
-                                 static_cast<std::uint8_t>(PointLabel::kOther));
+  observation.cloud = CloudFrom(values["cloud"], "observation[\"cloud\"]");
+  if (values.contains("remembered")) observation.is_joined = values["remembered"].cast<bool>();
   if (!values.contains("cloud_label")) return observation;
   const auto label = ArrayFrom<std::uint8_t>(values["cloud_label"], "observation[\"cloud_label\"]");
-  if (label.size() != cloud.shape(0))
+  const std::size_t points = observation.cloud.label.size();
+  if (static_cast<std::size_t>(label.size()) != points)
     throw Error(ErrorCode::kInvalidArgument, "observation[\"cloud_label\"]: shape " +
                                                  ShapeOf(label) + ", but the cloud has " +
-                                                 std::to_string(cloud.shape(0)) + " points");
+                                                 std::to_string(points) + " points");
   std::copy_n(label.data(), label.size(), observation.cloud.label.begin());
   return observation;
 }

@@ -21,6 +21,7 @@
 #include "doorforge/core/config_io.h"
 #include "doorforge/core/rigid_transform.h"
 #include "doorforge/core/triangle_mesh.h"
+#include "doorforge/schemas/episode.h"
 #include "doorforge/schemas/grasp_policy.h"
 #include "doorforge/schemas/policy.h"
 
@@ -66,9 +67,22 @@ py::array_t<T> ArrayOf(const T* values, std::vector<py::ssize_t> shape) {
 /// `what` on another shape or on a number that is not finite.
 Action ActionFrom(const py::object& value, const std::string& what);
 
-/// An observation from a dict with "proprioception" and, for those who look, "cloud" and
-/// "cloud_label". Throws Error(kInvalidArgument) on arrays of another shape.
-Observation ObservationFrom(const py::dict& values);
+/// The stage of a name. Throws Error(kInvalidArgument) on another.
+Stage StageOf(const std::string& name);
+
+/// Points in the world [m] from an array (points, 3). Throws Error(kInvalidArgument) that begins
+/// with `what` on another.
+LabelledCloud CloudFrom(const py::object& value, const std::string& what);
+
+/// What a policy is shown.
+struct ShownObservation : Observation {
+  bool is_joined = false;  ///< The cloud holds what was seen before the robot came.
+};
+
+/// An observation from a dict with "proprioception" and, for those who look, "cloud",
+/// "cloud_label" and "remembered", whether it is joined. Throws Error(kInvalidArgument) on arrays
+/// of another shape.
+ShownObservation ObservationFrom(const py::dict& values);
 
 /// The dict that policies in Python are called with: those of the names that `names` has.
 py::dict ToPython(const Observation& observation, const std::vector<std::string>& names);

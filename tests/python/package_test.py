@@ -20,6 +20,8 @@ from doorforge import latch as law
 
 BUILD = pathlib.Path(sys.argv.pop(1)) if len(sys.argv) > 1 and os.path.isdir(sys.argv[1]) else None
 BODY, HANDLE = "interior_flush_01", "interior_lever_tube_01"
+POLICIES = pathlib.Path(__file__).parents[2] / "data" / "policies"
+HANDLER = str(POLICIES / "handler")
 
 
 def run(*words: str) -> subprocess.CompletedProcess:
@@ -215,6 +217,55 @@ class Episodes(unittest.TestCase):
                           "door_state": ((23,), "<f8")})
         self.assertLessEqual(set(arrays["cloud_label"]), set(range(5)))
         self.assertEqual(stepper.render(width=64, height=48).shape, (48, 64, 3))
+
+    def test_a_handler_that_remembers_acts_as_in_an_evaluation(self) -> None:
+        handler = doorforge.load_policy(HANDLER, "handle")
+        expert = doorforge.load_policy("expert")
+        stepper = doorforge.Stepper(self.door, first="handle", clouds=["handle"], remembered=handler.remembered)
+        stepper.reset(doorforge.sample_scene(self.door, 1))
+        handler.reset()
+        expert.reset()
+        while not stepper.over:
+            stepper.step((handler if stepper.stage == "handle" else expert).act(stepper.observation))
+        row = doorforge.evaluate("expert", self.folder, handler=HANDLER, allow_seen=True,
+                                 seeds=1,
+                                 config={"switch": "privileged", "expert_reference": False}).episodes[0]
+        summary = stepper.summary()
+        self.assertEqual((summary["state_sha256"], summary["cause"]), (row["state_sha256"], row["outcome"]))
+
+    def test_a_handler_that_remembers_says_what_it_needs(self) -> None:
+        handler = doorforge.load_policy(HANDLER, "handle")
+        self.assertEqual(handler.remembered["finer"], 2)
+        scene = doorforge.sample_scene(self.door, 1)
+        steppers = [doorforge.Stepper(self.door, first="handle", clouds=["handle"], remembered=remembered)
+                    for remembered in (None, handler.remembered)]
+        for stepper in steppers:
+            stepper.reset(scene)
+        shown = steppers[1].arrays(["cloud", "proprioception"])
+        for unjoined in (steppers[0].observation, shown):
+            with self.assertRaises(doorforge.InvalidArgumentError) as raised:
+                handler.act(unjoined)
+            self.assertIn("before", str(raised.exception))
+        for before, told in ((shown["cloud"][:, :2], "(points, 3)"), (shown["cloud"][:0], "without a point")):
+            with self.assertRaises(doorforge.InvalidArgumentError) as raised:
+                handler.reset(before=before)
+            self.assertIn(told, str(raised.exception))
+        handler.reset()
+        wanted = handler.act(steppers[1].observation).vector
+        handler.reset()
+        np.testing.assert_array_equal(handler.act({**shown, "remembered": True}).vector, wanted)
+        # what is visible now lies far from the hand, so that the joined cloud is what was seen before
+        handler.reset(before=shown["cloud"])
+        np.testing.assert_array_equal(handler.act({**shown, "cloud": shown["cloud"] + 10}).vector, wanted)
+
+    def test_each_episode_begins_with_a_hinge_on_the_left_where_nobody_has_looked(self) -> None:
+        opener = doorforge.load_policy(POLICIES / "opener", config={"side": "auto"})
+        stepper = doorforge.Stepper(self.door, clouds=["open"])
+        stepper.reset(doorforge.sample_scene(self.door, 3))
+        left = doorforge.load_policy(POLICIES / "opener").act(stepper.observation).vector
+        for _ in range(2):
+            opener.reset()
+            np.testing.assert_array_equal(opener.act(stepper.observation).vector, left)
 
     def test_pythons_lock_is_free_meanwhile(self) -> None:
         ticks, stop = [0], threading.Event()
@@ -469,6 +520,17 @@ class Package(unittest.TestCase):
         sanitizers = {name for name in sonames if name.startswith(("libasan", "libubsan", "libtsan"))}
         self.assertEqual(sonames - base - sanitizers, set(doorforge._engine.SHARED_LIBRARIES))
         self.assertNotIn(b"CGAL", pathlib.Path(extension).read_bytes())
+
+    def test_help_tells_of_every_class_and_member(self) -> None:
+        for described in (doorforge.Door, doorforge.doors.Joint, doorforge.doors.Latch, doorforge.Scene, doorforge.Observation,
+                          doorforge.Action, doorforge.Robot, doorforge.policies.Policy):
+            for name, member in vars(described).items():
+                if name.startswith("_"):
+                    continue
+                with self.subTest(f"{described.__name__}.{name}"):
+                    told = member.__doc__ if isinstance(member, property) else described.__doc__.partition(f"\n{name}(")[2]
+                    self.assertGreater(len(told or ""), 5)
+        self.assertIn("float64 (4, 4)", doorforge.Scene.world_from_camera.__doc__)
 
     def test_data_and_latch_need_no_extension(self) -> None:
         source = pathlib.Path(__file__).parents[2] / "python"

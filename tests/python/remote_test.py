@@ -136,6 +136,7 @@ class Remote(unittest.TestCase):
         with Served(str(BUILD / "bin" / "doorforge-serve-policy"), str(handler), "--stage", "handle", "--port", "0") as line:
             far = self.evaluate("--handler", line.split(" at ")[1].split(";")[0], *words, seeds=2)
             told = self.evaluate("--handler", line.split(" at ")[1].split(";")[0], "--switch", "privileged", *words, seeds=2)
+            asyncio.run(self.ask_with_a_look_and_without(line.split(" at ")[1].split(";")[0]))
         near = self.evaluate("--handler", str(handler), "--allow-seen", *words, seeds=2)
         self.assertEqual(far["episodes"], near["episodes"])
         self.assertEqual({row["door_id"] for row in far["episodes"]}, {f"interior_flush_01__interior_lever_{end}" for end in ("blade_01", "tube_01")})
@@ -172,6 +173,26 @@ class Remote(unittest.TestCase):
             answer = msgpack.unpackb(await socket.recv(), object_hook=policy_peers.unpack_array)
             self.assertEqual((answer["actions"].shape, answer["actions"].dtype), ((1, 9), np.float64))
             self.assertTrue(np.isfinite(answer["actions"]).all())
+
+    async def ask_with_a_look_and_without(self, address: str) -> None:
+        """A robot's software asks a handler that remembers the closed door."""
+        import websockets
+
+        random = np.random.default_rng(1)
+        hand = np.zeros(32, np.float32)
+        hand[25:32] = (0.3, 0.4, 0.9, 0, 0, 0, 1)
+        near = (hand[25:28] + random.uniform(-0.1, 0.1, (5000, 3))).astype(np.float32)
+        asked = {"cloud": near[:1000], "proprioception": hand, "stage": "handle", "episode_start": True}
+        async with websockets.connect(address, compression=None, max_size=None) as socket:
+            self.assertEqual(msgpack.unpackb(await socket.recv())["remembered"]["finer"], 2)
+            for given, told in (({}, "before the robot came"), ({"before": near[:, :2]}, "(points, 3)"),
+                                ({"before": near[:0]}, "without a point")):
+                await socket.send(self.packed({**asked, **given}))
+                self.assertIn(told, await socket.recv())
+            for given in ({"before": near[1000:]}, {"episode_start": False}, {"cloud": near[:4096], "remembered": True}):
+                await socket.send(self.packed({**asked, **given}))
+                answer = msgpack.unpackb(await socket.recv(), object_hook=policy_peers.unpack_array)
+                self.assertTrue(np.isfinite(answer["actions"]).all())
 
     @staticmethod
     def packed(value: dict) -> bytes:

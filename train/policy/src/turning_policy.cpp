@@ -64,15 +64,4 @@ std::unique_ptr<TurningPolicy> LoadTurningPolicy(const std::filesystem::path& fo
       options.switch_probability);
 }
 
-std::unique_ptr<Policy> LoadWholePolicy(const std::filesystem::path& folder,
-                                        std::string_view stage) {
-  PolicyRecord record = ReadPolicy(folder, stage);
-  const auto classifier = stage == NameOf(Stage::kHandle)
-                              ? ReadTurnedClassifier(folder, record.provenance.dataset_sha256)
-                              : std::nullopt;
-  std::unique_ptr<Policy> policy = MakePolicy(std::move(record.networks));
-  if (!classifier) return policy;
-  return std::make_unique<TurningPolicy>(std::move(policy), *classifier);
-}
-
 }  // namespace doorforge

@@ -4,6 +4,7 @@
 // The program that serves a policy to robot stacks and other simulators.
 
 #include <cstdio>
+#include <memory>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -11,8 +12,7 @@
 #include "doorforge/cli/command_line.h"
 #include "doorforge/cli/verb_table.h"
 #include "doorforge/core/program.h"
-#include "doorforge/policy/policy_file.h"
-#include "doorforge/policy/turning_policy.h"
+#include "doorforge/registry/lone_policy.h"
 #include "doorforge/remote/policy_server.h"
 
 namespace doorforge {
@@ -32,11 +32,10 @@ int RunServePolicyVerb(int argc, char** argv) {
   app.add_option("--port", config.port, "0: one that is free, and is said")->capture_default_str();
   app.footer("example:\n  doorforge serve-policy run/opener --port 8000");
   ParseVerb(app, argc, argv);
-  const auto make = [&] { return LoadWholePolicy(config.policy, config.stage); };
+  const auto make = [&] {
+    return std::make_unique<LonePolicy>(config.policy, *StageNamed(config.stage));
+  };
   make();  // what cannot be read is refused here, not when somebody connects
-  const NetworkView view = ReadPolicy(config.policy, config.stage).networks.normalisation.view;
-  config.remembered_finer = view.remembered_finer;
-  config.remembered_within_m = static_cast<double>(view.cloud_crop_radius_m);
   ServePolicy(config, make, [&](int port) {
     std::printf("serving %s at ws://%s:%d; Ctrl-C ends it\n", config.policy.c_str(),
                 config.host.c_str(), port);

@@ -17,7 +17,6 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/program.h"
-#include "doorforge/schemas/stage_switch.h"
 
 #include "message.h"
 
@@ -32,6 +31,16 @@ using internal::Value;
 
 constexpr std::size_t kMostBytes = std::size_t{1} << 26;
 constexpr int kMostConnections = 64;
+
+LabelledCloud CloudOf(const NumpyArray& array, const std::string& name) {
+  if (array.shape.size() != 2 || array.shape[1] != 3)
+    throw Error(ErrorCode::kFormat, name + ": expected the shape (points, 3)");
+  LabelledCloud cloud;
+  for (const double number : array.Numbers(name)) cloud.xyz.push_back(static_cast<float>(number));
+  cloud.label.assign(static_cast<std::size_t>(array.shape[0]),
+                     static_cast<std::uint8_t>(PointLabel::kOther));
+  return cloud;
+}
 
 const NumpyArray& ArrayIn(const Value& request, const std::string& name) {
   const Value* found = request.Find(name);
@@ -54,13 +63,7 @@ Observation ObservationOf(const Value& request, bool looks) {
   for (std::size_t i = 0; i < numbers.size(); ++i)
     observation.proprioception[i] = static_cast<float>(numbers[i]);
   if (!looks) return observation;
-  const NumpyArray& cloud = ArrayIn(request, "cloud");
-  if (cloud.shape.size() != 2 || cloud.shape[1] != 3)
-    throw Error(ErrorCode::kFormat, "cloud: expected the shape (points, 3)");
-  for (const double number : cloud.Numbers("cloud"))
-    observation.cloud.xyz.push_back(static_cast<float>(number));
-  observation.cloud.label.assign(static_cast<std::size_t>(cloud.shape[0]),
-                                 static_cast<std::uint8_t>(PointLabel::kOther));
+  observation.cloud = CloudOf(ArrayIn(request, "cloud"), "cloud");
   return observation;
 }
 
@@ -69,32 +72,39 @@ bool IsTrue(const Value* value) {
   return flag != nullptr && *flag;
 }
 
-std::string AnswerTo(const std::string& message, Policy& policy) {
+// What was seen before the robot came, where a request has it.
+std::optional<LabelledCloud> BeforeIn(const Value& request) {
+  if (request.Find("before") == nullptr) return std::nullopt;
+  return CloudOf(ArrayIn(request, "before"), "before");
+}
+
+std::string AnswerTo(const std::string& message, LonePolicy& policy) {
   const auto begin = std::chrono::steady_clock::now();
   const Value request = internal::Unpacked(message);
-  if (IsTrue(request.Find("episode_start"))) policy.Reset();
+  if (IsTrue(request.Find("episode_start"))) policy.Begin(BeforeIn(request));
+  const Observation observation = ObservationOf(request, policy.UsesPointCloud());
+  const bool is_joined = IsTrue(request.Find("remembered"));
   const ActionNumbers action =
-      ToNumbers(policy.Act(ObservationOf(request, policy.UsesPointCloud())));
+      ToNumbers(is_joined ? policy.ActOnJoined(observation) : policy.Act(observation));
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
   Value::Map answer;
   answer["actions"] = {internal::ArrayOf(action.data(), {1, 9})};
-  const auto* turning = dynamic_cast<const StageSwitch*>(&policy);
-  if (turning != nullptr) answer["turned"] = {turning->Turned()};
+  if (policy.Says()) answer["turned"] = {policy.Turned()};
   answer["server_timing"] = {Value::Map{{"infer_ms", {took.count()}}}};
   return internal::Packed({std::move(answer)});
 }
 
-std::string Greeting(const PolicyServerConfig& config, bool looks) {
+std::string Greeting(const PolicyServerConfig& config, const LonePolicy& policy) {
   Value::List arrays = {{std::string("proprioception")}};
-  if (looks) arrays.push_back({std::string("cloud")});
+  if (policy.UsesPointCloud()) arrays.push_back({std::string("cloud")});
   return internal::Packed(
       {Value::Map{{"server", {"doorforge " + CodeVersion()}},
                   {"policy", {config.policy}},
                   {"stage", {config.stage}},
                   {"observation", {std::move(arrays)}},
                   {"remembered",
-                   {Value::Map{{"finer", {std::int64_t{config.remembered_finer}}},
-                               {"within_m", {config.remembered_within_m}}}}},
+                   {Value::Map{{"finer", {std::int64_t{policy.remembered().resolution_scale}}},
+                               {"within_m", {policy.remembered().crop_radius_m}}}}},
                   {"action_dim", {std::int64_t{9}}},
                   {"action_horizon", {std::int64_t{1}}}}});
 }
@@ -105,12 +115,12 @@ class Connection {
   Connection(std::unique_ptr<asio::io_context> context, asio::ip::tcp::socket socket)
       : context_(std::move(context)), socket_(beast::tcp_stream(std::move(socket))) {}
 
-  void Serve(const PolicyServerConfig& config, Policy& policy) {
+  void Serve(const PolicyServerConfig& config, LonePolicy& policy) {
     beast::get_lowest_layer(socket_).socket().set_option(asio::ip::tcp::no_delay(true));
     socket_.read_message_max(kMostBytes);
     if (!Done([&](auto done) { socket_.async_accept(done); })) return;
     policy.Reset();
-    if (!Send(Greeting(config, policy.UsesPointCloud()), false)) return;
+    if (!Send(Greeting(config, policy), false)) return;
     while (true) {
       beast::flat_buffer buffer;
       const bool read = Done([&](auto done) {
@@ -165,7 +175,7 @@ struct Served {
 }  // namespace
 
 void ServePolicy(const PolicyServerConfig& config,
-                 const std::function<std::unique_ptr<Policy>()>& make,
+                 const std::function<std::unique_ptr<LonePolicy>()>& make,
                  const std::function<void(int)>& ready) {
   asio::io_context context;
   beast::error_code error;
@@ -206,7 +216,7 @@ void ServePolicy(const PolicyServerConfig& config,
     one.thread = std::thread([&config, &make, &making, &one, own = std::move(own),
                               socket = std::move(socket)]() mutable {
       try {
-        std::unique_ptr<Policy> policy;
+        std::unique_ptr<LonePolicy> policy;
         {
           const std::scoped_lock lock(making);
           policy = make();

@@ -24,15 +24,15 @@ double NumberOf(const std::string& option, const std::string& text) {
 using Maker = std::unique_ptr<Policy> (*)(const std::string&, const RemotePolicySettings&);
 
 std::string AddRow(PolicyRegistry& registry, const std::string& word, Maker make,
-                   const RemotePolicySettings& settings) {
+                   RemotePolicySettings settings) {
   const std::string name = make == MakeCommandPolicy ? "command" : "server";
-  MotionPolicyRow row{*StageNamed(settings.stage), name,
-                      [=](const PolicySettings&) { return make(word, settings); }};
-  if (make == MakeServedPolicy) {
-    const ServerGreeting greeting = GreetingOf(word, settings);
-    row.remembered = {greeting.remembered_finer, greeting.remembered_within_m};
-  }
-  registry.Add(std::move(row));
+  const ServerGreeting said =
+      make == MakeServedPolicy ? GreetingOf(word, settings) : ServerGreeting{};
+  settings.remembers = said.remembered.IsOn();
+  registry.Add(MotionPolicyRow{.stage = *StageNamed(settings.stage),
+                               .name = name,
+                               .make = [=](const PolicySettings&) { return make(word, settings); },
+                               .remembered = said.remembered});
   return name;
 }
 

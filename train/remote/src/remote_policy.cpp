@@ -121,6 +121,7 @@ class RemotePolicy : public Policy, public Fallible, public StageSwitch {
     const auto points = static_cast<std::int64_t>(observation.cloud.xyz.size() / 3);
     Value::Map request;
     request["cloud"] = {internal::ArrayOf(observation.cloud.xyz.data(), {points, 3})};
+    if (settings_.remembers) request["remembered"] = {true};
     request["proprioception"] = {internal::ArrayOf(observation.proprioception.data(), {32})};
     request["stage"] = {settings_.stage};
     request["prompt"] = {
@@ -166,7 +167,8 @@ ServerGreeting Understood(const std::string& message) {
     if (finer == nullptr || within == nullptr) return greeting;
     const auto* scale = finer->As<std::int64_t>();
     const auto* radius = within->As<double>();
-    if (scale != nullptr && radius != nullptr) greeting = {static_cast<int>(*scale), *radius};
+    if (scale != nullptr && radius != nullptr)
+      greeting.remembered = {static_cast<int>(*scale), *radius};
   } catch (const Error&) {
     // not MessagePack as it is here
   }

@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <string_view>
 
 #include "doorforge/policy/stage_policy.h"
 #include "doorforge/policy/trying_policy.h"
@@ -52,9 +51,5 @@ class TurningPolicy : public Policy, public StageSwitch {
 std::unique_ptr<TurningPolicy> LoadTurningPolicy(const std::filesystem::path& folder,
                                                  const PolicyOptions& options = {},
                                                  std::shared_ptr<SideFinder> finder = nullptr);
-
-/// LoadPolicy() of either stage; at "handle" a TurningPolicy, where the folder has a classifier.
-std::unique_ptr<Policy> LoadWholePolicy(const std::filesystem::path& folder,
-                                        std::string_view stage);
 
 }  // namespace doorforge

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "doorforge/schemas/policy.h"
+#include "doorforge/registry/lone_policy.h"
 
 namespace doorforge {
 
@@ -17,21 +17,18 @@ struct PolicyServerConfig {
   std::uint16_t port = 8000;       ///< 0: one that is free.
   std::string policy;              ///< Its name, for those who connect.
   std::string stage = "open";
-  /// RememberedViewConfig of the clouds that it is to be given, for those who connect.
-  int remembered_finer = 0;
-  double remembered_within_m = 0;
 };
 
 /// Answers whoever connects, in the protocol of MakeServedPolicy(), until the program is asked to
 /// stop (StopRequested()). Each connection has a policy of its own. What is wrong with a request is
-/// said in an answer of text; the connection goes on. A policy that is a StageSwitch says in each
-/// answer whether the handle is turned.
+/// said in an answer of text; the connection goes on. Where the policy says so, each answer has
+/// whether the handle is turned.
 ///
 /// @param make A new policy; called from one thread at a time.
 /// @param ready Called with the port once connections are taken.
 /// @throws Error(kIo) if the port cannot be had.
 void ServePolicy(const PolicyServerConfig& config,
-                 const std::function<std::unique_ptr<Policy>()>& make,
+                 const std::function<std::unique_ptr<LonePolicy>()>& make,
                  const std::function<void(int)>& ready);
 
 }  // namespace doorforge

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "doorforge/registry/policy_registry.h"
 #include "doorforge/schemas/policy.h"
 
 namespace doorforge {
@@ -14,6 +15,7 @@ struct RemotePolicySettings {
   double timeout_s = 10;       ///< For connecting, and for each answer; greater than 0.
   int chunk = 1;               ///< So many actions of an answer are carried out; at least 1.
   std::string stage = "open";  ///< Told to the policy.
+  bool remembers = false;      ///< Its clouds are joined with what was seen before; it is told so.
 };
 
 /// Whether a word is the address of a server: "ws://HOST:PORT", with a path behind it or without.
@@ -36,8 +38,7 @@ std::unique_ptr<Policy> MakeCommandPolicy(const std::string& command,
 
 /// What a server says of itself that an evaluation goes by.
 struct ServerGreeting {
-  int remembered_finer = 0;  ///< PolicyServerConfig has it; 0 where it says nothing.
-  double remembered_within_m = 0;
+  RememberedViewConfig remembered{.resolution_scale = 0};  ///< Of the clouds that it is given.
 };
 
 /// Connects to a server and lets go again.

@@ -6,6 +6,7 @@ README.md is its first page, docs/ the others, the command line's are made from 
 the catalogue stand in it in 3D. Needs mkdocs (in packages.txt); a link that leads nowhere is an error."""
 from __future__ import annotations
 
+import json
 import os
 import pathlib
 import re
@@ -77,6 +78,8 @@ def title_of(page: pathlib.Path) -> str:
 
 def add_documents(stage: Stage) -> None:
     stage.add("site.css", "scripts/site/site.css")
+    stage.add("site.js", "scripts/site/site.js")
+    stage.add("search/main.js", "scripts/site/search.js")  # in place of that of mkdocs
     for source, place in MOVED.items():
         stage.add(place, source)
     for path in sorted((ROOT / "docs").rglob("*")):
@@ -133,6 +136,17 @@ def navigation(stage: Stage, verbs: list[str]) -> list:
     return groups
 
 
+def write_search_index(folder: pathlib.Path) -> None:
+    """Sections of all pages as a script, which a page from the disk may load, in place of what the search of mkdocs fetches."""
+    entries = json.loads((folder / "search_index.json").read_text())["docs"]
+    pages = {entry["location"]: entry["title"] for entry in entries if "#" not in entry["location"]}
+    sections = [{"page": pages[entry["location"].partition("#")[0]], "title": entry["title"], "location": entry["location"], "text": re.sub(r" (?=[.,;:)])", "", " ".join(entry["text"].split()))}
+                for entry in entries if "#" in entry["location"]]
+    (folder / "index.js").write_text("window.searchSections = " + json.dumps(sections, ensure_ascii=False, separators=(",", ":")) + ";\n")
+    for name in ("search_index.json", "worker.js", "lunr.js"):
+        (folder / name).unlink()
+
+
 def build(programs: pathlib.Path, out: pathlib.Path, scratch: pathlib.Path) -> None:
     stage = Stage(scratch / "pages")
     stage.folder.mkdir()
@@ -150,6 +164,7 @@ def build(programs: pathlib.Path, out: pathlib.Path, scratch: pathlib.Path) -> N
     if made.returncode != 0:
         raise SystemExit(made.stdout + made.stderr)
     (out / "404.html").unlink()  # a server's, with links from its root
+    write_search_index(out / "search")
 
 
 def main() -> None:

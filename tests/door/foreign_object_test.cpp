@@ -628,6 +628,23 @@ TEST(LooseMesh, TheUnitIsToldByTheSizeOrAskedFor) {
   EXPECT_EQ(ReadOne(folder / "leaf.obj", config).scale, 0.001);
 }
 
+TEST(LooseMesh, OnlyAxesThatWereNotNamedAreSaidToBeAssumed) {
+  const fs::path folder = TestFolder("mesh_assumed");
+  WriteText(folder / "bar.obj", ToObj(Box({0, -0.01, -0.07}, {0.03, 0.01, 0.07})));
+  ReadConfig config{.category = "storagefurniture", .mesh = {.role = "handle"}};
+  const auto notes = [&](const std::string& front, const std::string& up) {
+    config.mesh.front = front;
+    config.mesh.up = up;
+    return ReadOne(folder / "bar.obj", config).notes;
+  };
+  const std::string assumed = "axes assumed, for the file states none: ";
+  EXPECT_EQ(notes("", ""),
+            std::vector{assumed + "z up, x out of the door; --up and --front say otherwise"});
+  EXPECT_EQ(notes("x", ""), std::vector{assumed + "z up; --up says otherwise"});
+  EXPECT_EQ(notes("", "z"), std::vector{assumed + "x out of the door; --front says otherwise"});
+  EXPECT_TRUE(notes("x", "z").empty());
+}
+
 TEST(LooseMesh, ALeafIsHingedAtItsEdgeAndABoxIsRefused) {
   const fs::path folder = TestFolder("mesh_leaf");
   WriteText(folder / "31.obj", ToObj(Box({-0.01, 0, 0}, {0, 0.25, 0.25})));

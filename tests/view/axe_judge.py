@@ -12,17 +12,20 @@ import tempfile
 AXE = pathlib.Path(sys.argv.pop(2)).read_text()
 
 from browser import Browser  # noqa: E402
-from drop_test import LEVER, stl  # noqa: E402
+from drop_test import LEVER, box, stl  # noqa: E402
 from pages import BUILD, run  # noqa: E402
 
+SITE = pathlib.Path(__file__).resolve().parents[2] / "scripts/site/build_site.py"
 
-def judged(browser: Browser, address: str, name: str, before=lambda: None) -> int:
-    """Number of violations, on both screens, once `before` has brought the page there."""
+
+def judged(browser: Browser, address: str, name: str, before=lambda: None, ready: bool = True) -> int:
+    """Number of violations, on both screens, once `before` has brought the page there; `ready` if it says when it is drawn."""
     faults = 0
     for width, height in ((1200, 800), (390, 844)):
         browser.size(width, height, mobile=width < 500)
         browser.open("about:blank", ready=False)
-        browser.open(address)
+        browser.open(address, ready)
+        browser.wait("document.readyState === 'complete' && location.href !== 'about:blank'")
         before()
         browser.js(AXE + ";0")
         for fault in browser.js("axe.run().then((r) => r.violations.map((v) => `${v.id}: ${v.help}: ${v.nodes[0].html.slice(0, 120)}`))"):
@@ -49,6 +52,16 @@ def main() -> int:
         films = (folder / "report/films.html").as_uri()
         faults += judged(browser, films, "report")
         faults += judged(browser, films, "film", lambda: browser.js("document.querySelector('tbody button').click()"))
+        subprocess.run([sys.executable, "-B", SITE, BUILD, folder / "site"], check=True, stdout=subprocess.DEVNULL)
+        for page in ("index.html", "compose.html", "commands/view.html", "doors/index.html"):
+            faults += judged(browser, (folder / "site" / page).as_uri(), f"site, {page}", ready=False)
+
+        def search() -> None:
+            browser.js("$('#mkdocs_search_modal').modal('show')")
+            browser.wait("document.activeElement.id === 'mkdocs-search-query'")
+            browser.call("Input.insertText", text="handle")
+            browser.wait("document.querySelector('#mkdocs-search-results article') !== null")
+        faults += judged(browser, (folder / "site/compose.html").as_uri(), "site, search", search, ready=False)
         server = subprocess.Popen([BUILD / "bin/doorforge", "serve", "--port", "0"], stdout=subprocess.PIPE, text=True)
         address = server.stdout.readline().split(": ")[0]
         faults += judged(browser, address, "composer")
@@ -59,6 +72,13 @@ def main() -> int:
             browser.wait("document.querySelector('dialog.own[open]') !== null")
             browser.js("doorforge.composer.offered.setUp('0,0.1,1'), doorforge.composer.offered.setFront('1,0.1,0')")
         faults += judged(browser, address, "composer, a dropped mesh", drop)
+
+        def drop_two() -> None:
+            browser.choose_files("#file", folder / "lever.stl", folder / "rose.stl")
+            browser.wait("document.querySelector('dialog.own[open]') !== null")
+            browser.js("doorforge.composer.offered.setBeside('rose.stl')")
+        (folder / "rose.stl").write_bytes(stl(box((-26, -26, 0), (26, 26, 8))))
+        faults += judged(browser, address, "composer, two dropped meshes", drop_two)
         faults += judged(browser, address, "composer, all settings", lambda: browser.js("document.querySelector('.more').open = true"))
         server.send_signal(signal.SIGTERM)
         server.wait(20)

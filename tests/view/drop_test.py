@@ -279,6 +279,7 @@ class DroppedMeshes(ServedTest):
         self.set("own-which", "rosed.stl")
         self.browser.wait("doorforge.composer.offered.name === 'rosed.stl'")
         self.set("own-beside", "ring.stl")
+        self.assertEqual(self.browser.js("doorforge.composer.offered.fixed.map(({ geometry }) => geometry.attributes.position.count)"), [36])  # it is drawn with it
         self.click_face(2, 0)
         self.set("own-up", "y")
         self.set("own-mechanism", "lever")
@@ -286,6 +287,8 @@ class DroppedMeshes(ServedTest):
         self.assertIn("--handle-rose=ring.stl", self.browser.js("document.querySelector('.command code').textContent"))
         got = self.downloaded()
         self.assertEqual([piece["name"] for piece in json.loads(got["handle/part.json"])["pieces"]], ["rose", "grip"])
+        self.assertEqual(self.browser.js("document.querySelector('#own-row-handle .name').textContent"), "handle: rosed.stl, with ring.stl")
+        self.assertTrue(self.browser.js("document.querySelector('dialog.own') === null"), "nothing is left to ask")
         self.check_equal("rose")
 
     def test_a_frame_in_a_file_of_its_own_stands(self) -> None:
@@ -300,6 +303,43 @@ class DroppedMeshes(ServedTest):
         self.assertIn("--body-frame=posts.stl", self.browser.js("document.querySelector('.command code').textContent"))
         self.assertEqual({piece["name"] for piece in json.loads(self.downloaded()["body/part.json"])["pieces"]}, {"frame", "leaf"})
         self.check_equal("frame", "body")
+
+    def tab_to(self, field: str) -> None:
+        """Goes there by the key Tab, as who has no mouse."""
+        for _ in range(40):
+            if self.browser.js("document.activeElement.id") == field:
+                return
+            self.browser.key("Tab")
+        self.fail(f"{field} is not reached by Tab")
+
+    def choose_by_key(self, field: str, value: str) -> None:
+        self.tab_to(field)
+        for _ in range(9):
+            if self.browser.js("document.activeElement.value") == value:
+                return
+            self.browser.key("ArrowDown")
+        self.fail(f"{field} has no {value}")
+
+    def test_a_leaf_and_a_handle_dropped_at_once_come_one_after_the_other_by_keyboard_alone(self) -> None:
+        self.compose_page()
+        self.drop(self.file("plank.stl", stl(box((0, 0, 0), (40, 800, 1900)))), self.file("grip.stl", stl(LEVER)))
+        self.assertIn("After this one: grip.stl", self.browser.js("document.querySelector('dialog.own').textContent"))
+        self.choose_by_key("own-role", "body")
+        self.tab_to("own-apply")
+        self.browser.key("Enter")
+        self.browser.wait("document.querySelector('dialog.own[open] h1')?.textContent === 'grip.stl'")
+        self.assertEqual(self.browser.js("[document.querySelectorAll('dialog.own').length, doorforge.composer.offered.role]"), [1, "handle"])
+        self.choose_by_key("own-mechanism", "lever")
+        self.choose_by_key("own-front", "z")
+        self.tab_to("own-apply")
+        self.browser.key("Enter")
+        self.browser.wait("document.querySelector('dialog.own') === null")
+        self.settled()
+        self.assertEqual(self.browser.js("[...document.querySelectorAll('.own-row .name')].map((n) => n.textContent)"), ["leaf: plank.stl", "handle: grip.stl"])
+        command = self.browser.js("document.querySelector('.command code').textContent")
+        for word in ("--body plank.stl", "--handle grip.stl", "--handle-front=z"):
+            self.assertIn(word, command)
+        self.check_equal("at_once")
 
     def test_two_files_of_one_name_on_one_door_are_refused(self) -> None:
         self.compose_page()

@@ -79,6 +79,39 @@ class Site(PageTest):
             self.browser.wait("document.readyState === 'complete' && location.href !== 'about:blank'")
             self.assertEqual(self.browser.foreign_requests(), [])
 
+    def search(self, words: str) -> list[str]:
+        """Where the links lead that are found, from a page of the disk, by keyboard."""
+        self.browser.js("document.getElementById('mkdocs-search-query').value = ''")
+        self.browser.call("Input.insertText", text=words)
+        self.browser.wait("document.querySelector('#mkdocs-search-results .found') !== null")
+        return self.browser.js("[...document.querySelectorAll('#mkdocs-search-results article a')].map((link) => link.getAttribute('href'))")
+
+    def test_the_search_works_from_the_disk(self) -> None:
+        self.browser.open((self.site / "commands/view.html").as_uri(), ready=False)
+        self.browser.wait("document.readyState === 'complete' && location.href.endsWith('view.html')")
+        self.browser.call("Input.dispatchKeyEvent", type="keyDown", key="s", windowsVirtualKeyCode=83)  # the theme's key for it
+        self.browser.wait("document.activeElement.id === 'mkdocs-search-query'")
+        self.assertIn("../commands/compose.html#doorforge-compose", self.search("--handle-front"))
+        text = (ROOT / "docs/glossary.md").read_text()
+        self.assertTrue(any("glossary.html" in link for link in self.search("backset")) or "backset" not in text.lower())
+        self.assertEqual(self.search("no_such_word_anywhere"), [])
+        self.assertIn("../serve.html#who-may-ask", self.search("Origin Host refused"))
+        self.assertEqual(self.search("<img src=x onerror=alert(1)>"), [])
+        first = self.search("gallery")[0]
+        self.browser.key("Enter")
+        self.browser.wait(f"location.href.includes({json.dumps(first.removeprefix('../').partition('#')[0])})")
+        self.assertEqual(self.browser.foreign_requests(), [])
+
+    def test_the_index_of_the_search_has_every_page(self) -> None:
+        index = (self.site / "search/index.js").read_text()
+        sections = json.loads(index.removeprefix("window.searchSections = ").removesuffix(";\n"))
+        found = {section["location"].partition("#")[0] for section in sections}
+        missing = {str(path.relative_to(self.site)) for path in self.pages} - found
+        self.assertEqual(missing, set())
+        for section in sections:
+            path, _, anchor = section["location"].partition("#")
+            self.assertIn(anchor, self.pages[self.site / path].anchors, path)
+
     def test_every_document_is_a_page_of_the_list(self) -> None:
         index = self.pages[self.site / "index.html"]
         for source in (ROOT / "docs").glob("*.md"):

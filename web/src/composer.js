@@ -62,7 +62,7 @@ export class ComposerView {
       this.drop(files);
     } });
     this.ownRows = Object.fromEntries(['body', 'handle'].map((role) => [role, this.ownRow(role)]));
-    const zone = h('div', { class: 'drop' }, h('label', { for: 'file' }, 'Your own handle or leaf: drop an STL, OBJ or GLB here'), input, Object.values(this.ownRows));
+    const zone = h('div', { class: 'drop' }, h('label', { for: 'file' }, 'Your own handle, leaf, or both: drop STL, OBJ or GLB here'), input, Object.values(this.ownRows));
     for (const kind of ['dragover', 'drop']) window.addEventListener(kind, (event) => event.preventDefault());
     window.addEventListener('dragover', () => zone.classList.add('over'));
     window.addEventListener('dragleave', () => zone.classList.remove('over'));
@@ -99,16 +99,21 @@ export class ComposerView {
     this.offer(meshes, meshes[0], kept);
   }
 
-  offer(meshes, mesh, files) {
+  /** Asks about one of several meshes; those that are not fixed around it come after it, a leaf after a handle and the other way round. */
+  offer(meshes, mesh, files, role = 'handle') {
     this.offered?.dispose();
-    const others = meshes.filter((other) => other !== mesh).map(({ document }) => document.name);
-    this.offered = new OwnMesh(mesh, others, {
-      applied: (own) => this.putOn(own),
-      closed: (own) => !Object.values(this.own).includes(own) && own.dispose(),
-      instead: (name) => this.offer(meshes, meshes.find(({ document }) => document.name === name), files),
+    const own = new OwnMesh(mesh, meshes.filter((other) => other !== mesh), {
+      applied: () => {
+        this.putOn(own);
+        const left = own.others.filter(({ document }) => document.name !== own.beside);
+        if (left.length > 0) this.offer(left, left[0], files, own.role === 'handle' ? 'body' : 'handle');
+      },
+      closed: () => !Object.values(this.own).includes(own) && own.dispose(),
+      instead: (name) => this.offer(meshes, meshes.find(({ document }) => document.name === name), files, own.role),
     });
-    this.offered.files = files;
-    this.offered.show(this.element);
+    Object.assign(own, { files, role });
+    this.offered = own;
+    own.show(this.element);
   }
 
   putOn(own) {
@@ -121,7 +126,7 @@ export class ComposerView {
     }
     this.own[own.role] = own;
     this.offered = null;
-    this.ownRows[own.role].firstChild.textContent = own.name;
+    this.ownRows[own.role].firstChild.textContent = `${own.role === 'body' ? 'leaf' : 'handle'}: ${own.name}${own.beside ? `, with ${own.beside}` : ''}`;
     this.ownRows[own.role].hidden = false;
     this.refreshShelf();
     this.changed(0);
@@ -201,7 +206,7 @@ export class ComposerView {
   }
 
   card(role) {
-    const image = h('img', { alt: '', width: 128, height: 96 });
+    const image = h('img', { alt: '', width: 128, height: 96, onload: () => (image.style.visibility = 'visible') });
     const name = h('span', { class: 'name' });
     let part = null;
     const button = h('button', { type: 'button', class: 'open', onclick: () => {
@@ -213,7 +218,10 @@ export class ComposerView {
     return {
       element: h('li', { class: 'card part' }, button),
       fill: (item) => {
-        if (part !== item) image.src = `/thumbnail/${encodeURIComponent(item.id)}`;
+        if (part !== item) {
+          image.style.visibility = 'hidden'; // until it has come: a browser shows the one before
+          image.src = `/thumbnail/${encodeURIComponent(item.id)}`;
+        }
         part = item;
         name.textContent = item.id;
         button.setAttribute('aria-pressed', String(this.chosen[role] === item.id && !this.own[role]));

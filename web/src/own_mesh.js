@@ -62,13 +62,14 @@ export const planeWith = (meshes, triangle) => {
 const field = (id, title, control) => h('div', {}, h('label', { for: id }, title), control);
 
 export class OwnMesh {
-  /** `content` is what the server gave of the file, `others` are the names of meshes dropped with it; `mesh` holds the settings of LooseMeshConfig that differ. */
+  /** `content` is what the server gave of the file, `others` what it gave of meshes dropped with it; `mesh` holds the settings of LooseMeshConfig that differ. */
   constructor(content, others, { applied, closed, instead }) {
     this.content = content;
     this.name = content.document.name;
     this.unit = content.document.unit_m;
     Object.assign(this, { others, applied, closed, instead });
     this.role = 'handle';
+    this.beside = ''; // which of the others stays fixed around it
     this.mesh = { mechanism: 'none', front: content.document.front || '', up: content.document.up || '' };
     this.meshes = content.document.shown.map((place) => content.mesh(place));
     this.canvas = h('canvas', { tabindex: 0, role: 'application', 'aria-label': 'The mesh in 3D. Arrow keys turn it, plus and minus zoom, Home shows all. A click chooses the face that lies on the door, or what the field says that a click tells; so do the fields Out of the door and Up.' });
@@ -85,10 +86,10 @@ export class OwnMesh {
     const directionField = (key, title, changed) => (this[`row_${key}`] = field(`own-${key}`, title, (this[`field_${key}`] = h('input', { type: 'text', id: `own-${key}`, placeholder: '0.6,0.8,0', oninput: ({ target }) => vectorOf(target.value) && changed(target.value) }))));
     const { document } = this.content;
     this.mountFields = h('div', { class: 'settings three' }, ['x', 'y', 'z'].map((axis) => numberField(`mount_${axis}`, `Mount ${axis}`, () => this.readMount())));
-    this.ofHandle = h('div', { class: 'settings' },
-      pick('mechanism', 'How it moves', [['none', 'fixed pull'], ['lever', 'lever'], ['round', 'round'], ['key', 'key'], ['valve', 'valve'], ['flap', 'flap']], (value) => this.set('mechanism', value)));
-    this.ofBody = h('div', { class: 'settings', hidden: true }, pick('hinge', 'Hinge, seen from the front', [['left', 'left'], ['right', 'right']], (value) => this.set('hinge', value)));
+    this.ofHandle = pick('mechanism', 'How it moves', [['none', 'fixed pull'], ['lever', 'lever'], ['round', 'round'], ['key', 'key'], ['valve', 'valve'], ['flap', 'flap']], (value) => this.set('mechanism', value));
+    this.ofBody = pick('hinge', 'Hinge, from the front', [['left', 'left'], ['right', 'right']], (value) => this.set('hinge', value));
     this.told = h('p', {});
+    this.mountTold = h('p', { class: 'soft' });
     const size = new Box3();
     for (const mesh of this.meshes) for (let i = 0; i < mesh.positions.length; i += 3) size.expandByPoint(new Vector3().fromArray(mesh.positions, i));
     this.box = size;
@@ -96,28 +97,53 @@ export class OwnMesh {
     return h('form', { class: 'own-form', onsubmit: (event) => event.preventDefault() },
       h('h1', { id: 'own-title' }, this.name), h('p', { class: 'soft' }, `${sides} along the file's x, y, z. ${document.states_unit ? 'The file says its unit.' : 'The file says no unit.'}`),
       ...this.ofSeveral(pick),
-      pick('role', 'It is a', [['handle', 'handle'], ['body', 'leaf']], (role) => this.setRole(role)),
+      h('div', { class: 'settings' }, pick('role', 'It is a', [['handle', 'handle'], ['body', 'leaf']], (role) => this.setRole(role)), this.ofHandle, this.ofBody),
       pick('click', 'A click tells', [['front', 'the face on the door'], ['up', 'a face that points up']], () => this.tellClick()),
       this.told,
       h('div', { class: 'settings' }, pick('front', 'Out of the door', axes(document.front ? `as the file says: ${document.front}` : 'x if not chosen'), (front) => this.setFront(front === 'skew' ? '1,0,0' : front)),
         pick('up', 'Up', axes(document.up ? `as the file says: ${document.up}` : 'z if not chosen'), (up) => this.setUp(up === 'skew' ? '0,0,1' : up)),
         directionField('front_xyz', 'Out, as x,y,z', (front) => this.setFront(front)), directionField('up_xyz', 'Up, as x,y,z', (up) => this.setUp(up))),
-      this.ofHandle, this.ofBody,
       h('div', { class: 'settings' }, pick('unit', 'Unit of its numbers', [['', 'told by the size'], ['m', 'm'], ['cm', 'cm'], ['mm', 'mm'], ['in', 'inch'], ['ft', 'foot']], (unit) => this.set('unit', unit)),
         numberField('size', 'or its longest side [m]', (text) => this.set('size_m', Number(text) || 0))),
-      h('p', { class: 'soft' }, 'Where the handle goes, in the file\'s numbers; empty: found from the shape.'), this.mountFields,
+      this.mountTold, this.mountFields,
       field('own-license', 'Licence (SPDX)', h('input', { id: 'own-license', type: 'text', placeholder: 'NOASSERTION', oninput: ({ target }) => this.set('license', target.value) })),
       this.said,
       h('div', { class: 'actions' }, h('button', { type: 'button', id: 'own-apply', class: 'main', onclick: () => this.apply() }, 'Put it on the door'),
         h('button', { type: 'button', onclick: () => this.element.close() }, 'Cancel')));
   }
 
-  // Which of several meshes moves, and which of the others belongs to it.
+  // Which of several meshes comes first, and which of the others belongs to it.
   ofSeveral(pick) {
     if (this.others.length === 0) return [];
+    const names = this.others.map(({ document }) => document.name);
     const named = (name) => [name, name];
-    return [h('div', { class: 'settings' }, pick('which', 'The mesh', [this.name, ...this.others].map(named), (name) => this.instead(name)),
-      pick('beside', 'Beside it', [['', 'nothing'], ...this.others.map(named)], (name) => (this.beside = name)))];
+    this.next = h('p', { class: 'soft' });
+    return [h('div', { class: 'settings' }, pick('which', 'This is about', [this.name, ...names].map(named), (name) => this.instead(name)),
+      pick('beside', 'Beside it', [['', 'nothing'], ...names.map(named)], (name) => this.setBeside(name))), this.next];
+  }
+
+  /** The mesh that stays fixed around this one is drawn with it, so that one sees whether they fit. */
+  setBeside(name) {
+    this.beside = name;
+    for (const mesh of this.fixed ?? []) {
+      mesh.removeFromParent();
+      mesh.geometry.dispose();
+    }
+    const content = this.others.find(({ document }) => document.name === name);
+    const meshes = content ? content.document.shown.map((place) => content.mesh(place)) : [];
+    this.fixed = meshes.map((mesh) => new Mesh(geometryOf(mesh), new MeshLambertMaterial({ color: 0x5f7f9f, transparent: true, opacity: 0.45, depthWrite: false, side: DoubleSide })));
+    for (const mesh of this.fixed) mesh.scale.setScalar(this.unit / content.document.unit_m); // its numbers are in this one's unit
+    if (this.fixed.length > 0) this.group.add(...this.fixed);
+    this.tellNext();
+    this.stage.changed();
+  }
+
+  tellNext() {
+    if (!this.next) return;
+    const left = this.others.map(({ document }) => document.name).filter((name) => name !== this.beside);
+    const around = this.role === 'handle' ? 'a rose around this handle' : 'the frame around this leaf';
+    const fixed = this.beside ? `${this.beside} is fixed around it, in the same axes and unit.` : `If another mesh is ${around}, choose it.`;
+    this.next.textContent = `${fixed}${left.length > 0 ? ` After this one: ${left.join(', ')}.` : ''}`;
   }
 
   /** It is in the page while it is open, since each has fields of the same ids. */
@@ -148,16 +174,17 @@ export class OwnMesh {
   addAxes(longest) {
     for (const axis of ['x', 'y', 'z']) {
       const from = this.box.min.clone().addScaledVector(new Vector3(1, 1, 1), -0.06 * longest);
-      this.addArrow(this.group, vectorOf(axis), from, 0.45 * longest, COLORS[axis], axis);
+      this.addArrow(this.group, { way: vectorOf(axis), from, length: 0.45 * longest }, COLORS[axis], axis);
     }
   }
 
-  addArrow(group, way, from, length, color, text) {
+  addArrow(group, { way, from, length }, color, text) {
     const arrow = new ArrowHelper(way, from, length, color, 0.12 * length, 0.06 * length);
     for (const part of [arrow.line, arrow.cone]) Object.assign(part.material, { depthTest: false, transparent: true }); // seen through the mesh
     const name = label(text, color);
-    name.scale.multiplyScalar(text.length > 2 ? 2.2 * length : 1.3 * length);
-    name.position.copy(from).addScaledVector(way, 1.14 * length);
+    const size = 0.6 * this.size * Math.max(1, 520 / (this.canvas.clientHeight || 520)); // on a small screen it is read, too
+    name.scale.multiplyScalar(size);
+    name.position.copy(from).addScaledVector(way, length + 0.1 * size);
     group.add(arrow, name);
   }
 
@@ -181,13 +208,17 @@ export class OwnMesh {
     this.role = role;
     this.ofHandle.hidden = role !== 'handle';
     this.ofBody.hidden = role !== 'body';
-    if (this.field_beside) this.field_beside.previousElementSibling.textContent = role === 'handle' ? 'What stays fixed around it' : 'Its frame';
+    this.field_role.value = role;
+    if (this.field_beside) this.field_beside.previousElementSibling.textContent = role === 'handle' ? 'Its rose' : 'Its frame';
+    this.field_click.options[0].textContent = role === 'handle' ? 'the face on the door' : 'the front';
+    this.mountTold.textContent = `Where ${role === 'handle' ? 'it meets the door' : 'the handle goes'}, in the file's numbers; empty: found from the shape.`;
+    this.tellNext();
     this.tellClick();
     this.clearFace();
   }
 
   tellClick() {
-    const side = this.role === 'handle' ? 'Click the face that lies on the door.' : 'Click the face that one sees who opens the door.';
+    const side = this.role === 'handle' ? 'Click the face that lies on the door.' : 'Click the front: the face one stands before to open it.';
     this.told.textContent = this.field_click.value === 'up' ? 'Click a face that looks up when the door stands.' : side;
   }
 
@@ -270,7 +301,7 @@ export class OwnMesh {
     const up = vectorOf(this.up);
     up.addScaledVector(front, -up.dot(front)).normalize(); // what counts of it
     for (const [way, text] of [[front, 'out of the door'], [up, 'up']]) {
-      this.addArrow(this.meant, way, center.clone().addScaledVector(way, this.reach(way, center)), 0.28 * this.size, 0x5a3fa0, text);
+      this.addArrow(this.meant, { way, from: center.clone().addScaledVector(way, this.reach(way, center)), length: 0.28 * this.size }, 0x5a3fa0, text);
     }
     this.group.add(this.meant);
     this.stage.changed();
@@ -295,6 +326,7 @@ export class OwnMesh {
   apply() {
     this.asked = this.settings; // what is changed and not applied counts for nothing
     this.element.close();
+    this.element.remove(); // another may be shown at once
     this.applied(this);
   }
 

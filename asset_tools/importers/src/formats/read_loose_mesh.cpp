@@ -218,15 +218,22 @@ KnownUnit KnowUnit(const LooseMeshConfig& config, const FileFacts& facts,
   return known;
 }
 
-// Which axes were taken, where the user named none.
+// Which axes were taken, of those that the user did not name.
 std::string AxesNote(const LooseMeshConfig& config, const FileFacts& facts) {
-  if (!config.up.empty() && !config.front.empty()) return "";
   const FileReading reading = ReadingOf(config, facts.frame);
-  const std::string axes = reading.up + " up, " + reading.front + " out of the door";
+  std::string axes;
+  std::string options;
+  const auto add = [&](const std::string& axis, const std::string& option) {
+    axes += (axes.empty() ? "" : ", ") + axis;
+    options += (options.empty() ? "" : " and ") + option;
+  };
+  if (config.up.empty()) add(reading.up + " up", "--up");
+  if (config.front.empty()) add(reading.front + " out of the door", "--front");
+  if (axes.empty()) return "";
   const bool told = !facts.frame.up.empty();
-  return (told ? "axes from the file: " + axes
-               : "axes assumed, for the file states none: " + axes) +
-         "; --up and --front say otherwise";
+  return (told ? "axes from the file: " : "axes assumed, for the file states none: ") + axes +
+         "; " + options + (config.up.empty() && config.front.empty() ? " say" : " says") +
+         " otherwise";
 }
 
 std::string UnitNote(const KnownUnit& known, const FileFacts& facts) {

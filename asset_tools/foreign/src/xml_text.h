@@ -54,7 +54,8 @@ struct XmlFault : std::runtime_error {
 struct XmlLimits {
   std::size_t depth = 64;
   std::size_t elements = 200'000;
-  std::size_t attributes = 64;  ///< Of one element.
+  std::size_t attributes = 64;    ///< Of one element.
+  std::size_t name_bytes = 1024;  ///< Of a value that is no list of numbers.
 };
 
 /// Parses XML 1.0 (its productions for documents without a DOCTYPE) in UTF-8. It does not recurse.

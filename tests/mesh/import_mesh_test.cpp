@@ -281,6 +281,18 @@ TEST_F(ImportMeshTest, RefusesPlyCountsThatTheFileCannotHold) {
   EXPECT_TRUE(ErrorOf("a.ply", list).starts_with(kFormat + "a.ply: a list of length 4000000000"));
 }
 
+TEST_F(ImportMeshTest, NamesAnIndexThatNoMeshHas) {
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar double "
+      "vertex_indices\nend_header\n";
+  EXPECT_EQ(ErrorOf("a.ply", head + "3 7 0 0\n"),
+            kFormat + "a.ply: a face names vertex 7, allowed 0..-1");
+  EXPECT_EQ(ErrorOf("a.ply", head + "3 1e300 0 0\n"),
+            kFormat + "a.ply: a face names vertex beyond all numbers, allowed 0..-1");
+  EXPECT_EQ(ErrorOf("a.ply", head + "3 nan 0 0\n"),
+            kFormat + "a.ply: a face names vertex that is no number, allowed 0..-1");
+}
+
 TEST_F(ImportMeshTest, BakesNodesAndUnitsOfADaeButKeepsItsAxes) {
   const ImportedMesh mesh = Import("a.dae", kDae);
   EXPECT_EQ(mesh.frame.up, "z");

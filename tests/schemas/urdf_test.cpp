@@ -196,6 +196,15 @@ TEST(Urdf, RefusesLinksThatAreNotOneTree) {
   EXPECT_EQ(ProblemOf(links + joint("1", "a", "b") + joint("2", "b", "c") + "</robot>"), "");
 }
 
+// In MJCF each body names the one around it: eight megabytes of a name, two thousand times.
+TEST(Urdf, RefusesANameOfManyBytes) {
+  const auto robot = [](std::size_t bytes) {
+    return "<robot name='r'><link name='" + std::string(bytes, 'a') + "'/></robot>";
+  };
+  EXPECT_NO_THROW(ParseUrdf(robot(1024), "r.urdf"));
+  EXPECT_THROW(ParseUrdf(robot(1025), "r.urdf"), Error);
+}
+
 TEST(Urdf, RefusesMoreLinksOrJointsThanAnyObjectHas) {
   std::string links;
   for (int i = 0; i < 2000; ++i) links += "<link name='" + std::to_string(i) + "'/>";

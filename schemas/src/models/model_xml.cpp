@@ -14,6 +14,7 @@ namespace {
 using tinyxml2::XMLElement;
 
 constexpr int kMaxDepth = 64;
+constexpr std::size_t kLongestName = 1024;
 
 // The element, and which link, joint or body it is or belongs to.
 std::string OwnedName(const XMLElement& element) {
@@ -54,13 +55,27 @@ void RefuseDeclarations(std::string_view text, const ModelSource& source) {
   }
 }
 
-void RefuseDepth(const XMLElement& element, int depth, const ModelSource& source) {
+// A name is repeated by all that refer to it, as each body does to the one around it.
+void RefuseLongNames(const XMLElement& element, const ModelSource& source) {
+  for (const tinyxml2::XMLAttribute* attribute = element.FirstAttribute(); attribute != nullptr;
+       attribute = attribute->Next()) {
+    const std::string_view value = attribute->Value();
+    const bool numbers =
+        value.find_first_not_of("0123456789+-.eE \t\r\n") == std::string_view::npos;
+    if (value.size() > kLongestName && !numbers)
+      source.Stop(element.GetLineNum(), TagOf(element) + ": an attribute of " +
+                                            std::to_string(value.size()) + " bytes, allowed " +
+                                            std::to_string(kLongestName));
+  }
+}
+
+void RefuseExcess(const XMLElement& element, int depth, const ModelSource& source) {
   if (depth > kMaxDepth)
-    source.Stop(element.GetLineNum(),
-                '<' + std::string(element.Name()) + ">: more than 64 levels of elements");
+    source.Stop(element.GetLineNum(), TagOf(element) + ": more than 64 levels of elements");
+  RefuseLongNames(element, source);
   for (const XMLElement* child = element.FirstChildElement(); child != nullptr;
        child = child->NextSiblingElement())
-    RefuseDepth(*child, depth + 1, source);
+    RefuseExcess(*child, depth + 1, source);
 }
 
 }  // namespace
@@ -110,7 +125,7 @@ const XMLElement& ParseModelXml(const std::string& text, const char* root,
   if (found == nullptr || std::string_view(found->Name()) != root)
     source.Stop(found == nullptr ? 1 : found->GetLineNum(),
                 "the root element is not <" + std::string(root) + ">");
-  RefuseDepth(*found, 1, source);
+  RefuseExcess(*found, 1, source);
   return *found;
 }
 

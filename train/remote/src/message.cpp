@@ -12,6 +12,7 @@ namespace doorforge::internal {
 namespace {
 
 constexpr int kMostLevels = 32;
+constexpr int kMostValues = 100'000;
 
 [[noreturn]] void Refuse(const std::string& problem) {
   throw Error(ErrorCode::kFormat, "not a message of MessagePack: " + problem);
@@ -107,6 +108,8 @@ class Reader {
 
   Value Read(int level) {
     if (level > kMostLevels) Refuse("it nests too deep");
+    // a value takes a hundred times the byte that says it
+    if (++values_ > kMostValues) Refuse("more than " + std::to_string(kMostValues) + " values");
     const auto tag = static_cast<unsigned>(Number(1));
     if (tag <= 0x7f) return {std::int64_t{tag}};
     if (tag <= 0x8f) return ReadMap(tag & 0x0f, level);
@@ -214,6 +217,7 @@ class Reader {
   }
 
   std::string_view rest_;
+  int values_ = 0;
 };
 
 template <class T>

@@ -47,8 +47,9 @@ struct Value {
 
 std::string Packed(const Value& value);
 
-/// Throws Error(kFormat) that says what is wrong, also on what nests more than 32 levels deep or
-/// has bytes behind it. Takes no more memory than a few times the message.
+/// Throws Error(kFormat) that says what is wrong, also on what nests more than 32 levels deep,
+/// holds more than 100,000 values, or has bytes behind it. An array counts as the few values of its
+/// map, so no message takes much more memory than its own bytes.
 Value Unpacked(std::string_view message);
 
 }  // namespace doorforge::internal

@@ -101,6 +101,9 @@ struct Elements {
 };
 
 class GltfCheck {
+  static constexpr std::uint64_t kMostElements = 200'000'000;
+  static constexpr std::uint64_t kMostBufferBytes = 1ULL << 29U;
+
  public:
   GltfCheck(std::string file, const BufferReader& reader, FaultList& faults)
       : file_(std::move(file)), reader_(reader), faults_(faults) {}
@@ -213,17 +216,25 @@ class GltfCheck {
       missing_.back() = true;
       return {};
     }
+    if (buffer_bytes_ > kMostBufferBytes) {
+      Fail("FIL003", pointer, "buffers of more than the 512 MiB allowed");
+      missing_.back() = true;
+      return {};
+    }
     const auto& text = uri.get_ref<const std::string&>();
     if (text.starts_with("data:")) {
       const std::size_t comma = text.find(',');
-      owned_.push_back(DecodedBase64(comma == std::string::npos ? "" : text.substr(comma + 1)));
-      return owned_.back();
+      return Kept(DecodedBase64(comma == std::string::npos ? "" : text.substr(comma + 1)));
     }
-    const auto content = reader_ ? reader_({text, {file_, 0, 0, pointer + "/uri"}, false})
-                                 : std::optional<std::string>();
+    auto content = reader_ ? reader_({text, {file_, 0, 0, pointer + "/uri"}, false})
+                           : std::optional<std::string>();
     missing_.back() = !content;
-    if (!content) return {};
-    owned_.push_back(*content);
+    return content ? Kept(std::move(*content)) : std::string_view();
+  }
+
+  std::string_view Kept(std::string content) {
+    buffer_bytes_ += content.size();
+    owned_.push_back(std::move(content));
     return owned_.back();
   }
 
@@ -303,14 +314,13 @@ class GltfCheck {
                " for elements of " + std::to_string(size) + " bytes");
       return std::nullopt;
     }
-    // with so many, and so wide a stride, the product is far from an overflow, which would look
-    // small
-    const bool too_many = elements.count > (1ULL << 32U);
-    const std::uint64_t end = offset + elements.stride * (elements.count - 1) + size;
-    if (too_many || end > views_[view].size()) {
+    // by division, for the product may be beyond 64 bits
+    const std::uint64_t room = views_[view].size();
+    if (offset + size > room || elements.count - 1 > (room - offset - size) / elements.stride) {
       Fail("GLB003", pointer,
-           "ends at byte " + std::to_string(end) + " of a view of " +
-               std::to_string(views_[view].size()));
+           std::to_string(elements.count) + " elements, " + std::to_string(elements.stride) +
+               " bytes apart, from byte " + std::to_string(offset) + " of a view of " +
+               std::to_string(room));
       return std::nullopt;
     }
     elements.bytes = views_[view].substr(offset);
@@ -482,14 +492,25 @@ class GltfCheck {
     if (position.is_null()) return Fail("FIL007", pointer + "/attributes", "no POSITION");
     const auto* points = ElementsAt(position);
     if (points == nullptr || points->component != 5126 || points->numbers != 3) return;
+    if (!Afford(points->count)) return;
     const auto accessor = position.get<std::size_t>();
     if (!CheckPositions(*points, List("accessors")[accessor], At("accessors", accessor))) return;
     const Json& indices = Member(primitive, "indices");
     const auto* order = ElementsAt(indices);
+    if (order != nullptr && !Afford(order->count)) return;
     if (order != nullptr && !CheckIndices(*order, points->count, pointer)) return;
     const Json& mode = Member(primitive, "mode");
     const bool triangles = mode.is_null() || (mode.is_number_unsigned() && mode.get<int>() == 4);
     if (triangles && (indices.is_null() || order != nullptr)) AddTriangles(*points, order, uses);
+  }
+
+  // Whether so many more elements are looked at: primitives may share what they look at.
+  bool Afford(std::uint64_t count) {
+    looked_at_ += count;
+    if (looked_at_ <= kMostElements) return true;
+    Fail("FIL003", "",
+         "primitives with more than the " + std::to_string(kMostElements) + " elements allowed");
+    return false;
   }
 
   const Elements* ElementsAt(const Json& index) const {
@@ -546,6 +567,8 @@ class GltfCheck {
       if (!world.matrix().allFinite()) continue;
       if (triangles_.triangles.size() + count > kMaxRawTriangles)
         return Fail("FIL003", "", "more than the 5000000 triangles allowed");
+      if (triangles_.vertices.size() + points.count > 3 * kMaxRawTriangles)
+        return Fail("FIL003", "", "more than the 15000000 vertices allowed");
       // a mirrored use shows its triangles from behind
       const bool mirrored = world.linear().determinant() < 0;
       const auto first = static_cast<int>(triangles_.vertices.size());
@@ -579,6 +602,8 @@ class GltfCheck {
   std::vector<Eigen::Affine3d> local_;
   std::vector<std::optional<Eigen::Affine3d>> world_;
   bool loops_ = false;
+  std::uint64_t looked_at_ = 0;
+  std::uint64_t buffer_bytes_ = 0;
   TriangleMesh triangles_;
 };
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "faults/fault_list.h"
 #include "read/raw_mesh.h"
 
 namespace doorforge::foreign {
@@ -140,11 +141,21 @@ PlyHeader ReadHeader(WordLines& lines) {
   }
 }
 
+// An index may be stated as any number.
+std::string IndexText(double index) {
+  return std::abs(index) < 1e15 ? std::to_string(static_cast<long long>(index)) : Digits(index);
+}
+
+double ListLength(const PlyProperty& property, PlyNumbers& numbers) {
+  const double count = property.list ? numbers.Take(property.count) : 1;
+  if (!(count >= 0 && count <= 10'000)) numbers.Fail("a list of more than the 10000 allowed");
+  return count;
+}
+
 void ReadPlyVertex(const PlyElement& element, PlyNumbers& numbers, TriangleMesh& mesh) {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   for (const PlyProperty& property : element.properties) {
-    long count = property.list ? static_cast<long>(numbers.Take(property.count)) : 1;
-    for (; count > 0; --count) {
+    for (auto count = static_cast<int>(ListLength(property, numbers)); count > 0; --count) {
       const double number = numbers.Take(property.type);
       const bool is_axis =
           property.name.size() == 1 && property.name >= "x" && property.name <= "z";
@@ -160,15 +171,14 @@ void ReadPlyFace(const PlyElement& element, PlyNumbers& numbers, TriangleMesh& m
   for (const PlyProperty& property : element.properties) {
     const bool indices =
         property.list && (property.name == "vertex_indices" || property.name == "vertex_index");
-    const double count = property.list ? numbers.Take(property.count) : 1;
-    if (!(count >= 0 && count <= 10'000)) numbers.Fail("a list of more than the 10000 allowed");
+    const auto count = static_cast<int>(ListLength(property, numbers));
     std::vector<int> corners;
-    for (long k = 0; k < static_cast<long>(count); ++k) {
+    for (int k = 0; k < count; ++k) {
       const double index = numbers.Take(property.type);
       if (!indices) continue;
       if (!(index >= 0 && index < static_cast<double>(mesh.vertices.size())))
-        numbers.Fail("a face names vertex " + std::to_string(static_cast<long long>(index)) +
-                     " of " + std::to_string(mesh.vertices.size()));
+        numbers.Fail("a face names vertex " + IndexText(index) + " of " +
+                     std::to_string(mesh.vertices.size()));
       corners.push_back(static_cast<int>(index));
     }
     if (indices) AddFace(corners, numbers.line(), mesh);
@@ -189,6 +199,7 @@ TriangleMesh ReadRawPly(std::string_view bytes) {
     if (element.count < 0 || element.count > static_cast<long>(bytes.size()))
       lines.Fail("the file is too short for " + std::to_string(element.count) + " of " +
                  element.name.substr(0, 40));
+    if (element.properties.empty()) continue;  // nothing in the file stands for one
     for (long i = 0; i < element.count; ++i) {
       numbers.NextRow();
       if (element.name == "vertex") {

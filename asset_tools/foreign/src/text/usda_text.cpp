@@ -9,6 +9,7 @@ namespace doorforge::foreign {
 namespace {
 
 constexpr int kDeepest = 64;
+constexpr std::size_t kLongestPath = 2000;  // each prim below a prim repeats it
 constexpr std::size_t kMostPrims = 200'000;
 
 bool IsWordByte(char c) {
@@ -189,6 +190,8 @@ class UsdaParser {
     if (token_ != UsdaToken::kString) Fail("expected a prim's name before " + Shown());
     prim.name = word_;
     prim.path = (prim.parent == nullptr ? "" : prim.parent->path) + "/" + prim.name;
+    if (prim.path.size() > kLongestPath)
+      Fail("a path of more than the " + std::to_string(kLongestPath) + " bytes allowed", true);
     Next();
     if (Sees("(")) prim.metadata = Metadata();
     Expect("{");
@@ -213,6 +216,9 @@ class UsdaParser {
 
   std::vector<UsdaProperty> Metadata() {
     std::vector<UsdaProperty> entries;
+    // an entry may have metadata, and those theirs
+    if (++open_metadata_ > kDeepest)
+      Fail("metadata nested deeper than the 64 levels allowed", true);
     Expect("(");
     while (!Sees(")")) {
       if (token_ == UsdaToken::kEnd) Fail("the text ends inside metadata");
@@ -222,6 +228,7 @@ class UsdaParser {
       }
       entries.push_back(Property());
     }
+    --open_metadata_;
     Next();
     return entries;
   }
@@ -305,6 +312,7 @@ class UsdaParser {
   int token_column_ = 1;
   UsdaStage stage_;
   std::vector<UsdaPrim*> open_;
+  int open_metadata_ = 0;
 };
 
 const UsdaProperty* Named(const std::vector<UsdaProperty>& properties, std::string_view wanted) {

@@ -55,6 +55,11 @@ void AppendUtf8(std::uint32_t code, std::string& text) {
   add(0x80U | (code & 0x3FU));
 }
 
+// A path is made for every fault, so its steps are short whatever the names are.
+constexpr std::size_t kLongestStep = 300;
+
+std::string StepTo(const XmlElement& element) { return "/" + element.name.substr(0, kLongestStep); }
+
 // Says which of its parent's children each child is. Once for all, since a parent may have many.
 void NameSteps(const std::vector<XmlElement*>& children) {
   std::unordered_map<std::string, std::size_t> tags;
@@ -72,8 +77,9 @@ void NameSteps(const std::vector<XmlElement*>& children) {
     const std::size_t number = ++seen[child->name];
     const std::string by_name = named(*child);
     const bool only = tags[child->name] == 1;
-    child->step = "/" + child->name + (only ? "" : "[" + std::to_string(number) + "]");
-    if (!by_name.empty() && names[by_name] == 1) child->step = "/" + by_name;
+    child->step = StepTo(*child) + (only ? "" : "[" + std::to_string(number) + "]");
+    if (!by_name.empty() && by_name.size() <= kLongestStep && names[by_name] == 1)
+      child->step = "/" + by_name;
   }
 }
 
@@ -98,7 +104,7 @@ class XmlParser {
 
  private:
   void NameAll() {
-    document_.elements.front().step = "/" + document_.elements.front().name;
+    document_.elements.front().step = StepTo(document_.elements.front());
     std::unordered_map<const XmlElement*, std::vector<XmlElement*>> families;
     for (XmlElement& element : document_.elements) {
       if (element.parent != nullptr) families[element.parent].push_back(&element);
@@ -311,6 +317,11 @@ class XmlParser {
       AppendCharacter(attribute.value);
     }
     if (AtEnd()) Fail("the text ends inside the value of " + attribute.name);
+    // a name is repeated by all that refer to it; lists of numbers are not
+    if (attribute.value.size() > limits_.name_bytes &&
+        attribute.value.find_first_not_of("0123456789+-.eE \t\r\n") != std::string::npos)
+      Fail("a value of more than the " + std::to_string(limits_.name_bytes) + " bytes allowed",
+           XmlFaultKind::kLimit);
     Advance(1);
     element.attributes.push_back(std::move(attribute));
   }

@@ -54,7 +54,8 @@ struct XmlFault : std::runtime_error {
 struct XmlLimits {
   std::size_t depth = 64;
   std::size_t elements = 200'000;
-  std::size_t attributes = 64;  ///< One element has at most so many.
+  std::size_t attributes = 64;    ///< One element has at most so many.
+  std::size_t name_bytes = 1024;  ///< A value that is no list of numbers has at most so many.
 };
 
 /// Parses XML 1.0 (its productions for documents without a DOCTYPE) in UTF-8. It does not recurse.

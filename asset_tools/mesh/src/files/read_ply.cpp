@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <string>
 
@@ -200,13 +201,18 @@ class PlyReader {
     return color;
   }
 
+  // An index may be stated as any number.
+  static std::string IndexText(double index) {
+    if (std::abs(index) < 1e15) return std::to_string(static_cast<std::int64_t>(index));
+    return std::isnan(index) ? "that is no number" : "beyond all numbers";
+  }
+
   void ReadFace(const std::vector<double>& indices) {
     corners_.clear();
     for (const double index : indices) {
       if (!(index >= 0) || index >= static_cast<double>(vertices_.size()))
         throw Error(ErrorCode::kFormat,
-                    "a face names vertex " + std::to_string(static_cast<std::int64_t>(index)) +
-                        ", allowed 0.." +
+                    "a face names vertex " + IndexText(index) + ", allowed 0.." +
                         std::to_string(static_cast<std::int64_t>(vertices_.size()) - 1));
       corners_.push_back(vertices_[static_cast<std::size_t>(index)]);
     }

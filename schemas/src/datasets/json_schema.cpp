@@ -6,6 +6,7 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
+#include "doorforge/core/settings_schema.h"
 #include "doorforge/schemas/dataset.h"
 #include "doorforge/schemas/episode.h"
 #include "doorforge/schemas/names.h"
@@ -15,21 +16,6 @@ namespace doorforge {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// "a_m" is in metres: names carry their unit.
-std::string UnitOf(const std::string& name) {
-  const std::pair<const char*, const char*> units[] = {{"_nm_per_rad", "N m/rad"},
-                                                       {"_rad", "rad"},
-                                                       {"_m", "m"},
-                                                       {"_nm", "N m"},
-                                                       {"_n", "N"},
-                                                       {"_s", "s"},
-                                                       {"_px", "pixels"},
-                                                       {"_bytes", "bytes"}};
-  for (const auto& [ending, unit] : units)
-    if (name.ends_with(ending)) return unit;
-  return "";
-}
 
 Json SchemaOf(const Json& example, const std::string& name);
 
@@ -87,7 +73,7 @@ Json SchemaOf(const Json& example, const std::string& name) {
     schema = {{"type", "string"}};
     if (name == "sha256" || name.ends_with("_sha256")) schema["pattern"] = "^[0-9a-f]{64}$";
   }
-  const std::string unit = UnitOf(name);
+  const std::string unit = UnitOfName(name);
   if (!unit.empty()) schema["description"] = "unit: " + unit;
   return schema;
 }

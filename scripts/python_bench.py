@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Figures of the Python package, each beside what it is compared with, in one run.
 
-    PYTHONPATH=build/release/python python3 scripts/python_bench.py [--data DATA] [--rounds 5]
+    PYTHONPATH=build/release/python python3 scripts/python_bench.py [--data DATA] [--rounds 5] [--only states clouds]
 
 import: of a new interpreter, less that of an empty program. states, clouds: decisions a second of whole episodes, stepped from
 Python and run in C++ (`simulate`), on one thread; with clouds a trained opener acts in both. vector: 16 environments on 2
@@ -168,18 +168,23 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", help="a data set of the stage open")
     parser.add_argument("--rounds", type=int, default=5)
+    parts = ("import", "states", "clouds", "vector", "loader")
+    parser.add_argument("--only", nargs="+", choices=parts, default=parts)
     options = parser.parse_args()
-    run_import(options.rounds)
+    if "import" in options.only:
+        run_import(options.rounds)
     with tempfile.TemporaryDirectory() as scratch:
         door = doorforge.compose("interior_flush_01", "interior_lever_tube_01")
         folder = str(pathlib.Path(scratch) / "door")
         door.save(folder)
         opener = str(doorforge._engine.core.data_folder() / "policies" / "opener")
-        run_steps("states", folder, door, "expert", [], options.rounds)
-        run_steps("clouds", folder, door, opener, ["open"], options.rounds)
-        if importlib.util.find_spec("gymnasium"):
+        if "states" in options.only:
+            run_steps("states", folder, door, "expert", [], options.rounds)
+        if "clouds" in options.only:
+            run_steps("clouds", folder, door, opener, ["open"], options.rounds)
+        if "vector" in options.only and importlib.util.find_spec("gymnasium"):
             run_vector(door, options.rounds)
-    if options.data:
+    if options.data and "loader" in options.only:
         run_loader(options.data, options.rounds)
 
 

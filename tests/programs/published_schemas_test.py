@@ -7,13 +7,13 @@ import re
 import unittest
 
 import jsonschema
-import yaml
 from programs import BINARY_DIR, SOURCE, ProgramTest, run
 from record_samples import DOORS, collect_samples
 from sound_inputs import box_obj
 
-# Not JSON of their own: metadata of weights, the journal of a shard (whose lines have checksums), golden values of tests.
-WITHOUT = {"turned", "side", "familiar", "shard_journal", "golden_scenes"}
+# Not JSON of their own: metadata of weights, the journal of a shard (whose lines have checksums), golden values of tests;
+# an attribute of HDF5 files, and the name of a tool in other programs' reports.
+WITHOUT = {"turned", "side", "familiar", "shard_journal", "golden_scenes", "robomimic", "validate"}
 WRITTEN_SETTINGS = {"datagen_open": "whole_set/config.yaml", "eval": "evaluated/a/config.yaml",
                     "train_motion": "inputs/trained/tested_training/config.yaml",
                     "compose": "inputs/doors/tested_door/compose.json"}
@@ -44,7 +44,8 @@ class PublishedSchemas(ProgramTest):
         samples = collect_samples(BINARY_DIR / "bin/doorforge", self.folder)
         names = run("schema").stdout.split()
         for name, path in WRITTEN_SETTINGS.items():
-            settings = yaml.safe_load((self.folder / path).read_text())
+            lines = [line for line in (self.folder / path).read_text().splitlines() if not line.startswith("#")]
+            settings = json.loads("\n".join(lines))  # PyYAML takes 1e-05 for a word
             jsonschema.validate(settings, json.loads(run("schema", "settings_" + name).stdout))
         self.assertEqual(set(samples) - WITHOUT, set(samples) & set(names))
         for name in sorted(set(samples) - WITHOUT):

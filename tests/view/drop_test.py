@@ -222,6 +222,17 @@ class DroppedMeshes(ServedTest):
         self.put_on()
         self.assertIn("--handle-front=0,0.1,1", self.browser.js("document.querySelector('.command code').textContent").replace("'", ""))
 
+    def test_a_mount_beside_the_mesh_is_told(self) -> None:
+        self.compose_page()
+        self.drop(self.file("mounted.stl", stl(LEVER)))
+        said = "[document.querySelector('dialog.own .asked').textContent, document.querySelector('dialog.own .asked').classList.contains('refused')]"
+        self.set("own-mount_x", "300")
+        self.assertEqual(self.browser.js("doorforge.composer.offered.mesh.mount"), [300, 0, 0])
+        self.assertEqual(self.browser.js(said), ["This point lies beside the mesh: the handle would turn about an axis outside of it.", True])
+        self.set("own-mount_x", "30")
+        self.assertEqual(self.browser.js(said), ["", False])
+        self.assertEqual(self.browser.js("doorforge.composer.offered.mountPoint.toArray().map((x) => x / doorforge.composer.offered.unit)"), [30, 0, 0])
+
     def test_a_glb_stands_as_its_format_says(self) -> None:
         self.compose_page()
         self.drop(self.file("my_lever.glb", glb(LEVER)))

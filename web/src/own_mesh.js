@@ -3,7 +3,7 @@
 
 // A mesh that was dropped, in its file's own axes: which face lies on the door, what points up, its unit.
 
-import { ArrowHelper, Box3, BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, MeshLambertMaterial, Vector3 } from 'three';
+import { ArrowHelper, Box3, BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, MeshLambertMaterial, SphereGeometry, Vector3 } from 'three';
 
 import { geometryOf } from './geometry.js';
 import { label } from './model.js';
@@ -15,6 +15,7 @@ const COLORS = { x: 0xc23b22, y: 0x2c8a3d, z: 0x2a62c4 };
 const SHOWN = 0.4; // [m] longest side on the screen, whatever the file's numbers are
 const SQUARE = Math.cos((0.5 * Math.PI) / 180); // what is nearer to an axis of the file is meant to lie along it
 const ALONG = 0.9; // cosine above which nothing is up that points out of the door
+const BESIDE = 0.05; // of the longest side, beyond which a point is not meant to be on the mesh
 const FLAT = 0.999; // cosine between faces of one plane
 
 // The unit vector of "-y", or of "0.6,0.8,0"; null where a text is neither.
@@ -237,6 +238,13 @@ export class OwnMesh {
   readMount() {
     const texts = ['x', 'y', 'z'].map((axis) => this[`field_mount_${axis}`].value);
     this.mesh.mount = texts.every((text) => text === '') ? [] : texts.map(Number);
+    const beside = this.mesh.mount.length > 0 && this.box.distanceToPoint(this.mountPoint) > BESIDE * this.size;
+    this.say(beside ? `This point lies beside the mesh${this.role === 'handle' ? ': the handle would turn about an axis outside of it' : ''}.` : '', beside);
+    this.refresh();
+  }
+
+  get mountPoint() {
+    return new Vector3(...this.mesh.mount).multiplyScalar(this.unit);
   }
 
   clearFace() {
@@ -292,7 +300,10 @@ export class OwnMesh {
       this[`row_${key}_xyz`].hidden = !skew;
       if (skew && document.activeElement !== this[`field_${key}_xyz`]) this[`field_${key}_xyz`].value = this.mesh[key];
     }
-    ['x', 'y', 'z'].forEach((axis, i) => (this[`field_mount_${axis}`].value = this.mesh.mount?.[i] ?? ''));
+    ['x', 'y', 'z'].forEach((axis, i) => {
+      const field = this[`field_mount_${axis}`];
+      if (document.activeElement !== field) field.value = this.mesh.mount?.[i] ?? '';
+    });
     if (!this.stage) return;
     this.meant?.removeFromParent();
     this.meant = new Group();
@@ -302,6 +313,11 @@ export class OwnMesh {
     up.addScaledVector(front, -up.dot(front)).normalize(); // what counts of it
     for (const [way, text] of [[front, 'out of the door'], [up, 'up']]) {
       this.addArrow(this.meant, { way, from: center.clone().addScaledVector(way, this.reach(way, center)), length: 0.28 * this.size }, 0x5a3fa0, text);
+    }
+    if (this.mesh.mount?.length > 0) {
+      const point = new Mesh(new SphereGeometry(0.018 * this.size), new MeshBasicMaterial({ color: 0x5a3fa0, depthTest: false, transparent: true }));
+      point.position.copy(this.mountPoint);
+      this.meant.add(point);
     }
     this.group.add(this.meant);
     this.stage.changed();

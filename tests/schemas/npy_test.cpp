@@ -71,6 +71,20 @@ TEST(Npy, NamesWhatIsWrongWithAFile) {
   EXPECT_NE(MessageOf(huge), "");
 }
 
+// numpy refuses what is left over behind the shape and the dictionary.
+TEST(Npy, ReadsAHeaderToItsEnd) {
+  const auto file = [](const std::string& end) {
+    std::string head = "{'descr': '|u1', 'fortran_order': False, 'shape': (2,)" + end;
+    head.resize(117, ' ');
+    return std::string("\x93NUMPY\x01\x00v\x00", 10) + head + "\n" + "ab";
+  };
+  for (const char* end : {", }", ",}", "}", " }"})
+    EXPECT_EQ(MessageOf(file(end)).empty(), std::string_view(end) != " }") << end;
+  EXPECT_EQ(MessageOf(file("1111, }")),
+            "x.npy: npy header: expected \"}\" before \"1111, }         \"");
+  EXPECT_EQ(MessageOf(file(", }  !")), "x.npy: npy header: more than blanks behind its \"}\"");
+}
+
 TEST(Npy, NeverReadsOutsideDamagedHeaders) {
   const std::string good = MakeNpy<float>(std::vector<float>(6), {2, 3});
   for (std::size_t i = 0; i < 128; ++i) {

@@ -67,6 +67,13 @@ class HeaderText {
     return shape;
   }
 
+  void End() {
+    if (!Accept(", ")) Accept(",");
+    Expect("}");
+    if (rest_.find_first_not_of(" \n") != std::string_view::npos)
+      throw Error(ErrorCode::kFormat, path_ + ": npy header: more than blanks behind its \"}\"");
+  }
+
  private:
   std::string_view rest_;
   const std::string& path_;
@@ -129,6 +136,7 @@ NpyHeader ParseNpyHeader(std::span<const std::byte> bytes, const std::string& pa
   header.type = dictionary.Quoted();
   dictionary.Expect(", 'fortran_order': False, 'shape': ");
   header.shape = dictionary.Shape();
+  dictionary.End();
   const std::size_t expected = DataSize(header, path);
   if (bytes.size() - header.data_offset != expected)
     throw Error(ErrorCode::kFormat, path + ": " +

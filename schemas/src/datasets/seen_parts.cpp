@@ -17,8 +17,8 @@ using Json = nlohmann::ordered_json;
 std::vector<PartIdentity> SortedOnce(std::vector<PartIdentity> parts) {
   const auto key = [](const PartIdentity& part) { return std::tie(part.id, part.sha256); };
   std::ranges::sort(parts, {}, key);
-  const auto rest = std::ranges::unique(parts, {}, key);
-  parts.erase(rest.begin(), rest.end());
+  const auto same = [&](const PartIdentity& a, const PartIdentity& b) { return key(a) == key(b); };
+  parts.erase(std::unique(parts.begin(), parts.end(), same), parts.end());
   return parts;
 }
 

@@ -15,6 +15,8 @@ constexpr std::size_t kNameLength = 100;
 constexpr std::size_t kSizeField = 124;
 constexpr std::size_t kChecksumField = 148;
 constexpr std::size_t kTypeField = 156;
+constexpr std::size_t kPrefixField = 345;
+constexpr std::size_t kPrefixLength = 155;
 constexpr std::uint64_t kSizeLimit = 1ULL << 33;  // eleven octal digits
 
 using Block = std::array<char, kTarBlock>;
@@ -60,8 +62,11 @@ std::optional<TarMember> ParseHeader(std::string_view block, std::uint64_t at) {
   const auto size = GetOctal(block.substr(kSizeField, 12));
   const std::string_view name = block.substr(0, std::min(block.find('\0'), kNameLength));
   const bool is_file = block[kTypeField] == '0' || block[kTypeField] == '\0';
+  // other readers put it before the name
+  const bool has_prefix =
+      block.substr(kPrefixField, kPrefixLength).find_first_not_of('\0') != std::string_view::npos;
   if (!checksum || *checksum != ChecksumOf(block) || !size || !is_file || name.empty() ||
-      !IsPrintable(name))
+      !IsPrintable(name) || has_prefix)
     return std::nullopt;
   return TarMember{std::string(name), at + kTarBlock, *size};
 }

@@ -4,7 +4,8 @@
 #
 # Builds the dev preset and runs all tests, as continuous integration does:
 #   ./test.sh [--tidy] [arguments of ctest, such as -L unit or -R latch]
-# --tidy runs clang-tidy over all sources as well (about ten minutes).
+# --tidy runs clang-tidy over all sources as well (about ten minutes). Without arguments, readers of bytes from outside
+# also run under sanitizers, two thousand inputs each (scripts/sanitizers.sh).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 tidy=no
@@ -19,4 +20,5 @@ cmake --build --preset dev --parallel "$(nproc)"
 if [ "$tidy" = yes ]; then
   git ls-files '*.cpp' | grep -v '^tests/\|^benchmarks/' | xargs -r -P "$(nproc)" -n 4 clang-tidy -p build/dev --quiet
 fi
+if [ $# -eq 0 ]; then scripts/sanitizers.sh; fi
 ctest --preset dev --parallel "$(nproc)" "$@"

@@ -82,7 +82,8 @@ function(doorforge_build_from_nothing target owner)
     UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${DOORFORGE_SOURCES_TOGETHER})
   # the first is about headers, which sources look like here; the compiler finds the others in strings of
   # the standard library where more is inlined
-  target_compile_options(${target} PRIVATE -Wno-subobject-linkage -Wno-stringop-overflow -Wno-array-bounds)
+  target_compile_options(${target} PRIVATE
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage;-Wno-stringop-overflow;-Wno-array-bounds>)
   if(target STREQUAL owner)
     target_precompile_headers(${target} PRIVATE ${DOORFORGE_PRECOMPILED_HEADERS} ${ARGN})
   else()

@@ -52,6 +52,9 @@ void RequireShallow(std::string_view text, const std::string& name) {
 
 Json ParseJson(std::string_view text, const std::string& name) {
   RequireShallow(text, name);
+  // the library takes one for the end of the text, whatever follows
+  if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos)
+    throw Error(ErrorCode::kFormat, name + ": not JSON: " + PlaceIn(text, zero + 1));
   try {
     return Json::parse(text);
   } catch (const Json::parse_error& error) {

@@ -50,6 +50,14 @@ TEST(JsonFile, ASyntaxErrorNamesLineAndColumn) {
   EXPECT_NE(WhyRefused(""), "");
 }
 
+// The library stops there and takes what came before for the whole.
+TEST(JsonFile, AZeroByteIsNotTheEnd) {
+  const std::string zero(1, '\0');
+  EXPECT_EQ(WhyRefused("{}" + zero), "my.json: not JSON: line 1, column 3");
+  EXPECT_NE(WhyRefused("{}\n" + zero + "and more"), "");
+  EXPECT_NE(WhyRefused(zero + "{}"), "");
+}
+
 TEST(JsonFile, TextThatIsNoUtf8IsWrittenAsJson) {
   const Json json = {{"name",
                       "a\xff"

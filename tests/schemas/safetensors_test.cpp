@@ -113,6 +113,7 @@ TEST(Safetensors, RefuseFilesThatDoNotFollowTheFormat) {
   ExpectRefused(std::string(8, '\xFF'), "header of");
   ExpectRefused(WithHeader("[]", ""), "begin with {");
   ExpectRefused(WithHeader("{\"x\":", ""), "not JSON");
+  ExpectRefused(WithHeader(std::string("{}\0 {", 5), ""), "zero byte");
   ExpectRefused(WithHeader(good, "abcde"), "belong to no tensor");
   ExpectRefused(WithHeader(good, "abc"), "outside the data");
   ExpectRefused(WithHeader(R"({"x":{"dtype":"BF16","shape":[2],"data_offsets":[0,4]}})", "abcd"),

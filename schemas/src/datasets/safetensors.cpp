@@ -52,8 +52,10 @@ std::uint64_t ReadLength(std::string_view bytes, const std::string& path) {
   return length;
 }
 
-// Refuses what the JSON library would let pass: a name given twice, deep nesting.
+// Refuses what the JSON library would let pass: a name given twice, deep nesting, all that follows
+// a zero byte.
 Json ParseHeader(std::string_view text, const std::string& path) {
+  if (text.find('\0') != std::string_view::npos) Refuse(path, "the header has a zero byte");
   if (text.empty() || text.front() != '{') Refuse(path, "the header does not begin with {");
   std::vector<std::set<std::string>> names;
   std::string problem;

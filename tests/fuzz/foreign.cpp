@@ -9,12 +9,12 @@
 #include "doorforge/core/error.h"
 
 #include "fuzz_target.h"
-#include "glb_file.h"
 #include "input_folder.h"
-#include "raw_mesh.h"
-#include "readers.h"
-#include "usda_text.h"
-#include "xml_text.h"
+#include "read/glb_file.h"
+#include "read/raw_mesh.h"
+#include "read/readers.h"
+#include "text/usda_text.h"
+#include "text/xml_text.h"
 
 namespace doorforge::fuzz {
 namespace {

@@ -9,10 +9,10 @@
 #include "doorforge/core/error.h"
 #include "doorforge/sensor/picture.h"
 
+#include "files/mesh_message.h"
+#include "files/mesh_readers.h"
 #include "fuzz_target.h"
 #include "input_folder.h"
-#include "mesh_message.h"
-#include "mesh_readers.h"
 
 namespace doorforge::fuzz {
 namespace {

@@ -57,7 +57,7 @@ def main() -> int:
             faults += judged(browser, (folder / "site" / page).as_uri(), f"site, {page}", ready=False)
 
         def search() -> None:
-            browser.js("$('#mkdocs_search_modal').modal('show')")
+            browser.js("$('#mkdocs_search_modal').modal('show'); 0")
             browser.wait("document.activeElement.id === 'mkdocs-search-query'")
             browser.call("Input.insertText", text="handle")
             browser.wait("document.querySelector('#mkdocs-search-results article') !== null")

@@ -19,7 +19,7 @@ Eigen::Vector3d PointIn(double half, Rng& rng) {
   return {rng.Uniform(-half, half), rng.Uniform(-half, half), rng.Uniform(-half, half)};
 }
 
-// Of all sizes, as thin as a sheet, and some beyond the bounds.
+// They have all sizes; some are as thin as a sheet, and some lie beyond the bounds.
 Eigen::AlignedBox3d RandomBox(Rng& rng) {
   const Eigen::Vector3d corner = PointIn(1.2, rng);
   const double size = std::pow(10.0, rng.Uniform(-6, 0.3));

@@ -81,7 +81,7 @@ TEST(ConvexParts, AreCutFurtherWhereTheyMeasureMore) {
   EXPECT_EQ(few.size(), coarse.size());
 }
 
-// As many parts as four levers need one by one, and no more: none may be left unused.
+// Four levers get as many parts as they need one by one, and no more: none may be left unused.
 TEST(ConvexParts, AreAllSpentWhereTheyMeasureMore) {
   const ConvexPartsConfig one{.max_concavity_m = 0.02, .max_protrusion_m = 0.003};
   const std::size_t needed = 4 * ConvexParts(Closed(Lever()), one).size();

@@ -512,7 +512,7 @@ class BusyImport : public ImportMeshTest {
     return Write("slow.obj", text);
   }
 
-  // Of the process: the one reader that it has started.
+  // The process has started one reader, which is meant here.
   static pid_t ReaderOf(pid_t parent) {
     for (int i = 0; i < 2000; ++i) {
       for (const pid_t child : Children(parent)) {

@@ -531,7 +531,7 @@ def require_space(folder: pathlib.Path, needed: int) -> None:
                           .replace("about 0 ", "about 1 "))
 
 
-def require_modules(options: Options, columns: Sequence[Column]) -> None:
+def require_modules(columns: Sequence[Column]) -> None:
     """Asks for what writing needs before anything is written."""
     wanted = ["pyarrow"] + (["av"] if any(column.dtype == "video" for column in columns) else [])
     missing = [name for name in wanted if importlib.util.find_spec(name) is None]
@@ -585,9 +585,9 @@ class Export:
         """Makes what is not there yet; False if `stopped` said so between two episodes."""
         if self._is_done():
             return True
-        require_modules(self.options, self.columns)
         there = bytes_below(self.out) if self.out.exists() else 0
         require_space(self.out, self.frames * self.frame_bytes - there)
+        require_modules(self.columns)
         self.notes.mkdir(parents=True, exist_ok=True)
         with self._only_one():
             if not (self.notes / "plan.json").exists():

@@ -26,6 +26,12 @@ file(RELATIVE_PATH DOORFORGE_DATA_FROM_PROGRAMS
      ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_DATADIR}/doorforge)
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_DATADIR})
 file(CREATE_LINK ${PROJECT_SOURCE_DIR}/data ${CMAKE_BINARY_DIR}/${DOORFORGE_DATADIR} SYMBOLIC)
+# the same for what a program runs of the Python package
+file(RELATIVE_PATH DOORFORGE_PYTHON_FROM_PROGRAMS
+     ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_PREFIX}/${DOORFORGE_PYTHONDIR})
+get_filename_component(python_parent ${CMAKE_BINARY_DIR}/${DOORFORGE_PYTHONDIR} DIRECTORY)
+file(MAKE_DIRECTORY ${python_parent})
+file(CREATE_LINK ${PROJECT_SOURCE_DIR}/python ${CMAKE_BINARY_DIR}/${DOORFORGE_PYTHONDIR} SYMBOLIC)
 
 # Man pages and completion are made of what the programs say of their own options, so nobody keeps a second list.
 # To be called when all programs are known.

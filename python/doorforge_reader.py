@@ -427,7 +427,7 @@ class Episode:
     def points(self, camera: str, decision: int) -> np.ndarray:
         """Where the pixels of a camera are in the world [m]: float32 (height, width, 3), NaN where there is no depth.
 
-        Within 2e-6 m the points that the policies' camera made its cloud of, where this is that camera and its exact
+        Bit for bit the points that the policies' camera made its cloud of, where this is that camera and its exact
         depth ("depth32") was recorded; else from whole millimetres."""
         name = "depth32_" if "depth32_" + camera in self else "depth_"
         depth = self[name + camera][decision].astype(np.float64) / (1 if name == "depth32_" else 1000)
@@ -558,7 +558,8 @@ class Dataset:
 def back_project(depth: np.ndarray, intrinsic_matrix_px: Any, world_from_camera: np.ndarray) -> np.ndarray:
     """Points in the world, float32 (height, width, 3), of depths along the optical axis [m]; NaN where it is 0.
 
-    The camera looks along z, x is right and y down; the first pixel has its centre at (0.5, 0.5)."""
+    The camera looks along z, x is right and y down; the first pixel has its centre at (0.5, 0.5). The operations, their order, and
+    that the z of a ray's direction alone is rounded are those of the clouds, so that the points are equal bit for bit."""
     height, width = depth.shape
     (fx, _, cx), (_, fy, cy) = intrinsic_matrix_px[:2]
     x = ((np.arange(width) + 0.5 - cx) / fx)[np.newaxis, :]
@@ -566,7 +567,7 @@ def back_project(depth: np.ndarray, intrinsic_matrix_px: Any, world_from_camera:
     depth = np.where(depth > 0, depth, np.nan)
     points = np.empty((height, width, 3), dtype=np.float32)
     for row, (a, b, c, origin) in enumerate(np.asarray(world_from_camera, dtype=np.float64)):
-        direction = (a * x + (b * y + c)).astype(np.float32).astype(np.float64)
+        direction = (a * x + b * y) + c if row < 2 else (a * x + (b * y + c)).astype(np.float32).astype(np.float64)
         points[..., row] = origin + depth * direction
     return points
 

@@ -3,11 +3,13 @@
 
 // The subcommands of `doorforge dataset`.
 
+#include <array>
 #include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -15,6 +17,7 @@
 
 #include "doorforge/cli/answer.h"
 #include "doorforge/cli/command_line.h"
+#include "doorforge/cli/forwarded_options.h"
 #include "doorforge/collect/episode_charts.h"
 #include "doorforge/collect/regenerate_dataset.h"
 #include "doorforge/collect/reobserve.h"
@@ -29,6 +32,7 @@
 #include "doorforge/dataset/dataset_card.h"
 #include "doorforge/dataset/describe_dataset.h"
 #include "doorforge/dataset/describe_episodes.h"
+#include "doorforge/dataset/export_lerobot.h"
 #include "doorforge/dataset/export_robomimic.h"
 #include "doorforge/dataset/merge_dataset.h"
 #include "doorforge/dataset/task_number.h"
@@ -274,11 +278,16 @@ Subcommand AddInfo(CLI::App& dataset) {
 struct DatasetExportOptions {
   RobomimicRequest request;
   std::string to;
+  std::string python = "python3";
   bool json = false;
 };
 
-int Export(DatasetExportOptions& options) {
+int Export(const CLI::App& app, DatasetExportOptions& options) {
   RobomimicRequest& request = options.request;
+  if (options.to == "lerobot")
+    return RunLerobotExport(options.python, request.folder,
+                            GivenWords(app, std::to_array<std::string_view>({"--to", "--python"})));
+  RefuseForwarded(app, LerobotOptions(), "--to lerobot");
   Progress progress("export", CountEpisodes(request.folder, request.stage));
   request.on_episode = [&] { progress.Advance(); };
   const RobomimicSummary summary = ExportRobomimic(request);
@@ -293,17 +302,21 @@ Subcommand AddExport(CLI::App& dataset) {
   const auto options = std::make_shared<DatasetExportOptions>();
   CLI::App* app = dataset.add_subcommand("export", "writes the episodes as other tools want them");
   app->add_option("folder", options->request.folder, "the dataset's folder")->required();
-  app->add_option("--to", options->to, "robomimic: one HDF5 file with data/demo_N and mask/<split>")
+  app->add_option("--to", options->to, "robomimic: one HDF5 file; lerobot: a folder of Parquet")
       ->required()
-      ->check(CLI::IsMember({"robomimic"}));
-  app->add_option("--stage", options->request.stage, "one file holds one stage")
+      ->check(CLI::IsMember({"robomimic", "lerobot"}));
+  app->add_option("--stage", options->request.stage, "an export holds one stage")
       ->check(CLI::IsMember({"open", "handle", "grasp"}))
       ->capture_default_str();
-  app->add_option("--out", options->request.out, "the file to write")->required();
-  AddOverwrite(*app, options->request.existing, "replace the file if it is there");
+  app->add_option("--out", options->request.out, "the file or folder to write")->required();
+  AddOverwrite(*app, options->request.existing, "robomimic: replace the file if it is there");
   AddJson(*app, options->json);
-  app->footer("example:\n  doorforge dataset export data --to robomimic --out data.hdf5");
-  return {app, [options] { return Export(*options); }};
+  app->add_option("--python", options->python, "lerobot: Python 3.11 or later with pyarrow");
+  AddForwarded(*app, LerobotOptions());
+  app->footer(
+      "examples:\n  doorforge dataset export data --to robomimic --out data.hdf5\n"
+      "  doorforge dataset export data --to lerobot --out data_lerobot");
+  return {app, [app, options] { return Export(*app, *options); }};
 }
 
 struct DatasetCardOptions {

@@ -23,7 +23,7 @@ from .errors import (Error, FileAccessError, FormatError, IncompleteError, Inval
                      MissingError)
 
 if TYPE_CHECKING:
-    from . import datasets, doors, evaluation, gym, latch, policies, scenes, simulation, torch_data, vector
+    from . import datasets, doors, evaluation, gym, latch, lerobot, policies, scenes, simulation, torch_data, vector
     from .doors import Door, catalogue, compose, find_doors, preview, read_door, validate
     from .evaluation import evaluate
     from .policies import load_policy
@@ -45,7 +45,8 @@ _NAMES = {
     "environments": "scenes", "Action": "scenes", "Observation": "scenes",
     "Stepper": "simulation", "simulate": "simulation", "VectorEnv": "vector",
 }
-_MODULES = ("datasets", "doors", "evaluation", "gym", "latch", "policies", "scenes", "simulation", "torch_data", "vector")
+_MODULES = ("datasets", "doors", "evaluation", "gym", "latch", "lerobot", "policies", "scenes", "simulation", "torch_data",
+            "vector")
 
 __all__ = [*_NAMES, *_MODULES, "Error", "FileAccessError", "FormatError", "IncompleteError", "InvalidArgumentError",
            "InvalidConfigError", "MissingError", "errors"]

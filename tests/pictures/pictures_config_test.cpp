@@ -117,14 +117,16 @@ TEST(PicturesConfig, RefusesACameraInsideTheLeafTheWallOrTheHand) {
 
 TEST(PicturesConfig, BytesAreThoseOfTheArrays) {
   PicturesConfig config;
-  EXPECT_EQ(PictureBytes(config, {}), 0);
+  EXPECT_EQ(PictureBytes(config, {}, 70), 0);
   config.cameras = {Named("a", CameraPlace::kWorld), Named("s", CameraPlace::kScene)};
   config.cameras[0].width = 10;
   config.cameras[0].height = 20;
   config.streams = {PictureStream::kDepth, PictureStream::kNormal};
   CameraModel scene;
   scene.width = scene.height = 100;
-  EXPECT_EQ(PictureBytes(config, scene), 5 * (200 + 10000));
+  EXPECT_EQ(PictureBytes(config, scene, 70), 5 * (200 + 10000));
+  config.cloud_rgb = true;
+  EXPECT_EQ(PictureBytes(config, scene, 70), 5 * (200 + 10000) + 3 * 70);
 }
 
 }  // namespace

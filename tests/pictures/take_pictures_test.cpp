@@ -3,13 +3,17 @@
 #include "doorforge/pictures/take_pictures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <set>
 #include <thread>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "doorforge/core/error.h"
 #include "doorforge/physics/scene_sampling.h"
 #include "doorforge/rollout/base_placement.h"
 #include "doorforge/rollout/camera_observer.h"
@@ -173,6 +177,17 @@ TEST(TakePictures, AreWhatRaysMeetThatAreCastAtEveryTriangle) {
   }
 }
 
+// What docs/images.md tells users to compute; nothing here may be reordered or left out by a
+// compiler that takes several numbers at once.
+Eigen::Vector3d BackProjected(const RigidTransform& pose, double x, double y, double depth) {
+  const Eigen::Matrix4d& m = pose.matrix();
+  const volatile float rounded = static_cast<float>(m(2, 0) * x + (m(2, 1) * y + m(2, 2)));
+  const Eigen::Vector3d direction((m(0, 0) * x + m(0, 1) * y) + m(0, 2),
+                                  (m(1, 0) * x + m(1, 1) * y) + m(1, 2),
+                                  static_cast<double>(rounded));
+  return pose.translation() + depth * direction;
+}
+
 TEST(TakePictures, OfTheScenesCameraGiveItsCloud) {
   Setting setting;
   setting.config.cameras.resize(1);
@@ -182,6 +197,7 @@ TEST(TakePictures, OfTheScenesCameraGiveItsCloud) {
   CloudConfig cloud;
   cloud.noise.sensor = DepthSensor::kStructuredLight;
   cloud.noise.extrinsic_m = 0.01;
+  cloud.noise.extrinsic_rad = 0.05;
   PictureLook look = setting.LookAt(0.2);
   CameraObserver camera(setting.scene, setting.door, setting.robot, cloud);
   const CameraFrame frame = camera.Render(look.snapshot);
@@ -196,17 +212,93 @@ TEST(TakePictures, OfTheScenesCameraGiveItsCloud) {
   for (std::size_t i = 0; i < depth.size(); ++i) {
     const auto z = static_cast<double>(depth[i]);
     if (z == 0 || z >= cloud.max_depth_m) continue;
-    const Eigen::Vector3d in_camera((static_cast<double>(i % 256) + 0.5 - 128) / focal,
-                                    (static_cast<double>(i / 256) + 0.5 - 128) / focal, 1);
-    const Eigen::Vector3d direction = (pose.linear() * in_camera).cast<float>().cast<double>();
-    const Eigen::Vector3d point = pose.translation() + z * direction;
+    const double x = (static_cast<double>(i % 256) + 0.5 - 128) / focal;
+    const double y = (static_cast<double>(i / 256) + 0.5 - 128) / focal;
+    const Eigen::Vector3d point = BackProjected(pose, x, y, z);
     if (point.z() <= cloud.min_height_m) continue;
     for (const double coordinate : point) cloud_again.push_back(static_cast<float>(coordinate));
   }
   EXPECT_GT(cloud_again.size(), 3000U);
-  ASSERT_EQ(cloud_again.size(), frame.visible.xyz.size());
-  for (std::size_t i = 0; i < cloud_again.size(); ++i)
-    ASSERT_NEAR(cloud_again[i], frame.visible.xyz[i], 1e-6F) << i;  // rounded otherwise
+  EXPECT_EQ(cloud_again, frame.visible.xyz);  // bit for bit
+}
+
+// The cloud's points are looked for in the picture of the same camera: it has their colours.
+TEST(TakePictures, PointsHaveTheColoursOfThePixelsThatTheyAreMadeOf) {
+  Setting setting;
+  setting.config.cameras.resize(1);
+  setting.config.cameras[0] = {};
+  setting.config.cameras[0].name = "own";
+  setting.config.cameras[0].at = CameraPlace::kScene;
+  setting.config.streams = {PictureStream::kRgb, PictureStream::kDepth32};
+  setting.config.cloud_rgb = true;
+  setting.scene.appearance = SceneAppearance::kFull;
+  CloudConfig cloud;
+  cloud.point_count = 500;
+  cloud.noise.sensor = DepthSensor::kStructuredLight;
+  cloud.noise.extrinsic_rad = 0.05;
+  PictureLook look = setting.LookAt(0.2);
+  CameraObserver camera(setting.scene, setting.door, setting.robot, cloud);
+  const CameraFrame frame = camera.Render(look.snapshot);
+  look.depth = frame.depth;
+  const PictureScene scene{setting.scene, setting.door, setting.robot, true,
+                           camera.as_calibrated()};
+  const LabelledCloud& points = frame.sampled.cloud;
+  const Pictures pictures =
+      TakePictures(scene, setting.config, std::span(&look, 1), {{&points}, nullptr});
+  const auto colors = ArrayOf<std::uint8_t>(pictures, "cloud_rgb.npy", {1, 500, 3});
+  const auto rgb = ArrayOf<std::uint8_t>(pictures, "rgb_own.npy", {1, 256, 256, 3});
+  const auto depth = ArrayOf<float>(pictures, "depth32_own.npy", {1, 256, 256});
+  const RigidTransform pose = PoseIn(ArrayOf<double>(pictures, "pose_own.npy", {1, 3, 4}), 0);
+  const double focal = pictures.record.at("own").at("intrinsic_matrix_px")[0][0].get<double>();
+  std::map<std::array<float, 3>, std::size_t> pixel_at;
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    const double x = (static_cast<double>(i % 256) + 0.5 - 128) / focal;
+    const double y = (static_cast<double>(i / 256) + 0.5 - 128) / focal;
+    const Eigen::Vector3f point =
+        BackProjected(pose, x, y, static_cast<double>(depth[i])).cast<float>();
+    if (depth[i] > 0) pixel_at[{point.x(), point.y(), point.z()}] = i;
+  }
+  for (std::size_t p = 0; p < 500; ++p) {
+    const auto pixel =
+        pixel_at.find({points.xyz[3 * p], points.xyz[3 * p + 1], points.xyz[3 * p + 2]});
+    ASSERT_NE(pixel, pixel_at.end()) << p;
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(colors[3 * p + c], rgb[3 * pixel->second + c]);
+  }
+
+  // without a camera of their own they are the same, and a point of no picture has none
+  setting.config.cameras.clear();
+  const Pictures alone =
+      TakePictures(scene, setting.config, std::span(&look, 1), {{&points}, nullptr});
+  EXPECT_EQ(BytesOf(alone, "cloud_rgb.npy"), BytesOf(pictures, "cloud_rgb.npy"));
+  LabelledCloud moved = points;
+  moved.xyz[40] += 0.001F;
+  EXPECT_THROW(TakePictures(scene, setting.config, std::span(&look, 1), {{&moved}, nullptr}),
+               Error);
+}
+
+// What the robot hides is seen in the picture from before it came, which is finer.
+TEST(TakePictures, RememberedPointsHaveTheColoursThatTheyHadBefore) {
+  Setting setting;
+  setting.config.cameras.clear();
+  setting.config.cloud_rgb = true;
+  CloudConfig cloud;
+  cloud.point_count = 600;
+  const RememberedViewConfig remembered{.resolution_scale = 2, .crop_radius_m = 0};
+  PictureLook look = setting.LookAt(0);
+  CameraObserver camera(setting.scene, setting.door, setting.robot, cloud);
+  const CameraFrame frame = camera.Render(look.snapshot);
+  look.depth = frame.depth;
+  const RememberedLook before =
+      LookBefore(setting.scene, setting.door, setting.robot, cloud, remembered);
+  const LabelledCloud points = JoinedCloud(frame.visible, before.visible, {0, 0, 1}, {600});
+  const PictureScene scene{setting.scene, setting.door, setting.robot, true,
+                           camera.as_calibrated()};
+  const Pictures pictures =
+      TakePictures(scene, setting.config, std::span(&look, 1), {{&points}, &before});
+  const auto colors = ArrayOf<std::uint8_t>(pictures, "cloud_rgb.npy", {1, 600, 3});
+  EXPECT_GT(std::set<std::uint8_t>(colors.begin(), colors.end()).size(), 10U);
+  EXPECT_THROW(TakePictures(scene, setting.config, std::span(&look, 1), {{&points}, nullptr}),
+               Error);
 }
 
 TEST(TakePictures, TheHandsCameraGoesWithTheHandAndTheOtherStays) {

@@ -36,6 +36,8 @@ class FullDisk(ProgramTest):
             ["datagen", "open", "--doors", door, "--episodes", 200, "--out", small / "data"],
             ["dataset", "re-observe", data, "--doors", door, "--out", small / "again"],
             ["dataset", "export", data, "--to", "robomimic", "--out", small / "data.hdf5"],
+            ["dataset", "export", data, "--to", "lerobot", "--points", 4096, "--python", "/usr/bin/python3",
+             "--out", small / "lerobot"],
             ["dataset", "merge", small / "merged", data],
         ):
             result = self.on_small_disk(*arguments)

@@ -33,6 +33,10 @@ TEST(PictureStreams, NamesTypesAndShapesBelongTogether) {
   EXPECT_EQ(type("label", {40}), "none");
   EXPECT_EQ(type("depth_", {4, 6}), "none");
   EXPECT_EQ(type("action", {9}), "none");
+  EXPECT_EQ(type("cloud_rgb", {40, 3}), "|u1");
+  EXPECT_EQ(type("cloud_rgb", {40, 4}), "none");
+  EXPECT_EQ(type("cloud_rgb", {0, 3}), "none");
+  EXPECT_EQ(PictureFeature("cloud_rgb", {40, 3})->shape, (std::vector<std::size_t>{0, 3}));
 }
 
 // A data set of one shard of one episode of three decisions with one more array.
@@ -54,6 +58,16 @@ TEST_F(PictureStreamsTest, ADataSetsRecordDescribesThemAndReadsBack) {
   EXPECT_EQ(json.at("features").back().at("dtype"), "<u2");
   EXPECT_EQ(json.at("features").back().at("shape"), nlohmann::ordered_json({"decisions", 2, 5}));
   EXPECT_EQ(DatasetToJson(DatasetFromJson(json, "record")), json);
+}
+
+// The fixture's clouds have 40 points.
+TEST_F(PictureStreamsTest, ThereAreAsManyColoursAsPoints) {
+  const std::vector<std::uint8_t> colors(3 * 41 * 3, 7);
+  const std::span<const std::uint8_t> fitting(colors.data(), 3 * 40 * 3);
+  WriteWith(folder_ / "a", {"cloud_rgb.npy", MakeNpy<std::uint8_t>(fitting, {3, 40, 3})});
+  EXPECT_EQ(SummarizeShards(folder_ / "a").pictures.at(0).name, "cloud_rgb");
+  WriteWith(folder_ / "b", {"cloud_rgb.npy", MakeNpy<std::uint8_t>(colors, {3, 41, 3})});
+  EXPECT_THROW(SummarizeShards(folder_ / "b"), Error);
 }
 
 TEST_F(PictureStreamsTest, AnArrayThatIsOnlyCalledSoIsRefused) {

@@ -53,6 +53,33 @@ TEST(CropCloud, PutsPointsBackOntoTheSurfaceTheyCameFrom) {
   EXPECT_NEAR(lowest_z, 1.1, 0.02);
 }
 
+TEST(PixelOfPoint, IsThePixelThatThePointWasMadeOf) {
+  DepthCamera camera({{shapes::Wall(0.0, 0.4), 0, PointLabel::kBody}});
+  CameraModel model;
+  model.position_m = {1.7, 0.4, 1.6};
+  const DepthImage image = camera.Render(model, kStillScene);
+  const PinholeView view = ViewOf(model);
+  const LabelledCloud cloud = CropCloud(image, view);
+  ASSERT_GT(cloud.label.size(), 2000U);
+  std::size_t last = 0;
+  for (std::size_t i = 0; i < cloud.label.size(); ++i) {
+    const Eigen::Vector3f point(cloud.xyz[3 * i], cloud.xyz[3 * i + 1], cloud.xyz[3 * i + 2]);
+    const auto pixel = PixelOfPoint(image, view, point);
+    ASSERT_TRUE(pixel.has_value()) << i;
+    if (i > 0) {
+      EXPECT_GT(*pixel, last);  // clouds are in the order of pixels
+    }
+    last = *pixel;
+    EXPECT_LT(image.depth_m[*pixel], 2.5F);
+    Eigen::Vector3f beside = point;
+    beside.y() = std::nextafter(beside.y(), 9.0F);
+    EXPECT_FALSE(PixelOfPoint(image, view, beside).has_value());
+  }
+  EXPECT_FALSE(PixelOfPoint(image, view, {5, 0, 1}).has_value());        // behind the camera
+  EXPECT_FALSE(PixelOfPoint(image, view, {0, 50, 1}).has_value());       // beside the image
+  EXPECT_FALSE(PixelOfPoint(image, view, {1, 0.2F, 1.4F}).has_value());  // before the wall
+}
+
 TEST(CropCloud, DropsWhatIsFarOrLow) {
   DepthCamera camera({{shapes::Wall(0, 3), 0, PointLabel::kBody}});
   const CameraModel model;

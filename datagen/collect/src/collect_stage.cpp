@@ -18,8 +18,9 @@ void RequireSpaceForShards(const CollectStageRequest& request) {
   constexpr double kBytesAPoint = 13;
   const StageConfig& config = request.stage.config;
   const double decisions = config.stage == Stage::kGrasp ? 1 : 16;
-  const double a_decision = kBytesAPoint * config.cloud.point_count +
-                            PictureBytes(config.pictures, CameraOf(config.scene.camera));
+  const double a_decision =
+      kBytesAPoint * config.cloud.point_count +
+      PictureBytes(config.pictures, CameraOf(config.scene.camera), config.cloud.point_count);
   const double whole =
       static_cast<double>(config.episodes) * decisions * a_decision / request.task.count;
   const double needed = whole - BytesBelow(request.out);

@@ -73,11 +73,21 @@ std::string RecordingCamera::PreviewPng(std::size_t looks) const {
 }
 
 void AddPictures(const PictureScene& scene, const PicturesConfig& config,
-                 const RecordingCamera& camera, CollectedEpisode& collected) {
+                 const RecordingCamera& camera, const Remembering& remembering,
+                 CollectedEpisode& collected) {
   if (!config.IsOn() || !IsData(collected)) return;
-  Pictures pictures = TakePictures(scene, config, camera.Looks(collected.episode.decisions.size()));
+  const std::vector<Decision>& decisions = collected.episode.decisions;
+  PicturedClouds clouds;
+  std::optional<RememberedLook> before;
+  if (config.cloud_rgb) {
+    for (const Decision& decision : decisions) clouds.clouds.push_back(&decision.cloud);
+    if (remembering.view)
+      clouds.before = &before.emplace(
+          LookBefore(scene.scene, scene.door, scene.robot, remembering.cloud, *remembering.view));
+  }
+  Pictures pictures = TakePictures(scene, config, camera.Looks(decisions.size()), clouds);
   collected.pictures = std::move(pictures.members);
-  collected.meta["pictures"] = std::move(pictures.record);
+  if (!pictures.record.empty()) collected.meta["pictures"] = std::move(pictures.record);
 }
 
 }  // namespace doorforge

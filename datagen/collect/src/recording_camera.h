@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "doorforge/pictures/take_pictures.h"
 #include "doorforge/rollout/camera_observer.h"
 #include "doorforge/rollout/occlusion.h"
+#include "doorforge/rollout/remembered_view.h"
 
 namespace doorforge {
 
@@ -55,9 +57,16 @@ class RecordingCamera : public Observer {
   std::vector<Occlusion> hidden_;
 };
 
+/// Where the clouds of an episode are joined with what was seen before the robot came.
+struct Remembering {
+  const CloudConfig& cloud;
+  std::optional<RememberedViewConfig> view;  ///< Nothing: they are not.
+};
+
 /// Adds the pictures of all decisions, as seen with the looks of this camera, unless the episode is
 /// not written.
 void AddPictures(const PictureScene& scene, const PicturesConfig& config,
-                 const RecordingCamera& camera, CollectedEpisode& collected);
+                 const RecordingCamera& camera, const Remembering& remembering,
+                 CollectedEpisode& collected);
 
 }  // namespace doorforge

@@ -266,8 +266,10 @@ class Reobservation {
     }
     Describe(camera, seen, collected);
     collected.meta.erase("pictures");
+    Remembering remembering{config_.cloud, {}};
+    if (before) remembering.view = config_.remembered;
     AddPictures({seen, door, robot, sees_robot && config_.cloud.robot, camera.as_calibrated()},
-                config_.pictures, camera, collected);
+                config_.pictures, camera, remembering, collected);
   }
 
   void Describe(const RecordingCamera& camera, const Scene& seen,
@@ -333,6 +335,7 @@ ReobserveConfig ConfigOf(const ReobserveRequest& request, const ReobserveConfig&
   CheckGraspCamera(config.grasp_camera);
   CheckRememberedView(config.remembered);
   CheckPictures(config.pictures);
+  CheckPictures(config.pictures, config.cloud);
   if (config.own_camera) CameraOf(config.camera);
   return config;
 }
@@ -342,8 +345,9 @@ void RequireSpaceForClouds(const SourceDataset& source, const ReobserveConfig& c
                            const fs::path& out) {
   constexpr double kBytesAPoint = 13;
   // the episodes' own cameras may be larger than this one, and are not read for it
-  const double a_decision = config.cloud.point_count * kBytesAPoint +
-                            PictureBytes(config.pictures, CameraOf(config.camera));
+  const double a_decision =
+      config.cloud.point_count * kBytesAPoint +
+      PictureBytes(config.pictures, CameraOf(config.camera), config.cloud.point_count);
   const double needed = static_cast<double>(source.decisions()) * a_decision;
   RequireSpace(out, needed - BytesBelow(out), "make room, or choose another --out");
 }

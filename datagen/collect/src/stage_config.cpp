@@ -50,6 +50,7 @@ void CheckStageConfig(const StageConfig& config) {
   CheckGraspCamera(config.grasp_camera);
   CheckRememberedView(config.remembered);
   CheckPictures(config.pictures);
+  CheckPictures(config.pictures, config.cloud);
   Require(config.sampled_grasps >= 0 && config.sampled_grasps <= 1, ErrorCode::kInvalidConfig,
           "config.sampled_grasps: out of 0..1");
   Require(config.learner_decisions >= 1 && config.learner_decisions <= 1000,

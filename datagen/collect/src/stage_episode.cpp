@@ -115,9 +115,11 @@ CollectedEpisode RunRecorded(const EpisodeToRun& run, StagePolicies& policies, F
   collected.keep_failed = at_grasp;
   const bool is_kept = episode.outcome == EpisodeOutcome::kOpened || collected.keep_failed;
   if (config.preview && is_kept) collected.preview_png = camera.PreviewPng(decisions);
+  Remembering remembering{config.cloud, {}};
+  if (remembers) remembering.view = config.remembered;
   AddPictures(
       {recorded_scene, door, robot, !at_grasp && config.cloud.robot, camera.as_calibrated()},
-      config.pictures, camera, collected);
+      config.pictures, camera, remembering, collected);
   return collected;
 }
 

@@ -54,10 +54,19 @@ EpisodeFeature PoseFeature(const std::string& name) {
           "1, m", "world", "world_from_camera; camera x right, y down, z forward"};
 }
 
+EpisodeFeature ColorFeature() {
+  return {std::string(kCloudColors), "|u1", {0, 3}, "", "", "sRGB of the points of cloud"};
+}
+
 bool IsPictureName(std::string_view name) {
-  return IsNameOf(name, kPose) ||
+  return name == kCloudColors || IsNameOf(name, kPose) ||
          std::any_of(kForms.begin(), kForms.end(),
                      [&](const StreamForm& form) { return IsNameOf(name, NameOf(form.stream)); });
+}
+
+std::vector<std::size_t> ShapeOf(const ShardReader& reader, std::size_t episode,
+                                 const std::string& member) {
+  return ParseNpyHeader(reader.Read(episode, member), reader.Describe(episode, member)).shape;
 }
 
 EpisodeFeature FeatureIn(const ShardReader& reader, std::size_t episode,
@@ -68,7 +77,9 @@ EpisodeFeature FeatureIn(const ShardReader& reader, std::size_t episode,
   if (!header.shape.empty() && header.shape[0] == reader.index().episodes[episode].decisions)
     feature = PictureFeature(member.substr(0, member.size() - kArraySuffix.size()),
                              {header.shape.begin() + 1, header.shape.end()});
-  if (!feature || feature->type != header.type)
+  const bool one_a_point = member != std::string(kCloudColors) + ".npy" ||
+                           header.shape == ShapeOf(reader, episode, "cloud.npy");
+  if (!feature || feature->type != header.type || !one_a_point)
     throw Error(ErrorCode::kFormat, where +
                                         ": is called as a picture, and its type and shape are "
                                         "none of a picture of this episode");
@@ -92,6 +103,8 @@ std::string PicturePoseName(std::string_view camera) {
 std::optional<EpisodeFeature> PictureFeature(const std::string& name,
                                              const std::vector<std::size_t>& shape) {
   if (IsNameOf(name, kPose) && shape == std::vector<std::size_t>{3, 4}) return PoseFeature(name);
+  if (name == kCloudColors && shape.size() == 2 && shape[0] > 0 && shape[1] == 3)
+    return ColorFeature();
   for (const StreamForm& form : kForms) {
     if (!IsNameOf(name, NameOf(form.stream))) continue;
     const bool fits =

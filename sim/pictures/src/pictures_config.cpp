@@ -119,7 +119,7 @@ void CheckPictures(const PicturesConfig& config) {
   const std::set<PictureStream> streams(config.streams.begin(), config.streams.end());
   if (streams.size() != config.streams.size())
     Refuse("config.pictures.streams", "one is there twice");
-  if (config.IsOn() && streams.empty())
+  if (!config.cameras.empty() && streams.empty())
     Refuse("config.pictures.streams",
            "none, so that the cameras would record nothing; name some, or no cameras");
   RequireRange("config.pictures", "samples", config.samples, 1, 256);
@@ -152,6 +152,13 @@ void CheckPictures(const PicturesConfig& config, const Scene& scene, const DoorA
   }
 }
 
+void CheckPictures(const PicturesConfig& config, const CloudConfig& cloud) {
+  if (config.cloud_rgb && cloud.whole)
+    Refuse("config.pictures.cloud_rgb",
+           "points of whole surfaces (config.cloud.whole) lie where no camera looks and have no "
+           "colours; leave one of the two out");
+}
+
 CameraModel CameraOf(const PictureCamera& camera, const Scene& scene) {
   if (camera.at == CameraPlace::kScene) return scene.camera;
   const DefaultView view = DefaultViewAt(camera.at);
@@ -173,7 +180,8 @@ CameraModel InWorld(CameraPlace at, CameraModel camera, const RigidTransform& wo
   return camera;
 }
 
-double PictureBytes(const PicturesConfig& config, const CameraModel& scene_camera) {
+double PictureBytes(const PicturesConfig& config, const CameraModel& scene_camera,
+                    int point_count) {
   double a_pixel = 0;
   for (const PictureStream stream : config.streams)
     a_pixel += static_cast<double>(BytesAPixel(stream));
@@ -183,7 +191,8 @@ double PictureBytes(const PicturesConfig& config, const CameraModel& scene_camer
     pixels += static_cast<double>(own ? scene_camera.width : camera.width) *
               (own ? scene_camera.height : camera.height);
   }
-  return a_pixel * pixels;
+  constexpr double kColorBytes = 3;
+  return a_pixel * pixels + (config.cloud_rgb ? kColorBytes * point_count : 0);
 }
 
 }  // namespace doorforge

@@ -3,17 +3,22 @@
 #include "doorforge/pictures/take_pictures.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <string>
 
+#include "doorforge/core/error.h"
 #include "doorforge/core/rng.h"
 #include "doorforge/rollout/camera_observer.h"
 
+#include "cloud_colors.h"
 #include "picture_arrays.h"
 #include "rgb_renderer.h"
 
 namespace doorforge {
 namespace {
+
+constexpr std::size_t kLookBefore = 1000000;  // its noise is none of an episode's looks
 
 std::vector<VisibleMesh> MeshesOf(const PictureScene& scene) {
   std::vector<VisibleMesh> meshes = VisibleMeshesOf(scene.door, scene.robot);
@@ -27,8 +32,8 @@ class Photographer {
   Photographer(const PictureScene& scene, const PicturesConfig& config)
       : scene_(scene), config_(config), depth_(MeshesOf(scene)) {
     const auto& streams = config.streams;
-    if (std::ranges::find(streams, PictureStream::kRgb) != streams.end())
-      rgb_.emplace(scene, config, depth_.scene());
+    shows_rgb_ = std::ranges::find(streams, PictureStream::kRgb) != streams.end();
+    if (shows_rgb_ || config.cloud_rgb) rgb_.emplace(scene, config, depth_.scene());
   }
 
   void Take(const PictureCamera& camera, std::span<const PictureLook> looks, Pictures& pictures) {
@@ -38,7 +43,41 @@ class Photographer {
     pictures.record[camera.name] = RecordOf(camera);
   }
 
+  void ColorClouds(std::span<const PictureLook> looks, const PicturedClouds& clouds,
+                   Pictures& pictures) {
+    Require(clouds.clouds.size() == looks.size(), ErrorCode::kInvalidArgument,
+            "pictures: not every look has a cloud, so their points cannot have colours");
+    std::vector<ColoredLook> seen(1);
+    if (clouds.before != nullptr) seen.push_back(LookOfBefore(*clouds.before));
+    CloudColors colors;
+    for (std::size_t i = 0; i < looks.size(); ++i) {
+      seen[0] = {&looks[i].depth, ViewOf(scene_.as_calibrated), SceneRgb(looks[i], i)};
+      colors.Add(*clouds.clouds[i], seen);
+    }
+    pictures.members.push_back(colors.Member());
+  }
+
  private:
+  // The colours of the policies' camera, which clouds and its own pictures share.
+  const std::vector<std::uint8_t>& SceneRgb(const PictureLook& look, std::size_t number) {
+    std::vector<std::uint8_t>& rgb = scene_rgb_[number];
+    if (rgb.empty()) {
+      const CameraModel& camera = scene_.scene.camera;
+      rgb = rgb_->Render(camera, depth_.RenderSurfaces(camera, LinkPosesOf(look.snapshot)), number);
+    }
+    return rgb;
+  }
+
+  ColoredLook LookOfBefore(const RememberedLook& before) const {
+    const PictureScene empty{before.scene, scene_.door, scene_.robot, false, before.as_calibrated};
+    DepthCamera depth(MeshesOf(empty));
+    const SurfaceImage surfaces =
+        depth.RenderSurfaces(before.scene.camera, LinkPosesOf(before.snapshot));
+    return {&before.depth, ViewOf(before.as_calibrated),
+            RgbRenderer(empty, config_, depth.scene())
+                .Render(before.scene.camera, surfaces, kLookBefore)};
+  }
+
   void TakeOne(const PictureCamera& camera, const PictureLook& look, std::size_t number,
                PictureArrays& arrays) {
     const RigidTransform& hand = look.snapshot.robot.world_from_hand;
@@ -46,8 +85,9 @@ class Photographer {
     const CameraModel model = InWorld(camera.at, carried, hand);
     const SurfaceImage surfaces = depth_.RenderSurfaces(model, LinkPosesOf(look.snapshot));
     std::vector<std::uint8_t> rgb;
-    if (rgb_) rgb = rgb_->Render(model, surfaces, number);
+    if (shows_rgb_) rgb = rgb_->Render(model, surfaces, number);
     if (camera.at == CameraPlace::kScene) {
+      if (config_.cloud_rgb && shows_rgb_) scene_rgb_[number] = rgb;
       arrays.Add({look.depth, surfaces, WorldFromCamera(scene_.as_calibrated), rgb});
       return;
     }
@@ -76,18 +116,21 @@ class Photographer {
   const PictureScene& scene_;
   const PicturesConfig& config_;
   DepthCamera depth_;
+  bool shows_rgb_ = false;
   std::optional<RgbRenderer> rgb_;
+  std::map<std::size_t, std::vector<std::uint8_t>> scene_rgb_;  // by number of the look
 };
 
 }  // namespace
 
 Pictures TakePictures(const PictureScene& scene, const PicturesConfig& config,
-                      std::span<const PictureLook> looks) {
+                      std::span<const PictureLook> looks, const PicturedClouds& clouds) {
   CheckPictures(config);
   CheckPictures(config, scene.scene, scene.door);
   Photographer photographer(scene, config);
   Pictures pictures;
   for (const PictureCamera& camera : config.cameras) photographer.Take(camera, looks, pictures);
+  if (config.cloud_rgb) photographer.ColorClouds(looks, clouds, pictures);
   std::ranges::sort(pictures.members, {}, &MemberBytes::name);
   return pictures;
 }

@@ -44,6 +44,11 @@ LabelledCloud PointsWithin(const LabelledCloud& cloud, std::size_t centre, doubl
   return near;
 }
 
+void RequireSameSize(const DepthImage& image, const PinholeView& view) {
+  Require(image.width == view.width && image.height == view.height, ErrorCode::kInvalidArgument,
+          "point cloud: image and camera differ in size");
+}
+
 }  // namespace
 
 PinholeView ViewOf(const CameraModel& camera) {
@@ -59,8 +64,7 @@ LabelledCloud CropCloud(const DepthImage& image, const CameraModel& camera,
 
 LabelledCloud CropCloud(const DepthImage& image, const PinholeView& view,
                         const CloudConfig& config) {
-  Require(image.width == view.width && image.height == view.height, ErrorCode::kInvalidArgument,
-          "point cloud: image and camera differ in size");
+  RequireSameSize(image, view);
   const PixelRays rays(view);
   LabelledCloud cloud;
   for (int row = 0; row < image.height; ++row) {
@@ -70,14 +74,29 @@ LabelledCloud CropCloud(const DepthImage& image, const PinholeView& view,
           static_cast<std::size_t>(column);
       const double depth = image.depth_m[pixel];
       if (depth >= config.max_depth_m) continue;
-      const Eigen::Vector3d direction = rays.Direction(column + 0.5, row + 0.5).cast<double>();
-      const Eigen::Vector3d point = rays.origin() + depth * direction;
+      const Eigen::Vector3d point = rays.PointAt(column + 0.5, row + 0.5, depth);
       if (point.z() <= config.min_height_m) continue;
       for (const double coordinate : point) cloud.xyz.push_back(static_cast<float>(coordinate));
       cloud.label.push_back(image.label[pixel]);
     }
   }
   return cloud;
+}
+
+std::optional<std::size_t> PixelOfPoint(const DepthImage& image, const PinholeView& view,
+                                        const Eigen::Vector3f& point) {
+  RequireSameSize(image, view);
+  const Eigen::Vector3d in_camera = view.world_from_camera.inverse() * point.cast<double>();
+  if (!(in_camera.z() > 0)) return {};
+  const double column = std::floor(view.fx * in_camera.x() / in_camera.z() + view.cx);
+  const double row = std::floor(view.fy * in_camera.y() / in_camera.z() + view.cy);
+  if (!(column >= 0 && row >= 0 && column < image.width && row < image.height)) return {};
+  const std::size_t pixel = static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
+                            static_cast<std::size_t>(column);
+  const Eigen::Vector3d there =
+      PixelRays(view).PointAt(column + 0.5, row + 0.5, image.depth_m[pixel]);
+  if (there.cast<float>() != point) return {};
+  return pixel;
 }
 
 SampledCloud SampleCloud(const LabelledCloud& visible, const Eigen::Vector3d& start_m,

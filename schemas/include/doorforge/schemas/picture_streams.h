@@ -43,18 +43,22 @@ std::string PictureName(PictureStream stream, std::string_view camera);
 /// "pose_front", the array world_from_camera of each decision, 3 x 4 float64.
 std::string PicturePoseName(std::string_view camera);
 
-/// The feature that the array of a picture or of its camera's poses is.
+/// The array of the colours of clouds' points, sRGB, points x 3 a decision.
+inline constexpr std::string_view kCloudColors = "cloud_rgb";
+
+/// The feature that the array of a picture, of its camera's poses or of clouds' colours is.
 ///
-/// @param name Such as "depth_front".
+/// @param name Such as "depth_front", or kCloudColors.
 /// @param shape One decision has it.
 /// @return Nothing if no picture is called so or has such a shape.
 std::optional<EpisodeFeature> PictureFeature(const std::string& name,
                                              const std::vector<std::size_t>& shape);
 
-/// The arrays of pictures that an episode has, sorted by name.
+/// The arrays of pictures and clouds' colours that an episode has, sorted by name.
 ///
 /// @throws Error(kFormat), naming tar and member, if an array that is called as a picture's is
-///     damaged, or has another type, shape or number of decisions than one.
+///     damaged, or has another type, shape or number of decisions than one, or if there are not as
+///     many colours as points.
 std::vector<EpisodeFeature> PictureFeaturesOf(const ShardReader& reader, std::size_t episode);
 
 }  // namespace doorforge

@@ -25,6 +25,12 @@ SceneSnapshot ClosedDoor(const Scene& scene, const DoorAsset& door, const RobotM
   return closed;
 }
 
+void RequireRemembered(const RememberedViewConfig& config) {
+  CheckRememberedView(config);
+  Require(config.IsOn(), ErrorCode::kInvalidConfig,
+          "config.remembered.finer: 0, so nothing is remembered");
+}
+
 }  // namespace
 
 void CheckRememberedView(const RememberedViewConfig& config) {
@@ -50,21 +56,30 @@ LabelledCloud ClosedDoorCloud(const Scene& scene, const DoorAsset& door, const R
       .cloud;
 }
 
+RememberedLook LookBefore(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
+                          const CloudConfig& cloud, const RememberedViewConfig& config) {
+  RequireRemembered(config);
+  RememberedLook look;
+  look.scene = scene;
+  look.scene.camera.width *= config.resolution_scale;
+  look.scene.camera.height *= config.resolution_scale;
+  look.snapshot = ClosedDoor(scene, door, robot);
+  CameraObserver camera(look.scene, door, robot, cloud, /*sees_robot=*/false);
+  CameraFrame frame = camera.Render(look.snapshot);
+  look.as_calibrated = camera.as_calibrated();
+  look.depth = std::move(frame.depth);
+  look.visible = std::move(frame.visible);
+  return look;
+}
+
 RememberedView::RememberedView(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
                                const CloudConfig& cloud, const RememberedViewConfig& config)
     : scene_(scene), door_(&door), robot_(&robot), cloud_(cloud), config_(config) {
-  CheckRememberedView(config);
-  Require(config.IsOn(), ErrorCode::kInvalidConfig,
-          "config.remembered.finer: 0, so nothing is remembered");
-  scene_.camera.width *= config.resolution_scale;
-  scene_.camera.height *= config.resolution_scale;
+  RequireRemembered(config);
 }
 
 LabelledCloud RememberedView::With(LabelledCloud visible, const Eigen::Vector3d& start_m) {
-  if (!before_) {
-    CameraObserver camera(scene_, *door_, *robot_, cloud_, /*sees_robot=*/false);
-    before_ = camera.Render(ClosedDoor(scene_, *door_, *robot_)).visible;
-  }
+  if (!before_) before_ = LookBefore(scene_, *door_, *robot_, cloud_, config_).visible;
   return JoinedCloud(std::move(visible), *before_, start_m,
                      {cloud_.point_count, config_.crop_radius_m});
 }

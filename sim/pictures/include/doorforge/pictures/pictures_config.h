@@ -4,6 +4,7 @@
 
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "doorforge/core/named_enum.h"
@@ -12,6 +13,7 @@
 #include "doorforge/schemas/picture_streams.h"
 #include "doorforge/schemas/scene.h"
 #include "doorforge/sensor/depth_noise.h"
+#include "doorforge/sensor/point_cloud.h"
 
 namespace doorforge {
 
@@ -53,7 +55,7 @@ struct PictureCamera {
 inline constexpr int kMostPicturePixels = 4096;  ///< A side.
 inline constexpr int kMostPictureCameras = 16;
 
-/// Pictures at every decision. Without cameras there are none, which is the default.
+/// Pictures at every decision. Without cameras and cloud_rgb there are none, which is the default.
 struct PicturesConfig {
   std::vector<PictureCamera> cameras;
   std::vector<PictureStream> streams = {PictureStream::kRgb, PictureStream::kDepth,
@@ -61,8 +63,10 @@ struct PicturesConfig {
   int samples = 16;  ///< Rays of a pixel that colours are made of, 1 to 256.
   /// What is wrong with the depth of all cameras but the scene's, which has the cloud's noise.
   DepthNoiseConfig noise;
+  /// The points of clouds have the colours that the policies' camera sees there.
+  bool cloud_rgb = false;
 
-  bool IsOn() const { return !cameras.empty(); }
+  bool IsOn() const { return !cameras.empty() || cloud_rgb; }
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -70,6 +74,8 @@ struct PicturesConfig {
     visit("streams", self.streams);
     visit("samples", self.samples);
     visit("noise", self.noise);
+    // configurations from before there was a choice stay as they are, byte by byte
+    if (!std::is_const_v<Self> || self.cloud_rgb) visit("cloud_rgb", self.cloud_rgb);
   }
 };
 
@@ -83,12 +89,15 @@ void CheckPictures(const PicturesConfig& config, const RobotModel& robot);
 /// Throws Error(kInvalidConfig) if a camera in the world is inside the closed door of this scene.
 void CheckPictures(const PicturesConfig& config, const Scene& scene, const DoorAsset& door);
 
+/// Throws Error(kInvalidConfig) if colours are asked for of clouds that no picture shows.
+void CheckPictures(const PicturesConfig& config, const CloudConfig& cloud);
+
 /// The camera in the frame of what carries it: in the world, in the hand's frame, or the scene's.
 CameraModel CameraOf(const PictureCamera& camera, const Scene& scene);
 /// CameraOf() in the world, while the hand is there.
 CameraModel InWorld(CameraPlace at, CameraModel camera, const RigidTransform& world_from_hand);
 
-/// Bytes that the pictures of one decision take.
-double PictureBytes(const PicturesConfig& config, const CameraModel& scene_camera);
+/// Bytes that the pictures of one decision take, and the colours of its cloud.
+double PictureBytes(const PicturesConfig& config, const CameraModel& scene_camera, int point_count);
 
 }  // namespace doorforge

@@ -7,9 +7,12 @@
 #include <Eigen/Core>
 
 #include "doorforge/physics/robot_model.h"
+#include "doorforge/rollout/observer.h"
+#include "doorforge/schemas/camera_model.h"
 #include "doorforge/schemas/cloud.h"
 #include "doorforge/schemas/door_asset.h"
 #include "doorforge/schemas/scene.h"
+#include "doorforge/sensor/depth_camera.h"
 #include "doorforge/sensor/point_cloud.h"
 
 namespace doorforge {
@@ -52,6 +55,20 @@ LabelledCloud JoinedCloud(LabelledCloud visible, const LabelledCloud& before,
 /// @throws as CameraObserver.
 LabelledCloud ClosedDoorCloud(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
                               const CloudConfig& cloud);
+
+/// What the scene's camera saw of the closed door before the robot came.
+struct RememberedLook {
+  Scene scene;  ///< Its camera is the finer one that the look was taken with.
+  SceneSnapshot snapshot;
+  CameraModel as_calibrated;  ///< The points were made with it.
+  DepthImage depth;
+  LabelledCloud visible;  ///< Every point inside the crop.
+};
+
+/// Throws Error(kInvalidConfig) as CheckRememberedView(), also where nothing is remembered; as
+/// CameraObserver.
+RememberedLook LookBefore(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
+                          const CloudConfig& cloud, const RememberedViewConfig& config);
 
 /// The scene's camera on the closed door alone, rendered when it is first asked for. `door` and
 /// `robot` must outlive it. Serves one thread at a time.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <type_traits>
 
 #include <Eigen/Core>
@@ -48,6 +50,13 @@ LabelledCloud CropCloud(const DepthImage& image, const CameraModel& camera,
                         const CloudConfig& config = {});
 LabelledCloud CropCloud(const DepthImage& image, const PinholeView& view,
                         const CloudConfig& config = {});
+
+/// The pixel that a point of a cloud was made of, as an index into `image`: the one whose point in
+/// CropCloud(image, view) is the same, bit for bit. Nothing if no pixel's is.
+///
+/// @throws Error(kInvalidArgument) if the sizes of image and view differ.
+std::optional<std::size_t> PixelOfPoint(const DepthImage& image, const PinholeView& view,
+                                        const Eigen::Vector3f& point);
 
 /// How many points a cloud has, and from how far around its first.
 struct CloudExtent {

@@ -12,6 +12,10 @@
 #include "doorforge/cli/command_line.h"
 #include "doorforge/schemas/find_doors.h"
 
+#ifdef DOORFORGE_WITH_PREVIEW
+#include "doorforge/preview/draw_records.h"
+#endif
+
 #include "verbs.h"
 
 namespace doorforge {
@@ -19,7 +23,6 @@ namespace {
 
 struct ExportOptions {
   std::vector<std::filesystem::path> paths;
-  std::vector<std::string> formats;
   ExportRun run;
   bool json = false;
 };
@@ -28,11 +31,14 @@ ExportOptions ParseExport(int argc, char** argv) {
   ExportOptions options;
   CLI::App app("Writes doors for other simulators and viewers.", "doorforge export");
   app.add_option("DOOR", options.paths, "folders of doors, or folders that hold some")->required();
-  app.add_option("--format,--to", options.formats, "several with commas")
+  app.add_option("--format,--to", options.run.formats, "several with commas")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->required()
       ->check(CLI::IsMember(DoorFormatNames()));
+  app.add_option("--profile", options.run.profiles, "mujoco, isaac, gazebo, sapien: what it wants")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  app.add_flag("--thumbnails", options.run.thumbnails, "a picture beside the files of each door");
   app.add_option("--out", options.run.out, "each door goes to OUT/<id>")->required();
   AddChoice(app, "--latch", options.run.settings.latch,
             "bolt: bodies that hold; data: the law's numbers alone");
@@ -50,8 +56,9 @@ ExportOptions ParseExport(int argc, char** argv) {
 
 int RunExportVerb(int argc, char** argv) {
   ExportOptions options = ParseExport(argc, argv);
-  for (const std::string& name : options.formats)
-    options.run.formats.push_back(*DoorFormatNamed(name));
+#ifdef DOORFORGE_WITH_PREVIEW
+  options.run.draw = DrawnThumbnail;
+#endif
   const auto found = FindDoors(options.paths);
   const std::vector<std::filesystem::path> folders(found.begin(), found.end());
   const std::vector<ExportedDoor> doors = ExportDoors(folders, options.run);

@@ -19,6 +19,9 @@
 #ifdef DOORFORGE_WITH_OPENABLE
 #include "doorforge/openable/openable_check.h"
 #endif
+#ifdef DOORFORGE_WITH_VIEW
+#include "doorforge/view/findings_page.h"
+#endif
 
 #include "verbs.h"
 
@@ -28,7 +31,7 @@ namespace {
 struct ValidateOptions {
   ValidationRequest request;
   ValidationSettings given;  // on the command line; empty: what the file says
-  ValidationProfile profile = ValidationProfile::kPhysics;
+  std::string profile;
   std::string config;
   std::optional<FindingFormat> format;
   std::optional<FailOn> fail_on;
@@ -46,21 +49,18 @@ void AddProjectOptions(CLI::App& app, ValidateOptions& options) {
   const auto list = [&](const char* name, std::vector<std::string>& values, const char* about) {
     app.add_option(name, values, about)->allow_extra_args(false);
   };
-  list("--ignore", options.given.ignore,
-       "a code or family that is left out, such as HND; may be repeated");
+  list("--ignore", options.given.ignore, "a code or family, such as HND; may be repeated");
   list("--severity", options.given.severity, "CODE=error, warning or info; may be repeated");
-  list("--package", options.given.packages,
-       "NAME=FOLDER that package://NAME stands for; may be repeated");
+  list("--package", options.given.packages, "NAME=FOLDER for package://NAME; may be repeated");
   app.add_option("--root", options.given.root, "folder that paths of foreign files stay inside");
   app.add_option("--hinge", options.given.hinge, "the hinge of a foreign object: a joint's name");
   app.add_option("--handle", options.given.handle, "its handle: a link's name");
   app.add_option("--ask", options.given.ask,
-                 "second opinions: urdfdom,mujoco,assimp (default: all) or none")
+                 "second opinions: urdfdom,mujoco,sdformat,assimp (default: all) or none")
       ->delimiter(',')
       ->allow_extra_args(false);
   app.add_option("--baseline", options.given.baseline, "known findings, which count no more");
-  app.add_option("--write-baseline", options.request.new_baseline,
-                 "write the findings as such a file");
+  app.add_option("--write-baseline", options.request.new_baseline, "write such a file");
   AddConfig(app, options.config,
             "settings of the project; default: the nearest .doorforge-validate.yaml");
 }
@@ -73,9 +73,9 @@ ValidateOptions ParseValidate(int argc, char** argv) {
   CLI::App app("Checks doors, parts and anybody's URDF, MJCF, SDF, USDA, glTF and meshes.",
                "doorforge validate");
   app.add_option("PATH", options.request.paths, "doors, parts, files, or folders that hold some");
-  AddChoice(app, "--profile", options.profile,
-            "urdf: what loading needs; physics: all but simulation; openable: all, with every door "
-            "simulated");
+  app.add_option("--profile", options.profile,
+                 "doors: urdf, physics (default), openable; files: mujoco, isaac, gazebo, sapien")
+      ->check(CLI::IsMember(ProfileWords()));
   auto* fix = app.add_flag("--fix", options.fix,
                            "mend what can be mended, then validate; --rules says which");
   app.add_flag("--dry-run", options.dry_run, "with --fix: show what would be mended")->needs(fix);
@@ -128,11 +128,16 @@ int RunValidateVerb(int argc, char** argv) {
     return 0;
   }
   ValidationRequest& request = options.request;
+  const ChosenProfile profile = ProfileNamed(options.profile);
+  options.given.target = profile.target;
   request.format =
       options.format.value_or(options.json ? FindingFormat::kJson : FindingFormat::kText);
   request.settings = SettingsFor(options.config, request.paths.front(), options.given);
   if (options.fail_on) request.settings.fail_on = *options.fail_on;
-  const ValidationAnswer answer = RunValidation(*ValidatorFor(options.profile), request);
+#ifdef DOORFORGE_WITH_VIEW
+  request.page = PageOfFindings(ChecksOf(request.settings));
+#endif
+  const ValidationAnswer answer = RunValidation(*ValidatorFor(profile.doors), request);
   if (options.out.empty())
     PrintText(answer.document);
   else

@@ -8,10 +8,12 @@
 #include "doorforge/core/program.h"
 #include "doorforge/exporters/export_door.h"
 #include "doorforge/schemas/door_words.h"
+#include "doorforge/schemas/glb.h"
 #include "doorforge/schemas/mesh_file.h"
 #include "doorforge/schemas/mjcf.h"
 #include "doorforge/schemas/sdf.h"
 #include "doorforge/schemas/urdf.h"
+#include "doorforge/schemas/usda.h"
 
 #include "scratch_folder.h"
 
@@ -26,15 +28,19 @@ struct ReadFormat {
   const char* name;
   const char* file;
   UrdfModel (*read)(const fs::path& path, std::vector<UrdfFault>& faults);
-  bool has_effort;  // MJCF has no word for it
+  bool has_effort;  // MJCF and USD have no word for it
+  bool has_hulls;   // glTF has none
+  bool has_mimic;   // nor has it a bolt, and MJCF has a tendon
 };
 
 const ReadFormat kFormats[] = {
     {"urdf", "model.urdf",
      [](const fs::path& path, std::vector<UrdfFault>& faults) { return ReadUrdf(path, faults); },
-     true},
-    {"mjcf", "model.xml", ReadMjcf, false},
-    {"sdf", "model.sdf", ReadSdf, true}};
+     true, true, true},
+    {"mjcf", "model.xml", ReadMjcf, false, true, false},
+    {"sdf", "model.sdf", ReadSdf, true, true, true},
+    {"glb", "model.glb", ReadGlb, true, false, false},
+    {"usda", "model.usda", ReadUsda, false, true, true}};
 
 const UrdfLink* LinkNamed(const UrdfModel& model, const std::string& name) {
   for (const UrdfLink& link : model.links) {
@@ -82,7 +88,10 @@ void ExpectMass(const DoorLink& link, const UrdfLink& found) {
 
 // The largest distance of corresponding vertices.
 double Difference(const TriangleMesh& a, const UrdfShape& shape, const fs::path& folder) {
-  const TriangleMesh b = ReadObj(folder / std::get<UrdfMeshFile>(shape.geometry).filename);
+  const auto* triangles = std::get_if<UrdfTriangles>(&shape.geometry);
+  const TriangleMesh b = triangles != nullptr
+                             ? triangles->mesh
+                             : ReadObj(folder / std::get<UrdfMeshFile>(shape.geometry).filename);
   if (a.vertices.size() != b.vertices.size()) return 1e9;
   double worst = 0;
   for (std::size_t i = 0; i < a.vertices.size(); ++i)
@@ -90,11 +99,12 @@ double Difference(const TriangleMesh& a, const UrdfShape& shape, const fs::path&
   return worst;
 }
 
-void ExpectShapes(const DoorLink& link, const UrdfLink& found, const fs::path& folder) {
+void ExpectShapes(const DoorLink& link, const UrdfLink& found, const ReadFormat& format,
+                  const fs::path& folder) {
   ASSERT_EQ(found.visuals.size(), link.geometry.size()) << link.name;
   for (std::size_t i = 0; i < link.geometry.size(); ++i)
     EXPECT_LT(Difference(link.geometry[i].mesh, found.visuals[i], folder), 1e-4) << link.name;
-  if (link.name == "base") return;  // the mortise is cut out of the frame's
+  if (link.name == "base" || !format.has_hulls) return;  // the mortise is cut out of the frame's
   std::size_t at = 0;
   for (const DoorGeometry& geometry : link.geometry) {
     for (const TriangleMesh& hull : geometry.hulls) {
@@ -129,7 +139,7 @@ void ExpectReadsBack(const DoorAsset& door, const ReadFormat& format, const fs::
     const UrdfLink* found = LinkNamed(model, link.name);
     ASSERT_NE(found, nullptr) << link.name;
     ExpectMass(link, *found);
-    ExpectShapes(link, *found, folder);
+    ExpectShapes(link, *found, format, folder);
   }
   ExpectJoint(door.hinge, model, format);
   ExpectJoint(door.handle_joint, model, format);
@@ -138,7 +148,7 @@ void ExpectReadsBack(const DoorAsset& door, const ReadFormat& format, const fs::
   ExpectLatch(door.latch, *latch);
   EXPECT_EQ(model.words.at("door_category"), NameOf(door.category));
   EXPECT_EQ(model.words.at("door_mechanism"), NameOf(door.mechanism));
-  if (std::string(format.name) == "mjcf" || door.handle_joint.upper_rad == 0) return;
+  if (!format.has_mimic || door.handle_joint.upper_rad == 0) return;
   const UrdfJoint* bolt = JointNamed(model, "bolt_joint");
   ASSERT_NE(bolt, nullptr);
   ASSERT_TRUE(bolt->mimic.has_value());
@@ -261,6 +271,129 @@ TEST(ReadModels, HostileTextsEndWithinTheirLimits) {
       "<include file='x'/></worldbody></mujoco>",
       "wrong.xml", faults);
   EXPECT_GE(faults.size(), 4U);
+}
+
+std::string Glb(const std::string& json, const std::string& binary) {
+  const auto number = [](std::size_t n) {
+    std::string bytes(4, '\0');
+    for (std::size_t k = 0; k < 4; ++k) bytes[k] = static_cast<char>(n >> (8 * k) & 255U);
+    return bytes;
+  };
+  return "glTF" + number(2) + number(28 + json.size() + binary.size()) + number(json.size()) +
+         "JSON" + json + number(binary.size()) + std::string("BIN\0", 4) + binary;
+}
+
+TEST(ReadGlb, WhatLeadsOutOfTheFileIsRefused) {
+  const std::string link =
+      R"("nodes":[{"name":"a","mesh":0,"extras":{"joint":1,"mass":{"mass_kg":1,"center_of_mass_m":[0,0,0],
+      "inertia_xx_yy_zz_kg_m2":[1,1,1],"inertia_xy_xz_yz_kg_m2":[0,0,0]}}}])";
+  const auto refused = [](const std::string& json, const std::string& binary) {
+    try {
+      ParseGlb(Glb(json, binary), "a.glb");
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("taken");
+  };
+  const std::string head = R"({"scenes":[{"nodes":[0]}],)";
+  EXPECT_NE(refused(head + link + "}", ""), "taken");  // a joint that is a number
+  const std::string mass =
+      link.substr(0, link.find(R"("joint":1,)")) + link.substr(link.find(R"("joint":1,)") + 10);
+  const auto mesh = [&](const std::string& accessors, const std::string& views) {
+    return refused(
+        head + mass +
+            R"(,"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],"accessors":[)" +
+            accessors + R"(],"bufferViews":[)" + views + "]}",
+        std::string(48, '\0'));
+  };
+  const std::string points = R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"})";
+  const std::string order = R"({"bufferView":1,"componentType":5121,"count":3,"type":"SCALAR"})";
+  const std::string views =
+      R"({"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":12})";
+  EXPECT_EQ(mesh(points + "," + order, views), "taken");
+  EXPECT_NE(
+      mesh(R"({"bufferView":0,"componentType":5126,"count":4000000000000000000})" + ("," + order),
+           views),
+      "taken");
+  EXPECT_NE(
+      mesh(R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},)" + order, views),
+      "taken");
+  EXPECT_NE(
+      mesh(R"({"bufferView":0,"componentType":5126,"count":3,"byteOffset":18446744073709551608},)" +
+               order,
+           views),
+      "taken");
+  EXPECT_NE(mesh(points + "," + order,
+                 R"({"buffer":0,"byteOffset":40,"byteLength":36},{"buffer":0,"byteLength":3})"),
+            "taken");
+  EXPECT_NE(mesh(points + "," + order,
+                 R"({"buffer":0,"byteLength":36,"byteStride":100000},{"buffer":0,"byteLength":3})"),
+            "taken");
+  EXPECT_NE(mesh(points + R"(,{"bufferView":1,"componentType":5126,"count":3})", views), "taken");
+  EXPECT_NE(refused(R"({"scenes":[{"nodes":[0]}],"nodes":[{"children":[0]}]})", ""), "taken");
+  EXPECT_NE(refused(R"({"scenes":[{"nodes":[7]}],"nodes":[]})", ""), "taken");
+  EXPECT_NE(refused(R"({"scenes":7,"nodes":{}})", ""), "taken");
+  EXPECT_NE(refused("[" + std::string(100000, '['), ""), "taken");
+  EXPECT_THROW(ParseGlb("glTF", "short.glb"), Error);
+}
+
+TEST(ReadUsda, WorldsOfOthersBecomeOneTreeInMetresWithZUp) {
+  std::vector<UrdfFault> faults;
+  const UrdfModel model = ParseUsdaModel(R"(#usda 1.0
+(
+    metersPerUnit = 0.01
+    upAxis = "Y"
+)
+def Xform "a" (prepend apiSchemas = ["PhysicsRigidBodyAPI"])
+{
+    double3 xformOp:translate = (100, 0, 0)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+    def Cube "block"
+    {
+        double size = 2
+        double3 xformOp:scale = (10, 20, 30)
+        uniform token[] xformOpOrder = ["xformOp:scale"]
+    }
+}
+def Xform "b" (prepend apiSchemas = ["PhysicsRigidBodyAPI"])
+{
+    double3 xformOp:translate = (100, 50, 0)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def PhysicsRevoluteJoint "hinge"
+{
+    rel physics:body0 = </a>
+    rel physics:body1 = </b>
+    point3f physics:localPos0 = (0, 40, 0)
+    point3f physics:localPos1 = (0, -10, 0)
+    uniform token physics:axis = "Y"
+    float physics:lowerLimit = 0
+    float physics:upperLimit = 90
+    float drive:angular:physics:damping = 2
+}
+)",
+                                         "m.usda", faults);
+  for (const UrdfFault& fault : faults) ADD_FAILURE() << fault.text;
+  EXPECT_EQ(RootLinkOf(model), "world");
+  const UrdfJoint* hinge = JointNamed(model, "hinge");
+  ASSERT_NE(hinge, nullptr);
+  EXPECT_LT((hinge->parent_from_joint.translation() - Eigen::Vector3d(0, 0.4, 0)).norm(), 1e-12);
+  EXPECT_LT((hinge->axis - Eigen::Vector3d(0, 1, 0)).norm(), 1e-12);
+  EXPECT_NEAR(hinge->upper, 1.5707963267948966, 1e-12);
+  EXPECT_NEAR(hinge->damping, 2 * 57.29577951308232, 1e-9);
+  const UrdfJoint* root = JointNamed(model, "a_to_world");
+  ASSERT_NE(root, nullptr);
+  // the stage's y is up: its z points to the world's -y
+  EXPECT_LT(
+      (root->parent_from_joint * Eigen::Vector3d(0, 0.4, 0) - Eigen::Vector3d(1, 0, 0.4)).norm(),
+      1e-12);
+  const UrdfLink* a = LinkNamed(model, "a");
+  ASSERT_NE(a, nullptr);
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& vertex :
+       std::get<UrdfTriangles>(a->visuals.at(0).geometry).mesh.vertices)
+    box.extend(vertex);
+  EXPECT_LT((box.sizes() - Eigen::Vector3d(0.2, 0.4, 0.6)).norm(), 1e-12);
 }
 
 }  // namespace

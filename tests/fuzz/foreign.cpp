@@ -7,13 +7,13 @@
 #include <array>
 
 #include "doorforge/core/error.h"
+#include "doorforge/schemas/usda_text.h"
 
 #include "fuzz_target.h"
 #include "input_folder.h"
 #include "read/glb_file.h"
 #include "read/raw_mesh.h"
 #include "read/readers.h"
-#include "text/usda_text.h"
 #include "text/xml_text.h"
 
 namespace doorforge::fuzz {

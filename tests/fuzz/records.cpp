@@ -14,6 +14,7 @@
 #include "doorforge/schemas/door_asset.h"
 #include "doorforge/schemas/door_index.h"
 #include "doorforge/schemas/episode_film.h"
+#include "doorforge/schemas/glb.h"
 #include "doorforge/schemas/mesh_file.h"
 #include "doorforge/schemas/mjcf.h"
 #include "doorforge/schemas/npy.h"
@@ -25,6 +26,7 @@
 #include "doorforge/schemas/split.h"
 #include "doorforge/schemas/tar.h"
 #include "doorforge/schemas/urdf.h"
+#include "doorforge/schemas/usda.h"
 #include "doorforge/schemas/visual_mesh.h"
 
 #include "datasets/shard_journal.h"
@@ -130,6 +132,13 @@ void ReadSdfText(std::string_view input) {
   ParseSdf(std::string(input), "input", faults);
 }
 
+void ReadUsdaModel(std::string_view input) {
+  std::vector<UrdfFault> faults;
+  ParseUsdaModel(std::string(input), "input", faults);
+}
+
+void ReadGlbModel(std::string_view input) { ParseGlb(input, "input"); }
+
 /// Checks that what is read of a record is written to what is read alike.
 template <class Read, class Write>
 void CheckRecord(std::string_view input, Read&& read, Write&& write) {
@@ -214,6 +223,8 @@ constexpr std::array kTargets{
     Target{"urdf", Shape::kBytes, ReadUrdfText},
     Target{"mjcf", Shape::kBytes, ReadMjcfText},
     Target{"sdf", Shape::kBytes, ReadSdfText},
+    Target{"usda_model", Shape::kBytes, ReadUsdaModel},
+    Target{"glb_model", Shape::kBytes, ReadGlbModel},
     Target{"dataset", Shape::kJson, ReadDatasetRecord},
     Target{"provenance", Shape::kJson, ReadProvenance},
     Target{"scene", Shape::kJson, ReadScene},

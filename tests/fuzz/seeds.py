@@ -103,7 +103,8 @@ MADE = {
     "journal": ['{"episode": {"key": "ep0", "decisions": 1, "members": [{"name": "a", "offset": 512, "size": 0, "crc32c": 0}]}}\n'
                 '{"failure": {"key": "ep1", "door_id": "d", "outcome": "door_stuck", "detail": "", "peak_hinge_rad": 0, "peak_handle_rad": 0}}\n'],
     "xml": [samples.URDF, samples.SDF], "foreign_urdf": [samples.URDF], "foreign_sdf": [samples.SDF],
-    "foreign_mjcf": [samples.MJCF], "usda": [samples.USDA],
+    "foreign_mjcf": [samples.MJCF], "usda": [samples.USDA], "usda_model": [samples.USDA],
+    "glb_model": [samples.glb(*samples.gltf_gate())],
     "gltf": [samples.glb(*samples.gltf_box()), json.dumps(samples.gltf_box()[0])],
     "raw_obj": [samples.OBJ], "raw_stl": [samples.STL, samples.BINARY_STL],
     "raw_ply": [samples.PLY, b"ply\nformat binary_little_endian 1.0\n" + HEAD.encode() + PLY_NUMBERS],
@@ -181,7 +182,7 @@ DICTIONARIES = {
     "visual_mesh": ["obj"], "stl": ["stl"], "raw_stl": ["stl"], "ply": ["ply"], "raw_ply": ["ply"], "raw_off": ["off"], "off": ["off"],
     "mesh_message": ["mesh_message"], "collada_frame": ["xml", "dae"], "dae": ["xml", "dae"], "npy": ["npy"], "tar": ["tar"],
     "safetensors": ["safetensors", "json"], "urdf": ["xml", "urdf"], "urdf_beside_urdfdom": ["xml", "urdf"], "foreign_urdf": ["xml", "urdf"], "mjcf": ["xml", "mjcf"],
-    "foreign_mjcf": ["xml", "mjcf"], "sdf": ["xml", "sdf"], "foreign_sdf": ["xml", "sdf"], "xml": ["xml"], "usda": ["usda"],
+    "foreign_mjcf": ["xml", "mjcf"], "sdf": ["xml", "sdf"], "foreign_sdf": ["xml", "sdf"], "xml": ["xml"], "usda": ["usda"], "usda_model": ["usda"], "glb_model": ["glb", "json"],
     "gltf": ["glb", "json"], "glb": ["glb", "json"], "gltf_rotations": ["glb", "json"], "depth_png": ["png"], "mask_png": ["png"],
 }
 

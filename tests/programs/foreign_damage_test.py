@@ -128,6 +128,7 @@ REPLACED = [
     ("mjcf", 'diaginertia="8 6.5 1.7"', 'diaginertia="80 6.5 1.7"', "INR003"),
     ("mjcf", 'file="box.obj"', 'file="bax.obj"', "GEO001"),
     ("mjcf", 'size="0.05 0.05 1"', 'size="0.05 -0.05 1"', "GEO015"),
+    ("sdf", '<joint name="anchor"', '<joint name="__anchor__"', "EXT004", None),
     ("mjcf", 'solref=""', "", "EXT002", None, ('<geom name="post"', '<geom smell="x" name="post"')),
 
     ("sdf", "</sdf>", "", "FIL002", None),

@@ -207,6 +207,20 @@ def glb(document: dict, binary: bytes) -> bytes:
             + struct.pack("<II", len(binary), 0x004E4942) + binary)
 
 
+def gltf_gate() -> tuple[dict, bytes]:
+    """A post and a leaf as exports of this project say them in `extras`."""
+    document, binary = gltf_box()
+    mass = {"mass_kg": 20, "center_of_mass_m": [0, 0.5, 0], "inertia_xx_yy_zz_kg_m2": [8, 6.5, 1.7], "inertia_xy_xz_yz_kg_m2": [0, 0, 0]}
+    joint = {"name": "hinge", "type": "revolute", "parent": "post", "axis": [0, 0, 1], "lower_rad": 0, "upper_rad": 1.5,
+             "effort_limit_nm": 30, "velocity_limit_rad_s": 2, "damping_nm_s": 0.1}
+    document["nodes"] = [
+        {"name": "gate", "rotation": [-0.5 ** 0.5, 0, 0, 0.5 ** 0.5], "children": [1], "extras": {"category": "interior", "latch": {"type": "none"}}},
+        {"name": "post", "children": [2, 3], "extras": {"mass": mass}},
+        {"name": "leaf", "translation": [0, 0.05, 0], "rotation": [0, 0, 0, 1], "children": [4], "extras": {"mass": mass, "joint": joint}},
+        {"name": "post_shape", "mesh": 0}, {"name": "leaf_shape", "mesh": 0}]
+    return document, binary
+
+
 def gltf_box() -> tuple[dict, bytes]:
     positions = b"".join(struct.pack("<3f", *corner) for corner in BOX_CORNERS)
     indices = b"".join(struct.pack("<3H", *face) for face in BOX_FACES)

@@ -4,6 +4,7 @@
 import { ComposerView } from './composer.js';
 import { Content } from './content.js';
 import { EpisodeView } from './episode_view.js';
+import { FindingsView } from './findings_view.js';
 import { Gallery } from './gallery.js';
 import { ReportView } from './report_view.js';
 import { RecordView } from './record_view.js';
@@ -55,7 +56,14 @@ const showReport = (content) => {
   return { report };
 };
 
-const SHOW = { report: showReport, records: showRecords, gallery: showGallery, episodes: showEpisodes, composer: showComposer };
+const showFindings = (content) => {
+  const findings = new FindingsView(content);
+  document.body.append(findings.element);
+  findings.start();
+  return { findings };
+};
+
+const SHOW = { findings: showFindings, report: showReport, records: showRecords, gallery: showGallery, episodes: showEpisodes, composer: showComposer };
 
 const start = async () => {
   const content = await Content.fromPage();

@@ -28,17 +28,24 @@ const placed = (object, matrix) => {
 
 const matrix4 = (numbers) => new Matrix4().fromArray(numbers);
 
-/** Words that face the onlooker, 12 cm high where they are not scaled. */
-export const label = (text, color = 0x59626c) => {
+const cssOf = (color) => `#${color.toString(16).padStart(6, '0')}`;
+
+/** Words that face the onlooker, 12 cm high where they are not scaled; on a plate where that has a colour. */
+export const label = (text, color = 0x59626c, plate = null) => {
   const font = '600 40px system-ui, sans-serif';
   const canvas = document.createElement('canvas');
   canvas.getContext('2d').font = font;
-  const width = Math.max(128, Math.ceil(canvas.getContext('2d').measureText(text).width) + 16);
+  const width = Math.max(plate === null ? 128 : 64, Math.ceil(canvas.getContext('2d').measureText(text).width) + (plate === null ? 16 : 30));
   Object.assign(canvas, { width, height: 64 });
   const pen = canvas.getContext('2d');
   pen.font = font;
   pen.textAlign = 'center';
-  pen.fillStyle = `#${color.toString(16).padStart(6, '0')}`;
+  if (plate !== null) {
+    pen.fillStyle = cssOf(plate);
+    pen.roundRect(1, 1, width - 2, 62, 31);
+    pen.fill();
+  }
+  pen.fillStyle = cssOf(color);
   pen.fillText(text, width / 2, 46);
   const map = new CanvasTexture(canvas);
   map.colorSpace = SRGBColorSpace;

@@ -31,6 +31,10 @@ export class RecordView {
     this.stage.home = () => this.frameAll();
     this.canvas.addEventListener('pointerdown', ({ offsetX, offsetY }) => (this.down = [offsetX, offsetY]));
     this.canvas.addEventListener('click', (event) => this.click(event));
+    this.addTools();
+  }
+
+  addTools() {
     this.tools.append(
       choice('shapes', [['visual', 'Visual'], ['collision', 'Collision'], ['both', 'Both']], 'visual', (shapes) => this.show({ shapes })),
       h('div', { class: 'choice', role: 'group', 'aria-label': 'marks' },

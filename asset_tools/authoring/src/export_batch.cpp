@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/authoring/export_batch.h"
 
+#include <algorithm>
 #include <exception>
 
 #include <nlohmann/json.hpp>
@@ -16,12 +17,45 @@
 namespace doorforge {
 namespace {
 
-void Export(const ExportRun& run, ExportedDoor& exported) {
+/// What a run comes to.
+struct Wanted {
+  std::vector<DoorFormat> formats;
+  bool thumbnails = false;
+};
+
+Wanted WantedOf(const ExportRun& run) {
+  std::vector<std::string> names = run.formats;
+  Wanted wanted;
+  wanted.thumbnails = run.thumbnails;
+  for (const std::string& name : run.profiles) {
+    const ExportProfile* profile = ExportProfileNamed(name);
+    Require(profile != nullptr, ErrorCode::kInvalidArgument, "export: no profile \"" + name + '"');
+    names.emplace_back(profile->format);
+    wanted.thumbnails = wanted.thumbnails || profile->thumbnail;
+  }
+  for (const std::string& name : names)
+    Require(DoorFormatNamed(name) != nullptr, ErrorCode::kInvalidArgument,
+            "export: no format \"" + name + '"');
+  for (const DoorFormat& format : DoorFormats()) {
+    if (std::find(names.begin(), names.end(), format.name) != names.end())
+      wanted.formats.push_back(format);
+  }
+  Require(!names.empty(), ErrorCode::kInvalidArgument,
+          "--format or --profile is required; see `doorforge export --help`");
+  Require(!wanted.thumbnails || run.draw != nullptr, ErrorCode::kInvalidArgument,
+          "--thumbnails: this build draws nothing, since it lacks sim/sensor; export by --format "
+          "alone");
+  return wanted;
+}
+
+void Export(const ExportRun& run, const Wanted& wanted, ExportedDoor& exported) {
   try {
     if (StopRequested() != 0) throw Error(ErrorCode::kIncomplete, "stopped before its turn");
     const DoorAsset door = ReadDoor(exported.folder);
     exported.id = door.id;
-    WriteExportedDoor(door, run.formats, OutputBelow(run.out, door.id), run.existing, run.settings);
+    ExportSettings settings = run.settings;
+    if (wanted.thumbnails) settings.thumbnail_png = run.draw(exported.folder);
+    WriteExportedDoor(door, wanted.formats, OutputBelow(run.out, door.id), run.existing, settings);
   } catch (const Error& error) {
     exported.problem = error.what();
   } catch (const std::exception&) {
@@ -33,12 +67,13 @@ void Export(const ExportRun& run, ExportedDoor& exported) {
 
 std::vector<ExportedDoor> ExportDoors(std::span<const std::filesystem::path> folders,
                                       const ExportRun& run) {
+  const Wanted wanted = WantedOf(run);
   RequireWritable(run.out);
   std::vector<ExportedDoor> doors;
   for (const std::filesystem::path& folder : folders) doors.push_back({folder.string(), {}, {}});
   Progress progress("exporting", doors.size());
   ParallelFor(doors.size(), run.threads, [&](std::size_t i) {
-    Export(run, doors[i]);
+    Export(run, wanted, doors[i]);
     progress.Advance();
   });
   return doors;

@@ -15,7 +15,37 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr ExportProfile kExportProfiles[] = {{"mujoco", "mjcf", false},
+                                             {"isaac", "usda", true},
+                                             {"gazebo", "sdf", true},
+                                             {"sapien", "urdf", false}};
+
+// Where Omniverse's browser and Gazebo's Fuel look for the picture of a model.
+void WriteThumbnails(const std::string& png, std::span<const DoorFormat> formats,
+                     const fs::path& folder) {
+  if (png.empty()) return;
+  CommitFile(folder / "thumbnail.png", png);
+  for (const DoorFormat& format : formats) {
+    if (format.name == "usda") CommitFile(folder / ".thumbs/256x256/model.usda.png", png);
+    if (format.name == "sdf") CommitFile(folder / "thumbnails/1.png", png);
+  }
+}
+
 }  // namespace
+
+std::span<const ExportProfile> ExportProfiles() { return kExportProfiles; }
+
+std::vector<std::string> ExportProfileNames() {
+  std::vector<std::string> names;
+  for (const ExportProfile& profile : kExportProfiles) names.emplace_back(profile.name);
+  return names;
+}
+
+const ExportProfile* ExportProfileNamed(std::string_view name) {
+  const auto* const found = std::find_if(std::begin(kExportProfiles), std::end(kExportProfiles),
+                                         [&](const auto& one) { return one.name == name; });
+  return found == std::end(kExportProfiles) ? nullptr : found;
+}
 
 std::span<const DoorFormat> DoorFormats() { return internal::kDoorFormats; }
 
@@ -48,6 +78,7 @@ void WriteExportedDoor(const DoorAsset& door, std::span<const DoorFormat> format
     format.write(door, settings, staged.path());
     names.push_back(format.name);
   }
+  WriteThumbnails(settings.thumbnail_png, formats, staged.path());
   WriteJsonFile(staged.path() / kExportFolder.record, {{"schema", kExportFolder.schema},
                                                        {"schema_version", 1},
                                                        {"door", door.id},

@@ -10,6 +10,7 @@
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/exporters/export_door.h"
+#include "doorforge/schemas/door_words.h"
 
 #include "door_formats.h"
 #include "export_text.h"
@@ -89,15 +90,18 @@ class GlbWriter {
 
   Json RootExtras() const {
     const Latch& latch = door_.latch;
-    return {{"category", NameOf(door_.category)},
-            {"mechanism", NameOf(door_.mechanism)},
-            {"latch",
-             {{"type", NameOf(latch.type)},
-              {"unlock_angle_rad", latch.unlock_angle_rad},
-              {"handle_done_angle_rad", latch.handle_done_angle_rad},
-              {"lock_effort_nm", latch.lock_effort_nm},
-              {"hinge_spring_nm_per_rad", latch.hinge_spring_nm_per_rad},
-              {"handle_spring_nm_per_rad", latch.handle_spring_nm_per_rad}}}};
+    Json extras;
+    for (const auto& [name, text] : DoorWords(door_)) extras[name] = text;
+    extras["latch"] = {{"type", NameOf(latch.type)},
+                       {"unlock_angle_rad", latch.unlock_angle_rad},
+                       {"handle_done_angle_rad", latch.handle_done_angle_rad},
+                       {"lock_effort_nm", latch.lock_effort_nm},
+                       {"hinge_spring_nm_per_rad", latch.hinge_spring_nm_per_rad},
+                       {"handle_spring_nm_per_rad", latch.handle_spring_nm_per_rad},
+                       {"relatch", latch.relatch},
+                       {"unlocks_ajar", latch.unlocks_ajar},
+                       {"bolt_throw_m", latch.bolt_throw_m}};
+    return extras;
   }
 
   int AddLink(DoorLinkIndex index, std::vector<int> children) {
@@ -106,7 +110,10 @@ class GlbWriter {
       const int mesh = AddMesh(geometry);
       children.push_back(AddNode({{"name", geometry.name}, {"mesh", mesh}}));
     }
-    Json node = {{"name", link.name}, {"extras", {{"mass", MassExtras(link.mass)}}}};
+    if (index == kHandleLink) children.push_back(AddGrasp());
+    Json node = {
+        {"name", link.name},
+        {"extras", {{"mass", MassExtras(link.mass)}, {"label", internal::LabelOf(index)}}}};
     if (index != kBaseLink) {
       const DoorJoint& joint = index == kLeafLink ? door_.hinge : door_.handle_joint;
       const Eigen::Quaterniond turn(joint.parent_from_child_at_zero.linear());
@@ -117,6 +124,15 @@ class GlbWriter {
     }
     if (!children.empty()) node["children"] = children;
     return AddNode(std::move(node));
+  }
+
+  // A frame with nothing drawn in it.
+  int AddGrasp() {
+    const Eigen::Quaterniond turn(door_.handle_from_grasp.linear());
+    return AddNode({{"name", "grasp"},
+                    {"translation", Vector3ToJson(door_.handle_from_grasp.translation())},
+                    {"rotation", {turn.x(), turn.y(), turn.z(), turn.w()}},
+                    {"extras", {{"half_extent_m", Vector3ToJson(door_.grasp_half_extent_m)}}}});
   }
 
   // without normals a reader shades each triangle flat, as the specification says

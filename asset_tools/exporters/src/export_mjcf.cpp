@@ -217,6 +217,8 @@ void AddLatchWords(const DoorAsset& door, XmlElement& root) {
     if (!text.empty())
       AddCustom("text", "door_" + name, text, custom);  // MuJoCo takes no empty one
   }
+  for (const DoorLinkIndex link : {kBaseLink, kLeafLink, kHandleLink})
+    AddCustom("text", "label_" + door.links[link].name, internal::LabelOf(link), custom);
 }
 
 void AddGraspSite(const DoorAsset& door, XmlElement& handle) {

@@ -80,6 +80,10 @@ std::string Printed(const XmlElement& root) {
   return xml;
 }
 
+const char* LabelOf(DoorLinkIndex link) {
+  return link == kBaseLink ? "frame" : link == kLeafLink ? "leaf" : "handle";
+}
+
 double LinearLight(double srgb) {
   return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
 }

@@ -35,6 +35,9 @@ void SetAttribute(XmlElement& element, const char* name, const std::string& valu
 /// With declaration and indentation; markup characters are escaped.
 std::string Printed(const XmlElement& root);
 
+/// What a link is called by whoever tells things apart by words: "frame", "leaf" or "handle".
+const char* LabelOf(DoorLinkIndex link);
+
 /// Light of a channel as a screen shows it (IEC 61966-2-1).
 double LinearLight(double srgb);
 

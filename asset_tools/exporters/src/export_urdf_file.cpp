@@ -106,6 +106,9 @@ XmlElement WordsOf(const DoorAsset& door) {
   SetAttribute(grasp, "xyz", Decimals(door.handle_from_grasp.translation()));
   SetAttribute(grasp, "rpy", Decimals(RpyOf(door.handle_from_grasp.linear())));
   SetAttribute(grasp, "half_extent", Decimals(door.grasp_half_extent_m));
+  XmlElement& labels = AddElement(words, "labels");
+  for (const DoorLinkIndex link : {kBaseLink, kLeafLink, kHandleLink})
+    SetAttribute(labels, door.links[link].name.c_str(), internal::LabelOf(link));
   return words;
 }
 
@@ -119,9 +122,9 @@ void Insert(const XmlElement& element, std::string& urdf) {
 
 std::string ToExportedUrdf(const DoorAsset& door, const ExportSettings& settings) {
   UrdfModel model = ToUrdfModel(door);
-  if (settings.latch == LatchExport::kData) return ToUrdf(model);
-  if (const std::optional<LatchBodies> latch = internal::LatchBodiesOf(door))
-    AddLatch(*latch, door, model);
+  std::optional<LatchBodies> latch;
+  if (settings.latch == LatchExport::kBolt) latch = internal::LatchBodiesOf(door);
+  if (latch) AddLatch(*latch, door, model);
   std::string urdf = ToUrdf(model);
   Insert(ControlOf(model), urdf);
   Insert(WordsOf(door), urdf);

@@ -45,8 +45,17 @@ class UsdaText {
  public:
   void Line(const std::string& text) { text_ += std::string(depth_ * 4, ' ') + text + "\n"; }
 
-  void Open(const std::string& definition, const std::string& schemas = {}) {
-    Line(definition + (schemas.empty() ? "" : " (prepend apiSchemas = [" + schemas + "])"));
+  void Open(const std::string& definition, const std::string& schemas = {},
+            const std::string& metadata = {}) {
+    const std::string applied = schemas.empty() ? "" : "prepend apiSchemas = [" + schemas + "]";
+    if (metadata.empty()) {
+      Line(definition + (applied.empty() ? "" : " (" + applied + ")"));
+    } else {
+      Line(definition + " (");
+      if (!applied.empty()) Line("    " + applied);
+      Line("    " + metadata);
+      Line(")");
+    }
     Line("{");
     ++depth_;
   }
@@ -86,6 +95,10 @@ void AddMesh(const std::vector<Eigen::Vector3d>& vertices,
   usda.Line("int[] faceVertexCounts = " + counts.InBrackets());
   usda.Line("int[] faceVertexIndices = " + indices.InBrackets());
   usda.Line("point3f[] points = " + points.InBrackets());
+  Eigen::AlignedBox3d bounds;
+  for (const Eigen::Vector3d& vertex : vertices) bounds.extend(vertex);
+  if (!bounds.isEmpty())
+    usda.Line("float3[] extent = [" + Tuple(bounds.min()) + ", " + Tuple(bounds.max()) + "]");
   usda.Line("uniform token subdivisionScheme = \"none\"");
 }
 
@@ -202,8 +215,11 @@ void AddCollision(const std::string& name, const TriangleMesh& hull, const std::
 
 void AddGeometry(const DoorGeometry& geometry, const std::string& link_path, UsdaText& usda) {
   const std::string name = Identifier(geometry.name);
-  usda.Open("def Mesh \"" + name + "\"");
-  if (geometry.visual.empty()) {
+  const bool plain = geometry.visual.empty();
+  usda.Open("def Mesh \"" + name + "\"", plain ? "\"MaterialBindingAPI\"" : "");
+  if (plain) {
+    usda.Line("rel material:binding = <" + link_path + "/" + name + "/look>");
+    AddLook({geometry.name, geometry.color_rgba, nullptr}, link_path + "/" + name + "/look", usda);
     AddMesh(geometry.mesh.vertices, geometry.mesh.triangles, usda);
     usda.Line("color3f[] primvars:displayColor = [" + Tuple(geometry.color_rgba.head<3>()) + "]");
     usda.Line("float[] primvars:displayOpacity = [" + Decimal(geometry.color_rgba[3]) + "]");
@@ -335,9 +351,8 @@ void AddWord(const std::string& space, const std::string& name, const std::strin
 
 void AddWords(const DoorAsset& door, UsdaText& usda) {
   for (const auto& [name, text] : LatchWords(door.latch)) AddWord("latch:", name, text, usda);
-  for (const auto& [name, text] : DoorWords(door)) {
-    if (name != "id") AddWord("", name, text, usda);  // which is the prim's name
-  }
+  // a prim's name cannot hold every id
+  for (const auto& [name, text] : DoorWords(door)) AddWord("", name, text, usda);
 }
 
 void AddBoltJoint(const Bolt& bolt, const std::array<std::string, 3>& paths,
@@ -412,7 +427,8 @@ std::string ToUsda(const DoorAsset& door, const ExportSettings& settings) {
   usda.Line("");
   usda.Open("def Xform \"" + name + "\"",
             "\"PhysicsArticulationRootAPI\", \"PhysxArticulationAPI\", "
-            "\"SemanticsLabelsAPI:class\"");
+            "\"SemanticsLabelsAPI:class\"",
+            "kind = \"component\"");
   usda.Line("token[] semantics:labels:class = [\"door\"]");
   // what holds the door is a contact of two of its links
   if (latch) usda.Line("bool physxArticulation:enabledSelfCollisions = 1");

@@ -28,13 +28,17 @@ ImportFormat DoorGymFormat();
 ImportFormat UrdfFormat();
 ImportFormat SdfFormat();
 ImportFormat MjcfFormat();
+ImportFormat UsdaFormat();
+ImportFormat GlbFormat();
 ImportFormat LooseMeshFormat();
 
 /// All of them, in the order in which they are tried: later ones know less of what they look at.
-inline constexpr ImportFormat (*kImportFormats[])() = {
-    GaPartNetFormat, PartNetMobilityFormat, UniDoorManipFormat, UniDoorManipPartsFormat,
-    Akb48Format,     DoorGymFormat,         UrdfFormat,         SdfFormat,
-    MjcfFormat,      LooseMeshFormat};
+inline constexpr ImportFormat (*kImportFormats[])() = {GaPartNetFormat,    PartNetMobilityFormat,
+                                                       UniDoorManipFormat, UniDoorManipPartsFormat,
+                                                       Akb48Format,        DoorGymFormat,
+                                                       UrdfFormat,         SdfFormat,
+                                                       MjcfFormat,         UsdaFormat,
+                                                       GlbFormat,          LooseMeshFormat};
 
 /// An id for a part (IdProblem() is empty): letters, digits, '-', '_' and '.' are kept, all else
 /// becomes '-', and a text beyond 50 characters is cut and ends in digits of its hash.

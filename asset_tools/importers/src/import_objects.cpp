@@ -47,6 +47,8 @@ struct PartJob {
   bool done = false;
 };
 
+using Words = std::map<std::string, std::string>;
+
 class Import {
  public:
   Import(const std::vector<ForeignSource>& sources, fs::path out, const ImportConfig& config,
@@ -88,6 +90,7 @@ class Import {
         jobs_of_.emplace_back();
         hinge_to_handle_m_.push_back(k < objects[i].size() ? objects[i][k].hinge_to_handle_m
                                                            : std::nullopt);
+        settings_of_.push_back(k < objects[i].size() ? objects[i][k].compose_settings : Words());
         if (k < objects[i].size()) Plan(objects[i][k]);
       }
     }
@@ -326,9 +329,22 @@ class Import {
       const PartJob& body = jobs_[jobs_of_[i][0]];
       const PartJob& handle = jobs_[jobs_of_[i][1]];
       if (!IsThere(body) || !IsThere(handle)) continue;
+      RememberSettings(body.id, handle.id, settings_of_[i]);
       places[body.id][handle.part.source_sha256] = Translation(HingeOf(body) + *offset);
     }
     for (const auto& [id, handles] : places) RememberAuthorPlaces(out_ / id, handles);
+  }
+
+  // A config of `doorforge compose`, beside the body.
+  void RememberSettings(const std::string& body, const std::string& handle,
+                        const Words& settings) const {
+    if (settings.empty()) return;
+    Json json = {{"body", body}, {"handle", handle}, {"place", "author"}};
+    for (const auto& [name, word] : settings) {
+      const Json value = Json::parse(word, nullptr, false);
+      json[name] = value.is_number() || value.is_boolean() ? value : Json(word);
+    }
+    WriteJsonFile(out_ / body / "as_exported.json", json);
   }
 
   static bool IsThere(const PartJob& job) { return job.present || job.written; }
@@ -375,6 +391,7 @@ class Import {
   ImportReport report_;
   std::vector<std::vector<std::size_t>> jobs_of_;                  // of each object in the report
   std::vector<std::optional<Eigen::Vector3d>> hinge_to_handle_m_;  // the same
+  std::vector<Words> settings_of_;                                 // the same
   std::vector<PartJob> jobs_;
   std::map<std::string, std::size_t> job_by_hash_;
   std::map<std::string, bool> taken_;

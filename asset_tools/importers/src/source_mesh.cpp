@@ -148,7 +148,8 @@ TriangleMesh MeshOf(const UrdfSphere& sphere) {
   return Loft(rings);
 }
 
-std::string SourceHashOf(const std::vector<SourceMesh>& meshes, const Part& part) {
+std::string SourceHashOf(const std::vector<SourceMesh>& meshes, const Part& part,
+                         const std::map<std::string, MassProperties>& masses) {
   Json json = {{"role", NameOf(part.role)},
                {"category", NameOf(part.category)},
                {"mechanism", NameOf(part.mechanism)},
@@ -164,6 +165,12 @@ std::string SourceHashOf(const std::vector<SourceMesh>& meshes, const Part& part
     Add(place, mesh.part_from_raw.translation());
     for (int axis = 0; axis < 3; ++axis) Add(place, mesh.part_from_raw.linear().col(axis));
     json["meshes"].push_back(place);
+  }
+  for (const auto& [piece, mass] : masses) {
+    Json stated = {piece, mass.mass_kg};
+    Add(stated, mass.center_of_mass_m);
+    for (int row = 0; row < 3; ++row) Add(stated, mass.inertia_kg_m2.row(row).transpose());
+    json["masses"].push_back(stated);
   }
   return Sha256Hex(JsonText(json));
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -41,8 +42,9 @@ TriangleMesh MeshOf(const UrdfCylinder& cylinder);
 TriangleMesh MeshOf(const UrdfSphere& sphere);
 
 /// SHA-256 over the meshes with their places (in micrometres) and everything in `part` that a
-/// reader decides.
-std::string SourceHashOf(const std::vector<SourceMesh>& meshes, const Part& part);
+/// reader decides, and the masses that the source states, by piece.
+std::string SourceHashOf(const std::vector<SourceMesh>& meshes, const Part& part,
+                         const std::map<std::string, MassProperties>& masses = {});
 
 /// Up to eight file names, then how many more.
 std::string FileNamesOf(const std::vector<SourceMesh>& meshes);

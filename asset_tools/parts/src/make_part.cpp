@@ -126,10 +126,25 @@ void KeepVisual(const RawPiece& raw, const TriangleMesh& closed, PieceReport& re
   report.visual_textures = static_cast<int>(TexturesOf(piece.visual).size());
 }
 
+// A mesh that is to stay as it is and can, else the repaired one.
+RepairResult ClosedOf(const RawPiece& raw, const RepairConfig& config) {
+  if (raw.keep_closed) {
+    if (std::optional<ClosedMesh> closed = ClosedMesh::From(RoundedToFloat(raw.mesh))) {
+      RepairResult kept;
+      kept.report.outcome = RepairOutcome::kAlreadyClosed;
+      kept.report.before = kept.report.after = MeasureTopology(closed->mesh());
+      kept.report.components_kept = kept.report.after.components;
+      kept.mesh = std::move(closed);
+      return kept;
+    }
+  }
+  return RepairMesh(raw.mesh, config);
+}
+
 MadePiece MakePiece(const RawPiece& raw, Category category, const MakePartConfig& config) {
   MadePiece made;
   made.report.piece = raw.name;
-  const RepairResult repaired = RepairMesh(raw.mesh, config.repair);
+  const RepairResult repaired = ClosedOf(raw, config.repair);
   made.report.repair = repaired.report;
   if (!repaired.mesh) return made;
   const std::optional<ClosedMesh> closed = RoundedClosed(*repaired.mesh, config.repair);
@@ -143,8 +158,9 @@ MadePiece MakePiece(const RawPiece& raw, Category category, const MakePartConfig
   made.report.convex_parts = static_cast<int>(piece.hulls.size());
   made.report.convex_fit = MeasureConvexParts(*closed, piece.hulls);
   const internal::PieceDensity density = internal::DensityOf(category, raw.name);
-  piece.mass = MassPropertiesOf(*closed, density.density_kg_m3);
-  made.report.mass_limited = LimitMass(density, piece.mass);
+  made.report.mass_stated = raw.stated_mass.has_value();
+  piece.mass = raw.stated_mass.value_or(MassPropertiesOf(*closed, density.density_kg_m3));
+  if (!raw.stated_mass) made.report.mass_limited = LimitMass(density, piece.mass);
   KeepVisual(raw, piece.mesh, made.report, piece);
   made.piece = std::move(piece);
   return made;
@@ -190,6 +206,7 @@ nlohmann::ordered_json ToJson(const MadePart& made) {
                       {"convex_protrusion_m", piece.convex_fit.protrusion_m},
                       {"convex_uncovered_m", piece.convex_fit.uncovered_m},
                       {"mass_limited", piece.mass_limited},
+                      {"mass_stated", piece.mass_stated},
                       {"visual",
                        {{"triangles", piece.visual_triangles},
                         {"materials", piece.visual_materials},

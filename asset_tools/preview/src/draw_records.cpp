@@ -169,17 +169,21 @@ HandleScene LoadHandle(const fs::path& folder, const PreviewConfig& config) {
   return scene;
 }
 
-Picture DrawWhole(const fs::path& folder, const PreviewConfig& config, int width) {
+Picture DrawWhole(const fs::path& folder, const PreviewConfig& config, int width, int height) {
   Model model = LoadModel(folder, config);
   SceneGeometry scene(std::move(model.meshes));
   scene.MoveLinks(model.poses);
   ViewConfig view;
   view.width = width;
-  view.height = width * 3 / 4;
+  view.height = height;
   view.azimuth_rad = config.azimuth_deg * std::numbers::pi / 180;
   ScenePictureConfig shading;
   shading.floor = model.stands;
   return RenderPicture(scene, FramingCamera(scene, view), shading);
+}
+
+Picture DrawWhole(const fs::path& folder, const PreviewConfig& config, int width) {
+  return DrawWhole(folder, config, width, width * 3 / 4);
 }
 
 constexpr int kWidth = 960;
@@ -251,6 +255,11 @@ Picture DrawRecords(std::span<const fs::path> folders, const PreviewConfig& conf
   const bool sheet = folders.size() > 1;
   if (!chosen.focus) chosen.focus = sheet ? PreviewFocus::kWhole : PreviewFocus::kAll;
   return sheet ? DrawSheet(folders, chosen) : DrawOne(folders[0], chosen);
+}
+
+std::string DrawnThumbnail(const fs::path& folder) {
+  constexpr int kSide = 256;  // as Omniverse's browser has them
+  return EncodePng(DrawWhole(folder, {}, kSide, kSide));
 }
 
 }  // namespace doorforge

@@ -352,6 +352,9 @@ struct GeometryWriter {
   void operator()(const UrdfSphere& sphere) const {
     Set(Add(geometry, "sphere"), "radius", Decimal(sphere.radius_m));
   }
+  void operator()(const UrdfTriangles&) const {
+    throw Error(ErrorCode::kInvalidArgument, "a URDF holds no triangles; write them to a file");
+  }
 };
 
 void AddShape(XMLElement& link, const char* kind, const UrdfShape& shape) {

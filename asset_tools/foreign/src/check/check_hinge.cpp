@@ -86,7 +86,8 @@ class DoorOfLinks {
                                     : q_.tree.world_from_link[parent->second];
     const Eigen::Vector3d axis =
         (base * joint.parent_from_joint).linear() * joint.axis.value_or(Eigen::Vector3d::UnitX());
-    return axis.norm() > 1e-9 && std::abs(axis.normalized().z()) > 0.9;
+    const Eigen::Vector3d up = Eigen::Vector3d::Unit(q_.object.y_up ? 1 : 2);
+    return axis.norm() > 1e-9 && std::abs(axis.normalized().dot(up)) > 0.9;
   }
 
   bool IsBelowLeaf(std::size_t link) const {

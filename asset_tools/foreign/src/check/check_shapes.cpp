@@ -57,7 +57,7 @@ class ShapeCheck {
   }
   Box operator()(const TriangleMesh& mesh) const {
     const MeshMeasure measure = MeasureTriangles(mesh);
-    if (shape_->use != ShapeUse::kVisual) CheckTriangles(measure, shape_->place, "", faults_);
+    if (CollidesAsItIs()) CheckTriangles(measure, shape_->place, "", faults_);
     return Sized(1, measure.topology.bounds);
   }
   Box operator()(const ForeignMeshFile& file) {
@@ -68,7 +68,7 @@ class ShapeCheck {
     const auto measure = files_.Measure(file.name, shape_->place, faults_);
     if (measure == nullptr) return {};
     if (file.scale.prod() < 0) faults_.Add("GEO007", shape_->place, ScaleText(file));
-    if (shape_->use != ShapeUse::kVisual && collided_.insert(file.name).second)
+    if (CollidesAsItIs() && collided_.insert(file.name).second)
       CheckTriangles(*measure, shape_->place, "\"" + file.name + "\": ", faults_);
     if (named_.insert(file.name).second) {
       for (const ForeignFileName& name : measure->files) FindBeside(file.name, name);
@@ -81,6 +81,8 @@ class ShapeCheck {
   }
 
  private:
+  bool CollidesAsItIs() const { return shape_->use != ShapeUse::kVisual && !shape_->as_hull; }
+
   static std::string ScaleText(const ForeignMeshFile& file) {
     return Digits(file.scale.x()) + " " + Digits(file.scale.y()) + " " + Digits(file.scale.z());
   }

@@ -41,54 +41,6 @@ struct PositionHash {
   }
 };
 
-// Vertices at the same position become one.
-TriangleMesh Welded(const TriangleMesh& mesh) {
-  TriangleMesh welded;
-  std::unordered_map<std::array<std::uint64_t, 3>, int, PositionHash> indices;
-  std::vector<int> index_of(mesh.vertices.size());
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    std::array<std::uint64_t, 3> bits{};
-    for (int k = 0; k < 3; ++k) {
-      const double number = mesh.vertices[i][k] + 0.0;  // -0 is 0
-      std::memcpy(&bits[static_cast<std::size_t>(k)], &number, sizeof number);
-    }
-    const auto [entry, is_new] = indices.emplace(bits, static_cast<int>(welded.vertices.size()));
-    if (is_new) welded.vertices.push_back(mesh.vertices[i]);
-    index_of[i] = entry->second;
-  }
-  for (const Eigen::Vector3i& t : mesh.triangles) {
-    const auto at = [&](int k) { return index_of[static_cast<std::size_t>(t[k])]; };
-    welded.triangles.emplace_back(at(0), at(1), at(2));
-  }
-  return welded;
-}
-
-// The first of those that have the same three corners; returns how many went.
-std::size_t DropRepeated(TriangleMesh& mesh) {
-  const auto key = [&](std::size_t i) {
-    std::array<int, 3> corners = {mesh.triangles[i][0], mesh.triangles[i][1], mesh.triangles[i][2]};
-    std::sort(corners.begin(), corners.end());
-    return corners;
-  };
-  std::vector<std::pair<std::array<int, 3>, std::size_t>> keys;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) keys.emplace_back(key(i), i);
-  std::sort(keys.begin(), keys.end());
-  std::vector<bool> drop(mesh.triangles.size(), false);
-  std::size_t dropped = 0;
-  for (std::size_t i = 1; i < keys.size(); ++i) {
-    if (keys[i].first != keys[i - 1].first) continue;
-    drop[keys[i].second] = true;
-    ++dropped;
-  }
-  if (dropped == 0) return 0;
-  std::vector<Eigen::Vector3i> kept;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (!drop[i]) kept.push_back(mesh.triangles[i]);
-  }
-  mesh.triangles = std::move(kept);
-  return dropped;
-}
-
 bool IsInside(const fs::path& path, const fs::path& root) {
   const fs::path plain = root.has_filename() ? root : root.parent_path();  // "/a/b/" is "/a/b"
   const fs::path relative = path.lexically_relative(plain);
@@ -116,6 +68,52 @@ std::optional<fs::path> PackageAbove(const fs::path& folder, const fs::path& roo
 }
 
 }  // namespace
+
+TriangleMesh Welded(const TriangleMesh& mesh) {
+  TriangleMesh welded;
+  std::unordered_map<std::array<std::uint64_t, 3>, int, PositionHash> indices;
+  std::vector<int> index_of(mesh.vertices.size());
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    std::array<std::uint64_t, 3> bits{};
+    for (int k = 0; k < 3; ++k) {
+      const double number = mesh.vertices[i][k] + 0.0;  // -0 is 0
+      std::memcpy(&bits[static_cast<std::size_t>(k)], &number, sizeof number);
+    }
+    const auto [entry, is_new] = indices.emplace(bits, static_cast<int>(welded.vertices.size()));
+    if (is_new) welded.vertices.push_back(mesh.vertices[i]);
+    index_of[i] = entry->second;
+  }
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    const auto at = [&](int k) { return index_of[static_cast<std::size_t>(t[k])]; };
+    welded.triangles.emplace_back(at(0), at(1), at(2));
+  }
+  return welded;
+}
+
+std::size_t DropRepeated(TriangleMesh& mesh) {
+  const auto key = [&](std::size_t i) {
+    std::array<int, 3> corners = {mesh.triangles[i][0], mesh.triangles[i][1], mesh.triangles[i][2]};
+    std::sort(corners.begin(), corners.end());
+    return corners;
+  };
+  std::vector<std::pair<std::array<int, 3>, std::size_t>> keys;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) keys.emplace_back(key(i), i);
+  std::sort(keys.begin(), keys.end());
+  std::vector<bool> drop(mesh.triangles.size(), false);
+  std::size_t dropped = 0;
+  for (std::size_t i = 1; i < keys.size(); ++i) {
+    if (keys[i].first != keys[i - 1].first) continue;
+    drop[keys[i].second] = true;
+    ++dropped;
+  }
+  if (dropped == 0) return 0;
+  std::vector<Eigen::Vector3i> kept;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (!drop[i]) kept.push_back(mesh.triangles[i]);
+  }
+  mesh.triangles = std::move(kept);
+  return dropped;
+}
 
 MeshMeasure MeasureTriangles(const TriangleMesh& mesh) {
   MeshMeasure measure;

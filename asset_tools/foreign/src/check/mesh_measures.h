@@ -30,6 +30,12 @@ struct MeshMeasure {
 
 MeshMeasure MeasureTriangles(const TriangleMesh& mesh);
 
+/// The mesh with vertices at the same position as one.
+TriangleMesh Welded(const TriangleMesh& mesh);
+
+/// Keeps the first of the triangles that have the same three corners; returns how many went.
+std::size_t DropRepeated(TriangleMesh& mesh);
+
 /// Remembers meshes for as long as it lives, by path, size and time of change. For several threads.
 class MeshMemory {
  public:

@@ -600,7 +600,7 @@ class MjcfReader {
     if (mesh->second.inline_vertices) return {};
     shape.place = mesh->second.place;
     // MuJoCo collides convex hulls, whether the mesh is closed or not
-    shape.use = ShapeUse::kVisual;
+    shape.as_hull = true;
     return ForeignMeshFile{mesh->second.file, mesh->second.scale};
   }
 

@@ -6,9 +6,10 @@
 #include <numbers>
 #include <set>
 
+#include "doorforge/schemas/usda_text.h"
+
 #include "read/raw_mesh.h"
 #include "read/readers.h"
-#include "text/usda_text.h"
 
 namespace doorforge::foreign {
 namespace {
@@ -28,6 +29,7 @@ class UsdaReader {
 
   ArticulatedObject Read() {
     object_.place = {file_, 1, 1, "/"};
+    object_.y_up = true;  // where the stage does not say
     Header();
     for (const UsdaPrim& prim : stage_.prims) {
       if (!paths_.insert(prim.path).second)
@@ -36,6 +38,7 @@ class UsdaReader {
     for (const UsdaPrim& prim : stage_.prims) {
       Arcs(prim);
       if (prim.HasApi("PhysicsRigidBodyAPI")) Body(prim);
+      Facts(prim);
     }
     for (const UsdaPrim& prim : stage_.prims) {
       for (const auto& [name, type] : kUsdJointTypes) {
@@ -67,16 +70,32 @@ class UsdaReader {
         unit = true;
         unit_m_ = entry.value.numbers[0];
       }
-      up = up || entry.name == "upAxis";
+      if (entry.name == "upAxis") {
+        up = true;
+        object_.y_up = entry.value.texts.empty() || entry.value.texts[0] != "Z";
+      }
+      if (entry.name == "defaultPrim" && !entry.value.texts.empty())
+        object_.stage.default_prim = entry.value.texts[0];
       for (const std::string& asset : entry.value.assets)
         object_.files.push_back({asset, {file_, entry.line, entry.column, entry.name}, false});
     }
     if (!unit) missing = "no metersPerUnit";
     if (!up) missing += missing.empty() ? "no upAxis" : ", no upAxis";
+    object_.stage.unit_m = unit_m_;
     if (!missing.empty()) faults_.Add("USD002", object_.place, missing);
     if (unit && !(unit_m_ > 0)) {
       faults_.Add("FIL006", object_.place, "metersPerUnit " + Digits(unit_m_));
       unit_m_ = 1;
+    }
+  }
+
+  void Facts(const UsdaPrim& prim) {
+    StageFacts& stage = object_.stage;
+    stage.articulations += prim.HasApi("PhysicsArticulationRootAPI") ? 1 : 0;
+    for (const UsdaProperty& property : prim.properties) {
+      if (property.name.starts_with("semantics:labels")) stage.labelled.insert(prim.path);
+      if (property.name == "extent" && property.value.numbers.size() == 6)
+        stage.with_extent.insert(prim.path);
     }
   }
 
@@ -274,7 +293,8 @@ class UsdaReader {
     shape.name = prim.path;
     shape.place = At(prim);
     shape.geometry = std::move(geometry);
-    shape.use = UseOf(prim);
+    shape.use = prim.HasApi("PhysicsCollisionAPI") ? ShapeUse::kCollision : ShapeUse::kVisual;
+    shape.as_hull = CollidesAsHull(prim);
     const UsdaPrim* at = &prim;
     while (at != nullptr && !link_of_.contains(at->path)) {
       shape.link_from_shape = Local(*at) * shape.link_from_shape;
@@ -291,13 +311,12 @@ class UsdaReader {
     object_.links[*world_].shapes.push_back(std::move(shape));
   }
 
-  static ShapeUse UseOf(const UsdaPrim& prim) {
-    if (!prim.HasApi("PhysicsCollisionAPI")) return ShapeUse::kVisual;
+  // What is replaced by its convex hull, or by several.
+  static bool CollidesAsHull(const UsdaPrim& prim) {
+    if (!prim.HasApi("PhysicsCollisionAPI")) return false;
     const UsdaProperty* how = prim.Property("physics:approximation");
-    const bool hull = how != nullptr && !how->value.texts.empty() &&
-                      how->value.texts[0] != "none" && how->value.texts[0] != "sdf";
-    // what is replaced by its convex hull need not be closed
-    return hull ? ShapeUse::kVisual : ShapeUse::kCollision;
+    return how != nullptr && !how->value.texts.empty() && how->value.texts[0] != "none" &&
+           how->value.texts[0] != "sdf";
   }
 
   RigidTransform Local(const UsdaPrim& prim) {

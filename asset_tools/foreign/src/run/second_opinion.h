@@ -16,8 +16,8 @@ struct SecondOpinion {
   std::string words;    ///< Why it refuses, or why it was not asked.
 };
 
-/// Asks "urdfdom" or "mujoco" in a confined process. Throws nothing: what goes wrong is kNotAsked,
-/// and a crash of the program kRefuses.
+/// Asks "urdfdom", "sdformat" or "mujoco" in a confined process. Throws nothing: what goes wrong is
+/// kNotAsked, and a crash of the program kRefuses.
 SecondOpinion AskProgram(const std::string& program, const std::filesystem::path& file);
 
 }  // namespace doorforge::foreign

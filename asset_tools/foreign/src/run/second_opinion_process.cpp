@@ -21,6 +21,10 @@
 #include <urdf_parser/urdf_parser.h>
 #endif
 
+#ifdef DOORFORGE_WITH_SDFORMAT
+#include <sdf/sdf.hh>
+#endif
+
 namespace doorforge::foreign {
 namespace {
 
@@ -53,6 +57,29 @@ std::string OpinionOfUrdfdom(const std::string& file) {
 #else
 std::string OpinionOfUrdfdom(const std::string&) {
   return Answer("absent", "urdfdom", "this build is without it");
+}
+#endif
+
+#ifdef DOORFORGE_WITH_SDFORMAT
+std::string OpinionOfSdformat(const std::string& file) {
+  const std::string name = std::string("sdformat ") + DOORFORGE_WITH_SDFORMAT;
+  sdf::Console::Instance()->SetQuiet(true);
+  sdf::ParserConfig config;
+  bool includes = false;
+  // what is included lies where a simulator is told to look
+  config.SetFindCallback([&](const std::string&) {
+    includes = true;
+    return std::string();
+  });
+  sdf::Root root;
+  std::string words;
+  for (const sdf::Error& error : root.Load(file, config)) words += error.Message() + '\n';
+  if (includes) return Answer("absent", name, "it would have to find what is included");
+  return words.empty() ? Answer("ok", name, "") : Answer("no", name, words);
+}
+#else
+std::string OpinionOfSdformat(const std::string&) {
+  return Answer("absent", "sdformat", "this build is without it");
 }
 #endif
 
@@ -108,7 +135,9 @@ int GiveOpinion(std::span<char* const> arguments) {
   ConfineProcess({.seconds = 30, .parent = std::atoi(arguments[3]), .threads = mujoco});
   std::string answer;
   try {
-    if (!mujoco)
+    if (program == "sdformat")
+      answer = OpinionOfSdformat(arguments[2]);
+    else if (!mujoco)
       answer = OpinionOfUrdfdom(arguments[2]);
     else if (library == nullptr)
       answer = Answer("absent", "MuJoCo", "it is not installed");

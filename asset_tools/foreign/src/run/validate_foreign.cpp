@@ -15,10 +15,12 @@
 #include "doorforge/mesh/work_budget.h"
 
 #include "check/check_hinge.h"
+#include "check/check_profile.h"
 #include "check/checks.h"
 #include "read/glb_file.h"
 #include "read/raw_mesh.h"
 #include "read/readers.h"
+#include "run/read_object.h"
 #include "run/second_opinion.h"
 
 namespace doorforge {
@@ -91,6 +93,9 @@ class FileCheck {
     return report;
   }
 
+  /// To be called after Run().
+  ReadObject Object() && { return {std::move(object_), Places()}; }
+
   FaultList& faults() { return faults_; }
   SourcePlace Whole() const { return {name_, 0, 0, {}}; }
 
@@ -104,10 +109,11 @@ class FileCheck {
     return {};
   }
 
-  MeshFiles Files() const {
+  MeshFiles::Places Places() const {
     const fs::path folder = fs::absolute(file_).lexically_normal().parent_path();
-    return {{folder, root_, checks_.packages}, memory_};
+    return {folder, root_, checks_.packages};
   }
+  MeshFiles Files() const { return {Places(), memory_}; }
 
   void Xml(const std::string& ending) {
     kind_ = ending == ".urdf"   ? ValidatedKind::kUrdf
@@ -153,11 +159,14 @@ class FileCheck {
     if (!text) return;
     if (!text->starts_with("#usda"))
       return faults_.Add("FIL005", Whole(), "the file does not begin with #usda");
-    const ArticulatedObject object = ReadForeignUsda(*text, name_, faults_);
-    if (!faults_.HasError() || !(faults_.Has("FIL002") || faults_.Has("FIL003"))) Judge(object);
+    ArticulatedObject object = ReadForeignUsda(*text, name_, faults_);
+    if (!faults_.HasError() || !(faults_.Has("FIL002") || faults_.Has("FIL003")))
+      Judge(std::move(object));
   }
 
-  void Judge(const ArticulatedObject& object) {
+  void Judge(ArticulatedObject read) {
+    object_ = std::move(read);
+    const ArticulatedObject& object = object_;
     if (faults_.Has("FIL010")) return;
     if (object.links.size() > kMostLinks || object.joints.size() > kMostLinks)
       return faults_.Add("FIL003", object.place,
@@ -173,6 +182,7 @@ class FileCheck {
     const std::vector<LinkBounds> bounds = CheckShapes(object, tree, files, faults_);
     CheckInertials(object, tree, bounds, faults_);
     CheckHinge({object, tree, bounds, files, checks_.hinge, checks_.handle}, faults_, notes_);
+    CheckProfile({file_, kind_, object, tree, files}, checks_.target, faults_);
     Ask();
   }
 
@@ -206,6 +216,12 @@ class FileCheck {
       else
         notes_.push_back("MuJoCo was not asked");
     }
+    if (kind_ == ValidatedKind::kSdf) {
+      if (Asks("sdformat"))
+        Say(AskProgram("sdformat", fs::absolute(file_)), "EXT004");
+      else
+        notes_.push_back("sdformat was not asked");
+    }
   }
 
   // What doorforge's own readers import they are asked for in their process, too.
@@ -235,11 +251,12 @@ class FileCheck {
     };
     try {
       const std::string bytes = ReadFile(file_, 512ULL << 20U);
-      const TriangleMesh mesh = CheckGltf(bytes, name_, buffers, faults_);
+      TriangleMesh mesh = CheckGltf(bytes, name_, buffers, faults_);
       if (!faults_.HasError() && !mesh.triangles.empty()) {
         const MeshMeasure measure = MeasureTriangles(mesh);
         CheckScale(measure);
       }
+      Keep(std::move(mesh), true);
     } catch (const Error& error) {
       faults_.Add("FIL001", Whole(), error.what());
     }
@@ -250,7 +267,9 @@ class FileCheck {
     kind_ = ValidatedKind::kMesh;
     try {
       std::vector<ForeignFileName> named;
-      const MeshMeasure measure = MeasureTriangles(TrianglesOf(file_, root_, named));
+      TriangleMesh mesh = TrianglesOf(file_, root_, named);
+      const MeshMeasure measure = MeasureTriangles(mesh);
+      Keep(std::move(mesh), false);
       CheckTriangles(measure, Whole(), "", faults_);
       CheckScale(measure);
       const MeshFiles files = Files();
@@ -261,6 +280,22 @@ class FileCheck {
       faults_.Add("GEO005", Whole(), error.what());
     }
     AskAssimp();
+  }
+
+  // Triangles alone are an object of one shape.
+  void Keep(TriangleMesh mesh, bool y_up) {
+    ForeignShape shape;
+    shape.name = file_.filename().string();
+    shape.use = ShapeUse::kBoth;
+    shape.geometry = std::move(mesh);
+    shape.place = Whole();
+    ForeignLink link;
+    link.name = file_.stem().string();
+    link.shapes.push_back(std::move(shape));
+    link.place = Whole();
+    object_.links.push_back(std::move(link));
+    object_.place = Whole();
+    object_.y_up = y_up;
   }
 
   void CheckScale(const MeshMeasure& measure) {
@@ -278,9 +313,21 @@ class FileCheck {
   ValidatedKind kind_ = ValidatedKind::kUnknown;
   std::vector<std::string> notes_;
   FaultList faults_;
+  ArticulatedObject object_;
 };
 
 }  // namespace
+
+ReadObject ReadObjectOf(const fs::path& file, const fs::path& searched,
+                        const ForeignChecks& checks) {
+  ForeignChecks ours = checks;
+  ours.ask.clear();
+  MeshMemory memory;
+  FileCheck check(file, searched, ours, memory);
+  check.Run();
+  return std::move(check).Object();
+}
+
 }  // namespace foreign
 
 struct ForeignValidator::Memory {

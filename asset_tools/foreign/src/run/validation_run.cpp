@@ -132,11 +132,11 @@ class Run {
       checked_ = ValidateFolders(validator, found_.records.folders, request.checks);
     auto files = CheckFiles(request, found_.files);
     for (CheckedFolder& folder : checked_) {
-      if (folder.report) Take(*folder.report, known);
+      if (folder.report) Take(*folder.report, {}, known);
     }
     folders_ = reports_.size();
-    for (auto& report : files) {
-      if (report) Take(*report, known);
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      if (files[i]) Take(*files[i], found_.files[i].second, known);
     }
   }
 
@@ -151,11 +151,12 @@ class Run {
   }
 
  private:
-  void Take(ValidationReport& report, Baseline& known) {
+  void Take(ValidationReport& report, const fs::path& searched, Baseline& known) {
     ApplySettings(request_.settings, report);
     known_ += known.TakeFrom(report);
     ApplySettings({}, report);
     reports_.push_back(report);
+    searched_.push_back(searched);
   }
 
   std::string Document() const {
@@ -169,10 +170,17 @@ class Run {
       case FindingFormat::kGithub:
         return ToGithub(reports_);
       case FindingFormat::kHtml:
-        return ToHtml(reports_);
+        return AsPage();
       default:
         return AsText();
     }
+  }
+
+  std::string AsPage() const {
+    if (!request_.page) return ToHtml(reports_);
+    std::vector<ReportedItem> items;
+    for (std::size_t i = 0; i < reports_.size(); ++i) items.push_back({reports_[i], searched_[i]});
+    return request_.page(items);
   }
 
   Json AsJson() const {
@@ -287,7 +295,8 @@ class Run {
   Found found_;
   std::vector<CheckedFolder> checked_;
   std::vector<ValidationReport> reports_;
-  std::size_t folders_ = 0;  // of the reports, the first ones
+  std::vector<fs::path> searched_;  // by report
+  std::size_t folders_ = 0;         // of the reports, the first ones
   std::size_t known_ = 0;
   std::string messages_;
 };
@@ -304,6 +313,26 @@ Json RuleJson(const ValidationRule& rule) {
 
 ValidationAnswer RunValidation(const DoorValidator& validator, const ValidationRequest& request) {
   return Run(validator, request).Answer();
+}
+
+std::vector<std::string> ProfileWords() {
+  std::vector<std::string> words = NamesOf<ValidationProfile>();
+  for (const std::string& target : NamesOf<TargetProfile>()) {
+    if (target != NameOf(TargetProfile::kNone)) words.push_back(target);
+  }
+  return words;
+}
+
+ChosenProfile ProfileNamed(const std::string& word) {
+  ChosenProfile chosen;
+  if (word.empty()) return chosen;
+  const auto doors = ValueNamed<ValidationProfile>(word);
+  const auto target = ValueNamed<TargetProfile>(word);
+  if (!doors && (!target || *target == TargetProfile::kNone))
+    throw Error(ErrorCode::kInvalidArgument, "no profile \"" + word + '"');
+  chosen.doors = doors.value_or(chosen.doors);
+  chosen.target = target.value_or(chosen.target);
+  return chosen;
 }
 
 Json AllRulesToJson() {

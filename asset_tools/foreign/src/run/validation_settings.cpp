@@ -113,6 +113,7 @@ ValidationSettings SettingsFor(const std::string& config, const fs::path& path,
   replace(given.hinge, settings.hinge);
   replace(given.handle, settings.handle);
   if (!given.ask.empty()) settings.ask = given.ask;
+  if (given.target != TargetProfile::kNone) settings.target = given.target;
   std::erase(settings.ask, "none");
   RequireValid(settings);
   return settings;
@@ -131,7 +132,7 @@ void RequireValid(const ValidationSettings& settings) {
     const bool known = std::find(all.begin(), all.end(), program) != all.end();
     if (!known)
       throw Error(ErrorCode::kInvalidConfig,
-                  "ask \"" + program + "\": expected urdfdom, mujoco or assimp");
+                  "ask \"" + program + "\": expected urdfdom, mujoco, sdformat or assimp");
   }
 }
 
@@ -145,6 +146,7 @@ ForeignChecks ChecksOf(const ValidationSettings& settings) {
   checks.hinge = settings.hinge;
   checks.handle = settings.handle;
   checks.ask = settings.ask;
+  checks.target = settings.target;
   return checks;
 }
 

@@ -2,16 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <fstream>
+#include <map>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/inside_folder.h"
+#include "doorforge/schemas/door_words.h"
+#include "doorforge/schemas/glb.h"
 #include "doorforge/schemas/mjcf.h"
 #include "doorforge/schemas/sdf.h"
+#include "doorforge/schemas/usda.h"
 
+#include "guessed_category.h"
 #include "import_format.h"
 #include "subtask.h"
 #include "urdf_objects/file_axes.h"
@@ -22,14 +28,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// The shortest decimals that read back to the same double.
+std::string Digits(double number) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, number + 0.0).ptr};
+}
+
 constexpr std::array<std::string_view, 2> kPackages = {"package://", "model://"};
 
-/// A format that describes an articulated object in one file of XML.
+/// A format that describes an articulated object in one file.
 struct ModelKind {
   const char* name;    ///< --format takes it.
   const char* called;  ///< Messages call it so.
   const char* extension;
-  const char* root;  ///< The tag by which a file is known; null: the extension tells enough.
+  bool (*holds)(const fs::path& file);  ///< Null: the extension tells enough.
   UrdfModel (*read)(const fs::path& file, std::vector<UrdfFault>& faults);
 };
 
@@ -37,8 +49,6 @@ constexpr ModelKind kUrdf{
     "urdf", "URDF", ".urdf", nullptr,
     [](const fs::path& file, std::vector<UrdfFault>& faults) { return ReadUrdf(file, faults); }};
 constexpr ModelKind kSdf{"sdf", "SDF", ".sdf", nullptr, ReadSdf};
-constexpr ModelKind kMjcf{"mjcf", "MJCF", ".xml", "<mujoco", ReadMjcf};
-
 // Whether the file begins as one of this kind does, comments aside.
 bool HoldsRoot(const fs::path& path, const char* root) {
   constexpr std::streamsize kLooked = 4096;
@@ -49,10 +59,16 @@ bool HoldsRoot(const fs::path& path, const char* root) {
   return beginning.find(root) != std::string::npos;
 }
 
+constexpr ModelKind kMjcf{"mjcf", "MJCF", ".xml",
+                          [](const fs::path& file) { return HoldsRoot(file, "<mujoco"); },
+                          ReadMjcf};
+constexpr ModelKind kUsda{"usda", "USD", ".usda", nullptr, ReadUsda};
+constexpr ModelKind kGlb{"glb", "glTF", ".glb", HasLinks, ReadGlb};
+
 bool IsFileOf(const ModelKind& kind, const fs::path& path) {
   std::error_code error;
   return path.extension() == kind.extension && fs::is_regular_file(path, error) &&
-         (kind.root == nullptr || HoldsRoot(path, kind.root));
+         (kind.holds == nullptr || kind.holds(path));
 }
 
 // the folder's one file of the kind; nothing if it has none or several
@@ -164,16 +180,56 @@ void AddNotes(const std::vector<UrdfFault>& faults, const std::string& file,
   for (ForeignObject& object : objects) object.notes.push_back(UrdfFaultsText(file, faults));
 }
 
-// Exports of this project say what kind of door they are; nobody else does.
-Category CategoryOf(const UrdfModel& model, const ModelKind& kind, const std::string& where,
-                    const ReadConfig& config) {
+// Exports of this project say what kind of door they are; of others the names may tell, or else,
+// where nothing is returned, the size.
+std::optional<Category> CategoryOf(const UrdfModel& model, const std::string& name,
+                                   const ReadConfig& config, std::vector<std::string>& notes) {
+  if (!config.category.empty()) return CategoryOr(config, Category::kInterior);
   const auto told = model.words.find("door_category");
-  const auto known = told == model.words.end() ? std::nullopt : CategoryNamed(told->second);
-  if (config.category.empty() && !known)
-    throw Error(ErrorCode::kInvalidArgument,
-                where + ": " + (kind.called[0] == 'U' ? "a " : "an ") + kind.called +
-                    " does not say what kind of door it is; pass --category");
-  return CategoryOr(config, known.value_or(Category::kInterior));
+  if (told != model.words.end()) {
+    if (const auto known = CategoryNamed(told->second)) return known;
+  }
+  std::vector<std::string> names = {name, model.name};
+  for (const UrdfLink& link : model.links) names.push_back(link.name);
+  const std::optional<GuessedCategory> guessed = CategoryByName(names);
+  if (!guessed) return std::nullopt;
+  notes.push_back(GuessText(*guessed));
+  return guessed->category;
+}
+
+// What `doorforge compose` has to be told for the door to come back; empty for others' objects.
+// Springs are the latch's, damping is the joints'.
+std::map<std::string, std::string> SettingsOf(const UrdfModel& model, const std::string& where,
+                                              std::vector<std::string>& notes) {
+  const std::optional<Latch> latch = LatchFromWords(model.words, where);
+  if (!latch) return {};
+  std::map<std::string, std::string> settings;
+  for (const auto& [name, word] : LatchWords(*latch)) {
+    if (name != "type") settings[name] = word;
+  }
+  settings["latch"] = NameOf(latch->type);
+  if (latch->type != LatchType::kBolt) settings.erase("bolt_throw_m");
+  if (latch->type == LatchType::kNone) {
+    for (const char* name : {"unlock_angle_rad", "handle_done_angle_rad", "lock_effort_nm"})
+      settings.erase(name);
+  }
+  const auto word = [&](const char* name) {
+    const auto found = model.words.find(name);
+    return found == model.words.end() ? std::string() : found->second;
+  };
+  settings["id"] = word("door_id");
+  settings["hinge_side"] = word("door_hinge_side");
+  if (word("door_opening") == "push")
+    notes.emplace_back(
+        "it is pushed: read from the other side, where it is pulled; its settings do not bring it "
+        "back");
+  for (const UrdfJoint& joint : model.joints) {
+    if (joint.child == "leaf") settings["hinge_damping_nm_s"] = Digits(joint.damping);
+    if (joint.child == "handle" && joint.type != UrdfJointType::kFixed)
+      settings["handle_damping_nm_s"] = Digits(joint.damping);
+  }
+  std::erase_if(settings, [](const auto& one) { return one.second.empty(); });
+  return settings;
 }
 
 // The bolt and its strike hold the door; they are no part of its leaf or frame.
@@ -197,7 +253,17 @@ std::vector<ForeignObject> ReadModelObject(const ModelKind& kind, const fs::path
   object.license = config.mesh.license;
   std::vector<UrdfFault> faults;
   object.model = kind.read(urdf, faults);
-  object.category = CategoryOf(object.model, kind, urdf.string(), config);
+  std::vector<std::string> notes;
+  const std::optional<Category> category = CategoryOf(object.model, name, config, notes);
+  object.category = category.value_or(Category::kInterior);
+  object.category_by_height = !category;
+  const std::map<std::string, std::string> settings =
+      AnyRefuses(faults) ? std::map<std::string, std::string>()
+                         : SettingsOf(object.model, urdf.string(), notes);
+  const auto license = object.model.words.find("door_license");
+  const bool stated = license != object.model.words.end() && !license->second.empty();
+  if (stated && object.license == LooseMeshConfig{}.license) object.license = license->second;
+  object.exported = object.model.words.contains("latch_type");
   LeaveOutLatch(object.model);
   object.upright_from_base = UprightFrom(config.mesh.up.empty() ? "z" : config.mesh.up);
   object.height_m = config.height_m;
@@ -210,6 +276,10 @@ std::vector<ForeignObject> ReadModelObject(const ModelKind& kind, const fs::path
   RefuseFaults(object, faults);
   std::vector<ForeignObject> objects = ReadHingedObject(object);
   AddNotes(faults, urdf.filename().string(), objects);
+  for (ForeignObject& one : objects) {
+    one.notes.insert(one.notes.end(), notes.begin(), notes.end());
+    one.compose_settings = settings;
+  }
   return objects;
 }
 
@@ -226,5 +296,7 @@ ImportFormat FormatOf() {
 ImportFormat UrdfFormat() { return FormatOf<kUrdf>(); }
 ImportFormat SdfFormat() { return FormatOf<kSdf>(); }
 ImportFormat MjcfFormat() { return FormatOf<kMjcf>(); }
+ImportFormat UsdaFormat() { return FormatOf<kUsda>(); }
+ImportFormat GlbFormat() { return FormatOf<kGlb>(); }
 
 }  // namespace doorforge::internal

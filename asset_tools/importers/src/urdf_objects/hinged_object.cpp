@@ -6,17 +6,20 @@
 #include <array>
 #include <cmath>
 #include <iomanip>
+#include <map>
 #include <optional>
 #include <sstream>
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/mesh_transform.h"
 
+#include "guessed_category.h"
 #include "import_format.h"
 #include "urdf_objects/handle_place.h"
 #include "urdf_objects/hinged_shapes.h"
 #include "urdf_objects/joint_tree.h"
 #include "urdf_objects/leaf_motion.h"
+#include "urdf_objects/stated_mass.h"
 
 namespace doorforge::internal {
 namespace {
@@ -57,6 +60,7 @@ class LeafReader {
     motion_ = FindLeafMotion(AuthoredLeafOf());
     if (!motion_.refusal.empty()) return Refused(motion_.refusal);
     Note(handle);
+    NoteStill(handle);
     MakeParts(handle);
     return read_;
   }
@@ -139,6 +143,8 @@ class LeafReader {
 
   void TakeHandle(const std::optional<HandleCandidate>& handle) {
     if (!handle) return;
+    grip_ = handle->shapes;
+    grip_joint_ = handle->joint;
     std::erase_if(on_leaf_, [&](std::size_t i) {
       return std::find(handle->shapes.begin(), handle->shapes.end(), i) != handle->shapes.end();
     });
@@ -184,6 +190,24 @@ class LeafReader {
     if (!handle) read_.notes.push_back("has no handle: gives a body alone");
     for (const std::string& mesh : shapes_.left_out)
       read_.notes.push_back("without " + mesh + ", which is missing");
+  }
+
+  // Joints on the leaf or below what is no leaf, of which nothing else is said.
+  void NoteStill(const std::optional<HandleCandidate>& handle) {
+    for (std::size_t i = 0; i < tree_.size(); ++i) {
+      const auto& movable = tree_[i].movable;
+      if (movable.size() < 2 || tree_[i].joint != movable.back()) continue;
+      if (handle && handle->joint == movable.back()) continue;
+      const std::string moves = object_.model.links[i].name + " (" + WordFor(object_, i) + ") " +
+                                (Turns(object_.model.joints[movable.back()]) ? "turns" : "slides");
+      if (!IsOnLeaf(i))
+        read_.notes.push_back("left as it is: " + moves + " on what stands still here");
+      else if (handle && handle->joint &&
+               std::find(movable.begin(), movable.end(), *handle->joint) != movable.end())
+        read_.notes.push_back("left as it is: " + moves + " on the handle, of which it is a part");
+      else if (!Turns(object_.model.joints[movable.back()]) || movable.size() > 2)
+        read_.notes.push_back("left as it is: " + moves + " on the leaf, of which it is a part");
+    }
   }
 
   Eigen::Affine3d PartFromAuthored(bool moves) const {
@@ -247,6 +271,51 @@ class LeafReader {
     return part;
   }
 
+  using StatedMasses = std::map<std::string, MassProperties>;  // by piece
+
+  // Which piece a link's mass belongs to; nothing where its shapes go to two.
+  std::optional<std::string> PieceOf(std::size_t link) const {
+    bool grip = false;
+    bool other = false;
+    for (std::size_t i = 0; i < shapes_.shapes.size(); ++i) {
+      if (shapes_.shapes[i].link != link) continue;
+      (std::find(grip_.begin(), grip_.end(), i) != grip_.end() ? grip : other) = true;
+    }
+    if (grip && other) return std::nullopt;
+    const auto& movable = tree_[link].movable;
+    const bool turns =
+        grip_joint_ && std::find(movable.begin(), movable.end(), *grip_joint_) != movable.end();
+    if (grip || (turns && !other)) return "grip";
+    return IsOnLeaf(link) ? "leaf" : "frame";
+  }
+
+  // Adds what the source says that a piece weighs, and says so.
+  void AddStatedMass(const std::string& piece, const std::vector<std::size_t>& shapes,
+                     const Eigen::Affine3d& part_from_authored, StatedMasses& masses) {
+    if (object_.height_m > 0 || shapes.empty()) return;  // without a unit there is no mass
+    StatedLinks stated;
+    stated.has_shape.resize(object_.model.links.size(), false);
+    for (const HingedShape& shape : shapes_.shapes) stated.has_shape[shape.link] = true;
+    for (std::size_t i = 0; i < object_.model.links.size(); ++i) {
+      const std::optional<std::string> owner = PieceOf(i);
+      if (!owner && object_.model.links[i].inertial && piece != "frame") {
+        read_.notes.push_back("mass of " + piece + " computed: link \"" +
+                              object_.model.links[i].name + "\" is leaf and handle");
+        return;
+      }
+      if (owner == piece) stated.links.push_back(i);
+    }
+    stated.piece_from_base = part_from_authored * shapes_.authored_from_base;
+    TriangleMesh mesh = Joined(shapes);
+    for (const Eigen::Vector3d& vertex : mesh.vertices)
+      stated.bounds.extend(part_from_authored * vertex);
+    const StatedMass found = StatedMassOf(object_, tree_, stated);
+    if (found.mass) masses[piece] = *found.mass;
+    if (found.mass) read_.notes.push_back("mass of " + piece + " is the source's");
+    if (!found.problem.empty())
+      read_.notes.push_back("mass of " + piece + " computed: " + found.problem);
+  }
+
   void AddBody(const TriangleMesh& leaf, const Eigen::Vector3d& mount) {
     double lowest = BoundsOf(leaf).min().z();
     if (!around_.empty()) lowest = std::min(lowest, BoundsOf(PlacedMesh(around_, false)).min().z());
@@ -258,7 +327,10 @@ class LeafReader {
     std::vector<SourceMesh> meshes = PlacedSources(around_, "frame", up * PartFromAuthored(false));
     for (SourceMesh& mesh : PlacedSources(on_leaf_, "leaf", up * PartFromAuthored(true)))
       meshes.push_back(std::move(mesh));
-    AddPart(std::move(part), std::move(meshes));
+    StatedMasses masses;
+    AddStatedMass("leaf", on_leaf_, up * PartFromAuthored(true), masses);
+    AddStatedMass("frame", around_, up * PartFromAuthored(false), masses);
+    AddPart(std::move(part), {std::move(meshes), std::move(masses)});
   }
 
   void AddHandle(const HandleCandidate& handle, const HandlePlace& place) {
@@ -267,8 +339,11 @@ class LeafReader {
     part.joint = place.joint;
     part.part_from_grasp = place.part_from_grasp;
     const Eigen::Translation3d to_mount(-place.mount_m);
+    StatedMasses masses;
+    AddStatedMass("grip", handle.shapes, to_mount * PartFromAuthored(true), masses);
     AddPart(std::move(part),
-            PlacedSources(handle.shapes, "grip", to_mount * PartFromAuthored(true)),
+            {PlacedSources(handle.shapes, "grip", to_mount * PartFromAuthored(true)),
+             std::move(masses)},
             BoxDeviationOf(handle));
   }
 
@@ -286,15 +361,33 @@ class LeafReader {
                     (loaded.max() - box.max()).cwiseAbs().maxCoeff());
   }
 
-  void AddPart(Part part, std::vector<SourceMesh> meshes, double box_deviation_m = 0) {
-    part.source += ": " + FileNamesOf(meshes);
-    part.source_sha256 = SourceHashOf(meshes, part);
+  /// What a part is made of.
+  struct Ingredients {
+    std::vector<SourceMesh> meshes;
+    StatedMasses masses;
+    bool keep_closed = false;
+  };
+
+  static std::vector<RawPiece> PiecesOf(const Ingredients& from) {
+    std::vector<RawPiece> pieces = LoadPieces(from.meshes);
+    for (RawPiece& piece : pieces) {
+      piece.keep_closed = from.keep_closed;
+      const auto mass = from.masses.find(piece.name);
+      if (mass != from.masses.end()) piece.stated_mass = mass->second;
+    }
+    return pieces;
+  }
+
+  void AddPart(Part part, Ingredients from, double box_deviation_m = 0) {
+    from.keep_closed = object_.exported;
+    part.source += ": " + FileNamesOf(from.meshes);
+    part.source_sha256 = SourceHashOf(from.meshes, part, from.masses);
     ForeignPart added;
     added.id = part.id;
     added.role = part.role;
     added.source_sha256 = part.source_sha256;
-    added.load = [part, meshes, box_deviation_m] {
-      return LoadedPart{{part, LoadPieces(meshes)}, box_deviation_m};
+    added.load = [part, from = std::move(from), box_deviation_m] {
+      return LoadedPart{{part, PiecesOf(from)}, box_deviation_m};
     };
     read_.parts.push_back(std::move(added));
   }
@@ -306,6 +399,8 @@ class LeafReader {
   std::string id_;
   std::vector<std::size_t> on_leaf_;  // into shapes_; without the handle once it is chosen
   std::vector<std::size_t> around_;
+  std::vector<std::size_t> grip_;  // and of these the handle's
+  std::optional<std::size_t> grip_joint_;
   LeafMotion motion_;
   ForeignObject read_;
 };
@@ -338,6 +433,26 @@ std::string Joined(const std::vector<std::string>& texts) {
   return joined;
 }
 
+double HeightOf(const HingedShapes& shapes) {
+  Eigen::AlignedBox3d bounds;
+  for (const HingedShape& shape : shapes.shapes) bounds.extend(BoundsOf(shape.mesh));
+  return bounds.isEmpty() ? 0 : bounds.sizes().z();
+}
+
+// Doors of one object have one frame, in which the leaves of the others are shut.
+void AddSharedFrame(const std::vector<ForeignObject>& doors, ForeignObject& door) {
+  constexpr std::size_t kNamed = 8;
+  std::string names;
+  std::size_t count = 0;
+  for (const ForeignObject& other : doors) {
+    if (&other == &door || other.parts.empty() || ++count > kNamed) continue;
+    names += (names.empty() ? "" : ", ") + other.parts.front().id;
+  }
+  if (count == 0) return;
+  if (count > kNamed) names += " and " + std::to_string(count - kNamed) + " more";
+  door.notes.push_back("shares its frame with " + names + ", which are shut in it");
+}
+
 }  // namespace
 
 std::vector<ForeignObject> ReadHingedObject(const HingedObject& object) {
@@ -347,8 +462,16 @@ std::vector<ForeignObject> ReadHingedObject(const HingedObject& object) {
   std::vector<std::string> others = leaves.others;
   if (!leaves.links.empty()) {
     const HingedShapes shapes = LoadShapes(object, tree);
+    HingedObject known = object;
+    std::vector<std::string> notes;
+    if (object.category_by_height) {
+      const GuessedCategory guess = CategoryByHeight(HeightOf(shapes));
+      known.category = guess.category;
+      notes.push_back(GuessText(guess));
+    }
     for (const std::size_t link : leaves.links) {
-      ForeignObject door = LeafReader(object, tree, shapes, link).Read(leaves.links.size() == 1);
+      ForeignObject door = LeafReader(known, tree, shapes, link).Read(leaves.links.size() == 1);
+      door.notes.insert(door.notes.end(), notes.begin(), notes.end());
       if (door.refusal.empty())
         doors.push_back(std::move(door));
       else
@@ -357,6 +480,7 @@ std::vector<ForeignObject> ReadHingedObject(const HingedObject& object) {
   }
   for (ForeignObject& door : doors) {
     for (const std::string& other : others) door.notes.push_back("left as it is: " + other);
+    AddSharedFrame(doors, door);
   }
   if (!doors.empty()) return doors;
   ForeignObject refused;

@@ -24,6 +24,7 @@ struct HingedObject {
   Eigen::Matrix3d upright_from_base = Eigen::Matrix3d::Identity();  ///< Turns the base z up.
   double height_m = 0;  ///< The whole object is scaled to it; 0: numbers are metres.
   Category category = Category::kInterior;
+  bool category_by_height = false;  ///< Nobody said it: the object's height tells, and it is said.
   /// What a link is called ("door", "knob", "lid"); links that are not in it go by their own name.
   std::map<std::string, std::string> words = {};
   /// Bounds of links that the source's own records state, in the base's frame and units.
@@ -31,6 +32,7 @@ struct HingedObject {
   /// The file of a mesh as the URDF names it. Throws Error as FileInside() does.
   std::function<std::filesystem::path(const std::string& filename)> find_mesh;
   std::filesystem::path folder;  ///< Materials and textures of its meshes lie below it.
+  bool exported = false;         ///< By this project: closed meshes stay as they are.
   bool frame_may_miss = false;   ///< Meshes that no leaf carries may be absent.
 };
 
@@ -41,6 +43,8 @@ struct HingedObject {
 /// leaves included, at zero joint angles. A leaf that is authored open is closed first: turned to
 /// the limit at which its outline across the hinge, or that of the whole object, is much smaller.
 /// The handle is, of what turns on the leaf or is called a handle, what turns first and is largest.
+/// Every other joint that moves is named in the notes with what became of what it carries.
+/// A piece of which every link states a mass that can be meant keeps it, see stated_mass.h.
 ///
 /// Part frame: turned about z by a multiple of 90 degrees, or freely where none fits within 20, so
 /// that opening moves the leaf towards +x; then, for an upright hinge at the large-y side, mirrored

@@ -61,6 +61,7 @@ class ShapeCollector {
   static TriangleMesh SolidOf(const UrdfGeometry& geometry) {
     if (const auto* box = std::get_if<UrdfBox>(&geometry)) return MeshOf(*box);
     if (const auto* cylinder = std::get_if<UrdfCylinder>(&geometry)) return MeshOf(*cylinder);
+    if (const auto* triangles = std::get_if<UrdfTriangles>(&geometry)) return triangles->mesh;
     return MeshOf(std::get<UrdfSphere>(geometry));
   }
 

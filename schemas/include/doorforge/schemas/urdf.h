@@ -11,6 +11,7 @@
 
 #include "doorforge/core/mass_properties.h"
 #include "doorforge/core/rigid_transform.h"
+#include "doorforge/core/triangle_mesh.h"
 
 namespace doorforge {
 
@@ -29,7 +30,11 @@ struct UrdfCylinder {
 struct UrdfSphere {
   double radius_m;
 };
-using UrdfGeometry = std::variant<UrdfMeshFile, UrdfBox, UrdfCylinder, UrdfSphere>;
+/// Triangles that lie in the model's own file, as USD and glTF have them; no URDF holds any.
+struct UrdfTriangles {
+  TriangleMesh mesh;
+};
+using UrdfGeometry = std::variant<UrdfMeshFile, UrdfBox, UrdfCylinder, UrdfSphere, UrdfTriangles>;
 
 /// A `visual` or `collision` element.
 struct UrdfShape {
@@ -114,7 +119,8 @@ UrdfModel ParseUrdf(const std::string& text, const std::string& name,
 /// "FILE:LINE: TEXT" for one; for several a count and a line each, fifty at most.
 std::string UrdfFaultsText(const std::string& name, const std::vector<UrdfFault>& faults);
 
-/// Writes numbers with the shortest decimals that read back to the same double. The text carries
+/// Writes numbers with the shortest decimals that read back to the same double. Throws
+/// Error(kInvalidArgument) on UrdfTriangles. The text carries
 /// the `<mujoco>` element that lets MuJoCo find meshes in subfolders.
 std::string ToUrdf(const UrdfModel& model);
 /// Writes it without line breaks and indentation: a third smaller.

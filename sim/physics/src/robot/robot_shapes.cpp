@@ -111,6 +111,7 @@ TriangleMesh RobotShapes::MeshOf(const std::string& where, const UrdfGeometry& g
   if (const auto* box = std::get_if<UrdfBox>(&geometry)) return BoxMesh(box->size_m);
   if (const auto* cylinder = std::get_if<UrdfCylinder>(&geometry)) return CylinderMesh(*cylinder);
   if (const auto* sphere = std::get_if<UrdfSphere>(&geometry)) return SphereMesh(*sphere);
+  if (const auto* triangles = std::get_if<UrdfTriangles>(&geometry)) return triangles->mesh;
   const auto& file = std::get<UrdfMeshFile>(geometry);
   TriangleMesh mesh = Read(where, file);
   for (Eigen::Vector3d& vertex : mesh.vertices) vertex = vertex.cwiseProduct(file.scale).eval();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,9 +17,14 @@ namespace doorforge {
 
 /// How doors are exported.
 struct ExportRun {
-  std::filesystem::path out;  ///< Each door goes to OUT/<id>.
-  std::vector<DoorFormat> formats;
+  std::filesystem::path out;               ///< Each door goes to OUT/<id>.
+  std::vector<std::string> formats;        ///< Names of DoorFormats().
+  std::vector<std::string> profiles = {};  ///< Of ExportProfiles(), whose formats are added.
+  bool thumbnails = false;                 ///< A profile may want them anyway.
   ExportSettings settings = {};
+  /// Draws the door in a folder as a PNG, for ExportSettings::thumbnail_png. This room draws
+  /// nothing, so the program that can hands it in. It must bear several threads.
+  std::function<std::string(const std::filesystem::path& folder)> draw = {};
   Existing existing = Existing::kRefuse;
   int threads = 0;  ///< 0: all processors; no byte depends on it.
 };
@@ -33,7 +39,8 @@ struct ExportedDoor {
 /// Exports the door in each folder, in the order given, with progress. Whatever is wrong with one,
 /// the others go on.
 ///
-/// @throws Error(kIo) if `out` cannot be written.
+/// @throws Error(kIo) if `out` cannot be written; Error(kInvalidArgument) if neither a format nor a
+///     profile is named, on an unknown name, and where pictures are wanted and `draw` is empty.
 std::vector<ExportedDoor> ExportDoors(std::span<const std::filesystem::path> folders,
                                       const ExportRun& run);
 

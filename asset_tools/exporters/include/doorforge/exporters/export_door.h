@@ -25,7 +25,21 @@ constexpr std::span<const NamedValue<LatchExport>> ValuesOf(LatchExport) { retur
 /// How a door is written.
 struct ExportSettings {
   LatchExport latch = LatchExport::kBolt;  ///< GLB, which is for viewers, has data in either case.
+  /// PNG of the door, written beside the formats as thumbnail.png and where the catalogues of a
+  /// format look for it; empty: none.
+  std::string thumbnail_png = {};
 };
+
+/// A program that doors are exported for.
+struct ExportProfile {
+  std::string_view name;    ///< "mujoco", "isaac", "gazebo" or "sapien".
+  std::string_view format;  ///< The one that it reads best.
+  bool thumbnail;           ///< Its catalogues show pictures.
+};
+std::span<const ExportProfile> ExportProfiles();
+std::vector<std::string> ExportProfileNames();
+/// Null if there is no such profile.
+const ExportProfile* ExportProfileNamed(std::string_view name);
 
 /// A format that a door can be handed on in. All hold the same links, joints, limits and masses;
 /// docs/export.md says what becomes of the latch in each.

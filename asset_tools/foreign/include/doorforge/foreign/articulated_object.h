@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -45,6 +46,7 @@ enum class ShapeUse { kVisual, kCollision, kBoth };
 struct ForeignShape {
   std::string name;
   ShapeUse use = ShapeUse::kVisual;
+  bool as_hull = false;  ///< It collides as its convex hull, and need not be closed.
   RigidTransform link_from_shape = RigidTransform::Identity();
   ForeignGeometry geometry;
   SourcePlace place;
@@ -116,6 +118,15 @@ struct FormatTraits {
   bool needs_masses = false;  ///< Mass is not computed from shapes.
 };
 
+/// What a USD stage says beside links and joints; names are prim paths.
+struct StageFacts {
+  double unit_m = 0.01;
+  std::string default_prim;
+  std::size_t articulations = 0;
+  std::set<std::string> labelled;     ///< They have SemanticsLabelsAPI.
+  std::set<std::string> with_extent;  ///< Meshes.
+};
+
 /// An object of links and joints from outside, as far as its file can be read. Names are as written
 /// and may be empty or occur twice: it is what is judged, and promises nothing.
 struct ArticulatedObject {
@@ -125,6 +136,8 @@ struct ArticulatedObject {
   std::vector<ForeignFileName> files;
   FormatTraits traits;
   SourcePlace place;
+  bool y_up = false;  ///< The y axis of its world points up, not z.
+  StageFacts stage = {};
 };
 
 }  // namespace doorforge

@@ -13,7 +13,8 @@ namespace doorforge {
 
 /// The rules for files from outside that doors do not have. Families: FIL the file and its words,
 /// GLB and USD the structure of those, TRE links and joints as a tree, JNT joints, INR006 and
-/// later masses, GEO shapes and meshes, EXT other programs. Codes are never reused.
+/// later masses, GEO shapes and meshes, EXT other programs, PRF
+/// targets. Codes are never reused.
 std::span<const ValidationRule> ForeignRules();
 
 /// Those of doors and those for files from outside.

@@ -5,12 +5,25 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "doorforge/core/named_enum.h"
 #include "doorforge/validate/validate_door.h"
 
 namespace doorforge {
+
+/// A program that a file is for, with demands beyond its format's.
+enum class TargetProfile { kNone, kMujoco, kIsaac, kGazebo, kSapien };
+inline constexpr NamedValue<TargetProfile> kTargetProfiles[] = {{TargetProfile::kNone, "none"},
+                                                                {TargetProfile::kMujoco, "mujoco"},
+                                                                {TargetProfile::kIsaac, "isaac"},
+                                                                {TargetProfile::kGazebo, "gazebo"},
+                                                                {TargetProfile::kSapien, "sapien"}};
+constexpr std::span<const NamedValue<TargetProfile>> ValuesOf(TargetProfile) {
+  return kTargetProfiles;
+}
 
 /// How files from outside are checked.
 struct ForeignChecks {
@@ -21,8 +34,9 @@ struct ForeignChecks {
   std::map<std::string, std::filesystem::path> packages = {};
   std::string hinge = {};   ///< Joint; empty: it is looked for.
   std::string handle = {};  ///< Link; empty: it is looked for.
-  /// Programs that are asked as well: "urdfdom", "mujoco", "assimp".
-  std::vector<std::string> ask = {"urdfdom", "mujoco", "assimp"};
+  /// Programs that are asked as well: "urdfdom", "mujoco", "sdformat", "assimp".
+  std::vector<std::string> ask = {"urdfdom", "mujoco", "sdformat", "assimp"};
+  TargetProfile target = TargetProfile::kNone;  ///< PRF is asked for it.
 };
 
 /// Checks files of URDF, MJCF, SDF, USDA, GLB, glTF and meshes that others made.

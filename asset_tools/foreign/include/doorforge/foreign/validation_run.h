@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,16 @@ constexpr std::span<const NamedValue<FindingFormat>> ValuesOf(FindingFormat) {
   return kFindingFormats;
 }
 
+/// A report with the folder in which its file was found, as ForeignValidator::Validate() takes it.
+struct ReportedItem {
+  ValidationReport report;
+  std::filesystem::path searched;  ///< Empty for doors, parts, and files that were named.
+};
+
+/// Makes a page of HTML that draws the findings on what they are about. This room draws nothing, so
+/// the program that can hands it in.
+using FindingsPage = std::function<std::string(std::span<const ReportedItem>)>;
+
 /// What `doorforge validate` is asked for.
 struct ValidationRequest {
   std::vector<std::string> paths;
@@ -29,6 +41,7 @@ struct ValidationRequest {
   FindingFormat format = FindingFormat::kText;
   int expect = -1;                     ///< How many items there should be; -1: any number.
   std::filesystem::path new_baseline;  ///< Where the findings are written; empty: nowhere.
+  FindingsPage page;                   ///< Of kHtml; empty: ToHtml(), which draws nothing.
 };
 
 struct ValidationAnswer {
@@ -44,6 +57,16 @@ struct ValidationAnswer {
 /// missing or nothing was found, 4 where `expect` is another number, 128 + the signal that stopped
 /// it. Throws as Baseline() and CommitFile().
 ValidationAnswer RunValidation(const DoorValidator& validator, const ValidationRequest& request);
+
+/// What one word for a profile stands for.
+struct ChosenProfile {
+  ValidationProfile doors = ValidationProfile::kPhysics;
+  TargetProfile target = TargetProfile::kNone;  ///< Of files from outside.
+};
+/// "urdf", "physics", "openable" of doors, then "mujoco", "isaac", "gazebo", "sapien" of files.
+std::vector<std::string> ProfileWords();
+/// Empty: the defaults. Throws Error(kInvalidArgument) on another word.
+ChosenProfile ProfileNamed(const std::string& word);
 
 /// The rules of doors and for files from outside, as RulesToJson() has them.
 nlohmann::ordered_json AllRulesToJson();

@@ -33,6 +33,7 @@ struct ValidationSettings {
   std::string hinge;
   std::string handle;
   std::vector<std::string> ask = ForeignChecks{}.ask;
+  TargetProfile target = TargetProfile::kNone;  ///< Files from outside are for it.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -46,6 +47,7 @@ struct ValidationSettings {
     visit("hinge", self.hinge);
     visit("handle", self.handle);
     visit("ask", self.ask);
+    visit("target", self.target);
   }
 };
 

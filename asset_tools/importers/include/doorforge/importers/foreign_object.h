@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -100,6 +101,9 @@ struct ForeignObject {
   std::string refusal;             ///< Why this cannot be a door, and what it is.
   std::vector<std::string> notes;  ///< What was left out or assumed.
   double scale = 1;                ///< Metres a unit of the source.
+  /// Settings of `doorforge compose`, as words, that make the exported door of the two parts again;
+  /// empty where the source is no export of this project.
+  std::map<std::string, std::string> compose_settings = {};
   /// Where an object has both parts, this leads from the body's PartJoint::origin_m to the origin
   /// of the handle's frame as the source places it, in the parts' common axes.
   std::optional<Eigen::Vector3d> hinge_to_handle_m = {};

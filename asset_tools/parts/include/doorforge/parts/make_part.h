@@ -43,6 +43,10 @@ struct RawPiece {
   Eigen::Vector4d color_rgba{0.7, 0.7, 0.7, 1.0};
   VisualMesh visual = {};               ///< What its author drew; may be empty.
   std::vector<std::string> notes = {};  ///< What of its materials was left out.
+  /// What its source says that it weighs, in the part's frame; nothing: its volume tells.
+  std::optional<MassProperties> stated_mass = {};
+  /// A mesh that is closed stays as it is, even where its components meet, and is not repaired.
+  bool keep_closed = false;
 };
 
 /// All that is known of a part before its pieces are repaired.
@@ -57,6 +61,7 @@ struct PieceReport {
   int convex_parts = 0;
   ConvexPartsFit convex_fit;  ///< Measured, not the bound that was asked for.
   bool mass_limited = false;  ///< The volume times the density lay outside the plausible range.
+  bool mass_stated = false;   ///< The mass is the source's: RawPiece::stated_mass.
   int visual_triangles = 0;   ///< They count what its author drew, where the part keeps it.
   int visual_materials = 0;
   int visual_textures = 0;
@@ -72,9 +77,10 @@ struct MadePart {
 ///
 /// Coordinates are rounded to float, as the canonical files hold them, so a part that is written
 /// and read back equals the part in memory. What authors drew is kept as it is, unless it is the
-/// closed mesh in one colour; collision, mass and volume follow from the closed mesh. The density
-/// follows from category and piece (see docs/design/door.md); masses are kept between limits that a
-/// robot can move. Deterministic for any number of threads.
+/// closed mesh in one colour; collision, mass and volume follow from the closed mesh. A mass that
+/// the source states is kept as it is. Else the density follows from category and piece (see
+/// docs/design/door.md); masses are kept between limits that a robot can move. Deterministic for
+/// any number of threads.
 ///
 /// @throws Error(kInvalidArgument) if the draft has no leaf (body) or no grip (handle), or a piece
 ///     name that its role does not have; (kInvalidConfig) from the config; (kFormat) out of reach.

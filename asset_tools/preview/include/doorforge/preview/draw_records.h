@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "doorforge/core/named_enum.h"
 #include "doorforge/sensor/picture.h"
@@ -40,5 +41,9 @@ struct PreviewConfig {
 /// captions side by side where there are several. Throws as ReadDoor() and ReadPart(), and
 /// Error(kFormat) for a door with a joint whose limits are the wrong way round.
 Picture DrawRecords(std::span<const std::filesystem::path> folders, const PreviewConfig& config);
+
+/// PNG of 256 x 256 pixels of the whole door or part in the folder, as catalogues show it. Throws
+/// as DrawRecords(). May be called from several threads.
+std::string DrawnThumbnail(const std::filesystem::path& folder);
 
 }  // namespace doorforge

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace doorforge::foreign {
+namespace doorforge {
 
 /// A value as it is written: tuples and arrays are flat.
 struct UsdaValue {
@@ -60,4 +60,4 @@ struct UsdaFault : std::runtime_error {
 /// violation.
 UsdaStage ParseUsda(std::string_view text);
 
-}  // namespace doorforge::foreign
+}  // namespace doorforge

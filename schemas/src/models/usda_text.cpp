@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "text/usda_text.h"
+#include "doorforge/schemas/usda_text.h"
 
 #include <algorithm>
 #include <charconv>
 
-namespace doorforge::foreign {
+namespace doorforge {
 namespace {
 
 constexpr int kDeepest = 64;
@@ -337,4 +337,4 @@ bool UsdaPrim::HasApi(std::string_view schema) const {
 
 UsdaStage ParseUsda(std::string_view text) { return UsdaParser(text).Parse(); }
 
-}  // namespace doorforge::foreign
+}  // namespace doorforge

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "text/usda_text.h"
+#include "doorforge/schemas/usda_text.h"
 
 #include <gtest/gtest.h>
 
-namespace doorforge::foreign {
+namespace doorforge {
 namespace {
 
 std::string Repeated(const std::string& text, int count) {
@@ -43,4 +43,4 @@ TEST(UsdaText, APathOfManyBytesIsRefused) {
 }
 
 }  // namespace
-}  // namespace doorforge::foreign
+}  // namespace doorforge

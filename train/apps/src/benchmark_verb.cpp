@@ -14,6 +14,7 @@
 #include "doorforge/cli/answer.h"
 #include "doorforge/cli/command_line.h"
 #include "doorforge/core/committed_file.h"
+#include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/pipeline/pipeline_run.h"
@@ -38,7 +39,7 @@ BenchmarkOptions ParseBenchmark(int argc, char** argv) {
       "made from\nhas changed; stopped, the same command goes on.",
       "doorforge benchmark");
   app.add_option("size", options.size,
-                 "quick, paper, or a .yaml file; with `plan` before it: as --dry-run")
+                 "quick, paper, robustness, or a .yaml file; with `plan` before it: as --dry-run")
       ->required()
       ->expected(1, 2);
   app.add_option("--out", options.run.out, "folder for everything that is made")->required();
@@ -58,16 +59,26 @@ BenchmarkOptions ParseBenchmark(int argc, char** argv) {
   app.footer("sizes:\n" + SizesText() +
              "\nexamples:\n"
              "  doorforge benchmark plan quick --out run/benchmark\n"
-             "  doorforge benchmark quick --out run/benchmark --rows expert gapartnet ours");
+             "  doorforge benchmark quick --out run/benchmark --rows expert gapartnet ours\n"
+             "  doorforge benchmark robustness --out run/card --set doors=4");
   ParseVerb(app, argc, argv);
   if (TakePlan(options.size)) options.dry_run = true;
   return options;
 }
 
+void GiveDoors(const Benchmark& benchmark, const std::vector<std::string>& doors,
+               Pipeline& pipeline) {
+  for (const BenchmarkRow& row : benchmark.rows)
+    Require(row.compose.empty(), ErrorCode::kInvalidArgument,
+            "--doors: row " + row.name +
+                " composes doors of its own; leave --doors out, or name other --rows");
+  GiveOutput(pipeline, "doors", doors);
+}
+
 int RunBenchmark(BenchmarkOptions& options) {
   const Benchmark benchmark = ReadBenchmark(options.size[0], options.settings, options.rows);
   BenchmarkPlan plan = PlanBenchmark(benchmark);
-  if (!options.doors.empty()) GiveOutput(plan.pipeline, "doors", options.doors);
+  if (!options.doors.empty()) GiveDoors(benchmark, options.doors, plan.pipeline);
   if (options.dry_run) {
     PrintText(PlanPipeline(plan.pipeline, options.run));
     return 0;

@@ -89,8 +89,7 @@ ValidateOptions ParseValidate(int argc, char** argv) {
   app.add_flag("--rules", options.rules, "list the rules and end");
   app.footer(
       "exit code: 0 without errors, 1 with errors (--fail-on), 3 if a path could not be read or\n"
-      "written, a record is missing or nothing was found to check, 4 if it was not as many as\n"
-      "--expect says\n"
+      "written or nothing was found to check, 4 if it was not as many as --expect says\n"
       "examples:\n"
       "  doorforge validate doors --json\n"
       "  doorforge validate robot.urdf --hinge door_hinge --handle lever\n"

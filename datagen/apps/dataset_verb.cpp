@@ -3,13 +3,11 @@
 
 // The subcommands of `doorforge dataset`.
 
-#include <array>
 #include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -52,8 +50,7 @@ struct Subcommand {
 };
 
 constexpr const char* kRobotOption =
-    "URDF of the dataset's robot; needed where its config.yaml names a file that is not in the "
-    "dataset's folder";
+    "URDF of the dataset's robot, where its config.yaml names a file outside its folder";
 
 struct DatasetVerifyOptions {
   VerifyRequest request;
@@ -99,15 +96,12 @@ std::vector<CLI::Option*> AddMadeWithOptions(CLI::App& app, RegenerateDatasetReq
 Subcommand AddVerify(CLI::App& dataset) {
   const auto options = std::make_shared<DatasetVerifyOptions>();
   CLI::App* app = dataset.add_subcommand(
-      "verify",
-      "every byte of every file against its checksum or what it is made from, every value against "
-      "what it may be");
+      "verify", "every byte against its checksum or origin, every value against what it may be");
   app->add_option("folder", options->request.folder, "the dataset's folder")->required();
   AddJson(*app, options->json);
   AddThreads(*app, options->request.threads, "threads, 0: all");
   auto* share = app->add_option("--regenerate", options->share,
-                                "make a share of the episodes again from their seeds, such as 1%, "
-                                "and compare every byte");
+                                "make a share again, such as 1%, and compare every byte");
   for (CLI::Option* option : AddMadeWithOptions(*app, options->regenerate)) option->needs(share);
   share->needs(app->get_option("--doors"));
   app->footer(
@@ -285,8 +279,7 @@ struct DatasetExportOptions {
 int Export(const CLI::App& app, DatasetExportOptions& options) {
   RobomimicRequest& request = options.request;
   if (options.to == "lerobot")
-    return RunLerobotExport(options.python, request.folder,
-                            GivenWords(app, std::to_array<std::string_view>({"--to", "--python"})));
+    return RunLerobotExport(options.python, request.folder, GivenWords(app, {"--to", "--python"}));
   RefuseForwarded(app, LerobotOptions(), "--to lerobot");
   Progress progress("export", CountEpisodes(request.folder, request.stage));
   request.on_episode = [&] { progress.Advance(); };

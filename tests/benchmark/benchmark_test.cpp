@@ -44,11 +44,12 @@ std::string MessageOf(const std::function<void()>& wrong) {
 }
 
 TEST(BenchmarkTable, EveryRowHasSixFiguresOfThePaperOrNoneAndEverySizeItsRows) {
-  EXPECT_EQ(BenchmarkSizes(), (std::vector<std::string>{"paper", "quick"}));
+  EXPECT_EQ(BenchmarkSizes(), (std::vector<std::string>{"paper", "quick", "robustness"}));
   for (const std::string& size : BenchmarkSizes()) {
     const Benchmark benchmark = ReadBenchmark(size, {}, {});
     EXPECT_NE(SizesText().find(" " + benchmark.size.about + "\n"), std::string::npos) << size;
-    EXPECT_EQ(benchmark.rows.back().name, "ours") << size;  // what the others are compared with
+    // what the others are compared with
+    EXPECT_EQ(benchmark.rows.back().name, size == "robustness" ? "plain" : "ours");
     for (const BenchmarkRow& row : benchmark.rows)
       EXPECT_TRUE(row.paper.empty() || row.paper.size() == std::size(kCategories)) << row.name;
   }
@@ -127,6 +128,51 @@ TEST(BenchmarkPipeline, WhoseRowsAreNotTrainedMakesDoorsAlone) {
             (std::vector<std::string>{"parts", "doors", "expert_1_test", "expert_1_unseen"}));
 }
 
+TEST(BenchmarkPipeline, ARowMayComposeDoorsOfItsOwn) {
+  const Pipeline joined = PlanBenchmark(ReadBenchmark("robustness", {"evaluate=[--opener, expert]"},
+                                                      {"right", "plain"}))
+                              .pipeline;
+  const auto& composed = StepNamed(joined, "doors_right");
+  EXPECT_EQ(composed.command.back(), "hinge_side=right");
+  EXPECT_EQ(composed.output, "doors_right");
+  EXPECT_EQ(StepNamed(joined, "doors").output, "doors");
+  EXPECT_EQ(std::ranges::count(StepNamed(joined, "doors").command, "hinge_side=right"), 0);
+  EXPECT_EQ(Actors(joined, "right_1_test").count("doors_right"), 1U);
+  EXPECT_EQ(Actors(joined, "plain_1_test").count("doors"), 1U);
+  const auto& command = StepNamed(joined, "right_1_unseen").command;
+  EXPECT_EQ(std::ranges::count(command, "expert"), 1);
+}
+
+TEST(BenchmarkPipeline, GivenDoorsAreRefusedByARowThatComposes) {
+  const auto give = [](const std::vector<std::string>& rows) {
+    const Benchmark benchmark = ReadBenchmark("robustness", {}, rows);
+    BenchmarkPlan plan = PlanBenchmark(benchmark);
+    GiveDoors(benchmark, {"mine"}, plan);
+    EXPECT_EQ(StepNamed(plan.pipeline, "doors").given, std::vector<std::string>{"mine"});
+  };
+  EXPECT_NE(MessageOf([&] {
+              give({"right", "plain"});
+            }).find("row right composes"),
+            std::string::npos);
+  EXPECT_EQ(MessageOf([&] { give({"strong", "plain"}); }), "");
+}
+
+TEST(BenchmarkPipeline, DoorsOfARowsOwnAreNotTrainedOn) {
+  const fs::path file =
+      fs::temp_directory_path() / ("benchmark_bolt_" + std::to_string(::getpid()) + ".yaml");
+  CommitFile(
+      file,
+      "rows: [bolted, ours]\n"
+      "own:\n  - {name: bolted, title: Bolted, pipeline: quick, compose: [--set, latch=bolt], "
+      "evaluate: [--opener, '{opener}']}\n");
+  const Benchmark benchmark = ReadBenchmark(file.string(), {}, {});
+  fs::remove(file);
+  const Pipeline joined = PlanBenchmark(benchmark).pipeline;
+  EXPECT_EQ(std::ranges::count(joined.steps, "open_data", &PipelineStep::name), 1);
+  EXPECT_EQ(Actors(joined, "open_data").count("doors"), 1U);
+  EXPECT_EQ(Actors(joined, "bolted_1_test").count("doors_bolted"), 1U);
+}
+
 class BenchmarkResultTest : public testing::Test {
  protected:
   BenchmarkResultTest()
@@ -180,6 +226,24 @@ TEST_F(BenchmarkResultTest, TableComparisonAndPageSayTheSame) {
   EXPECT_NE(page.find("paper&#160;62"), std::string::npos);
   EXPECT_NE(page.find("rows/gapartnet_1_unseen/report.html"), std::string::npos);
   EXPECT_EQ(page, BenchmarkPage(result));
+}
+
+TEST_F(BenchmarkResultTest, RowsOfDoorsComposedOtherwiseArePairedByBodyAndHandle) {
+  for (const std::size_t row : {0U, 1U, 2U}) Write(row, {Category::kInterior});
+  for (const BenchmarkPart& part : plan_.parts) {
+    if (part.row != 0) continue;
+    const fs::path path = folder_ / part.report / "report.json";
+    auto json = ReadJsonFile(path.string());
+    auto& episodes = json["episodes"];
+    for (auto& episode : episodes)
+      episode["door_id"] = episode["door_id"].get<std::string>() + "__right";
+    std::reverse(episodes.begin(), episodes.end());
+    for (auto& door : json["doors"]) door["id"] = door["id"].get<std::string>() + "__right";
+    WriteJsonFile(path, json);
+  }
+  const BenchmarkResult result = ReadBenchmarkResult(benchmark_, plan_, folder_);
+  EXPECT_DOUBLE_EQ(result.comparisons[0].difference.mean, 0);
+  EXPECT_DOUBLE_EQ(result.comparisons[0].difference.low, 0);
 }
 
 TEST_F(BenchmarkResultTest, RowsOfOtherEpisodesAreRefused) {

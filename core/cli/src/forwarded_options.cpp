@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include <CLI/CLI.hpp>
+
 #include "doorforge/core/error.h"
 
 namespace doorforge {
@@ -29,8 +31,7 @@ void RefuseForwarded(const CLI::App& app, std::span<const ForwardedOption> optio
   }
 }
 
-std::vector<std::string> GivenWords(const CLI::App& app,
-                                    std::span<const std::string_view> without) {
+std::vector<std::string> GivenWords(const CLI::App& app, const std::vector<std::string>& without) {
   std::vector<std::string> words;
   for (const CLI::Option* option : app.get_options()) {
     const std::string& name = option->get_name();

@@ -38,7 +38,7 @@ BenchmarkOptions ParseBenchmark(int argc, char** argv) {
       "made from\nhas changed; stopped, the same command goes on.",
       "doorforge benchmark");
   app.add_option("size", options.size,
-                 "quick, paper, or a .yaml file; with `plan` before it: as --dry-run")
+                 "quick, paper, robustness, or a .yaml file; with `plan` before it: as --dry-run")
       ->required()
       ->expected(1, 2);
   app.add_option("--out", options.run.out, "folder for everything that is made")->required();
@@ -48,17 +48,16 @@ BenchmarkOptions ParseBenchmark(int argc, char** argv) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   AddSettings(app, options.settings, "changes the size, e.g. doors=12");
-  app.add_flag("--dry-run", options.dry_run,
-               "print the steps, why each would run, and the expected time and space");
+  app.add_flag("--dry-run", options.dry_run, "print the steps, why each would run, time and space");
   AddJson(app, options.run.json, "print one JSON document, of the plan or of the result");
-  AddOverwrite(app, options.run.overwrite,
-               "replace what steps made whose inputs have changed since");
+  AddOverwrite(app, options.run.overwrite, "replace what was made of other inputs");
   app.add_flag("--any-build", options.run.any_build,
-               "keep finished steps of other builds where nothing else has changed");
+               "keep steps of other builds if all else is as it was");
   app.footer("sizes:\n" + SizesText() +
              "\nexamples:\n"
              "  doorforge benchmark plan quick --out run/benchmark\n"
-             "  doorforge benchmark quick --out run/benchmark --rows expert gapartnet ours");
+             "  doorforge benchmark quick --out run/benchmark --rows expert gapartnet ours\n"
+             "  doorforge benchmark robustness --out run/card --set doors=4");
   ParseVerb(app, argc, argv);
   if (TakePlan(options.size)) options.dry_run = true;
   return options;
@@ -67,7 +66,7 @@ BenchmarkOptions ParseBenchmark(int argc, char** argv) {
 int RunBenchmark(BenchmarkOptions& options) {
   const Benchmark benchmark = ReadBenchmark(options.size[0], options.settings, options.rows);
   BenchmarkPlan plan = PlanBenchmark(benchmark);
-  if (!options.doors.empty()) GiveOutput(plan.pipeline, "doors", options.doors);
+  if (!options.doors.empty()) GiveDoors(benchmark, options.doors, plan);
   if (options.dry_run) {
     PrintText(PlanPipeline(plan.pipeline, options.run));
     return 0;

@@ -16,6 +16,10 @@ using page::Escape;
 using page::Fill;
 using page::Fixed;
 
+constexpr const char* kPaperNote =
+    " Below ours the paper's figure: other doors, another simulator, and columns whose order the "
+    "paper does not print.";
+
 std::string Percent(double share) { return Fixed(100 * share, 0); }
 
 std::string Cell(const std::string& text) { return "<td>" + text + "</td>"; }
@@ -57,6 +61,22 @@ std::string SuccessTable(const BenchmarkResult& result) {
          "</tbody></table>";
 }
 
+// A dot at the difference to the last row, its interval as a whisker, from -100 to 100 points.
+std::string DifferenceBar(const ClusteredDifference& difference) {
+  const auto x = [](double share) { return Fixed(154 - 150 * share, 1); };
+  return Fill(
+      R"(<svg class="bar" viewBox="0 0 308 24" role="img" aria-label="{mean} points, interval {low} to {high}">)"
+      R"(<title>{mean} points, 95 % interval {low} to {high}</title>)"
+      R"(<path class="track" d="M154 2v20" stroke="currentColor"/>)"
+      R"(<path class="whisker" d="M{left} 12H{right}M{left} 8v8M{right} 8v8"/><circle class="mark" cx="{dot}" cy="12" r="4"/></svg>)",
+      {{"mean", Fixed(-100 * difference.mean, 1)},
+       {"low", Fixed(-100 * difference.high, 1)},
+       {"high", Fixed(-100 * difference.low, 1)},
+       {"left", x(difference.high)},
+       {"right", x(difference.low)},
+       {"dot", x(difference.mean)}});
+}
+
 std::string ComparisonTable(const BenchmarkResult& result) {
   if (result.comparisons.empty()) return "";
   std::string rows;
@@ -65,10 +85,12 @@ std::string ComparisonTable(const BenchmarkResult& result) {
         "<tr>" + Cell(Escape(result.rows[row.first].row.title)) +
         Cell(Fixed(100 * row.difference.mean, 1)) +
         Cell(Fixed(100 * row.difference.low, 1) + " to " + Fixed(100 * row.difference.high, 1)) +
-        Cell(row.difference.IsSignificant() ? "yes" : "may be chance") + "</tr>\n";
+        Cell(row.difference.IsSignificant() ? "yes" : "may be chance") +
+        Cell(DifferenceBar(row.difference)) + "</tr>\n";
   return "<h2>By how much &#8220;" + Escape(result.rows.back().row.title) +
          "&#8221; opens more often</h2>\n<table><thead><tr><th>than</th><th>points</th>"
-         "<th>95 % interval</th><th>differs</th></tr></thead><tbody>\n" +
+         "<th>95 % interval</th><th>differs</th><th>fewer &#8592; opened, beside it &#8594; "
+         "more</th></tr></thead><tbody>\n" +
          rows + "</tbody></table>\n<p>Paired: the same doors and seeds. Bodies and handles are " +
          "resampled, both at a time; how trainings differ is not in the interval.</p>";
 }
@@ -95,6 +117,10 @@ std::string BudgetTable(const BenchmarkResult& result) {
 
 std::string BenchmarkPage(const BenchmarkResult& result) {
   const TrainingsSummary& first = result.rows.front().summary;
+  const bool papers = std::ranges::any_of(
+      result.benchmark.rows, [](const BenchmarkRow& row) { return !row.paper.empty(); });
+  const bool composes = std::ranges::any_of(
+      result.benchmark.rows, [](const BenchmarkRow& row) { return !row.compose.empty(); });
   return Fill(R"(<!DOCTYPE html>
 <html lang="en" xmlns="http://www.w3.org/1999/xhtml">
 <head>
@@ -106,8 +132,8 @@ std::string BenchmarkPage(const BenchmarkResult& result) {
 </head>
 <body>
 <header><h1>Benchmark &#8220;{name}&#8221;</h1>
-<p>Share of doors opened beyond 45 degrees [%], with 95 % intervals by resampled bodies and handles; {doors} doors, {seeds} scenes each, the
-same for every row. Below ours the paper's figure: other doors, another simulator, and columns whose order the paper does not print.</p></header>
+<p>Share of doors opened beyond 45 degrees [%], with 95 % intervals by resampled bodies and handles; {doors} doors, {seeds} scenes each,
+{same} for every row.{paper}</p></header>
 <main>
 {table}
 {comparisons}
@@ -121,6 +147,8 @@ same for every row. Below ours the paper's figure: other doors, another simulato
                {"style", std::string(page::kPageStyle)},
                {"doors", std::to_string(first.doors)},
                {"seeds", std::to_string(result.benchmark.size.seeds)},
+               {"same", composes ? "of the same bodies and handles" : "the same"},
+               {"paper", papers ? kPaperNote : ""},
                {"table", SuccessTable(result)},
                {"comparisons", ComparisonTable(result)},
                {"budgets", BudgetTable(result)},

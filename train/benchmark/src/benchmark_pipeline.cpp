@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "doorforge/core/error.h"
 #include "doorforge/core/program.h"
 #include "doorforge/pipeline/join_pipelines.h"
 
@@ -20,6 +21,20 @@ constexpr const char* kDoorsPipeline = "quick";  // who is not trained needs its
 // How many categories a side has, for the forecast alone.
 constexpr double kSeenCategories = 4;
 constexpr double kUnseenCategories = 2;
+
+// Another step that composes, with the row's arguments; returns its name. What trains a row keeps
+// the doors of all.
+std::string ComposeAlso(const BenchmarkRow& row, Pipeline& pipeline) {
+  PipelineStep step = *std::ranges::find(pipeline.steps, kDoorsStep, &PipelineStep::name);
+  const std::string shared = "{" + step.name + "}";
+  step.name += "_" + row.name;
+  step.output = step.name;
+  step.does += ", as row " + row.name + " has them";
+  std::ranges::replace(step.command, shared, "{" + step.name + "}");
+  step.command.insert(step.command.end(), row.compose.begin(), row.compose.end());
+  pipeline.steps.push_back(std::move(step));
+  return pipeline.steps.back().name;
+}
 
 struct Side {
   const char* name;
@@ -51,14 +66,23 @@ class Planner {
     changes.push_back("seed=" +
                       std::to_string(benchmark_.size.seed + static_cast<std::uint64_t>(training)));
     if (!trained) changes.clear();
-    const Pipeline pipeline = ReadPipeline(trained ? row.pipeline : kDoorsPipeline, changes);
-    std::vector<std::string> wanted = PlaceholdersOf(row.evaluate);
+    Pipeline pipeline = ReadPipeline(trained ? row.pipeline : kDoorsPipeline, changes);
+    const std::string doors =
+        row.compose.empty() ? std::string(kDoorsStep) : ComposeAlso(row, pipeline);
+    std::vector<std::string> wanted = PlaceholdersOf(WordsOf(row));
     std::erase(wanted, kData);
-    wanted.emplace_back(kDoorsStep);
-    const auto names = joiner_.Add(pipeline, wanted, row.name + "_" + std::to_string(training + 1));
+    wanted.push_back(doors);
+    auto names = joiner_.Add(pipeline, wanted, row.name + "_" + std::to_string(training + 1));
+    names[kDoorsStep] = names.at(doors);
     for (const Side& side : {Side{"test", benchmark_.size.split, kSeenCategories},
                              Side{"unseen", benchmark_.size.unseen_split, kUnseenCategories}})
       AddEvaluation(index, training, side, names);
+  }
+
+  std::vector<std::string> WordsOf(const BenchmarkRow& row) const {
+    std::vector<std::string> words = benchmark_.size.evaluate;
+    words.insert(words.end(), row.evaluate.begin(), row.evaluate.end());
+    return words;
   }
 
   void AddEvaluation(std::size_t index, int training, const Side& side,
@@ -72,7 +96,7 @@ class Planner {
     std::map<std::string, std::vector<std::string>> values{{kData, {DataFolder().string()}}};
     for (const auto& [name, now] : names) values[name] = {"{" + now + "}"};
     PipelineStep words;
-    words.command = row.evaluate;
+    words.command = WordsOf(row);
     for (const std::string& argument :
          ExpandCommand(words, nlohmann::ordered_json::object(), values))
       step.command.push_back(argument);
@@ -115,5 +139,14 @@ class Planner {
 }  // namespace
 
 BenchmarkPlan PlanBenchmark(const Benchmark& benchmark) { return Planner(benchmark).Plan(); }
+
+void GiveDoors(const Benchmark& benchmark, const std::vector<std::string>& folders,
+               BenchmarkPlan& plan) {
+  for (const BenchmarkRow& row : benchmark.rows)
+    Require(row.compose.empty(), ErrorCode::kInvalidArgument,
+            "--doors: row " + row.name +
+                " composes doors of its own; leave --doors out, or name other --rows");
+  GiveOutput(plan.pipeline, kDoorsStep, folders);
+}
 
 }  // namespace doorforge

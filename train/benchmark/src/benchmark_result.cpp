@@ -3,7 +3,9 @@
 #include "doorforge/benchmark/benchmark_result.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
+#include <map>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -45,14 +47,28 @@ double ShareOpened(const std::vector<EvaluationReport>& reports, std::size_t epi
   return opened / static_cast<double>(reports.size());
 }
 
+// Doors that a row composed itself have other names, and the same bodies and handles.
+std::string PairOf(const EvaluatedEpisode& episode) {
+  return "body " + episode.body + ", handle " + episode.handle + ", seed " +
+         std::to_string(episode.seed) + ", episode " + std::to_string(episode.episode);
+}
+
 ClusteredDifference Compare(const std::vector<EvaluationReport>& first,
-                            const std::vector<EvaluationReport>& second) {
-  // throws where they are not of the same episodes
-  SummariseTrainings(std::vector<EvaluationReport>{first[0], second[0]});
-  std::vector<ClusteredTrial> trials;
+                            const std::vector<EvaluationReport>& second,
+                            const std::array<std::string, 2>& names) {
+  std::map<std::string, double> before;
   for (std::size_t i = 0; i < first[0].episodes.size(); ++i)
-    trials.push_back({first[0].episodes[i].body, first[0].episodes[i].handle,
-                      ShareOpened(second, i) - ShareOpened(first, i)});
+    before.emplace(PairOf(first[0].episodes[i]), ShareOpened(first, i));
+  std::vector<ClusteredTrial> trials;
+  for (std::size_t i = 0; i < second[0].episodes.size(); ++i) {
+    const EvaluatedEpisode& episode = second[0].episodes[i];
+    const auto pair = before.find(PairOf(episode));
+    Require(pair != before.end() && before.size() == second[0].episodes.size(),
+            ErrorCode::kInvalidArgument,
+            "row " + names[0] + ": is not of the same doors and seeds as row " + names[1] +
+                ", which has " + PairOf(episode));
+    trials.push_back({episode.body, episode.handle, ShareOpened(second, i) - pair->second});
+  }
   return MeanDifference(trials);
 }
 
@@ -113,7 +129,9 @@ BenchmarkResult ReadBenchmarkResult(const Benchmark& benchmark, const BenchmarkP
     result.rows.push_back(std::move(row));
   }
   for (std::size_t i = 0; i + 1 < reports.size(); ++i)
-    result.comparisons.push_back({i, reports.size() - 1, Compare(reports[i], reports.back())});
+    result.comparisons.push_back({i, reports.size() - 1,
+                                  Compare(reports[i], reports.back(),
+                                          {benchmark.rows[i].name, benchmark.rows.back().name})});
   return result;
 }
 

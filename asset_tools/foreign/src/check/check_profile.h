@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "doorforge/foreign/articulated_object.h"
-#include "doorforge/foreign/validate_foreign.h"
+#include "doorforge/foreign/target_profile.h"
 
 #include "check/mesh_measures.h"
 #include "check/object_tree.h"

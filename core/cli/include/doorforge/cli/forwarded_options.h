@@ -4,12 +4,13 @@
 
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "doorforge/core/forwarded_option.h"
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace doorforge {
 
@@ -23,6 +24,6 @@ void RefuseForwarded(const CLI::App& app, std::span<const ForwardedOption> optio
 
 /// What was given on the command line, as words for another program: each option's name and its
 /// values. Positional ones are left out, and those in `without`, such as "--to".
-std::vector<std::string> GivenWords(const CLI::App& app, std::span<const std::string_view> without);
+std::vector<std::string> GivenWords(const CLI::App& app, const std::vector<std::string>& without);
 
 }  // namespace doorforge

@@ -32,4 +32,10 @@ struct BenchmarkPlan {
 ///     does not have.
 BenchmarkPlan PlanBenchmark(const Benchmark& benchmark);
 
+/// Judges all rows on the composed doors in these folders, instead of the catalogue's.
+///
+/// @throws Error(kInvalidArgument) if a row composes doors of its own, BenchmarkRow::compose.
+void GiveDoors(const Benchmark& benchmark, const std::vector<std::string>& folders,
+               BenchmarkPlan& plan);
+
 }  // namespace doorforge

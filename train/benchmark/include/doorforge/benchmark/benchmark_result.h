@@ -22,7 +22,7 @@ struct BenchmarkRowResult {
   std::vector<std::string> reports;  ///< Folders, below the benchmark's.
 };
 
-/// Whether two rows differ, on the same episodes.
+/// Whether two rows differ, on the same bodies, handles and seeds.
 struct BenchmarkComparison {
   std::size_t first = 0;  ///< Index into BenchmarkResult::rows.
   std::size_t second = 0;
@@ -39,7 +39,7 @@ struct BenchmarkResult {
 /// Reads the reports of all parts.
 ///
 /// @throws Error(kMissing or kFormat) as their reader, and Error(kInvalidArgument) unless all are
-///     of the same doors and seeds.
+///     of the same bodies, handles and seeds.
 BenchmarkResult ReadBenchmarkResult(const Benchmark& benchmark, const BenchmarkPlan& plan,
                                     const std::filesystem::path& out);
 

@@ -15,7 +15,10 @@ struct BenchmarkRow {
   std::vector<double> paper = {};  ///< The paper's rates, in the order of Category; may be empty.
   std::string pipeline = {};       ///< A preset that trains what `evaluate` names; may be empty.
   std::vector<std::string>
-      evaluate;             ///< Arguments of `doorforge eval`, with {steps} of it and {data}.
+      evaluate;  ///< Arguments of `doorforge eval`, with {steps} of it and {data}.
+  /// Arguments of `doorforge compose --all`: the row is judged on doors of its own, of the same
+  /// bodies and handles. Empty: on those of the others.
+  std::vector<std::string> compose = {};
   double core_seconds = 1;  ///< A door and seed of the evaluation takes it.
 
   template <class Self, class Visitor>
@@ -25,6 +28,7 @@ struct BenchmarkRow {
     visit("paper", self.paper);
     visit("pipeline", self.pipeline);
     visit("evaluate", self.evaluate);
+    visit("compose", self.compose);
     visit("core_seconds", self.core_seconds);
   }
 };
@@ -39,7 +43,10 @@ struct BenchmarkSize {
   int trainings = 1;  ///< Each row that is trained has so many; their seeds follow `seed`.
   std::uint64_t seed = 7;
   std::vector<std::string> settings;  ///< "key=value" of the pipelines that train.
-  std::string split = "full:test";    ///< The side of held-out doors.
+  /// Arguments of `doorforge eval` of every row, before its own: who is judged, where the rows are
+  /// conditions. Empty: each row says it.
+  std::vector<std::string> evaluate = {};
+  std::string split = "full:test";  ///< The side of held-out doors.
   std::string unseen_split = "full:unseen_categories";
 
   template <class Self, class Visitor>
@@ -52,6 +59,7 @@ struct BenchmarkSize {
     visit("trainings", self.trainings);
     visit("seed", self.seed);
     visit("settings", self.settings);
+    visit("evaluate", self.evaluate);
     visit("split", self.split);
     visit("unseen_split", self.unseen_split);
   }

@@ -60,8 +60,7 @@ int RunExportVerb(int argc, char** argv) {
   options.run.draw = DrawnThumbnail;
 #endif
   const auto found = FindDoors(options.paths);
-  const std::vector<std::filesystem::path> folders(found.begin(), found.end());
-  const std::vector<ExportedDoor> doors = ExportDoors(folders, options.run);
+  const auto doors = ExportDoors(std::vector(found.begin(), found.end()), options.run);
   const std::vector<std::string> problems = ProblemsOf(doors);
   return AnswerOfBatch(problems, options.json, ExportedToJson(doors),
                        std::to_string(doors.size() - problems.size()) + " doors exported to " +

@@ -48,11 +48,10 @@ BenchmarkOptions ParseBenchmark(int argc, char** argv) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   AddSettings(app, options.settings, "changes the size, e.g. doors=12");
-  app.add_flag("--dry-run", options.dry_run, "print the steps, why each would run, time and space");
+  app.add_flag("--dry-run", options.dry_run, "print steps, reasons, time and space");
   AddJson(app, options.run.json, "print one JSON document, of the plan or of the result");
   AddOverwrite(app, options.run.overwrite, "replace what was made of other inputs");
-  app.add_flag("--any-build", options.run.any_build,
-               "keep steps of other builds if all else is as it was");
+  app.add_flag("--any-build", options.run.any_build, "keep steps of other builds");
   app.footer("sizes:\n" + SizesText() +
              "\nexamples:\n"
              "  doorforge benchmark plan quick --out run/benchmark\n"

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include <CLI/CLI.hpp>
+
 #include "doorforge/core/error.h"
 
 namespace doorforge {

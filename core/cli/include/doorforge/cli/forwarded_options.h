@@ -7,9 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "doorforge/core/forwarded_option.h"
+
+namespace CLI {
+class App;
+}
 
 namespace doorforge {
 

@@ -53,7 +53,7 @@ def _load_reader() -> Any:
 
 
 try:
-    reader = _load_reader()
+    reader: Any = _load_reader()
 except ImportError as problem:
     if __name__ != "__main__":
         raise
@@ -80,7 +80,7 @@ PathLike = Union[str, "os.PathLike[str]"]
 Stats = dict[str, Any]  # "mean" and so on, float64 arrays; "count" is one integer
 
 
-class ExportError(reader.DatasetError):  # type: ignore[misc]
+class ExportError(reader.DatasetError):  # type: ignore[name-defined, misc]
     """An export cannot be made; the message says what, where and what to do. `exit_code` is the program's."""
 
     def __init__(self, message: str, exit_code: int = 3) -> None:
@@ -685,7 +685,7 @@ class Export:
             height, width = column.shape[:2]
             frames = (pixels for rows in episodes for pixels in rows[column.name])
             _commit(self.out / self.video_path(file, column.name),
-                    lambda hidden, frames=frames, size=(width, height): write_video(hidden, frames, size))
+                    functools.partial(write_video, frames=frames, size=(width, height)))
         _commit(self.out / self.data_path(file), lambda hidden: write_table(hidden, self.all_columns, episodes))
         self._write_note(file, tallies)
         return not stopped()
@@ -696,7 +696,7 @@ class Export:
 
     def _write_note(self, file: PlannedFile, tallies: dict[str, Tally]) -> None:
         stats = [{name: _plain(tally.stats[i]) for name, tally in tallies.items()} for i in range(len(file.episodes))]
-        arrays = {"kept/" + name: array for name, tally in tallies.items() for array in self._joined(tally)}
+        arrays: dict[str, Any] = {"kept/" + name: array for name, tally in tallies.items() for array in self._joined(tally)}
         note = io.BytesIO()
         np.savez_compressed(note, stats=np.frombuffer(json.dumps(stats).encode(), dtype=np.uint8), **arrays)
         _commit(self._note_path(file), lambda hidden: hidden.write_bytes(note.getvalue()))

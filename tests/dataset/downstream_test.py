@@ -53,6 +53,32 @@ class DownstreamTest(unittest.TestCase):
         return self.folder / "data"
 
 
+class Lerobot(DownstreamTest):
+    def test_the_verb_runs_the_python_file_and_ends_as_it_does(self):
+        out = self.folder / "out"
+        export = ("export", GOLDEN, "--to", "lerobot", "--python", "/usr/bin/python3", "--out", out)
+        for more, code, words in ((("--points", 99), 2, "--points: 99, the clouds have 24"),
+                                  (("--cameras", "a", "b", "--depth"), 2, "no camera 'a'; the episodes have none"),
+                                  (("--stage", "grasp"), 3, "no episodes of stage 'grasp'"),
+                                  (("--overwrite",), 2, "--overwrite")):
+            result = dataset(*export, *more)
+            self.assertEqual((result.returncode, words in result.stderr), (code, True), result.stderr)
+        result = dataset("export", GOLDEN, "--to", "lerobot", "--python", self.folder / "none", "--out", out)
+        self.assertEqual((result.returncode, "give --python" in result.stderr), (3, True), result.stderr)
+        result = dataset("export", GOLDEN, "--to", "robomimic", "--points", 5, "--out", out)
+        self.assertEqual((result.returncode, "--points: is for --to lerobot" in result.stderr), (2, True), result.stderr)
+        self.assertFalse(out.exists())
+
+    def test_without_pyarrow_it_says_what_to_install(self):
+        # a Python that has no packages but numpy, however the system's is set up
+        python = self.folder / "python"
+        python.write_text("#!/bin/sh\nexec /usr/bin/python3 -c 'import runpy, sys; sys.modules[\"pyarrow\"] = None; "
+                          "sys.argv = sys.argv[3:]; runpy.run_path(sys.argv[0], run_name=\"__main__\")' \"$@\"\n")
+        python.chmod(0o755)
+        result = dataset("export", GOLDEN, "--to", "lerobot", "--python", python, "--out", self.folder / "out")
+        self.assertEqual((result.returncode, "-m pip install pyarrow" in result.stderr), (3, True), result.stderr)
+
+
 @unittest.skipUnless(has("h5py"), "python3-h5py is not installed")
 class Robomimic(DownstreamTest):
     def test_h5py_reads_the_values_of_the_shards(self):

@@ -72,7 +72,8 @@ class Package(unittest.TestCase):
     def test_files_lie_where_debian_wants_them(self):
         for path in ("bin/doorforge", "bin/doorforge-read-mesh", "share/man/man1/doorforge.1.gz", "share/doorforge/catalog",
                      "share/doorforge/policies/opener/policy.json", "share/doorforge/schemas",
-                     "lib/python3/dist-packages/doorforge_reader.py", "lib/python3/dist-packages/doorforge/__init__.py",
+                     "lib/python3/dist-packages/doorforge_reader.py", "lib/python3/dist-packages/doorforge_lerobot.py",
+                     "lib/python3/dist-packages/doorforge/__init__.py",
                      "share/bash-completion/completions/doorforge",
                      "share/zsh/vendor-completions/_doorforge", "share/fish/vendor_completions.d/doorforge.fish",
                      "share/doc/doorforge/changelog.gz"):

@@ -29,13 +29,14 @@ cd "$scratch"
 
 echo "== episodes with pictures and colours"
 doorforge compose --body interior_flush_01 --handle interior_lever_tube_01 --out doors/a
-doorforge compose --body safe_box_tall_03 --handle safe_tee_04 --out doors/b
-printf 'train: [a]\nval: [b]\n' > split.yaml
+doorforge compose --body interior_framed_01 --handle interior_lever_tube_02 --out doors/b
+doorforge compose --body safe_box_tall_03 --handle safe_tee_04 --out doors/c
 # shellcheck disable=SC2054
-collect=(--doors doors --seed 3 --set collection.episodes_per_shard=4 --set scene.appearance=full --set pictures.cloud_rgb=true
+collect=(--doors doors --seed 3 --set collection.episodes_per_shard=4 --set collection.val_fraction=0.5
+  --set scene.appearance=full --set pictures.cloud_rgb=true
   --set "pictures.cameras=[{name: front, width: 96, height: 96}, {name: wrist, at: hand, width: 64, height: 48}]"
   --set "pictures.streams=[rgb, depth]")
-doorforge datagen open "${collect[@]}" --out data --episodes 10
+doorforge datagen open "${collect[@]}" --out data --episodes 9
 doorforge datagen handle "${collect[@]}" --out data_handle --episodes 4
 
 echo "== v3.0, pictures in the tables"
@@ -61,8 +62,8 @@ doorforge dataset export data --to lerobot --python "$python" --codebase-version
 echo "== LeRobot trains its diffusion policy"
 doorforge dataset export data --to lerobot --python "$python" --cameras front --points 0 --out lerobot_front
 "$venv/bin/lerobot-train" --dataset.repo_id=local/doors --dataset.root="$scratch/lerobot_front" --policy.type=diffusion \
-  --policy.device=cpu --policy.push_to_hub=false --wandb.enable=false --output_dir="$scratch/trained" --steps=12 --batch_size=4 \
-  --num_workers=0 --log_freq=4 --save_freq=12 --policy.crop_shape='[84, 84]' --policy.down_dims='[32, 64, 128]' \
+  --policy.device=cpu --policy.push_to_hub=false --wandb.enable=false --output_dir="$scratch/trained" --steps=4 --batch_size=2 \
+  --num_workers=0 --log_freq=2 --save_freq=4 --policy.crop_shape='[84, 84]' --policy.down_dims='[32, 64, 128]' \
   --policy.num_train_timesteps=10 --policy.pretrained_backbone_weights=null 2>&1 | tee train.log | grep -E "loss|Effective|episodes" || true
 ls trained/checkpoints/*/pretrained_model/model.safetensors
 grep -q "loss:" train.log

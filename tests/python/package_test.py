@@ -535,8 +535,9 @@ class Package(unittest.TestCase):
     def test_data_and_latch_need_no_extension(self) -> None:
         source = pathlib.Path(__file__).parents[2] / "python"
         program = ("import warnings; warnings.simplefilter('ignore'); import doorforge, doorforge.latch, "
-                   "doorforge.datasets, doorforge_reader\n"
+                   "doorforge.datasets, doorforge.lerobot, doorforge_reader\n"
                    "assert doorforge.datasets.Dataset is doorforge_reader.Dataset\n"
+                   "assert issubclass(doorforge.lerobot.ExportError, doorforge_reader.DatasetError)\n"
                    "try: doorforge.compose\nexcept ImportError as error: print(error)")
         done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False,
                               env={**os.environ, "PYTHONPATH": str(source)})

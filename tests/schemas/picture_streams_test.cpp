@@ -35,7 +35,7 @@ TEST(PictureStreams, NamesTypesAndShapesBelongTogether) {
   EXPECT_EQ(type("action", {9}), "none");
   EXPECT_EQ(type("cloud_rgb", {40, 3}), "|u1");
   EXPECT_EQ(type("cloud_rgb", {40, 4}), "none");
-  EXPECT_EQ(type("cloud_rgb", {0, 3}), "none");
+  EXPECT_EQ(type("cloud_rgb", {0, 3}), "|u1");
   EXPECT_EQ(PictureFeature("cloud_rgb", {40, 3})->shape, (std::vector<std::size_t>{0, 3}));
 }
 
@@ -65,7 +65,11 @@ TEST_F(PictureStreamsTest, ThereAreAsManyColoursAsPoints) {
   const std::vector<std::uint8_t> colors(3 * 41 * 3, 7);
   const std::span<const std::uint8_t> fitting(colors.data(), 3 * 40 * 3);
   WriteWith(folder_ / "a", {"cloud_rgb.npy", MakeNpy<std::uint8_t>(fitting, {3, 40, 3})});
-  EXPECT_EQ(SummarizeShards(folder_ / "a").pictures.at(0).name, "cloud_rgb");
+  const auto json = DatasetToJson(SummarizeShards(folder_ / "a"));
+  EXPECT_EQ(json.at("features").back().at("shape"),
+            nlohmann::ordered_json({"decisions", "points", 3}));
+  EXPECT_EQ(DatasetFromJson(json, "record").pictures.at(0).name, "cloud_rgb");
+  EXPECT_EQ(DatasetToJson(DatasetFromJson(json, "record")), json);
   WriteWith(folder_ / "b", {"cloud_rgb.npy", MakeNpy<std::uint8_t>(colors, {3, 41, 3})});
   EXPECT_THROW(SummarizeShards(folder_ / "b"), Error);
 }

@@ -90,6 +90,7 @@ std::vector<EpisodeFeature> PicturesFromJson(const Json& json, const std::string
     std::vector<std::size_t> shape;
     for (const Json& length : MemberOf(feature, "shape", where)) {
       if (length.is_number_unsigned()) shape.push_back(length.get<std::size_t>());
+      if (length == "points") shape.push_back(0);
     }
     if (auto picture = PictureFeature(ValueOf<std::string>(feature, "name", where), shape))
       pictures.push_back(std::move(*picture));

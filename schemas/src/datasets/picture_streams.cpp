@@ -103,8 +103,7 @@ std::string PicturePoseName(std::string_view camera) {
 std::optional<EpisodeFeature> PictureFeature(const std::string& name,
                                              const std::vector<std::size_t>& shape) {
   if (IsNameOf(name, kPose) && shape == std::vector<std::size_t>{3, 4}) return PoseFeature(name);
-  if (name == kCloudColors && shape.size() == 2 && shape[0] > 0 && shape[1] == 3)
-    return ColorFeature();
+  if (name == kCloudColors && shape.size() == 2 && shape[1] == 3) return ColorFeature();
   for (const StreamForm& form : kForms) {
     if (!IsNameOf(name, NameOf(form.stream))) continue;
     const bool fits =

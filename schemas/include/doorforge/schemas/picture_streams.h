@@ -49,7 +49,7 @@ inline constexpr std::string_view kCloudColors = "cloud_rgb";
 /// The feature that the array of a picture, of its camera's poses or of clouds' colours is.
 ///
 /// @param name Such as "depth_front", or kCloudColors.
-/// @param shape One decision has it.
+/// @param shape One decision has it; 0 stands for the number of points.
 /// @return Nothing if no picture is called so or has such a shape.
 std::optional<EpisodeFeature> PictureFeature(const std::string& name,
                                              const std::vector<std::size_t>& shape);

@@ -16,7 +16,7 @@ from pxr import Tf, Usd
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "programs"))
 import foreign_samples as samples  # noqa: E402
 
-CHANGES = ["", "(", ")", "{", "}", "[", "]", '"', "<", ">", "=", ",", "def", "rel", "float", "token", "nan", "-1", "1e400", "§", "\n", "#", "\0"]
+CHANGES = ["", "(", ")", "{", "}", "[", "]", '"', "<", ">", "=", ",", "def", "rel", "float", "token", "nan", "-1", "1e400", "é", "\n", "#", "\0"]
 
 
 def opens(path: pathlib.Path) -> bool:

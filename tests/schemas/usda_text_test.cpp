@@ -25,7 +25,7 @@ bool IsBeyondALimit(const std::string& usda) {
 // Each entry of metadata may have metadata: read by a function that calls itself.
 TEST(UsdaText, MetadataIsReadToADepthOfSixtyFour) {
   const auto nested = [](int depth) {
-    return "#usda 1.0\ndef \"a\" " + Repeated("(a ", depth) + Repeated(")", depth) + " {}\n";
+    return "#usda 1.0\ndef \"a\" " + Repeated("(a = 1 ", depth) + Repeated(")", depth) + " {}\n";
   };
   EXPECT_EQ(ParseUsda(nested(64)).prims.size(), 1U);
   EXPECT_TRUE(IsBeyondALimit(nested(65)));

@@ -17,6 +17,11 @@ bool IsWordByte(char c) {
          static_cast<unsigned char>(c) >= 0x80;
 }
 
+bool IsIdentifier(std::string_view name) {
+  const bool digit_first = !name.empty() && name.front() >= '0' && name.front() <= '9';
+  return !name.empty() && !digit_first && std::all_of(name.begin(), name.end(), IsWordByte);
+}
+
 enum class UsdaToken { kEnd, kWord, kNumber, kString, kAsset, kPath, kMark };
 
 class UsdaParser {
@@ -188,6 +193,7 @@ class UsdaParser {
       Next();
     }
     if (token_ != UsdaToken::kString) Fail("expected a prim's name before " + Shown());
+    if (!IsIdentifier(word_)) Fail(Shown() + " is no name of a prim");
     prim.name = word_;
     prim.path = (prim.parent == nullptr ? "" : prim.parent->path) + "/" + prim.name;
     if (prim.path.size() > kLongestPath)

@@ -5,7 +5,8 @@
 #include <filesystem>
 
 #include "doorforge/foreign/articulated_object.h"
-#include "doorforge/foreign/validate_foreign.h"
+#include "doorforge/foreign/target_profile.h"
+#include "doorforge/validate/validate_door.h"
 
 #include "check/mesh_measures.h"
 #include "check/object_tree.h"

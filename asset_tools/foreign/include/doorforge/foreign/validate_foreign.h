@@ -5,25 +5,13 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "doorforge/core/named_enum.h"
+#include "doorforge/foreign/target_profile.h"
 #include "doorforge/validate/validate_door.h"
 
 namespace doorforge {
-
-/// A program that a file is for, with demands beyond its format's.
-enum class TargetProfile { kNone, kMujoco, kIsaac, kGazebo, kSapien };
-inline constexpr NamedValue<TargetProfile> kTargetProfiles[] = {{TargetProfile::kNone, "none"},
-                                                                {TargetProfile::kMujoco, "mujoco"},
-                                                                {TargetProfile::kIsaac, "isaac"},
-                                                                {TargetProfile::kGazebo, "gazebo"},
-                                                                {TargetProfile::kSapien, "sapien"}};
-constexpr std::span<const NamedValue<TargetProfile>> ValuesOf(TargetProfile) {
-  return kTargetProfiles;
-}
 
 /// How files from outside are checked.
 struct ForeignChecks {

@@ -70,7 +70,7 @@ try_heavy_peers() {
   local environment=$1
   "$environment/bin/pip" install -q stable-baselines3==2.9.2 torch==2.15.0 webdataset==1.0.2 mujoco==4.0.0 pybullet==3.2.7 \
     sapien==3.0.3 newton==1.8.0 mujoco-warp==4.0.0 trimesh==5.2.0 genesis-world==1.4.5
-  "$environment/bin/python" "$root/docs/examples/ppo_door.py" --least-gain 0.1
+  "$environment/bin/python" "$root/docs/examples/ppo_door.py" --least-opened 6
   "$environment/bin/python" "$tests/readme_test.py" "$build"
   for latch in effort bolt; do
     doorforge compose --body interior_flush_01 --handle interior_lever_tube_01 --set "latch=$latch" --out "$scratch/$latch"

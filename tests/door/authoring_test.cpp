@@ -108,7 +108,7 @@ TEST(Authoring, AFolderWithoutADoorIsToldAndTheOtherDoorsAreExported) {
                                  .handle = (parts / "interior_lever_tube_01").string()});
   const std::vector<fs::path> folders = {parts, door};
   const std::vector<ExportedDoor> exported =
-      ExportDoors(folders, {.out = scratch / "out", .formats = {*DoorFormatNamed("mjcf")}});
+      ExportDoors(folders, {.out = scratch / "out", .formats = {"mjcf"}});
   EXPECT_NE(exported.at(0).problem, "");
   EXPECT_EQ(exported.at(1).problem, "");
   EXPECT_TRUE(fs::is_directory(scratch / "out" / exported.at(1).id));

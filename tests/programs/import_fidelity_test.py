@@ -99,7 +99,7 @@ class ImportFidelity(ProgramTest):
             np.testing.assert_allclose(mass_of(two["mass"]), mass_of(one["mass"]), atol=1e-6, err_msg=one["name"])
             points = [np.concatenate([vertices(folder / geometry["mesh"]["path"]) for geometry in link["geometry"]]) if link["geometry"] else np.zeros((1, 3))
                       for folder, link in ((old, one), (new, two))]
-            for a, b in (points, points[::-1]):
+            for a, b in (points, points[::-1]):  # the corners of each lie on corners of the other
                 for block in np.array_split(a, max(1, len(a) // 200)):
                     worst = max(worst, np.sqrt(((block[:, None] - b[None]) ** 2).sum(-1).min(1)).max())
         self.assertLess(worst, 1e-4)

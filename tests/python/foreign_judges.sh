@@ -4,7 +4,8 @@
 #
 # `doorforge validate` beside usd-core from PyPI; not a part of ./test.sh, which has Debian's packages alone:
 #   tests/python/foreign_judges.sh BUILD PYTHON
-# BUILD is a build folder with the programs, PYTHON one that usd-core has wheels for. Fails where usd-core refuses what doorforge passes.
+# BUILD is a build folder with the programs, PYTHON one that usd-core has wheels for. Fails where usd-core refuses
+# more than one in a hundred of what doorforge passes.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 build=$(cd "$1" && pwd)

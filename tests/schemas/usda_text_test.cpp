@@ -25,7 +25,7 @@ bool IsBeyondALimit(const std::string& usda) {
 // Each entry of metadata may have metadata: read by a function that calls itself.
 TEST(UsdaText, MetadataIsReadToADepthOfSixtyFour) {
   const auto nested = [](int depth) {
-    return "#usda 1.0\ndef \"a\" " + Repeated("(a ", depth) + Repeated(")", depth) + " {}\n";
+    return "#usda 1.0\ndef \"a\" " + Repeated("(a = 1 ", depth) + Repeated(")", depth) + " {}\n";
   };
   EXPECT_EQ(ParseUsda(nested(64)).prims.size(), 1U);
   EXPECT_TRUE(IsBeyondALimit(nested(65)));
@@ -40,6 +40,30 @@ TEST(UsdaText, APathOfManyBytesIsRefused) {
   EXPECT_EQ(ParseUsda(head + std::string(1000, 'a') + "\" {\n" + children + "}\n").prims.size(),
             4U);
   EXPECT_TRUE(IsBeyondALimit(head + std::string(8'000'000, 'a') + "\" {\n" + children + "}\n"));
+}
+
+TEST(UsdaText, WordsThatBeginNothingAreRefused) {
+  const auto refused = [](const std::string& entry, const std::string& property) {
+    try {
+      ParseUsda("#usda 1.0\n(\n" + entry + "\n)\ndef Xform \"a\"\n{\n" + property + "\n}\n");
+    } catch (const UsdaFault& fault) {
+      return fault.line;
+    }
+    return 0;
+  };
+  for (const char* sound :
+       {"uniform token a = \"b\"", "custom double a:b = 1", "prepend rel a = </b>", "rel a",
+        "custom uniform float3[] a = [(1, 2, 3)]", "color3f inputs:a.connect = </b.c>",
+        "reorder properties = [\"a\"]", "float a", "double b.timeSamples = { 0: 1 }"})
+    EXPECT_EQ(refused("upAxis = \"Z\"", sound), 0) << sound;
+  for (const char* wrong :
+       {"floa", "nan float a = 1", "float a =\n1", "float a\n= 1", "tokenform token a"})
+    EXPECT_GT(refused("upAxis = \"Z\"", wrong), 5) << wrong;
+  for (const char* sound :
+       {"prepend apiSchemas = [\"a\"]", "customLayerData = {\n}", "\"a comment\""})
+    EXPECT_EQ(refused(sound, ""), 0) << sound;
+  for (const char* wrong : {"upA", "nanpend apiSchemas = [\"a\"]", "a b c = 1", "upAxis\n= \"Z\""})
+    EXPECT_GT(refused(wrong, ""), 2) << wrong;
 }
 
 }  // namespace

@@ -17,6 +17,11 @@ bool IsWordByte(char c) {
          static_cast<unsigned char>(c) >= 0x80;
 }
 
+bool IsIdentifier(std::string_view name) {
+  const bool digit_first = !name.empty() && name.front() >= '0' && name.front() <= '9';
+  return !name.empty() && !digit_first && std::all_of(name.begin(), name.end(), IsWordByte);
+}
+
 enum class UsdaToken { kEnd, kWord, kNumber, kString, kAsset, kPath, kMark };
 
 class UsdaParser {
@@ -170,7 +175,7 @@ class UsdaParser {
     if (SeesWord("def") || SeesWord("over") || SeesWord("class")) return Prim();
     if (open_.empty()) Fail("expected def, over or class before " + Shown());
     if (SeesWord("variantSet")) return Variants();
-    open_.back()->properties.push_back(Property());
+    open_.back()->properties.push_back(Property(false));
   }
 
   void Prim() {
@@ -188,6 +193,7 @@ class UsdaParser {
       Next();
     }
     if (token_ != UsdaToken::kString) Fail("expected a prim's name before " + Shown());
+    if (!IsIdentifier(word_)) Fail(Shown() + " is no name of a prim");
     prim.name = word_;
     prim.path = (prim.parent == nullptr ? "" : prim.parent->path) + "/" + prim.name;
     if (prim.path.size() > kLongestPath)
@@ -226,28 +232,61 @@ class UsdaParser {
         Next();
         continue;
       }
-      entries.push_back(Property());
+      entries.push_back(Property(true));
     }
     --open_metadata_;
     Next();
     return entries;
   }
 
-  // Words before "=", of which the last is the name.
-  UsdaProperty Property() {
+  // What may stand before a type, and in metadata before a name.
+  static bool IsListOperation(std::string_view word) {
+    return word == "add" || word == "append" || word == "prepend" || word == "delete" ||
+           word == "reorder";
+  }
+  static bool IsQualifier(std::string_view word) {
+    return IsListOperation(word) || word == "custom" || word == "uniform" || word == "varying" ||
+           word == "config";
+  }
+
+  // [operation] name, or [qualifiers] type name, or reorder properties.
+  void RequireOrder(const std::vector<std::string_view>& words, bool metadata) const {
+    std::size_t before = 0;
+    while (before + 1 < words.size() &&
+           (metadata ? IsListOperation(words[before]) : IsQualifier(words[before])))
+      ++before;
+    const std::size_t left = words.size() - before;
+    const bool reorders = before > 0 && words[before - 1] == "reorder";
+    const bool fits = metadata ? left == 1 && before <= 1 : left == 2 || (left == 1 && reorders);
+    if (!fits)
+      Fail("\"" + std::string(words.front().substr(0, 40)) + "\" does not begin " +
+           (metadata ? "an entry of metadata" : "a property") + ", before " + Shown());
+  }
+
+  // Words before "=", of which the last is the name. All stand on one line with "=" and the
+  // value's beginning.
+  UsdaProperty Property(bool metadata) {
     UsdaProperty property;
     property.line = token_line_;
     property.column = token_column_;
     if (token_ != UsdaToken::kWord) Fail("expected a name before " + Shown());
-    while (token_ == UsdaToken::kWord) {
-      property.name = word_;
+    std::vector<std::string_view> words;
+    while (token_ == UsdaToken::kWord && token_line_ == property.line) {
+      words.push_back(word_);
       Next();
       if (!Sees("[")) continue;  // float3[]
       Next();
       Expect("]");
     }
+    RequireOrder(words, metadata);
+    property.name = words.back();
+    const bool same_line = token_line_ == property.line;
+    if (metadata && !(Sees("=") && same_line)) Fail("expected \"=\" before " + Shown());
     if (Sees("=")) {
+      if (!same_line) Fail("expected \"=\" on the line of \"" + property.name + '"');
       Next();
+      if (token_line_ != property.line)
+        Fail("expected the value of \"" + property.name + "\" on its line");
       Value(property.value, 0);
     }
     if (Sees("(")) Metadata();

@@ -72,7 +72,9 @@ class ProfileCheck {
     for (std::size_t i = 0; i < q_.object.links.size(); ++i) {
       const ForeignLink& link = q_.object.links[i];
       const std::size_t body = q_.tree.body_of[i];
-      const bool has = std::any_of(link.shapes.begin(), link.shapes.end(), Collides);
+      const bool has = std::any_of(link.shapes.begin(), link.shapes.end(), [&](const auto& shape) {
+        return Collides(shape) || q_.object.paired.contains(shape.name);
+      });
       collides[body] = collides[body] || has;
       const bool whole = link.inertial && link.inertial->inertia_kg_m2.has_value();
       weighs[body] = weighs[body] || whole;

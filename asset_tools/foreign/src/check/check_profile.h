@@ -6,6 +6,7 @@
 
 #include "doorforge/foreign/articulated_object.h"
 #include "doorforge/foreign/target_profile.h"
+#include "doorforge/validate/validate_door.h"
 
 #include "check/mesh_measures.h"
 #include "check/object_tree.h"

@@ -152,7 +152,7 @@ class MjcfReader {
     });
     Each("equality",
          [&](const XmlElement& element, const XmlSource& source) { Equality(element, source); });
-    for (const char* section : {"actuator", "tendon", "sensor"})
+    for (const char* section : {"actuator", "tendon", "sensor", "contact"})
       Each(section, [&](const XmlElement& element, const XmlSource& source) {
         References(element, source);
       });
@@ -636,6 +636,9 @@ class MjcfReader {
       const XmlElement& element = *pending.back();
       pending.pop_back();
       pending.insert(pending.end(), element.children.begin(), element.children.end());
+      for (const char* end : {"geom1", "geom2"}) {
+        if (const auto geom = source.Text(element, end, false)) object_.paired.insert(*geom);
+      }
       const auto name = source.Text(element, "joint", false);
       if (name && !joint_names_.contains(*name))
         faults_.Add("TRE011", source.At(element, "joint"), "joint \"" + *name + '"');

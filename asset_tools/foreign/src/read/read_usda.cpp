@@ -66,6 +66,8 @@ class UsdaReader {
     bool unit = false;
     bool up = false;
     for (const UsdaProperty& entry : stage_.metadata) {
+      if (entry.name == "metersPerUnit" && entry.value.numbers.size() != 1)
+        faults_.Add("FIL006", {file_, entry.line, entry.column, entry.name}, "no number");
       if (entry.name == "metersPerUnit" && !entry.value.numbers.empty()) {
         unit = true;
         unit_m_ = entry.value.numbers[0];

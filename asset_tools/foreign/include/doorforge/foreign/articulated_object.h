@@ -138,6 +138,7 @@ struct ArticulatedObject {
   SourcePlace place;
   bool y_up = false;  ///< The y axis of its world points up, not z.
   StageFacts stage = {};
+  std::set<std::string> paired = {};  ///< Shapes that touch by a pair of MJCF, by name.
 };
 
 }  // namespace doorforge

@@ -5,11 +5,9 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "doorforge/core/named_enum.h"
 #include "doorforge/foreign/target_profile.h"
 #include "doorforge/validate/validate_door.h"
 

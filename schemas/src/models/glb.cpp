@@ -246,7 +246,7 @@ class GlbModel {
     return {digits, std::to_chars(digits, digits + sizeof digits, value.get<double>() + 0.0).ptr};
   }
 
-  // Of the node above all links, which is the door.
+  // The node above all links is the door.
   void AddWords(const Json& node, const std::string& pointer) {
     const auto extras = node.find("extras");
     if (model_.name.empty() && node.contains("name")) model_.name = Text(node, "name", pointer);

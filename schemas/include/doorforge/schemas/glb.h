@@ -25,7 +25,7 @@ bool HasLinks(const std::filesystem::path& path);
 ///     not as exports write them. At most 512 MiB, 64 levels of nodes, 2,000 links and 5,000,000
 ///     triangles.
 UrdfModel ParseGlb(std::string_view bytes, const std::string& name);
-/// As the readers of other formats: faults are thrown, none is added.
+/// Throws where a file is faulty, like the readers of other formats; it adds no finding.
 UrdfModel ReadGlb(const std::filesystem::path& path, std::vector<UrdfFault>& faults);
 
 }  // namespace doorforge

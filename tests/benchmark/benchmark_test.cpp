@@ -134,8 +134,8 @@ TEST(BenchmarkPipeline, ARowMayComposeDoorsOfItsOwn) {
                               .pipeline;
   const auto& composed = StepNamed(joined, "doors_right");
   EXPECT_EQ(composed.command.back(), "hinge_side=right");
-  EXPECT_EQ(composed.output, "doors_right");
-  EXPECT_EQ(StepNamed(joined, "doors").output, "doors");
+  EXPECT_EQ(composed.output, "made/doors_right");
+  EXPECT_EQ(StepNamed(joined, "doors").output, "made/doors");
   EXPECT_EQ(std::ranges::count(StepNamed(joined, "doors").command, "hinge_side=right"), 0);
   EXPECT_EQ(Actors(joined, "right_1_test").count("doors_right"), 1U);
   EXPECT_EQ(Actors(joined, "plain_1_test").count("doors"), 1U);

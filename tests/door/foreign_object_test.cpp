@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/importers/foreign_object.h"
 
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <numbers>

@@ -89,6 +89,8 @@ class Site(PageTest):
     def test_the_search_works_from_the_disk(self) -> None:
         self.browser.open((self.site / "commands/view.html").as_uri(), ready=False)
         self.browser.wait("document.readyState === 'complete' && location.href.endsWith('view.html')")
+        # The theme listens to keys some time after the page is complete, and dresses tables next; a key before that is lost.
+        self.browser.wait("document.querySelector('#mkdocs_keyboard_modal table').classList.contains('table-hover')")
         self.browser.call("Input.dispatchKeyEvent", type="keyDown", key="s", windowsVirtualKeyCode=83)  # the theme's key for it
         self.browser.wait("document.activeElement.id === 'mkdocs-search-query'")
         self.assertIn("../commands/compose.html#doorforge-compose", self.search("--handle-front"))

@@ -63,6 +63,21 @@ TEST(PictureRoom, EveryRayFromWithinMeetsItOnItsBoxOrInTheDoorsWall) {
   EXPECT_GT(on_wall, 300);
 }
 
+// Frames may be arched: what is above the arch is wall.
+TEST(PictureRoom, TheHoleIsOfTheFramesOutline) {
+  const WallHole arch(
+      {{-1, 0}, {1, 0}, {1, 1}, {0.7F, 1.7F}, {0, 2}, {-0.7F, 1.7F}, {-1, 1}, {0, 1}});
+  for (const Eigen::Vector2f& inside : {Eigen::Vector2f(0, 1.9F), {0.95F, 0.5F}, {-0.7F, 1.65F}})
+    EXPECT_TRUE(arch.contains(inside)) << inside.transpose();
+  for (const Eigen::Vector2f& outside : {Eigen::Vector2f(0.95F, 1.95F),
+                                         {-0.95F, 1.95F},
+                                         {0.9F, 1.6F},
+                                         {0, 2.01F},
+                                         {1.01F, 0.5F},
+                                         {0, -0.1F}})
+    EXPECT_FALSE(arch.contains(outside)) << outside.transpose();
+}
+
 TEST(PictureRoom, HoldsTheRobotAndTheCamerasAndStandsASafeOnAPlinth) {
   RoomSetting setting(Category::kSafe);
   setting.scene.world_from_door.translation().z() += 0.5;

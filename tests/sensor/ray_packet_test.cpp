@@ -41,6 +41,17 @@ TEST(RayPacket, RaysMeetTheFirstBoxOnTheirWayAndThoseThatAreNotThereNone) {
   EXPECT_EQ(ObstructedRays(scene, packet), hits.hits);
 }
 
+TEST(RayPacket, BoundsHoldEverythingWhereItStands) {
+  SceneGeometry scene = TwoBoxes();
+  const double reach = std::cos(0.1) + std::sin(0.1);  // half the width of the box that is turned
+  const Eigen::AlignedBox3f bounds = BoundsOf(scene);
+  EXPECT_LT((bounds.min().cast<double>() - Eigen::Vector3d(-1, -reach, -1)).norm(), 1e-4);
+  EXPECT_LT((bounds.max().cast<double>() - Eigen::Vector3d(5 + reach, reach, 1)).norm(), 1e-4);
+  SceneGeometry nothing({});
+  nothing.MoveLinks({});
+  EXPECT_TRUE(BoundsOf(nothing).isEmpty());
+}
+
 TEST(RayPacket, NormalsOfABoxAreThoseOfItsFaces) {
   SceneGeometry scene = TwoBoxes();
   RayPacket packet;

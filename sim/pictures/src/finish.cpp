@@ -3,6 +3,7 @@
 #include "finish.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace doorforge {
@@ -10,7 +11,7 @@ namespace {
 
 constexpr float kTurn = 6.2831853F;
 
-std::uint32_t Mixed(std::uint32_t h) {
+inline std::uint32_t Mixed(std::uint32_t h) {
   h ^= h >> 16;
   h *= 0x7FEB352DU;
   h ^= h >> 15;
@@ -25,20 +26,37 @@ float LatticeNumber(int x, int y, int z) {
                       static_cast<std::uint32_t>(z));
 }
 
+// Numbers in [0, 1) of the eight corners of a cell, the bits of whose index are x, y and z.
+__attribute__((target_clones("avx2", "default"))) void CornerNumbers(std::uint32_t x,
+                                                                     std::uint32_t y,
+                                                                     std::uint32_t z,
+                                                                     float* numbers) {
+  constexpr std::uint32_t kX = 0x9E3779B1U;
+  constexpr std::uint32_t kY = 0x85EBCA77U;
+  constexpr std::uint32_t kZ = 0x27D4EB2FU;
+  constexpr std::array<std::uint32_t, 8> kSteps = {0,  kX,      kY,      kX + kY,
+                                                   kZ, kX + kZ, kY + kZ, kX + kY + kZ};
+  const std::uint32_t first = x * kX + y * kY + z * kZ;
+  for (std::size_t corner = 0; corner < kSteps.size(); ++corner)
+    numbers[corner] =
+        static_cast<float>(static_cast<std::int32_t>(Mixed(first + kSteps[corner]) >> 8)) *
+        0x1p-24F;
+}
+
+float Between(float a, float b, float t) { return a + t * (b - a); }
+
 // Noise of unit cells in [0, 1), smooth between their corners.
 float NoiseAt(const Eigen::Vector3f& p) {
-  const Eigen::Vector3f cell = p.array().floor();
-  const int x = static_cast<int>(cell.x());
-  const int y = static_cast<int>(cell.y());
-  const int z = static_cast<int>(cell.z());
+  const Eigen::Vector3f cell(std::floor(p.x()), std::floor(p.y()), std::floor(p.z()));
+  alignas(32) std::array<float, 8> n;
+  CornerNumbers(static_cast<std::uint32_t>(static_cast<int>(cell.x())),
+                static_cast<std::uint32_t>(static_cast<int>(cell.y())),
+                static_cast<std::uint32_t>(static_cast<int>(cell.z())), n.data());
   const float u = Smooth(p.x() - cell.x());
   const float v = Smooth(p.y() - cell.y());
   const float w = Smooth(p.z() - cell.z());
-  const auto along_x = [&](int dy, int dz) {
-    return std::lerp(LatticeNumber(x, y + dy, z + dz), LatticeNumber(x + 1, y + dy, z + dz), u);
-  };
-  return std::lerp(std::lerp(along_x(0, 0), along_x(1, 0), v),
-                   std::lerp(along_x(0, 1), along_x(1, 1), v), w);
+  return Between(Between(Between(n[0], n[1], u), Between(n[2], n[3], u), v),
+                 Between(Between(n[4], n[5], u), Between(n[6], n[7], u), v), w);
 }
 
 float WoodAt(const Eigen::Vector3f& p) {

@@ -44,6 +44,46 @@ Eigen::AlignedBox3f BoxOfFrame(const Scene& scene, const DoorAsset& door) {
   return frame.isEmpty() ? BoxOf(scene, door, kLeafLink) : frame;
 }
 
+// Points in y and z.
+std::vector<Eigen::Vector2f> OutlineOf(const Scene& scene, const DoorAsset& door,
+                                       std::size_t link) {
+  const RigidTransform world_from_link = scene.world_from_door * DoorFromLinks(door, 0, 0).at(link);
+  std::vector<Eigen::Vector2f> points;
+  for (const DoorGeometry& geometry : door.links[link].geometry) {
+    for (const Eigen::Vector3d& vertex : geometry.mesh.vertices)
+      points.push_back((world_from_link * vertex).cast<float>().tail<2>());
+  }
+  return points;
+}
+
+std::vector<Eigen::Vector2f> OutlineOfFrame(const Scene& scene, const DoorAsset& door) {
+  const std::vector<Eigen::Vector2f> frame = OutlineOf(scene, door, kBaseLink);
+  return frame.empty() ? OutlineOf(scene, door, kLeafLink) : frame;
+}
+
+float Area(const Eigen::Vector2f& a, const Eigen::Vector2f& b, const Eigen::Vector2f& c) {
+  return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
+}
+
+// Corners against the clock, by Andrew's monotone chain (1979).
+std::vector<Eigen::Vector2f> ConvexOutline(std::vector<Eigen::Vector2f> points) {
+  std::ranges::sort(points, [](const Eigen::Vector2f& a, const Eigen::Vector2f& b) {
+    return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y());
+  });
+  std::vector<Eigen::Vector2f> hull;
+  for (int side = 0; side < 2; ++side) {
+    const std::size_t begin = hull.size();
+    for (const Eigen::Vector2f& point : points) {
+      while (hull.size() >= begin + 2 && Area(hull[hull.size() - 2], hull.back(), point) <= 0)
+        hull.pop_back();
+      hull.push_back(point);
+    }
+    hull.pop_back();
+    std::ranges::reverse(points);
+  }
+  return hull;
+}
+
 // Where the robot stands; nowhere if it flies.
 std::optional<float> RobotsFloor(const PictureScene& scene) {
   std::optional<float> lowest;
@@ -59,6 +99,24 @@ std::optional<float> RobotsFloor(const PictureScene& scene) {
 
 }  // namespace
 
+WallHole::WallHole(const std::vector<Eigen::Vector2f>& outline) {
+  for (const Eigen::Vector2f& point : outline) box_.extend(point);
+  const std::vector<Eigen::Vector2f> hull = ConvexOutline(outline);
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    constexpr float kStraight = 1e-4F;  // [m] the box says all of a side along an axis
+    const Eigen::Vector2f side = hull[(i + 1) % hull.size()] - hull[i];
+    if (side.cwiseAbs().minCoeff() < kStraight) continue;
+    const Eigen::Vector2f outward(side.y(), -side.x());
+    slopes_.emplace_back(outward.x(), outward.y(), outward.dot(hull[i]));
+  }
+}
+
+bool WallHole::contains(const Eigen::Vector2f& point) const {
+  return box_.contains(point) && std::ranges::all_of(slopes_, [&](const Eigen::Vector3f& slope) {
+           return slope.head<2>().dot(point) <= slope.z();
+         });
+}
+
 bool DoorWall::Holds(const Eigen::Vector3f& point) const {
   return hole && std::fabs(point.x() - x) < kWallThickness / 2 && !hole->contains(point.tail<2>());
 }
@@ -66,8 +124,7 @@ bool DoorWall::Holds(const Eigen::Vector3f& point) const {
 DoorWall DoorWallOf(const Scene& scene, const DoorAsset& door) {
   if (door.category != Category::kInterior && door.category != Category::kWindow)
     return {BoxOfDoor(scene, door).min().x() - kWallGap, {}};
-  const Eigen::AlignedBox3f frame = BoxOfFrame(scene, door);
-  return {frame.center().x(), Eigen::AlignedBox2f(frame.min().tail<2>(), frame.max().tail<2>())};
+  return {BoxOfFrame(scene, door).center().x(), WallHole(OutlineOfFrame(scene, door))};
 }
 
 PictureRoom::PictureRoom(const PictureScene& scene, const PicturesConfig& config)
@@ -122,9 +179,23 @@ RoomHit PictureRoom::Meet(const Eigen::Vector3f& origin, const Eigen::Vector3f& 
 
 bool PictureRoom::Blocks(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
                          float reach) const {
-  if (const auto wall = MeetDoorWall(origin, direction); wall && *wall < reach) return true;
+  const float to_wall = wall_.x - origin.x();
+  const bool crosses =
+      to_wall * direction.x() > 0 && std::fabs(to_wall) < std::fabs(direction.x()) * reach;
+  if (crosses && MeetDoorWall(origin, direction)) return true;
+  if (!plinth_) return false;
   const auto plinth = MeetPlinth(origin, direction);
   return plinth && plinth->distance < reach;
+}
+
+bool PictureRoom::IsWithin(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
+                           float reach) const {
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const float along = direction[axis] * reach;
+    const float end = origin[axis] + along;
+    if (along > 0 ? end > box_.max()[axis] : end < box_.min()[axis]) return true;
+  }
+  return Blocks(origin, direction, reach);
 }
 
 std::optional<float> PictureRoom::MeetDoorWall(const Eigen::Vector3f& origin,

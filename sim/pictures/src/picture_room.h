@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -23,10 +24,23 @@ struct RoomHit {
   Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();  ///< Towards the ray's origin.
 };
 
+/// What is cut out of a wall, in y and z: the convex outline of a frame.
+class WallHole {
+ public:
+  /// `outline` holds the points that it is to enclose, three at least that span an area.
+  explicit WallHole(const std::vector<Eigen::Vector2f>& outline);
+
+  bool contains(const Eigen::Vector2f& point) const;
+
+ private:
+  Eigen::AlignedBox2f box_;
+  std::vector<Eigen::Vector3f> slopes_;  // (a, b, c): a y + b z <= c; of sides along no axis
+};
+
 /// The wall that a door is in, or stands before.
 struct DoorWall {
-  float x = 0;                              ///< Where it is, in the world.
-  std::optional<Eigen::AlignedBox2f> hole;  ///< For what is in it, in y and z.
+  float x = 0;                   ///< Where it is, in the world.
+  std::optional<WallHole> hole;  ///< For what is in it.
 
   /// Whether a point is in the thickness of a wall with a hole.
   bool Holds(const Eigen::Vector3f& point) const;
@@ -44,6 +58,8 @@ class PictureRoom {
   RoomHit Meet(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) const;
   /// Whether the wall of the door or the plinth is on the way, up to `reach` directions.
   bool Blocks(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float reach) const;
+  /// Whether any of it, its box included, is on the way.
+  bool IsWithin(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float reach) const;
   bool IsBehindWall(const Eigen::Vector3f& point) const {
     return wall_.hole && point.x() < wall_.x;
   }

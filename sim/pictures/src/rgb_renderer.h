@@ -5,16 +5,18 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "doorforge/pictures/take_pictures.h"
 #include "doorforge/schemas/camera_model.h"
 #include "doorforge/sensor/depth_camera.h"
+#include "doorforge/sensor/ray_packet.h"
 #include "doorforge/sensor/scene_geometry.h"
 
 #include "appearance.h"
+#include "light_shares.h"
 #include "picture_room.h"
+#include "seen_point.h"
 
 namespace doorforge {
 
@@ -23,10 +25,8 @@ class PixelDirections;
 /// Colours what a camera sees: lamps with soft shadows, light from all around that corners keep
 /// out, highlights, mirrors, glass, and the camera's own faults.
 ///
-/// Lamps and surroundings are sampled as Keller and Heidrich (Interleaved Sampling, 2001) do: of 16
-/// places of a lamp, neighbouring pixels look for different ones, and what they find is shared by
-/// those of a block of 4 x 4 that see the same surface. Pixels whose neighbours see something else
-/// are what `samples` rays meet; others would meet the same with each.
+/// Pixels whose neighbours see something else are what `samples` rays meet; others would meet the
+/// same with each. What reaches a pixel of light is found by ShareLight().
 class RgbRenderer {
  public:
   /// `geometry` is rendered from whenever Render() is called, its links where they were last put.
@@ -40,57 +40,79 @@ class RgbRenderer {
                                    std::size_t look);
 
  private:
-  // What a ray meets.
-  struct Point {
-    Eigen::Vector3f position;
-    Eigen::Vector3f normal;  // smooth, towards the camera
-    Eigen::Vector3f face;    // of the triangle, likewise
-    Eigen::Vector3f view;    // unit, towards the camera
-    std::uint16_t part = 0;  // mesh, pane of a mesh, or part of the room
-  };
-  // Shares of light in sixteenths, of the lamps and of the surroundings.
-  using Shares = std::array<std::uint16_t, kMostLamps + 1>;
+  // The height of a lamp's highlight by the cosine to its middle, which a power would say too
+  // slowly. It is 0 where the power is below 1 / 4096.
+  class Highlight {
+   public:
+    explicit Highlight(float exponent);
+    float At(float cosine) const {
+      if (!(cosine > least_)) return 0;
+      const float place = (cosine - least_) * scale_;
+      const auto step = static_cast<std::size_t>(place);
+      if (step >= kSteps) return 1;
+      return table_[step] + (place - static_cast<float>(step)) * (table_[step + 1] - table_[step]);
+    }
 
-  Point MeshPoint(std::size_t mesh, std::size_t triangle, const Eigen::Vector2f& uv,
-                  const Eigen::Vector3f& position) const;
-  Point RoomPoint(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) const;
+   private:
+    static constexpr std::size_t kSteps = 128;
+    float least_;
+    float scale_;
+    std::array<float, kSteps + 1> table_;
+  };
+  struct Material {
+    Finish finish;
+    Highlight highlight;
+  };
+  // Where a mesh is, in floats.
+  struct MeshFrame {
+    Eigen::Matrix3f world_from_mesh;
+    Eigen::Vector3f origin;
+
+    Eigen::Vector3f InMesh(const Eigen::Vector3f& point) const {
+      return world_from_mesh.transpose() * (point - origin);
+    }
+  };
+  // One of the rays through an edge pixel.
+  struct EdgeSample {
+    const PacketHits& hits;
+    std::size_t slot;
+    const Eigen::Vector3f& origin;
+    const Eigen::Vector3f& through;
+  };
+  class MetSurfaces;
+
+  void PlaceMeshes();
+  SeenPoint MeshPoint(std::size_t mesh, std::size_t triangle, const Eigen::Vector2f& uv,
+                      const Eigen::Vector3f& position) const;
+  SeenPoint RoomPoint(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) const;
   bool IsPane(std::size_t mesh, const Eigen::Vector3f& in_mesh) const;
-  const Finish& FinishOf(std::uint16_t part) const;
-  LinearColor AlbedoOf(const Point& point, const Finish& finish) const;
-  std::span<const Lamp> LampsAt(const Point& point) const;
+  std::uint16_t PaneMaterial() const { return static_cast<std::uint16_t>(frames_.size()); }
+  LinearColor AlbedoOf(const SeenPoint& point) const;
 
   void FindPoints(const CameraModel& camera, const SurfaceImage& surfaces);
-  void SampleLight();
-  void SampleTile(int left, int top, int round);
-  Shares SharedLight(int column, int row) const;
-  LinearColor Shade(const Point& point, const Shares& shares) const;
+  LinearColor Shade(const SeenPoint& point, const LightShares& shares) const;
   LinearColor RoomLight(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) const;
-  LinearColor Behind(const Point& pane) const;
+  LinearColor Behind(const SeenPoint& pane) const;
   void ShadePixels();
   void SmoothEdges(const CameraModel& camera);
-  bool IsEdge(int column, int row) const;
   LinearColor EdgeColor(const PixelDirections& directions, int column, int row) const;
-  const LinearColor* ColorNear(const Point& point, int column, int row) const;
-  void Blur();
-  std::vector<std::uint8_t> Develop(std::size_t look) const;
-
-  std::size_t At(int column, int row) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
-           static_cast<std::size_t>(column);
-  }
+  LinearColor SampleColor(const EdgeSample& sample, const Eigen::Vector2i& pixel,
+                          MetSurfaces& met) const;
+  const LinearColor* ColorNear(const SeenPoint& point, int column, int row) const;
 
   SceneGeometry& geometry_;
   PictureRoom room_;
   Appearance appearance_;
+  LitScene lit_;
   std::vector<Eigen::AlignedBox3f> pane_boxes_;  // by mesh; empty where there is no pane
+  std::vector<Material> materials_;              // of meshes, the pane, the parts of the room
   int samples_;
   int rounds_;  // each pixel looks once a round for a place of each lamp
   std::uint32_t seed_;
 
-  int width_ = 0;
-  int height_ = 0;
-  std::vector<Point> points_;
-  std::vector<Shares> light_;
+  std::vector<MeshFrame> frames_;  // by mesh
+  PointImage image_;
+  std::vector<LightShares> light_;
   std::vector<LinearColor> colors_;
 };
 

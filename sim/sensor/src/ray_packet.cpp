@@ -61,6 +61,13 @@ PacketHits CastRays(SceneGeometry& scene, const RayPacket& packet) {
   return found;
 }
 
+Eigen::AlignedBox3f BoundsOf(SceneGeometry& scene) {
+  RTCBounds bounds;
+  rtcGetSceneBounds(scene.runtime().top(), &bounds);
+  return {Eigen::Vector3f(bounds.lower_x, bounds.lower_y, bounds.lower_z),
+          Eigen::Vector3f(bounds.upper_x, bounds.upper_y, bounds.upper_z)};
+}
+
 std::uint32_t ObstructedRays(SceneGeometry& scene, const RayPacket& packet) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);

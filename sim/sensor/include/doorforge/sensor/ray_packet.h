@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "doorforge/sensor/scene_geometry.h"
 
@@ -53,6 +54,9 @@ struct PacketHits {
 /// Casts the rays of a packet at the scene, its links where they were last put. Distances are
 /// Embree's own: they may differ in their last digits between instruction sets.
 PacketHits CastRays(SceneGeometry& scene, const RayPacket& packet);
+
+/// A box in the world that holds everything there is to meet; empty if there is nothing.
+Eigen::AlignedBox3f BoundsOf(SceneGeometry& scene);
 
 /// Bit i: something is on ray i. Cheaper than CastRays().
 std::uint32_t ObstructedRays(SceneGeometry& scene, const RayPacket& packet);

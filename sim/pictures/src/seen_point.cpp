@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "seen_point.h"
+
+namespace doorforge {
+namespace {
+
+constexpr std::uint8_t kSeamRight = 1;
+constexpr std::uint8_t kSeamBelow = 2;
+
+bool SeesTheSame(const SeenPoint& a, const SeenPoint& b) {
+  constexpr float kCrease = 0.97F;
+  return a.part == b.part && a.face.dot(b.face) >= kCrease && a.normal.dot(b.normal) >= kCrease &&
+         std::fabs((b.position - a.position).dot(a.face)) <= kSamePlane;
+}
+
+}  // namespace
+
+void PointImage::FindSeams() {
+  seams.assign(points.size(), 0);
+  for (int row = 0; row < height; ++row) {
+    for (int column = 0; column < width; ++column) {
+      const std::size_t i = At(column, row);
+      const auto below = i + static_cast<std::size_t>(width);
+      if (column + 1 < width && !SeesTheSame(points[i], points[i + 1])) seams[i] |= kSeamRight;
+      if (row + 1 < height && !SeesTheSame(points[i], points[below])) seams[i] |= kSeamBelow;
+    }
+  }
+}
+
+bool PointImage::IsEdge(int column, int row) const {
+  const std::size_t i = At(column, row);
+  return seams[i] != 0 || (column > 0 && (seams[i - 1] & kSeamRight) != 0) ||
+         (row > 0 && (seams[i - static_cast<std::size_t>(width)] & kSeamBelow) != 0);
+}
+
+}  // namespace doorforge

@@ -6,16 +6,26 @@
     scripts/keep_reports.py run docs/results/trainings/seed1
 
 `run` is the --out of `doorforge pipeline paper`. Each report*/report.json becomes NAME.json.gz, without the lists of training doors,
-the curves and the words about what went well; the expert's episodes become reports of their own, expert*.json.gz.
+the curves, the words about what went well, and the places of the machine; the expert's episodes become reports of their own, expert*.json.gz.
 scripts/policies_table.py reads the folder as it does the run's. The same report gives the same bytes.
 """
 import argparse
 import gzip
 import json
 import pathlib
+import re
 
 KEPT = ("door_id", "category", "seed", "episode", "outcome", "opening_actions", "peak_hinge_rad", "peak_handle_rad", "simulated_s",
         "handle_done", "peak_force_n", "peak_net_force_n", "state_sha256")
+
+
+def without_places(value: object) -> object:
+    """Folders of the machine that made it go: of an absolute path its last name stays."""
+    if isinstance(value, dict):
+        return {key: without_places(entry) for key, entry in value.items()}
+    if isinstance(value, list):
+        return [without_places(entry) for entry in value]
+    return re.sub(r"(^|[\s=:\"'])/(?:[^\s/\"']+/)*([^\s/\"']+)", r"\1\2", value) if isinstance(value, str) else value
 
 
 def rounded(value: object) -> object:
@@ -26,7 +36,7 @@ def slim(report: dict, episodes: list[dict]) -> dict:
     kept = {key: report[key] for key in ("schema", "schema_version", "provenance", "doors")}
     kept["episodes"] = [{**{key: rounded(row[key]) for key in KEPT if key in row}, "detail": row["detail"] if row["outcome"] != "opened" else ""}
                         for row in episodes]
-    return {**kept, "trained_on": {"bodies": [], "handles": []}, "training_doors": [], "losses": [], "expert_episodes": []}
+    return {**without_places(kept), "trained_on": {"bodies": [], "handles": []}, "training_doors": [], "losses": [], "expert_episodes": []}
 
 
 def write(path: pathlib.Path, report: dict) -> None:
@@ -40,8 +50,8 @@ def main() -> None:
     parser.add_argument("out", type=pathlib.Path)
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
-    for folder in sorted(options.run.glob("report*")):
-        report = json.loads((folder / "report.json").read_text())
+    for path in sorted(options.run.glob("report*/report.json")):
+        folder, report = path.parent, json.loads(path.read_text())
         write(options.out / f"{folder.name}.json.gz", slim(report, report["episodes"]))
         if report["expert_episodes"]:
             write(options.out / f"{folder.name.replace('report', 'expert')}.json.gz", slim(report, report["expert_episodes"]))

@@ -19,7 +19,8 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-ROWS = {"all learned": "report", "grasp given": "report_given_grasp", "the expert": "expert"}
+ROWS = {"all learned, one grasp": "report", "all learned, up to three grasps": "report_retry", "grasp given": "report_given_grasp",
+        "the expert": "expert"}
 SIDES = {"": "unseen shapes", "_families": "unseen families", "_unseen": "unseen categories", "_validation": "validation",
          "_objects": "the paper's objects"}
 COLUMNS = ("interior", "window", "car", "safe", "storagefurniture", "storagefurniture/latched", "storagefurniture/unlatched",

@@ -98,6 +98,30 @@ TEST(PipelinePresets, AChangeOfAnArgumentThatThereIsNotIsRefused) {
   fs::remove(file);
 }
 
+TEST(PipelinePresets, ANameOfItsOwnIsAStepMoreAndNeedsACommand) {
+  const Pipeline quick = ReadPipeline("quick", {});
+  const fs::path file =
+      fs::temp_directory_path() / ("pipeline_step_" + std::to_string(::getpid()) + ".yaml");
+  const auto read = [&](const std::string& entry) {
+    CommitFile(
+        file,
+        "schema: doorforge.pipeline\nschema_version: 1\nabout: x\nlike: quick\nsteps:\n" + entry);
+    return ReadPipeline(file.string(), {});
+  };
+  const Pipeline more = read(
+      "  - name: again\n    does: Evaluation again\n    needs: [doors, opener]\n"
+      "    command: [eval, --opener, \"{opener}\", --doors, \"{doors}\", --out, \"{again}\"]\n"
+      "    output: again\n    records: [report.json]\n"
+      "    core_seconds: {fixed: 1}\n    mebibytes: {fixed: 1}\n");
+  ASSERT_EQ(more.steps.size(), quick.steps.size() + 1);
+  EXPECT_EQ(more.steps.back().name, "again");
+  EXPECT_EQ(more.steps.back().command.at(2), "{opener}");
+  for (std::size_t i = 0; i < quick.steps.size(); ++i)
+    EXPECT_EQ(more.steps[i].command, quick.steps[i].command);
+  EXPECT_THROW(read("  - name: raport\n    append: [--json]\n"), Error);
+  fs::remove(file);
+}
+
 TEST(TakePlan, IsTheFirstOfTwoWordsAndNoOther) {
   std::vector<std::string> words = {"plan", "quick"};
   EXPECT_TRUE(TakePlan(words));

@@ -241,6 +241,13 @@ TEST(TrainGrasp, PrefersThePointsAndTheTurnsThatOpenDoorsItHasNotSeen) {
     narrow.fits = [](const auto&, const auto&) { return false; };
     EXPECT_EQ(policy->Choose(narrow)->world_from_hand_rotation, choice->world_from_hand_rotation)
         << "where none fits, the best is taken";
+    GraspObservation later = view;
+    later.tried = {{choice->contact_m, choice->world_from_hand_rotation}};
+    EXPECT_GT((policy->Choose(later)->contact_m - choice->contact_m).norm(), 0.02)
+        << "where a grasp has failed, another place of the bar is next";
+    for (double z = world.handle_z - 0.1; z <= world.handle_z + 0.1; z += 0.02)
+      later.tried.push_back({{0.05, world.handle_y, z}, choice->world_from_hand_rotation});
+    EXPECT_TRUE(policy->Choose(later).has_value()) << "no place is left";
   }
   // by chance a quarter would open, and both halves of the handles would score alike
   EXPECT_GE(opened, 7);

@@ -190,15 +190,20 @@ void ChangeCommand(const Json& change, Json& command, const std::string& where) 
 }
 
 // Each of `changes` names one of the steps, whose command it changes and whose other keys it
-// replaces.
+// replaces; with a name of its own and a command it is one step more.
 void ChangeSteps(const Json& changes, Json& steps, const std::string& where) {
   if (!changes.is_array()) Fail(where, "steps: expected a list");
   for (const Json& change : changes) {
     const std::string name = Text(change, "name", where + ": steps");
     const auto step = std::ranges::find_if(
         steps, [&](const Json& candidate) { return TextAt(candidate, "name") == name; });
-    if (step == steps.end())
-      Fail(where, "steps: \"" + name + "\" is no step of the preset that this one is like");
+    if (step == steps.end()) {
+      if (!change.contains("command"))
+        Fail(where, "steps: \"" + name +
+                        "\" is no step of the preset that this one is like, and has no command");
+      steps.push_back(change);
+      continue;
+    }
     for (const auto& [key, value] : change.items()) {
       if (key != "append" && key != "remove" && key != "replace") (*step)[key] = value;
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -28,6 +29,7 @@ Eigen::Vector3d PointOf(const std::vector<float>& xyz, std::size_t i) {
 
 constexpr double kAnotherPlace = 0.02;  // [m]
 constexpr double kAnotherTurn = 0.4;    // [rad]
+constexpr double kElsewhere = 0.03;     // [m]
 
 // Half a turn about the approach is the same grip of a parallel gripper.
 double GripAngle(const Eigen::Matrix3d& one, const Eigen::Matrix3d& other) {
@@ -42,6 +44,20 @@ bool IsAnother(const std::vector<TriedGrasp>& tried, const Eigen::Vector3d& cont
     return (grasp.contact_m - contact_m).norm() < kAnotherPlace &&
            GripAngle(grasp.world_from_hand_rotation, rotation) < kAnotherTurn;
   });
+}
+
+// Of the points in `order` those where no tried hand closed, since a hand turned about the place
+// where one has failed mostly fails alike; all, where the handle is too small to have another.
+std::vector<std::size_t> Elsewhere(const std::vector<TriedGrasp>& tried,
+                                   const std::vector<float>& point_xyz,
+                                   const std::vector<std::size_t>& order) {
+  std::vector<std::size_t> away;
+  std::ranges::copy_if(order, std::back_inserter(away), [&](std::size_t point) {
+    return std::ranges::none_of(tried, [&](const TriedGrasp& grasp) {
+      return (grasp.contact_m - PointOf(point_xyz, point)).norm() < kElsewhere;
+    });
+  });
+  return away.empty() ? order : away;
 }
 
 class NetworkGraspPolicy : public GraspPolicy {
@@ -149,7 +165,8 @@ class NetworkGraspPolicy : public GraspPolicy {
 
   // Fills in what the explanation has to say of the best.
   GraspAction BestOf(const GraspObservation& seen, GraspExplanation& explanation) const {
-    const std::vector<std::size_t> order = Ranked(explanation.affordance_rad);
+    const std::vector<std::size_t> order =
+        Elsewhere(seen.tried, explanation.point_xyz, Ranked(explanation.affordance_rad));
     const std::size_t tried = std::min(order.size(), static_cast<std::size_t>(options_.points));
     std::vector<LabelledCloud> clouds;
     std::vector<double> affordance_rad;

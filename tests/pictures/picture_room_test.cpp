@@ -9,6 +9,7 @@
 #include "doorforge/physics/scene_sampling.h"
 
 #include "../physics/primitive_door.h"
+#include "appearance.h"
 
 namespace doorforge {
 namespace {
@@ -94,6 +95,29 @@ TEST(PictureRoom, HoldsTheRobotAndTheCamerasAndStandsASafeOnAPlinth) {
   const RoomHit hit = room.Meet({1.5F, 0, low}, {-1, 0, 0});
   EXPECT_EQ(hit.part, RoomPart::kPlinth);
   EXPECT_EQ(hit.normal, Eigen::Vector3f(1, 0, 0));
+}
+
+// Whether any mesh is of wood in one of many draws.
+bool IsEverOfWood(Category category) {
+  RoomSetting setting(category);
+  setting.scene.appearance = SceneAppearance::kFull;
+  const PictureRoom room = setting.Room();
+  const std::vector<VisibleMesh> meshes(4, {TriangleMesh{}, 0, PointLabel::kBody});
+  for (setting.scene.episode = 0; setting.scene.episode < 60; ++setting.scene.episode) {
+    const Appearance drawn = DrawAppearance(
+        {setting.scene, setting.door, setting.robot, true, setting.scene.camera}, meshes, room);
+    for (const Finish& finish : drawn.meshes) {
+      if (finish.texture == Texture::kWood) return true;
+    }
+  }
+  return false;
+}
+
+TEST(Appearance, NobodyMakesCarsAndSafesOfWood) {
+  EXPECT_FALSE(IsEverOfWood(Category::kCar));
+  EXPECT_FALSE(IsEverOfWood(Category::kSafe));
+  EXPECT_TRUE(IsEverOfWood(Category::kInterior));
+  EXPECT_TRUE(IsEverOfWood(Category::kRefrigerator));
 }
 
 }  // namespace

@@ -78,6 +78,7 @@ class AppearanceDraw {
       : meshes_(meshes),
         room_(room),
         look_(PlainAppearance(meshes, room)),
+        is_metal_(scene.door.category == Category::kCar || scene.door.category == Category::kSafe),
         rng_(scene.scene.seed, "scene/" + scene.scene.door_id + "/" +
                                    std::to_string(scene.scene.episode) + "/appearance") {}
 
@@ -112,9 +113,12 @@ class AppearanceDraw {
 
   Appearance Full() {
     WithColors();
-    const Texture leaf = AnyTexture(
-        {Texture::kPlain, Texture::kWood, Texture::kWood, Texture::kSpeckle, Texture::kBrushed});
-    const Texture frame = Chance(0.6) ? leaf : AnyTexture({Texture::kPlain, Texture::kWood});
+    // nobody makes cars and safes of wood
+    const Texture grain = is_metal_ ? Texture::kPlain : Texture::kWood;
+    const Texture leaf =
+        AnyTexture({Texture::kPlain, grain, grain, is_metal_ ? Texture::kPlain : Texture::kSpeckle,
+                    Texture::kBrushed});
+    const Texture frame = Chance(0.6) ? leaf : AnyTexture({Texture::kPlain, grain});
     for (std::size_t i = 0; i < meshes_.size(); ++i) {
       if (meshes_[i].label == PointLabel::kBody) Cover(look_.meshes[i], leaf);
       if (meshes_[i].label == PointLabel::kFrame) Cover(look_.meshes[i], frame);
@@ -240,6 +244,7 @@ class AppearanceDraw {
   const std::vector<VisibleMesh>& meshes_;
   const PictureRoom& room_;
   Appearance look_;
+  bool is_metal_;
   Rng rng_;
 };
 

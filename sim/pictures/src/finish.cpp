@@ -34,12 +34,12 @@ __attribute__((target_clones("avx2", "default"))) void CornerNumbers(std::uint32
   constexpr std::uint32_t kX = 0x9E3779B1U;
   constexpr std::uint32_t kY = 0x85EBCA77U;
   constexpr std::uint32_t kZ = 0x27D4EB2FU;
-  constexpr std::array<std::uint32_t, 8> kSteps = {0,  kX,      kY,      kX + kY,
-                                                   kZ, kX + kZ, kY + kZ, kX + kY + kZ};
+  constexpr std::array<std::uint32_t, 8> kCorners = {0,  kX,      kY,      kX + kY,
+                                                     kZ, kX + kZ, kY + kZ, kX + kY + kZ};
   const std::uint32_t first = x * kX + y * kY + z * kZ;
-  for (std::size_t corner = 0; corner < kSteps.size(); ++corner)
+  for (std::size_t corner = 0; corner < kCorners.size(); ++corner)
     numbers[corner] =
-        static_cast<float>(static_cast<std::int32_t>(Mixed(first + kSteps[corner]) >> 8)) *
+        static_cast<float>(static_cast<std::int32_t>(Mixed(first + kCorners[corner]) >> 8)) *
         0x1p-24F;
 }
 

@@ -38,7 +38,7 @@ class PixelDirections {
 
 namespace {
 
-constexpr int kPlaces = 16;            // of a lamp, that a block of pixels looks for
+constexpr int kLampPlaces = 16;        // of a lamp, that a block of pixels looks for
 constexpr float kThroughPane = 0.04F;  // [m]
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNearestLamp = 0.04F;  // [m2] light grows no more than up to it
@@ -64,7 +64,7 @@ RgbRenderer::RgbRenderer(const PictureScene& scene, const PicturesConfig& config
       appearance_(DrawAppearance(scene, geometry.meshes(), room_)),
       lit_{geometry_, room_, appearance_},
       samples_(config.samples),
-      rounds_(std::max(1, config.samples / kPlaces)),
+      rounds_(std::max(1, config.samples / kLampPlaces)),
       seed_(Rng(scene.scene.seed, "pictures/" + scene.scene.door_id + "/" +
                                       std::to_string(scene.scene.episode) + "/noise")
                 .NextUint32()),
@@ -168,7 +168,7 @@ LinearColor RgbRenderer::AlbedoOf(const SeenPoint& point) const {
 }
 
 LinearColor RgbRenderer::Shade(const SeenPoint& point, const LightShares& shares) const {
-  const float share = 1 / static_cast<float>(kPlaces * rounds_);  // of a place that is in sight
+  const float share = 1 / static_cast<float>(kLampPlaces * rounds_);  // of a place that is in sight
   const auto& [finish, shine] = materials_[point.part];
   const float around = share / static_cast<float>(LightShares::kAroundUnit);
   LinearColor light =

@@ -30,8 +30,8 @@ class KeptReports(unittest.TestCase):
             run, out = pathlib.Path(scratch) / "run", pathlib.Path(scratch) / "kept"
             (run / "report").mkdir(parents=True)
             (run / "report.log").write_text("beside it")
-            provenance = {"command": "doorforge eval --opener /home/a/p1/opener --doors=/data/doors --split=full:test --set base=fixed",
-                          "inputs": ["/home/a/p1/open_data", "1/2 of it"]}
+            provenance = {"command": "doorforge eval --opener /somewhere/p1/opener --doors=/elsewhere/doors --split=full:test --set base=fixed",
+                          "inputs": ["/somewhere/p1/open_data", "1/2 of it"]}
             report = {"schema": "doorforge.report", "schema_version": 9, "provenance": provenance, "doors": ["a__b"], "episodes": [EPISODE],
                       "expert_episodes": []}
             (run / "report/report.json").write_text(json.dumps(report))

@@ -83,7 +83,7 @@ class LightSampler {
   }
 
  private:
-  // Of each of the four blocks a set of pixels.
+  // They are the pixels of one set in each of the four blocks.
   Lookers LookersOf(int left, int top, const std::array<std::size_t, 4>& quarters) const {
     Lookers lookers;
     for (std::size_t slot = 0; slot < lookers.size(); ++slot) {

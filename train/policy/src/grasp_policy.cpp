@@ -46,8 +46,8 @@ bool IsAnother(const std::vector<TriedGrasp>& tried, const Eigen::Vector3d& cont
   });
 }
 
-// Of the points in `order` those where no tried hand closed, since a hand turned about the place
-// where one has failed mostly fails alike; all, where the handle is too small to have another.
+// Leaves out the points where a tried hand closed, since a hand turned about the place where one
+// has failed mostly fails alike; keeps all where the handle is too small to have another place.
 std::vector<std::size_t> Elsewhere(const std::vector<TriedGrasp>& tried,
                                    const std::vector<float>& point_xyz,
                                    const std::vector<std::size_t>& order) {

@@ -218,6 +218,42 @@ TEST(Jpeg, HoldsThePictureAsWellAsItsQualitySays) {
   EXPECT_THROW(EncodeJpeg({2, 2, {1}}, 80), Error);
 }
 
+TEST(DecodePicture, ReadsWhatCamerasWriteInColours) {
+  const Picture picture = Gradient(150, 70);
+  EXPECT_EQ(DecodePicture(EncodePng(picture), "c.png").rgb, picture.rgb);
+  const Picture lossy = DecodePicture(EncodeJpeg(picture, 95), "c.jpg");
+  ASSERT_EQ(lossy.rgb.size(), picture.rgb.size());
+  double sum = 0;
+  for (std::size_t i = 0; i < lossy.rgb.size(); ++i) sum += std::abs(lossy.rgb[i] - picture.rgb[i]);
+  EXPECT_NEAR(sum / static_cast<double>(lossy.rgb.size()),
+              MeanError(EncodeJpeg(picture, 95), picture), 1e-9);
+  const Picture grey =
+      DecodePicture(EncodeDepthPng({2, 1, {0.512F, 65.5F}, {}, {}}), "sixteen bits of grey");
+  EXPECT_EQ(grey.rgb, (std::vector<std::uint8_t>{2, 2, 2, 255, 255, 255}));
+}
+
+TEST(DecodePicture, RefusesWhatIsDamagedHugeOrNoPicture) {
+  const auto refusal = [](const std::string& bytes) -> std::string {
+    try {
+      DecodePicture(bytes, "c");
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kFormat);
+      return error.what();
+    }
+    return "taken";
+  };
+  const std::string png = EncodePng(Gradient(150, 70));
+  const std::string jpeg = EncodeJpeg(Gradient(150, 70));
+  for (const std::string& sound : {png, jpeg}) {
+    EXPECT_NE(refusal(sound.substr(0, sound.size() / 2)).find("damaged"), std::string::npos);
+    EXPECT_NE(refusal(sound.substr(0, 12)), "taken");
+  }
+  EXPECT_EQ(refusal("text"), "c: is no PNG and no JPEG");
+  std::string huge = png;
+  huge[16] = '\x7f';  // the width's first byte
+  EXPECT_NE(refusal(huge).find("8192"), std::string::npos);
+}
+
 TEST(DepthPng, ADamagedOneIsRefusedAndNoLibrarySpeaks) {
   DepthImage image{8, 6, std::vector<float>(48, 1.25F)};
   image.depth_m[7] = 2;

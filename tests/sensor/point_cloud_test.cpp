@@ -100,6 +100,21 @@ TEST(CropCloud, DropsWhatIsFarOrLow) {
   EXPECT_EQ(CropCloud(image, model, {.min_height_m = 9}).label.size(), 0U);
 }
 
+// A driver says 0, NaN or infinity of a pixel that it could not measure.
+TEST(CropCloud, MakesNoPointOfAHole) {
+  DepthCamera camera({{shapes::Wall(0, 3), 0, PointLabel::kBody}});
+  const CameraModel model;
+  DepthImage image = camera.Render(model, kStillScene);
+  const std::size_t before = CropCloud(image, model).label.size();
+  const std::size_t middle = image.depth_m.size() / 2 + 128;
+  for (const float hole : {0.0F, -0.5F, std::nanf(""), HUGE_VALF}) {
+    ASSERT_LT(image.depth_m[middle], 2.5F);
+    DepthImage holed = image;
+    holed.depth_m[middle] = hole;
+    EXPECT_EQ(CropCloud(holed, model).label.size(), before - 1) << hole;
+  }
+}
+
 TEST(CropCloud, RefusesAnImageOfAnotherCamera) {
   DepthCamera camera({});
   const CameraModel model;

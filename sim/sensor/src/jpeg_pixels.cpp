@@ -59,7 +59,53 @@ bool Encode(const PngPixels& pixels, int quality, EncodedBytes& bytes) {
   return true;
 }
 
+// libjpeg warns where data are damaged or end early, fills up with grey and goes on.
+void GoBackOnWarning(j_common_ptr codec, int level) {
+  if (level < 0) GoBack(codec);
+}
+
+// Reads a header, and rows where there is room for them; no destructors here either.
+bool Decode(std::string_view jpeg, unsigned char* pixels, JpegExtent& size) {
+  ErrorHandler handler;
+  jpeg_decompress_struct codec{};
+  codec.err = ::jpeg_std_error(&handler.manager);
+  handler.manager.error_exit = GoBack;
+  handler.manager.emit_message = GoBackOnWarning;
+  handler.manager.output_message = [](j_common_ptr) {};
+  if (setjmp(handler.begin) != 0) {
+    ::jpeg_destroy_decompress(&codec);
+    return false;
+  }
+  ::jpeg_create_decompress(&codec);
+  ::jpeg_mem_src(&codec, reinterpret_cast<const unsigned char*>(jpeg.data()), jpeg.size());
+  ::jpeg_read_header(&codec, TRUE);
+  const bool fits = codec.image_width == size.width && codec.image_height == size.height;
+  size = {codec.image_width, codec.image_height};
+  if (pixels != nullptr && fits) {
+    codec.out_color_space = JCS_RGB;
+    ::jpeg_start_decompress(&codec);
+    while (codec.output_scanline < codec.output_height) {
+      JSAMPROW rows[1] = {pixels + kChannels * size.width * codec.output_scanline};
+      ::jpeg_read_scanlines(&codec, rows, 1);
+    }
+    ::jpeg_finish_decompress(&codec);
+  }
+  ::jpeg_destroy_decompress(&codec);
+  return fits;
+}
+
 }  // namespace
+
+JpegExtent JpegSize(std::string_view jpeg) {
+  JpegExtent size;
+  Decode(jpeg, nullptr, size);
+  return size;
+}
+
+bool DecodeJpegColors(std::string_view jpeg, unsigned char* pixels, const JpegExtent& size) {
+  JpegExtent expected = size;
+  return Decode(jpeg, pixels, expected);
+}
 
 std::string EncodeJpegPixels(const PngPixels& pixels, int quality) {
   EncodedBytes bytes;

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <string_view>
 
 #include "png_pixels.h"
 
@@ -14,5 +16,17 @@ namespace doorforge::internal {
 /// @param pixels Of three channels of 8 bits; not empty, and at most 65,500 along a side.
 /// @param quality 1 to 100, libjpeg's scale.
 std::string EncodeJpegPixels(const PngPixels& pixels, int quality);
+
+struct JpegExtent {
+  std::size_t width = 0;
+  std::size_t height = 0;
+};
+
+/// What a file says of its size; 0 where it says nothing. Prints nothing.
+JpegExtent JpegSize(std::string_view jpeg);
+
+/// Decodes into rows of red, green, blue of 8 bits, for which there is room. Returns false where
+/// the file is damaged, cut off or of another size. Prints nothing.
+bool DecodeJpegColors(std::string_view jpeg, unsigned char* pixels, const JpegExtent& size);
 
 }  // namespace doorforge::internal

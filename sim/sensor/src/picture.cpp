@@ -4,13 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include <opencv2/imgproc.hpp>
 
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
+#include "doorforge/schemas/npy.h"
 
 #include "caption_lines.h"
 #include "jpeg_pixels.h"
@@ -112,10 +116,11 @@ struct PngHeader {
 };
 
 // read here, so that a small file that claims to be huge is refused before memory is asked for
-PngHeader HeaderOf(std::string_view bytes, const std::string& name) {
+PngHeader HeaderOf(std::string_view bytes, const std::string& name,
+                   const char* otherwise = "no PNG") {
   constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
   if (!bytes.starts_with(kSignature) || bytes.size() < 26)
-    throw Error(ErrorCode::kFormat, name + ": is no PNG");
+    throw Error(ErrorCode::kFormat, name + ": is " + otherwise);
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
   const auto number = [&](std::size_t at) {
     std::uint32_t value = 0;
@@ -123,6 +128,22 @@ PngHeader HeaderOf(std::string_view bytes, const std::string& name) {
     return value;
   };
   return {number(16), number(20), byte(24), byte(25)};
+}
+
+// Numbers of bytes that may lie anywhere.
+template <class T>
+std::vector<T> Copied(const std::byte* values, std::size_t count) {
+  std::vector<T> copy(count);
+  std::memcpy(copy.data(), values, count * sizeof(T));
+  return copy;
+}
+
+template <class Units>
+std::vector<float> InMetres(const Units& units, double metres_per_unit) {
+  std::vector<float> metres;
+  metres.reserve(units.size());
+  for (const auto value : units) metres.push_back(static_cast<float>(value * metres_per_unit));
+  return metres;
 }
 
 std::string ListOf(const std::vector<int>& numbers) {
@@ -203,15 +224,69 @@ std::string EncodeDepthPng(const DepthImage& image) {
 
 DepthImage DecodeDepthPng(std::string_view bytes, double metres_per_unit, const std::string& name) {
   const cv::Mat units = DecodeGrey(bytes, name, {16});
-  DepthImage image{units.cols, units.rows, {}, {}, {}};
-  image.depth_m.assign(units.total(), std::numeric_limits<float>::infinity());
-  image.link.assign(units.total(), -1);
-  image.label.assign(units.total(), static_cast<std::uint8_t>(PointLabel::kOther));
   const auto* pixels = units.ptr<std::uint16_t>();
-  for (std::size_t i = 0; i < image.depth_m.size(); ++i) {
-    if (pixels[i] != 0) image.depth_m[i] = static_cast<float>(pixels[i] * metres_per_unit);
-  }
+  return MakeDepthImage(units.cols, units.rows,
+                        InMetres(std::span(pixels, units.total()), metres_per_unit));
+}
+
+DepthImage DecodeDepthNpy(std::string_view bytes, const DepthUnits& units,
+                          const std::string& name) {
+  const std::span<const std::byte> data = std::as_bytes(std::span(bytes.data(), bytes.size()));
+  const NpyHeader header = ParseNpyHeader(data, name);
+  const std::vector<std::size_t>& shape = header.shape;
+  const bool is_flat = shape.size() == 2 || (shape.size() == 3 && shape[2] == 1);
+  if (!is_flat || shape[0] < 1 || shape[1] < 1 || shape[0] > kMostPixels || shape[1] > kMostPixels)
+    throw Error(ErrorCode::kFormat,
+                name + ": expected an array of rows and columns, 1 to 8192 each");
+  const auto metres = [&]() -> std::vector<float> {
+    const std::byte* values = data.data() + header.data_offset;
+    const std::size_t count = shape[0] * shape[1];
+    if (header.type == "<f4") return InMetres(Copied<float>(values, count), units.of_float);
+    if (header.type == "<f8") return InMetres(Copied<double>(values, count), units.of_float);
+    if (header.type == "<u2")
+      return InMetres(Copied<std::uint16_t>(values, count), units.of_integer);
+    throw Error(ErrorCode::kFormat,
+                name + ": numbers of type " + header.type +
+                    "; depth is of float32, float64 (<f4, <f8) or uint16 (<u2)");
+  };
+  return MakeDepthImage(static_cast<int>(shape[1]), static_cast<int>(shape[0]), metres());
+}
+
+DepthImage MakeDepthImage(int width, int height, std::vector<float> depth_m) {
+  const auto count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  Require(width > 0 && height > 0 && depth_m.size() == count, ErrorCode::kInvalidArgument,
+          "depth picture: " + std::to_string(depth_m.size()) + " numbers for " +
+              std::to_string(width) + " x " + std::to_string(height) + " pixels");
+  DepthImage image{width, height, std::move(depth_m), {}, {}};
+  for (float& metres : image.depth_m)
+    if (!(metres > 0 && std::isfinite(metres))) metres = std::numeric_limits<float>::infinity();
+  image.link.assign(count, -1);
+  image.label.assign(count, static_cast<std::uint8_t>(PointLabel::kOther));
   return image;
+}
+
+Picture DecodePicture(std::string_view bytes, const std::string& name) {
+  const bool is_jpeg = bytes.starts_with("\xff\xd8\xff");
+  Picture picture;
+  if (is_jpeg) {
+    const auto size = internal::JpegSize(bytes);
+    picture.width = static_cast<int>(size.width);
+    picture.height = static_cast<int>(size.height);
+  } else {
+    const PngHeader header = HeaderOf(bytes, name, "no PNG and no JPEG");
+    picture.width = static_cast<int>(std::min(header.width, kMostPixels + 1));
+    picture.height = static_cast<int>(std::min(header.height, kMostPixels + 1));
+  }
+  const auto width = static_cast<std::size_t>(picture.width);
+  const auto height = static_cast<std::size_t>(picture.height);
+  if (width < 1 || height < 1 || width > kMostPixels || height > kMostPixels)
+    throw Error(ErrorCode::kFormat, name + ": damaged, or more than 8192 pixels a side");
+  picture.rgb.resize(3 * width * height);
+  const bool is_read =
+      is_jpeg ? internal::DecodeJpegColors(bytes, picture.rgb.data(), {width, height})
+              : internal::DecodePngColors(bytes, picture.rgb.data(), height, 3 * width);
+  if (!is_read) throw Error(ErrorCode::kFormat, name + ": the picture is damaged");
+  return picture;
 }
 
 PixelMask DecodeMaskPng(std::string_view bytes, const std::string& name) {

@@ -30,6 +30,13 @@ void AddBytes(png_structp png, png_bytep from, std::size_t count) {
 
 void KeepAll(png_structp) {}
 
+/// Where a picture's pixels go.
+struct PixelRows {
+  unsigned char** rows = nullptr;
+  std::size_t row_bytes = 0;
+  bool as_colors = false;
+};
+
 bool WriteRows(png_structp png, png_infop info, const PngPixels& picture, unsigned char** rows) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_compression_level(png, 6);
@@ -45,35 +52,57 @@ bool WriteRows(png_structp png, png_infop info, const PngPixels& picture, unsign
   return true;
 }
 
-bool ReadRows(png_structp png, png_infop info, unsigned char** rows, std::size_t row_bytes) {
-  if (setjmp(png_jmpbuf(png)) != 0) return false;
-  png_read_info(png, info);
+// What a file may hold becomes three samples of eight bits.
+void AskForColors(png_structp png) {
+  png_set_expand(png);
+  png_set_strip_16(png);
+  png_set_gray_to_rgb(png);
+  png_set_strip_alpha(png);
+}
+
+void AskForSamples(png_structp png, png_infop info) {
   if (png_get_bit_depth(png, info) == 16 && std::endian::native == std::endian::little)
     png_set_swap(png);
+}
+
+bool ReadRows(png_structp png, png_infop info, const PixelRows& to) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  png_read_info(png, info);
+  to.as_colors ? AskForColors(png) : AskForSamples(png, info);
   png_set_interlace_handling(png);
   png_read_update_info(png, info);
-  if (png_get_rowbytes(png, info) != row_bytes) return false;
-  png_read_image(png, rows);
+  if (png_get_rowbytes(png, info) != to.row_bytes) return false;
+  png_read_image(png, to.rows);
   png_read_end(png, nullptr);
   return true;
 }
 
-}  // namespace
-
-bool DecodePngPixels(std::string_view bytes, unsigned char* pixels, std::size_t height,
-                     std::size_t row_bytes) {
+bool Decode(std::string_view bytes, unsigned char* pixels, std::size_t height, PixelRows to) {
   std::vector<unsigned char*> rows;
-  for (std::size_t row = 0; row < height; ++row) rows.push_back(pixels + row * row_bytes);
+  for (std::size_t row = 0; row < height; ++row) rows.push_back(pixels + row * to.row_bytes);
+  to.rows = rows.data();
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, Leave, Ignore);
   png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
   bool is_read = false;
   if (info != nullptr) {
     std::string_view left = bytes;
     png_set_read_fn(png, &left, TakeBytes);
-    is_read = ReadRows(png, info, rows.data(), row_bytes);
+    is_read = ReadRows(png, info, to);
   }
   png_destroy_read_struct(&png, &info, nullptr);
   return is_read;
+}
+
+}  // namespace
+
+bool DecodePngPixels(std::string_view bytes, unsigned char* pixels, std::size_t height,
+                     std::size_t row_bytes) {
+  return Decode(bytes, pixels, height, {.row_bytes = row_bytes});
+}
+
+bool DecodePngColors(std::string_view bytes, unsigned char* pixels, std::size_t height,
+                     std::size_t row_bytes) {
+  return Decode(bytes, pixels, height, {.row_bytes = row_bytes, .as_colors = true});
 }
 
 std::string EncodePngPixels(const PngPixels& picture) {

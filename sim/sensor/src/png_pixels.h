@@ -14,6 +14,10 @@ namespace doorforge::internal {
 bool DecodePngPixels(std::string_view png, unsigned char* pixels, std::size_t height,
                      std::size_t row_bytes);
 
+/// Decodes any PNG likewise into red, green, blue of 8 bits each.
+bool DecodePngColors(std::string_view png, unsigned char* pixels, std::size_t height,
+                     std::size_t row_bytes);
+
 /// Pixels of `channels` samples (1: grey, 3: red, green, blue) of `bits` bits (8 or 16, these in
 /// the machine's order), row after row.
 struct PngPixels {

@@ -44,9 +44,32 @@ LabelledCloud PointsWithin(const LabelledCloud& cloud, std::size_t centre, doubl
   return near;
 }
 
-void RequireSameSize(const DepthImage& image, const PinholeView& view) {
-  Require(image.width == view.width && image.height == view.height, ErrorCode::kInvalidArgument,
+void RequireSameSize(const DepthImage& image, int width, int height) {
+  Require(image.width == width && image.height == height, ErrorCode::kInvalidArgument,
           "point cloud: image and camera differ in size");
+}
+
+std::size_t IndexOf(const DepthImage& image, int column, int row) {
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
+         static_cast<std::size_t>(column);
+}
+
+// The pixels inside the crop, where `point_at` puts them. What is compared with NaN is left out.
+template <class PointAt>
+LabelledCloud Cropped(const DepthImage& image, const CloudConfig& config, const PointAt& point_at) {
+  LabelledCloud cloud;
+  for (int row = 0; row < image.height; ++row) {
+    for (int column = 0; column < image.width; ++column) {
+      const std::size_t pixel = IndexOf(image, column, row);
+      const double depth = image.depth_m[pixel];
+      if (!(depth > 0 && depth < config.max_depth_m)) continue;
+      const Eigen::Vector3d point = point_at(column, row, depth);
+      if (!(point.z() > config.min_height_m)) continue;
+      for (const double coordinate : point) cloud.xyz.push_back(static_cast<float>(coordinate));
+      cloud.label.push_back(image.label[pixel]);
+    }
+  }
+  return cloud;
 }
 
 }  // namespace
@@ -64,35 +87,31 @@ LabelledCloud CropCloud(const DepthImage& image, const CameraModel& camera,
 
 LabelledCloud CropCloud(const DepthImage& image, const PinholeView& view,
                         const CloudConfig& config) {
-  RequireSameSize(image, view);
+  RequireSameSize(image, view.width, view.height);
   const PixelRays rays(view);
-  LabelledCloud cloud;
-  for (int row = 0; row < image.height; ++row) {
-    for (int column = 0; column < image.width; ++column) {
-      const std::size_t pixel =
-          static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
-          static_cast<std::size_t>(column);
-      const double depth = image.depth_m[pixel];
-      if (depth >= config.max_depth_m) continue;
-      const Eigen::Vector3d point = rays.PointAt(column + 0.5, row + 0.5, depth);
-      if (point.z() <= config.min_height_m) continue;
-      for (const double coordinate : point) cloud.xyz.push_back(static_cast<float>(coordinate));
-      cloud.label.push_back(image.label[pixel]);
-    }
-  }
-  return cloud;
+  return Cropped(image, config, [&](int column, int row, double depth_m) {
+    return rays.PointAt(column + 0.5, row + 0.5, depth_m);
+  });
+}
+
+LabelledCloud CropCloud(const DepthImage& image, const RigidTransform& world_from_camera,
+                        const PixelDirections& directions, const CloudConfig& config) {
+  RequireSameSize(image, directions.width, directions.height);
+  return Cropped(image, config, [&](int column, int row, double depth_m) -> Eigen::Vector3d {
+    const Eigen::Vector2d& ideal = directions.ideal[IndexOf(image, column, row)];
+    return world_from_camera * Eigen::Vector3d(depth_m * ideal.homogeneous());
+  });
 }
 
 std::optional<std::size_t> PixelOfPoint(const DepthImage& image, const PinholeView& view,
                                         const Eigen::Vector3f& point) {
-  RequireSameSize(image, view);
+  RequireSameSize(image, view.width, view.height);
   const Eigen::Vector3d in_camera = view.world_from_camera.inverse() * point.cast<double>();
   if (!(in_camera.z() > 0)) return {};
   const double column = std::floor(view.fx * in_camera.x() / in_camera.z() + view.cx);
   const double row = std::floor(view.fy * in_camera.y() / in_camera.z() + view.cy);
   if (!(column >= 0 && row >= 0 && column < image.width && row < image.height)) return {};
-  const std::size_t pixel = static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
-                            static_cast<std::size_t>(column);
+  const std::size_t pixel = IndexOf(image, static_cast<int>(column), static_cast<int>(row));
   const Eigen::Vector3d there =
       PixelRays(view).PointAt(column + 0.5, row + 0.5, image.depth_m[pixel]);
   if (there.cast<float>() != point) return {};

@@ -40,6 +40,29 @@ std::string EncodeDepthPng(const DepthImage& image);
 /// @throws Error(kFormat) unless it is such a PNG of at most 8192 pixels a side.
 DepthImage DecodeDepthPng(std::string_view bytes, double metres_per_unit, const std::string& name);
 
+/// What numbers of depth are worth [m].
+struct DepthUnits {
+  double of_float = 1;
+  double of_integer = 0.001;
+};
+
+/// The depth image of an array as NumPy's save() writes it: two axes, rows and columns (a third of
+/// length 1 is taken), of `<f4` or `<f8`, whose holes are NaN, infinite or 0, or of `<u2`.
+///
+/// @throws Error(kFormat) unless it is such an array of at most 8192 pixels a side.
+DepthImage DecodeDepthNpy(std::string_view bytes, const DepthUnits& units, const std::string& name);
+
+/// A depth image of numbers in memory [m], such as a driver's; what is not above 0 and finite
+/// becomes infinity, no depth. Every link is -1, every label kOther.
+///
+/// @throws Error(kInvalidArgument) unless there are width x height numbers.
+DepthImage MakeDepthImage(int width, int height, std::vector<float> depth_m);
+
+/// A picture of a PNG (grey or colours, with or without alpha, which is dropped) or JPEG file.
+///
+/// @throws Error(kFormat) unless it is one of at most 8192 pixels a side.
+Picture DecodePicture(std::string_view bytes, const std::string& name);
+
 /// Which pixels belong to something, row by row from the top left.
 struct PixelMask {
   int width = 0;

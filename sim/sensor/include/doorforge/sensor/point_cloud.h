@@ -12,6 +12,7 @@
 #include "doorforge/schemas/cloud.h"
 #include "doorforge/sensor/depth_camera.h"
 #include "doorforge/sensor/depth_noise.h"
+#include "doorforge/sensor/lens.h"
 #include "doorforge/sensor/pinhole_view.h"
 
 namespace doorforge {
@@ -44,12 +45,17 @@ struct CloudConfig {
 ///
 /// The image is taken as it is: `config.noise` is for whoever makes the image.
 ///
+/// A pixel whose depth is not above 0, such as one that a sensor left out, is no point.
+///
 /// @param image Rendered with this very `camera`, or with the one that it is believed to be.
 /// @throws Error(kInvalidArgument) if the sizes of image and camera differ.
 LabelledCloud CropCloud(const DepthImage& image, const CameraModel& camera,
                         const CloudConfig& config = {});
 LabelledCloud CropCloud(const DepthImage& image, const PinholeView& view,
                         const CloudConfig& config = {});
+/// Likewise of a camera with a lens, whose pixels look along `directions`.
+LabelledCloud CropCloud(const DepthImage& image, const RigidTransform& world_from_camera,
+                        const PixelDirections& directions, const CloudConfig& config = {});
 
 /// The pixel that a point of a cloud was made of, as an index into `image`: the one whose point in
 /// CropCloud(image, view) is the same, bit for bit. Nothing if no pixel's is.

@@ -20,6 +20,7 @@
 #include "doorforge/deploy/act_answer.h"
 #include "doorforge/deploy/answer_picture.h"
 #include "doorforge/deploy/decision_stream.h"
+#include "doorforge/deploy/depth_picture.h"
 #include "doorforge/deploy/online_controller.h"
 #include "doorforge/registry/policy_options.h"
 
@@ -28,13 +29,10 @@ namespace {
 
 struct Options {
   OnlineControllerSetup setup;
-  std::string camera;
+  DecisionFiles files;
   std::string stage = "auto";
-  std::string depth;
-  std::string state;
-  std::string before;
-  std::string handle;
   std::string picture;
+  std::string color;
   std::string foreign_limit;
   std::string least_gain;
   std::string config;
@@ -45,19 +43,19 @@ struct Options {
 };
 
 void AddInputs(CLI::App& app, Options& options) {
-  app.add_option("--depth", options.depth, "16-bit depth picture (PNG)");
-  app.add_option("--state", options.state, "robot's state at that moment (YAML)");
+  app.add_option("--depth", options.files.depth, "depth picture (grey PNG of 16 bits, or .npy)");
+  app.add_option("--state", options.files.state, "robot's state at that moment (YAML)");
   app.add_flag("--stream", options.setup.sees_every_decision,
                "instead of --depth and --state: a decision for every line of standard input, "
                "{\"depth\": FILE, \"state\": FILE} or {\"depth\": FILE, \"handle\": FILE}");
-  app.add_option("--before", options.before,
+  app.add_option("--before", options.files.before,
                  "depth picture by the same camera from before the robot came, which a --handler "
                  "may remember; in a stream {\"before\": FILE, ...} does the same");
-  app.add_option("--handle-mask", options.handle,
+  app.add_option("--handle-mask", options.files.handle,
                  "instead of --state, before the robot moves: which pixels show the handle (grey "
                  "PNG, not 0 where it is); says where and how to take hold");
-  AddEarlierName(app, "--handle", "--handle-mask", options.handle);
-  app.add_option("--camera", options.camera, "intrinsics and pose of the camera (YAML)")
+  AddEarlierName(app, "--handle", "--handle-mask", options.files.handle);
+  app.add_option("--camera", options.files.camera, "camera's calibration and pose (YAML)")
       ->required();
 }
 
@@ -89,6 +87,8 @@ void AddAnswers(CLI::App& app, Options& options) {
   app.add_flag("--text", options.text, "a few lines for people instead of JSON");
   app.add_option("--picture", options.picture,
                  "PNG to draw the answer into: crop, hand now (white) and next (red), contact");
+  app.add_option("--color", options.color, "PNG or JPEG to draw into, of the depth picture's size")
+      ->needs("--picture");
   app.add_flag("--overwrite", options.overwrite, "replace the file of --picture");
   app.add_option("--config", options.config, "YAML file with settings")->check(CLI::ExistingFile);
   AddSettings(app, options.settings, "a.b=c overrides one setting, e.g. cloud.max_depth_m");
@@ -99,8 +99,9 @@ void CheckOptions(const Options& options) {
   const auto require = [](bool condition, const std::string& problem) {
     Require(condition, ErrorCode::kInvalidArgument, problem + "; see `doorforge act --help`");
   };
-  const bool one = !options.depth.empty() && options.state.empty() != options.handle.empty();
-  const bool none = options.depth.empty() && options.state.empty() && options.handle.empty();
+  const auto& [depth, state, handle, before, camera] = options.files;
+  const bool one = !depth.empty() && state.empty() != handle.empty();
+  const bool none = depth.empty() && state.empty() && handle.empty();
   const OnlineControllerSetup& setup = options.setup;
   require(
       setup.sees_every_decision ? none : one,
@@ -146,23 +147,20 @@ int Act(Options options) {
   options.setup.config = ConfigOf(options);
   if (options.stage != "auto") options.setup.stage = StageNamed(options.stage);
   RequireNoFile(options.picture, options.overwrite);
-  options.setup.camera = ReadCalibratedCamera(options.camera);
+  options.setup.camera = ReadCalibratedCamera(options.files.camera);
+  const auto color = ReadColorPicture(options.color, options.setup.camera);
   RequireTrainedPolicies({options.setup.opener, options.setup.handler, options.setup.grasper},
                          "rules read what only the simulator knows, and no robot does");
   OnlineController controller(options.setup);
   for (const std::string& note : controller.notes()) PrintNote("note: " + note);
-  if (!options.before.empty()) RememberFromFile(controller, options.before, options.camera);
   if (options.setup.sees_every_decision) {
-    const bool held = AnswerStream(controller, {std::cin, options.camera, options.text, PrintText});
+    const bool held = AnswerStream(controller, {std::cin, options.files, options.text, PrintText});
     return StopRequested() != 0 ? 128 + StopRequested() : held ? 1 : 0;
   }
-  const ActAnswer answer =
-      options.handle.empty()
-          ? DecideFromFiles(controller, options.depth, options.state, options.camera)
-          : DecideGraspFromFiles(controller, options.depth, options.handle, options.camera);
+  const ActAnswer answer = DecideFromFiles(controller, options.files);
   PrintAnswer(!options.text, AnswerToJson(answer), AnswerText(answer));
   if (!options.picture.empty())
-    WritePng(options.picture, AnswerPicture(answer, controller, options.setup.config.cloud));
+    WritePng(options.picture, AnswerPicture(answer, controller, options.setup.config.cloud, color));
   return answer.hold_reasons.empty() ? 0 : 1;
 }
 

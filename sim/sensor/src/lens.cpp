@@ -15,7 +15,9 @@ namespace {
 
 constexpr double kWidestAngle = 1.5;  // off the axis [rad]; a depth along it says little beyond
 const double kWidestRadius = std::tan(kWidestAngle);
-constexpr int kMostSteps = 60;
+constexpr int kMostSteps = 20;
+constexpr int kMostHalvings = 8;
+constexpr int kBisections = 60;
 constexpr double kExact = 1e-12;  // far below a pixel, 1e-3 or so
 
 struct Radial {
@@ -110,7 +112,8 @@ std::optional<Eigen::Vector2d> Lens::Solved(const Eigen::Vector2d& value,
     if (off.norm() <= kExact * std::max(1.0, value.norm())) return point;
     Eigen::Vector2d step = mapped.slope.inverse() * off;
     if (!step.allFinite()) return std::nullopt;
-    while (!Inside(point + step, limit_) && step.norm() > kExact) step /= 2;
+    for (int k = 0; k < kMostHalvings && !Inside(point + step, limit_); ++k) step /= 2;
+    if (!Inside(point + step, limit_)) return std::nullopt;
     point += step;
   }
   return std::nullopt;
@@ -123,7 +126,7 @@ std::optional<Eigen::Vector2d> Lens::FisheyeIdealOf(const Eigen::Vector2d& seen)
   if (radius > FisheyeRadius(limit_)) return std::nullopt;
   double low = 0;
   double high = limit_;
-  for (int i = 0; i < kMostSteps; ++i) {
+  for (int i = 0; i < kBisections; ++i) {
     const double middle = (low + high) / 2;
     (FisheyeRadius(middle) < radius ? low : high) = middle;
   }
@@ -152,8 +155,11 @@ std::optional<Eigen::Vector2d> Lens::SeenOf(const Eigen::Vector2d& ideal) const 
 std::optional<Eigen::Vector2d> Lens::IdealOf(const Eigen::Vector2d& seen,
                                              const Eigen::Vector2d& guess) const {
   switch (lens_.model) {
-    case LensModel::kPolynomial:
-      return Solved(seen, guess);
+    case LensModel::kPolynomial: {
+      // a guess near the limit may lead astray; the middle never does
+      const auto near = Solved(seen, guess);
+      return near ? near : Solved(seen, Eigen::Vector2d::Zero());
+    }
     case LensModel::kInverseBrown:
       return Mapped(seen);
     case LensModel::kFisheye:

@@ -35,6 +35,8 @@ void JudgeForeignness(const HoldConfig& config, ActAnswer& answer) {
       Formatted("the picture is foreign to the policy: distance %.2f, and %g %% of the training's "
                 "validation samples are within %.2f",
                 foreign.distance, config.foreign_percentile, foreign.limit) +
+      (answer.median_depth_m ? Formatted("; its median depth is %.2f m", *answer.median_depth_m)
+                             : "") +
       "; look at what the camera shows, at the camera file and " +
       (Grasps(answer) ? "the mask" : "the state") +
       " (--picture draws them), or pass --foreign-limit off");
@@ -123,6 +125,7 @@ Json AnswerToJson(const ActAnswer& answer) {
   if (answer.turned) json["turned"] = *answer.turned;
   json["candidates"] = answer.candidates;
   json["visible_points"] = answer.visible_points;
+  if (answer.median_depth_m) json["median_depth_m"] = *answer.median_depth_m;
   if (answer.handle_points) json["handle_points"] = *answer.handle_points;
   json["weights_sha256"] = answer.weights_sha256;
   return json;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,8 +35,10 @@ std::size_t IndexOf(int column, int row, int width) {
 /// A picture to draw into, with the camera that it was taken by.
 class Canvas {
  public:
-  Canvas(const Picture& picture, const PinholeView& view)
-      : scale_(std::max(1, kLeastSide / std::max(picture.width, picture.height))), view_(view) {
+  Canvas(const Picture& picture, const PinholeView& view, const Lens& lens)
+      : scale_(std::max(1, kLeastSide / std::max(picture.width, picture.height))),
+        view_(view),
+        lens_(lens) {
     picture_.width = picture.width * scale_;
     picture_.height = picture.height * scale_;
     picture_.rgb.resize(std::size_t{3} * static_cast<std::size_t>(picture_.width) *
@@ -89,10 +92,12 @@ class Canvas {
   }
 
   void Disc(const Eigen::Vector3d& centre, const Color& color, double radius) {
-    const Eigen::Vector3d seen = view_.world_from_camera.inverse() * centre;
-    if (seen.z() < 0.05) return;  // beside or behind the lens
-    const double x = scale_ * (view_.fx * seen.x() / seen.z() + view_.cx);
-    const double y = scale_ * (view_.fy * seen.y() / seen.z() + view_.cy);
+    const Eigen::Vector3d in_camera = view_.world_from_camera.inverse() * centre;
+    if (in_camera.z() < 0.05) return;  // beside or behind the lens
+    const auto seen = lens_.SeenOf(in_camera.hnormalized());
+    if (!seen) return;
+    const double x = scale_ * (view_.fx * seen->x() + view_.cx);
+    const double y = scale_ * (view_.fy * seen->y() + view_.cy);
     if (!(std::fabs(x) < 1e5 && std::fabs(y) < 1e5)) return;
     for (int row = static_cast<int>(y - radius); row <= static_cast<int>(y + radius); ++row) {
       for (int column = static_cast<int>(x - radius); column <= static_cast<int>(x + radius);
@@ -107,27 +112,50 @@ class Canvas {
 
   int scale_;
   PinholeView view_;
+  Lens lens_;
   Picture picture_;
 };
 
-// Washes out what the policy is not given.
-Picture CroppedPreview(const DepthImage& depth, const PinholeView& view,
-                       const CloudConfig& config) {
-  Picture picture = DepthPreview(depth, config.max_depth_m);
-  const RigidTransform& pose = view.world_from_camera;
+// Part of what was seen, with the camera of that part.
+struct Excerpt {
+  SeenPicture seen;
+  PixelMask kept;  // which pixels the policy is given
+  std::optional<Picture> color;
+  PinholeView view;
+};
+
+// Which pixels are within the crop.
+PixelMask KeptOf(const DepthImage& depth, const CalibratedCamera& camera,
+                 const CloudConfig& config) {
+  const PinholeView& view = camera.view;
+  PixelMask kept{depth.width, depth.height, {}};
+  kept.set.reserve(depth.depth_m.size());
   for (int row = 0; row < depth.height; ++row) {
     for (int column = 0; column < depth.width; ++column) {
       const std::size_t i = IndexOf(column, row, depth.width);
       const double metres = static_cast<double>(depth.depth_m[i]);
-      const Eigen::Vector3d ray((column + 0.5 - view.cx) / view.fx, (row + 0.5 - view.cy) / view.fy,
-                                1);
-      const bool kept = metres < config.max_depth_m &&
-                        (pose * Eigen::Vector3d(ray * metres)).z() > config.min_height_m;
-      if (kept) continue;
-      for (std::size_t k = 0; k < 3; ++k) {
-        std::uint8_t& channel = picture.rgb[3 * i + k];
-        channel = static_cast<std::uint8_t>((channel + 3 * 235) / 4);
-      }
+      const Eigen::Vector2d ideal = camera.directions
+                                        ? camera.directions->ideal[i]
+                                        : Eigen::Vector2d((column + 0.5 - view.cx) / view.fx,
+                                                          (row + 0.5 - view.cy) / view.fy);
+      const bool is_kept =
+          metres < config.max_depth_m &&
+          (view.world_from_camera * Eigen::Vector3d(metres * ideal.homogeneous())).z() >
+              config.min_height_m;
+      kept.set.push_back(is_kept ? 1 : 0);
+    }
+  }
+  return kept;
+}
+
+// Washes out what the policy is not given.
+Picture CroppedPreview(const Excerpt& part, const CloudConfig& config) {
+  Picture picture = part.color ? *part.color : DepthPreview(part.seen.depth, config.max_depth_m);
+  for (std::size_t i = 0; i < part.kept.set.size(); ++i) {
+    if (part.kept.set[i] != 0) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::uint8_t& channel = picture.rgb[3 * i + k];
+      channel = static_cast<std::uint8_t>((channel + 3 * 235) / 4);
     }
   }
   return picture;
@@ -160,17 +188,21 @@ std::string Caption(const ActAnswer& answer) {
   return text;
 }
 
-// Part of what was seen, with the camera of that part.
-struct Excerpt {
-  SeenPicture seen;
-  PinholeView view;
+// Where a part lies in the whole.
+struct Window {
+  int left = 0;
+  int top = 0;
+  int side = 0;
 };
 
-PixelMask Cut(const PixelMask& mask, const PinholeView& part, int left, int top) {
-  PixelMask cut{part.width, part.height, {}};
-  for (int row = 0; row < part.height; ++row) {
-    const auto from = mask.set.begin() + std::ptrdiff_t{top + row} * mask.width + left;
-    cut.set.insert(cut.set.end(), from, from + part.width);
+template <class Value>
+std::vector<Value> Cut(const std::vector<Value>& whole, int width, const Window& window,
+                       int channels = 1) {
+  std::vector<Value> cut;
+  for (int row = 0; row < window.side; ++row) {
+    const auto from =
+        whole.begin() + (std::ptrdiff_t{window.top + row} * width + window.left) * channels;
+    cut.insert(cut.end(), from, from + std::ptrdiff_t{window.side} * channels);
   }
   return cut;
 }
@@ -187,28 +219,34 @@ Excerpt CloseUp(const Excerpt& whole, const Eigen::Vector3d& place) {
     const double at = std::clamp(focal * offset / depth + middle, 0.0, static_cast<double>(size));
     return std::clamp(static_cast<int>(at) - side / 2, 0, size - side);
   };
-  const int left = begin(view.fx, seen.x(), view.cx, view.width);
-  const int top = begin(view.fy, seen.y(), view.cy, view.height);
-  Excerpt part{{}, view};
+  const Window window{begin(view.fx, seen.x(), view.cx, view.width),
+                      begin(view.fy, seen.y(), view.cy, view.height), side};
+  Excerpt part{{}, {side, side, Cut(whole.kept.set, view.width, window)}, {}, view};
   part.view.width = side;
   part.view.height = side;
-  part.view.cx -= left;
-  part.view.cy -= top;
+  part.view.cx -= window.left;
+  part.view.cy -= window.top;
   DepthImage& cut = part.seen.depth;
   cut.width = side;
   cut.height = side;
-  for (int row = 0; row < side; ++row) {
-    const auto from =
-        whole.seen.depth.depth_m.begin() + std::ptrdiff_t{top + row} * view.width + left;
-    cut.depth_m.insert(cut.depth_m.end(), from, from + side);
-  }
-  if (whole.seen.handle) part.seen.handle = Cut(*whole.seen.handle, part.view, left, top);
+  cut.depth_m = Cut(whole.seen.depth.depth_m, view.width, window);
+  if (whole.seen.handle)
+    part.seen.handle = {side, side, Cut(whole.seen.handle->set, view.width, window)};
+  if (whole.color) part.color = {side, side, Cut(whole.color->rgb, view.width, window, 3)};
   return part;
 }
 
-Picture Drawn(const ActAnswer& answer, const Excerpt& part, const RigidTransform& hand_from_tcp,
-              const CloudConfig& cloud) {
-  Canvas canvas(CroppedPreview(part.seen.depth, part.view, cloud), part.view);
+/// What is the same of all parts.
+struct Drawing {
+  const ActAnswer& answer;
+  RigidTransform hand_from_tcp;
+  Lens lens;
+  const CloudConfig& cloud;
+};
+
+Picture Drawn(const Excerpt& part, const Drawing& drawing) {
+  const auto& [answer, hand_from_tcp, lens, cloud] = drawing;
+  Canvas canvas(CroppedPreview(part, cloud), part.view, lens);
   if (part.seen.handle) canvas.Outline(*part.seen.handle);
   if (answer.world_from_hand_now)
     DrawHand(canvas, *answer.world_from_hand_now * hand_from_tcp, kNow);
@@ -220,13 +258,15 @@ Picture Drawn(const ActAnswer& answer, const Excerpt& part, const RigidTransform
 }  // namespace
 
 Picture AnswerPicture(const ActAnswer& answer, const OnlineController& controller,
-                      const CloudConfig& cloud) {
+                      const CloudConfig& cloud, const std::optional<Picture>& color) {
   constexpr int kTile = 640;
-  const RigidTransform hand_from_tcp = controller.robot().hand_from_tcp();
-  const Excerpt whole{controller.last_seen(), controller.camera().view};
-  const Excerpt close = CloseUp(whole, (answer.world_from_hand * hand_from_tcp).translation());
-  const std::vector<Picture> tiles = {Drawn(answer, whole, hand_from_tcp, cloud),
-                                      Drawn(answer, close, hand_from_tcp, cloud)};
+  const CalibratedCamera& camera = controller.camera();
+  const Drawing drawing{answer, controller.robot().hand_from_tcp(), Lens(camera.lens), cloud};
+  const Excerpt whole{controller.last_seen(), KeptOf(controller.last_seen().depth, camera, cloud),
+                      color, camera.view};
+  const Excerpt close =
+      CloseUp(whole, (answer.world_from_hand * drawing.hand_from_tcp).translation());
+  const std::vector<Picture> tiles = {Drawn(whole, drawing), Drawn(close, drawing)};
   const std::vector<std::string> captions = {
       Caption(answer), answer.contact_m ? "red: the hand there, ring: contact, outline: mask"
                                         : "white: the hand now, red: the hand next"};

@@ -20,13 +20,16 @@ ActAnswer AnswerLine(OnlineController& controller, const std::string& camera,
   const Json request = ParseJson(line, "line");
   if (!request.is_object())
     throw Error(ErrorCode::kFormat, "expected a line {\"depth\": FILE, \"state\": FILE}");
-  if (request.contains("before"))
-    RememberFromFile(controller, ValueOf<std::string>(request, "before", "line"), camera);
-  if (request.contains("handle"))
-    return DecideGraspFromFiles(controller, ValueOf<std::string>(request, "depth", "line"),
-                                ValueOf<std::string>(request, "handle", "line"), camera);
-  return DecideFromFiles(controller, ValueOf<std::string>(request, "depth", "line"),
-                         ValueOf<std::string>(request, "state", "line"), camera);
+  const auto file = [&](const char* key, bool is_needed) {
+    return is_needed || request.contains(key) ? ValueOf<std::string>(request, key, "line") : "";
+  };
+  DecisionFiles files;
+  files.camera = camera;
+  files.depth = file("depth", true);
+  files.handle = file("handle", false);
+  files.before = file("before", false);
+  files.state = file("state", files.handle.empty());
+  return DecideFromFiles(controller, files);
 }
 
 Json Refusal(const Error& error) {
@@ -39,11 +42,12 @@ Json Refusal(const Error& error) {
 }  // namespace
 
 bool AnswerStream(OnlineController& controller, const DecisionStream& stream) {
+  RememberFromFile(controller, stream.files);
   bool held = false;
   for (std::string line; StopRequested() == 0 && std::getline(stream.requests, line);) {
     if (line.empty()) continue;
     try {
-      const ActAnswer answer = AnswerLine(controller, stream.camera, line);
+      const ActAnswer answer = AnswerLine(controller, stream.files.camera, line);
       held = held || !answer.hold_reasons.empty();
       stream.tell((stream.as_text ? AnswerText(answer) : JsonText(AnswerToJson(answer))) + "\n");
     } catch (const Error& error) {

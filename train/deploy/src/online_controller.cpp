@@ -3,20 +3,17 @@
 #include "doorforge/deploy/online_controller.h"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
-#include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
+#include "doorforge/deploy/depth_picture.h"
 #include "doorforge/physics/load_robot.h"
 #include "doorforge/rollout/gripper_clearance.h"
 #include "doorforge/rollout/run_episode.h"
 
 namespace doorforge {
 namespace {
-
-namespace fs = std::filesystem;
-
-constexpr std::uint64_t kMostPictureBytes = 512ULL << 20U;
 
 // What of a picture does not fit its camera or another picture is said of these inputs.
 template <class Work>
@@ -28,8 +25,11 @@ auto NamingInputs(const std::string& inputs, const Work& work) {
   }
 }
 
-DepthImage ReadDepth(const fs::path& path, const CalibratedCamera& camera) {
-  return DecodeDepthPng(ReadFile(path, kMostPictureBytes), camera.metres_per_unit, path.string());
+// Whatever a driver says of pixels that it could not measure.
+DepthImage WithHoles(DepthImage depth) {
+  for (float& metres : depth.depth_m)
+    if (!(metres > 0)) metres = std::numeric_limits<float>::infinity();
+  return depth;
 }
 
 }  // namespace
@@ -109,7 +109,7 @@ ActAnswer OnlineController::DecideGrasp(DepthImage depth, PixelMask handle,
     throw Error(ErrorCode::kInvalidArgument,
                 "a grasp is to be chosen, and --grasper, which chooses it, was not given");
   const double yaw = setup_.config.door_yaw_rad;
-  seen_ = {std::move(depth), std::move(handle)};
+  seen_ = {WithHoles(std::move(depth)), std::move(handle)};
   HandleObservation seen =
       NamingInputs(names.depth + ", " + names.handle + " and " + names.camera, [&] {
         return ObserveHandle(seen_.depth, *seen_.handle, setup_.camera,
@@ -127,7 +127,7 @@ ActAnswer OnlineController::DecideGrasp(DepthImage depth, PixelMask handle,
 
 ActAnswer OnlineController::Decide(DepthImage depth, const RobotState& state,
                                    const InputNames& names) {
-  seen_ = {std::move(depth), {}};
+  seen_ = {WithHoles(std::move(depth)), {}};
   const Stage stage = StageOf(state, names.state);
   Actor& actor = ActorOf(stage);
   const RobotObservation seen = NamingInputs(names.depth + " and " + names.camera,
@@ -186,6 +186,7 @@ ActAnswer OnlineController::Answer(const GraspAction& choice, const HandleObserv
       SightNumbersOf({choice.cloud.xyz, choice.cloud.label}, {}, NetworkFamily::kGrasp));
   answer.candidates = setup_.config.grasp.points * setup_.config.grasp.orientations;
   answer.visible_points = seen.visible_count;
+  answer.median_depth_m = MedianDepth(seen_.depth);
   answer.handle_points = seen.handle_count;
   answer.weights_sha256 = grasper_->weights_sha256;
   Judge(setup_.config.hold, answer);
@@ -237,6 +238,7 @@ ActAnswer OnlineController::Answer(Stage stage, Actor& actor, const RobotState& 
                                         NetworkFamily::kMotion));
   answer.candidates = setup_.config.policy.candidates;
   answer.visible_points = seen.visible_count;
+  answer.median_depth_m = MedianDepth(seen_.depth);
   answer.weights_sha256 = actor.weights_sha256;
   Judge(setup_.config.hold, answer);
   // an action on a picture of something else must not end the stage, and whether the hand follows
@@ -250,25 +252,25 @@ ActAnswer OnlineController::Answer(Stage stage, Actor& actor, const RobotState& 
   return answer;
 }
 
-ActAnswer DecideFromFiles(OnlineController& controller, const fs::path& depth,
-                          const fs::path& state, const std::string& camera) {
-  const RobotState robot_state = ReadRobotState(state, controller.robot());
-  return controller.Decide(ReadDepth(depth, controller.camera()), robot_state,
-                           {.depth = depth.string(), .state = state.string(), .camera = camera});
+void RememberFromFile(OnlineController& controller, const DecisionFiles& files) {
+  if (files.before.empty()) return;
+  controller.Remember(ReadDepthPicture(files.before, controller.camera()),
+                      {.depth = files.before, .camera = files.camera});
 }
 
-void RememberFromFile(OnlineController& controller, const fs::path& before,
-                      const std::string& camera) {
-  controller.Remember(ReadDepth(before, controller.camera()),
-                      {.depth = before.string(), .camera = camera});
-}
-
-ActAnswer DecideGraspFromFiles(OnlineController& controller, const fs::path& depth,
-                               const fs::path& mask, const std::string& camera) {
-  DepthImage picture = ReadDepth(depth, controller.camera());
-  return controller.DecideGrasp(
-      std::move(picture), DecodeMaskPng(ReadFile(mask, kMostPictureBytes), mask.string()),
-      {.depth = depth.string(), .handle = mask.string(), .camera = camera});
+ActAnswer DecideFromFiles(OnlineController& controller, const DecisionFiles& files) {
+  RememberFromFile(controller, files);
+  InputNames names;
+  names.depth = files.depth;
+  names.camera = files.camera;
+  if (files.handle.empty()) {
+    names.state = files.state;
+    const RobotState state = ReadRobotState(files.state, controller.robot());
+    return controller.Decide(ReadDepthPicture(files.depth, controller.camera()), state, names);
+  }
+  names.handle = files.handle;
+  DepthImage depth = ReadDepthPicture(files.depth, controller.camera());
+  return controller.DecideGrasp(std::move(depth), ReadMaskPicture(files.handle), names);
 }
 
 }  // namespace doorforge

@@ -4,118 +4,37 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "doorforge/core/committed_file.h"
-#include "doorforge/core/config_file.h"
 #include "doorforge/core/error.h"
-#include "doorforge/core/json_file.h"
-#include "doorforge/core/nearest_name.h"
+#include "doorforge/deploy/depth_picture.h"
 #include "doorforge/physics/door_world.h"
 #include "doorforge/rollout/proprioception.h"
 #include "doorforge/rollout/remembered_view.h"
 
+#include "named_numbers.h"
+
 namespace doorforge {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using internal::Format;
+using internal::NamedNumbers;
 
-constexpr std::uint64_t kMostBytes = 1ULL << 20U;
 constexpr int kFinest = 8;             // times the camera's pixels along each side
 constexpr double kBeyondLimit = 0.05;  // of a joint's range
 constexpr double kHandApart = 0.02;    // [m]
 constexpr double kHandTurned = 5 * std::numbers::pi / 180;
 
-// Poses are typed by hand, with three or four decimals: what is so near to a unit quaternion means
-// one. What is not is left to be refused.
-Json WithUnitQuaternion(Json pose) {
-  constexpr double kRounding = 1e-3;
-  if (!pose.is_object() || !pose.contains("quaternion_xyzw")) return pose;
-  Json& quaternion = pose["quaternion_xyzw"];
-  double squares = 0;
-  for (const Json& element : quaternion) {
-    if (!element.is_number()) return pose;
-    squares += std::pow(element.get<double>(), 2);
-  }
-  const double length = std::sqrt(squares);
-  if (!(std::fabs(length - 1) <= kRounding)) return pose;
-  for (Json& element : quaternion) element = element.get<double>() / length;
-  return pose;
-}
-
-// A file of named numbers; whatever is wrong with it names the file and the key.
-class NamedNumbers {
- public:
-  NamedNumbers(const std::filesystem::path& path, std::vector<std::string> known)
-      : name_(path.string()), json_(ParseYaml(ReadFile(path, kMostBytes), name_)) {
-    if (!json_.is_object()) Fail("expected keys and values, such as \"" + known[0] + ": ...\"");
-    for (const auto& [key, value] : json_.items()) {
-      if (std::ranges::find(known, key) == known.end())
-        Fail("unknown key \"" + key + "\"; did you mean \"" + NearestName(key, known) + "\"?");
-    }
-  }
-
-  [[noreturn]] void Fail(const std::string& problem) const {
-    throw Error(ErrorCode::kInvalidConfig, name_ + ": " + problem);
-  }
-
-  bool Has(const std::string& key) const { return json_.contains(key); }
-
-  const Json& At(const std::string& key) const {
-    if (!Has(key)) Fail("the key \"" + key + "\" is missing");
-    return json_[key];
-  }
-
-  double Number(const std::string& key, double low, double high) const {
-    const Json& value = At(key);
-    const double number = value.is_number() ? value.get<double>() : NAN;
-    if (!(number >= low && number <= high)) {
-      char range[80];
-      std::snprintf(range, sizeof range, ", expected a number in [%g, %g]", low, high);
-      Fail(key + ": found " + JsonText(value) + range);
-    }
-    return number;
-  }
-
-  JointVector Joints(const std::string& key, int count) const {
-    const Json& value = At(key);
-    const bool numbers = value.is_array() && std::ranges::all_of(value, [](const Json& element) {
-                           return element.is_number() && std::isfinite(element.get<double>());
-                         });
-    if (!numbers || value.size() != static_cast<std::size_t>(count))
-      Fail(key + ": expected " + std::to_string(count) + " numbers, one a joint" +
-           (value.is_array() ? ", found " + std::to_string(value.size()) : ""));
-    JointVector joints(count);
-    for (int i = 0; i < count; ++i) joints[i] = value[static_cast<std::size_t>(i)].get<double>();
-    return joints;
-  }
-
-  RigidTransform Pose(const std::string& key) const {
-    try {
-      return TransformFromJson(WithUnitQuaternion(At(key)), name_ + ": " + key);
-    } catch (const Error& error) {
-      if (error.code() == ErrorCode::kInvalidConfig) throw;
-      throw Error(ErrorCode::kInvalidConfig,
-                  std::string(error.what()) +
-                      "; a pose is {position_m: [x, y, z], quaternion_xyzw: [x, y, z, w]}, the "
-                      "quaternion of length 1 within 0.001");
-    }
-  }
-
- private:
-  std::string name_;
-  Json json_;
-};
-
-template <class... Values>
-std::string Format(const char* pattern, Values... values) {
-  char text[160];
-  std::snprintf(text, sizeof text, pattern, values...);
-  return text;
+JointVector JointsOf(const NamedNumbers& file, const std::string& key, int count) {
+  const auto exactly = static_cast<std::size_t>(count);
+  const std::vector<double> numbers = file.Numbers(key, exactly, exactly);
+  JointVector joints(count);
+  for (int i = 0; i < count; ++i) joints[i] = numbers[static_cast<std::size_t>(i)];
+  return joints;
 }
 
 void RequireWithinLimits(const NamedNumbers& file, const RobotModel& robot,
@@ -147,21 +66,24 @@ void RequireSameHand(const NamedNumbers& file, const RigidTransform& by_joints) 
 std::string FewPoints(const DepthImage& depth, std::size_t found, const CloudConfig& config) {
   const std::string head = "the depth picture gives " + std::to_string(found) +
                            " points, needed are " + std::to_string(config.point_count) + ": ";
-  const auto has_depth = [](float metres) { return std::isfinite(metres); };
+  const auto has_depth = [](float metres) { return metres > 0 && std::isfinite(metres); };
   const auto with_depth = std::ranges::count_if(depth.depth_m, has_depth);
   if (with_depth == 0)
     return head + "each of its " + std::to_string(depth.depth_m.size()) +
            " pixels is 0, which means no depth; the camera sent no picture, or one of another kind";
   const auto near = std::ranges::count_if(depth.depth_m, [&](float metres) {
-    return static_cast<double>(metres) < config.max_depth_m;
+    return has_depth(metres) && static_cast<double>(metres) < config.max_depth_m;
   });
-  const float nearest = *std::ranges::min_element(depth.depth_m);
+  float nearest = std::numeric_limits<float>::infinity();
+  for (const float metres : depth.depth_m)
+    if (has_depth(metres)) nearest = std::min(nearest, metres);
   return head + std::to_string(with_depth) + " of " + std::to_string(depth.depth_m.size()) +
          " pixels have a depth, " + std::to_string(near) +
          Format(" of them are nearer than %.2f m (the nearest is at %.2f m), and ",
                 config.max_depth_m, static_cast<double>(nearest)) +
          std::to_string(found) + Format(" of these higher than %.2f m", config.min_height_m) +
-         "; look at depth_unit_m and world_from_camera in the camera file";
+         Format("; their median is %.2f m", MedianDepth(depth).value_or(0)) +
+         "; look at depth_unit_m and world_from_camera (its z forward, y down) in the camera file";
 }
 
 // Every point inside the crop, of which there must be enough.
@@ -172,7 +94,8 @@ LabelledCloud VisiblePoints(const DepthImage& depth, const CalibratedCamera& cam
                 "the depth picture has " + std::to_string(depth.width) + " x " +
                     std::to_string(depth.height) + " pixels, the camera file says " +
                     std::to_string(camera.view.width) + " x " + std::to_string(camera.view.height));
-  LabelledCloud visible = CropCloud(depth, camera.view, config);
+  RequirePlausibleDepths(depth, "in metres");
+  LabelledCloud visible = CropCloud(depth, camera, config);
   const std::size_t found = visible.label.size();
   if (found < static_cast<std::size_t>(config.point_count))
     throw Error(ErrorCode::kInvalidArgument, FewPoints(depth, found, config));
@@ -181,37 +104,13 @@ LabelledCloud VisiblePoints(const DepthImage& depth, const CalibratedCamera& cam
 
 }  // namespace
 
-CalibratedCamera ReadCalibratedCamera(const std::filesystem::path& path) {
-  const NamedNumbers file(path, {"width", "height", "fx", "fy", "cx", "cy", "pixel_centre",
-                                 "depth_unit_m", "world_from_camera"});
-  constexpr double kMostPixels = 8192;
-  CalibratedCamera camera;
-  PinholeView& view = camera.view;
-  const double width = file.Number("width", 1, kMostPixels);
-  const double height = file.Number("height", 1, kMostPixels);
-  if (width != std::floor(width) || height != std::floor(height))
-    file.Fail("width and height: expected whole pixels");
-  view.width = static_cast<int>(width);
-  view.height = static_cast<int>(height);
-  view.fx = file.Number("fx", 1, 100 * kMostPixels);
-  view.fy = file.Number("fy", 1, 100 * kMostPixels);
-  // calibrations count from the centre of the first pixel, this library from its corner
-  const double centre = file.Has("pixel_centre") ? file.Number("pixel_centre", 0, 0.5) : 0;
-  if (centre != 0 && centre != 0.5)
-    file.Fail("pixel_centre: expected 0 (OpenCV, ROS: the first pixel's centre is (0, 0)) or 0.5");
-  view.cx = file.Number("cx", -kMostPixels, 2 * kMostPixels) + 0.5 - centre;
-  view.cy = file.Number("cy", -kMostPixels, 2 * kMostPixels) + 0.5 - centre;
-  view.world_from_camera = file.Pose("world_from_camera");
-  if (file.Has("depth_unit_m")) camera.metres_per_unit = file.Number("depth_unit_m", 1e-6, 1);
-  return camera;
-}
-
 RobotState ReadRobotState(const std::filesystem::path& path, const RobotModel& robot) {
-  const NamedNumbers file(path, {"joint_positions", "joint_velocities", "world_from_base",
-                                 "world_from_hand", "unlocked"});
+  const NamedNumbers file(path.string(), internal::ReadNamed(path));
+  file.RequireKnown(
+      {"joint_positions", "joint_velocities", "world_from_base", "world_from_hand", "unlocked"});
   WorldState world;
-  world.robot_position = file.Joints("joint_positions", robot.joint_count());
-  world.robot_velocity = file.Joints("joint_velocities", robot.joint_count());
+  world.robot_position = JointsOf(file, "joint_positions", robot.joint_count());
+  world.robot_velocity = JointsOf(file, "joint_velocities", robot.joint_count());
   RequireWithinLimits(file, robot, world.robot_position);
   const RigidTransform world_from_base = file.Pose("world_from_base");
   const RobotPose pose = robot.PoseAt(world.robot_position, world_from_base);
@@ -220,10 +119,7 @@ RobotState ReadRobotState(const std::filesystem::path& path, const RobotModel& r
   state.proprioception = ProprioceptionOf(robot, world, world_from_base);
   state.world_from_hand = pose.world_from_hand;
   state.tcp_in_world_m = pose.world_from_tcp.translation();
-  if (file.Has("unlocked")) {
-    if (!file.At("unlocked").is_boolean()) file.Fail("unlocked: expected true or false");
-    state.unlocked = file.At("unlocked").get<bool>();
-  }
+  if (file.Has("unlocked")) state.unlocked = file.Flag("unlocked");
   return state;
 }
 
@@ -238,17 +134,13 @@ RobotObservation ObserveDepth(const DepthImage& depth, const CalibratedCamera& c
   return seen;
 }
 
-LabelledCloud ObserveBefore(const DepthImage& depth, CalibratedCamera camera,
+LabelledCloud ObserveBefore(const DepthImage& depth, const CalibratedCamera& camera,
                             const CloudConfig& config) {
-  PinholeView& view = camera.view;
+  const PinholeView& view = camera.view;
   const int finer = depth.width / view.width;
   const bool fits = depth.width == finer * view.width && depth.height == finer * view.height;
-  if (fits && finer >= 1 && finer <= kFinest) {
-    view.width *= finer;
-    view.height *= finer;
-    for (double* length : {&view.fx, &view.fy, &view.cx, &view.cy}) *length *= finer;
-  }
-  return VisiblePoints(depth, camera, config);
+  if (!fits || finer <= 1 || finer > kFinest) return VisiblePoints(depth, camera, config);
+  return VisiblePoints(depth, WithFinerPixels(camera, finer), config);
 }
 
 RobotObservation ObserveDepth(const DepthImage& depth, const CalibratedCamera& camera,

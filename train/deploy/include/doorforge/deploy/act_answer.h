@@ -66,6 +66,7 @@ struct ActAnswer {
   int candidates = 0;
   int visible_points = 0;
   std::optional<int> handle_points;
+  std::optional<double> median_depth_m;  ///< Of the picture, which tells a wrong unit.
   std::string weights_sha256;
   std::vector<std::string> hold_reasons;  ///< Empty: go.
 };

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "doorforge/deploy/act_answer.h"
 #include "doorforge/deploy/online_controller.h"
 #include "doorforge/sensor/picture.h"
@@ -16,7 +18,8 @@ namespace doorforge {
 ///
 /// @param answer The last answer of `controller`, whose robot says where the fingers are in the
 ///     hand's frame.
+/// @param color Shown in place of the depth: a picture as ReadColorPicture() reads it.
 Picture AnswerPicture(const ActAnswer& answer, const OnlineController& controller,
-                      const CloudConfig& cloud);
+                      const CloudConfig& cloud, const std::optional<Picture>& color = {});
 
 }  // namespace doorforge

@@ -13,7 +13,7 @@ namespace doorforge {
 /// How decisions of a stream are asked for and told.
 struct DecisionStream {
   std::istream& requests;  ///< A line is a request, as docs/act.md has it; empty ones are skipped.
-  std::string camera;      ///< What messages call the camera.
+  DecisionFiles files;     ///< `before` is remembered first, `camera` is what messages call it.
   bool as_text = false;    ///< True: AnswerText(); false: AnswerToJson() on one line.
   /// Called with each answer as it comes: a robot waits for it.
   std::function<void(const std::string&)> tell;

@@ -77,9 +77,9 @@ struct InputNames {
 /// Trained policies on a robot: from a depth picture and the robot's state to the hand's next pose,
 /// picture by picture, as one episode. What has been unlocked stays unlocked.
 ///
-/// One instance serves one robot and one thread; the pictures are metres along the camera's z, with
-/// zero where nothing was measured. The world is the one of CalibratedCamera and RobotState; its z
-/// points up.
+/// One instance serves one robot and one thread; the pictures are metres along the camera's z;
+/// where nothing was measured they are 0, NaN or infinite (MakeDepthImage()). The world is the one
+/// of CalibratedCamera and RobotState; its z points up.
 class OnlineController {
  public:
   /// @throws Error(kMissing or kFormat) as ReadPolicy(); Error(kInvalidConfig) as
@@ -156,14 +156,24 @@ class OnlineController {
   bool unlocked_ = false;
 };
 
-/// Decisions from files, as docs/act.md describes them: pictures as PNG, the state as YAML.
+/// The files of one decision, as docs/act.md describes them; empty: none.
+struct DecisionFiles {
+  std::string depth{};   ///< A picture, see ReadDepthPicture().
+  std::string state{};   ///< Either the robot's state, YAML,
+  std::string handle{};  ///< or the mask of a handle that is to be taken hold of, PNG.
+  std::string before{};  ///< A depth picture from before the robot came, which is kept.
+  std::string camera{};  ///< What messages call the camera.
+};
+
+/// Remembers what is to be remembered; nothing where `before` is empty.
 ///
-/// @throws as the controller, as ReadRobotState(), and Error(kMissing or kFormat) naming the file.
-ActAnswer DecideFromFiles(OnlineController& controller, const std::filesystem::path& depth,
-                          const std::filesystem::path& state, const std::string& camera);
-void RememberFromFile(OnlineController& controller, const std::filesystem::path& before,
-                      const std::string& camera);
-ActAnswer DecideGraspFromFiles(OnlineController& controller, const std::filesystem::path& depth,
-                               const std::filesystem::path& mask, const std::string& camera);
+/// @throws as OnlineController::Remember() and ReadDepthPicture(), naming the file.
+void RememberFromFile(OnlineController& controller, const DecisionFiles& files);
+
+/// A decision from files, after RememberFromFile().
+///
+/// @throws as the controller, ReadDepthPicture(), ReadRobotState(), and Error(kMissing or kFormat)
+///     naming the file.
+ActAnswer DecideFromFiles(OnlineController& controller, const DecisionFiles& files);
 
 }  // namespace doorforge

@@ -6,25 +6,15 @@
 #include <optional>
 
 #include "doorforge/core/rigid_transform.h"
+#include "doorforge/deploy/calibrated_camera.h"
 #include "doorforge/physics/robot_model.h"
 #include "doorforge/policy/grasp_policy.h"
 #include "doorforge/schemas/policy.h"
 #include "doorforge/sensor/depth_camera.h"
 #include "doorforge/sensor/picture.h"
-#include "doorforge/sensor/pinhole_view.h"
 #include "doorforge/sensor/point_cloud.h"
 
 namespace doorforge {
-
-/// A real depth camera: what turns the numbers of its pictures into points in the world.
-struct CalibratedCamera {
-  PinholeView view;
-  double metres_per_unit = 0.001;
-};
-
-/// Reads a camera file, docs/act.md. Throws Error(kInvalidConfig) on keys that are missing or
-/// unknown and on numbers out of range, naming them; Error(kMissing).
-CalibratedCamera ReadCalibratedCamera(const std::filesystem::path& path);
 
 /// A robot at the moment of a picture.
 struct RobotState {
@@ -46,7 +36,8 @@ RobotState ReadRobotState(const std::filesystem::path& path, const RobotModel& r
 /// cropped, point 0 the visible point nearest to the tool centre, sampled. `privileged` is left
 /// empty; `visible_count` goes to the caller.
 ///
-/// @throws Error(kInvalidArgument) if picture and camera differ in size, or fewer points than
+/// @throws Error(kInvalidArgument) as RequirePlausibleDepths(), if picture and camera differ in
+///     size, or fewer points than
 ///     `config.point_count` are left after the crop (the recorder fills up with copies; in a real
 ///     picture so few points mean a fault), with the numbers that explain it.
 struct RobotObservation {
@@ -67,7 +58,7 @@ struct RememberedPoints {
 /// @param depth By `camera`, or by the same camera with a whole number of times, at most 8, as many
 ///     pixels along each side.
 /// @throws Error(kInvalidArgument) as ObserveDepth().
-LabelledCloud ObserveBefore(const DepthImage& depth, CalibratedCamera camera,
+LabelledCloud ObserveBefore(const DepthImage& depth, const CalibratedCamera& camera,
                             const CloudConfig& config = {});
 
 /// Does what ObserveDepth() does, and joins it with what is remembered, as JoinedCloud() does.

@@ -36,7 +36,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kPng("\x89PNG\r\n\x1a\n and pixels", 19);
+// One red pixel.
+const std::string kPng(
+    "\x89\x50\x4e\x47\x0d\x0a\x1a\x0a\x00\x00\x00\x0d\x49\x48\x44\x52\x00\x00\x00\x01\x00\x00"
+    "\x00\x01\x08\x02\x00\x00\x00\x90\x77\x53\xde\x00\x00\x00\x0c\x49\x44\x41\x54\x78\x9c\x63"
+    "\x38\x61\x64\x04\x00\x02\xf2\x01\x2d\xac\x6a\x27\xeb\x00\x00\x00\x00\x49\x45\x4e\x44\xae"
+    "\x42\x60\x82",
+    69);
 
 /// A corner of a triangle: place and texture coordinates in micrometres and millionths.
 using Corner = std::array<long, 5>;
@@ -375,6 +381,22 @@ TEST(VisualDoor, ADamagedMaterialFileCostsColoursAndNoTriangle) {
   const ImportReport bmp = ImportBoxes(root, {.picture = "BM no picture"});
   ASSERT_EQ(bmp.objects.at(0).notes.size(), 1U);
   EXPECT_NE(bmp.objects[0].notes[0].find("is no PNG and no JPEG"), std::string::npos);
+  // what no renderer could show is said now, by name, and not by each of them later
+  std::string wide = kPng;
+  wide.replace(16, 4, std::string("\0\0\xea\x60", 4));
+  const std::string jpeg(
+      "\xff\xd8\xff\xe0\0\x04"
+      "ab\xff\xc0\0\x0b\x08\0\x02\0\0\x01\x01\x11\0\xff\xd9",
+      23);
+  for (const auto& [picture, why] :
+       {std::pair{wide, "\"grain.png\" left out: has 60000 x 1 pixels"},
+        {kPng.substr(0, 40), "\"grain.png\" left out: is a PNG that is damaged or cut off"},
+        {jpeg, "\"grain.png\" left out: has 0 x 2 pixels"},
+        {jpeg.substr(0, 20), "is a JPEG that is damaged or cut off"}}) {
+    const ImportReport odd = ImportBoxes(root, {.picture = picture});
+    ASSERT_EQ(odd.objects.at(0).notes.size(), 1U) << why;
+    EXPECT_NE(odd.objects[0].notes[0].find(why), std::string::npos) << odd.objects[0].notes[0];
+  }
   fs::remove_all(root);
 }
 

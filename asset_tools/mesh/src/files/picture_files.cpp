@@ -15,6 +15,48 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMaxNotes = 8;
 constexpr std::size_t kMaxName = 200;
 
+constexpr std::uint64_t kMostPixels = 16384;  // what browsers and engines take as a texture
+
+/// What a picture's header says.
+struct Extent {
+  std::uint64_t width = 0;
+  std::uint64_t height = 0;
+};
+
+// Of bytes that are there; the most significant comes first.
+std::uint64_t NumberAt(std::string_view bytes, std::size_t at, std::size_t size) {
+  std::uint64_t number = 0;
+  for (const char byte : bytes.substr(at, size))
+    number = number << 8U | static_cast<unsigned char>(byte);
+  return number;
+}
+
+// ISO/IEC 15948: chunks of length, name, content and checksum, from IHDR to IEND.
+std::optional<Extent> PngExtent(std::string_view bytes) {
+  constexpr std::size_t kHeader = 33;
+  if (bytes.size() < kHeader || bytes.substr(12, 4) != "IHDR") return std::nullopt;
+  for (std::size_t at = 8; at + 12 <= bytes.size();) {
+    if (bytes.substr(at + 4, 4) == "IEND")
+      return Extent{NumberAt(bytes, 16, 4), NumberAt(bytes, 20, 4)};
+    at += 12 + NumberAt(bytes, at, 4);
+  }
+  return std::nullopt;
+}
+
+// ITU-T T.81: segments, of which a frame's (SOF) has the size, up to the end (EOI).
+std::optional<Extent> JpegExtent(std::string_view bytes) {
+  if (bytes.rfind("\xff\xd9") == std::string_view::npos) return std::nullopt;
+  for (std::size_t at = 2; at + 9 <= bytes.size() && bytes[at] == '\xff';) {
+    const auto kind = NumberAt(bytes, at + 1, 1);
+    const bool is_frame =
+        kind >= 0xC0 && kind <= 0xCF && kind != 0xC4 && kind != 0xC8 && kind != 0xCC;
+    if (is_frame) return Extent{NumberAt(bytes, at + 7, 2), NumberAt(bytes, at + 5, 2)};
+    // a marker may be filled up with further 0xFF
+    at += kind == 0xFF ? 1 : 2 + NumberAt(bytes, at + 2, 2);
+  }
+  return std::nullopt;
+}
+
 bool Leads(const fs::path& to, const fs::path& from) {
   const fs::path relative = to.lexically_relative(from);
   return !relative.empty() && *relative.begin() != "..";
@@ -43,8 +85,16 @@ std::optional<fs::path> NamedFiles::Find(std::string_view name) const {
   return file;
 }
 
-bool IsPicture(std::string_view bytes) {
-  return bytes.starts_with("\x89PNG\r\n\x1a\n") || bytes.starts_with("\xff\xd8\xff");
+std::string PictureFault(std::string_view bytes) {
+  const bool is_png = bytes.starts_with("\x89PNG\r\n\x1a\n");
+  if (!is_png && !bytes.starts_with("\xff\xd8\xff")) return "is no PNG and no JPEG file";
+  const std::optional<Extent> extent = is_png ? PngExtent(bytes) : JpegExtent(bytes);
+  if (!extent)
+    return std::string("is a ") + (is_png ? "PNG" : "JPEG") + " that is damaged or cut off";
+  const auto [width, height] = *extent;
+  if (width >= 1 && height >= 1 && width <= kMostPixels && height <= kMostPixels) return "";
+  return "has " + std::to_string(width) + " x " + std::to_string(height) +
+         " pixels; allowed are 1 to " + std::to_string(kMostPixels) + " along a side";
 }
 
 int PictureFiles::Add(std::string_view name) {
@@ -87,7 +137,7 @@ int PictureFiles::Keep(const std::string& name, std::string bytes) {
     Note("texture \"" + name + "\" left out: " + why);
     return -1;
   };
-  if (!IsPicture(bytes)) return leave_out("is no PNG and no JPEG file");
+  if (const std::string fault = PictureFault(bytes); !fault.empty()) return leave_out(fault);
   if (bytes.size() > limits_.max_picture_bytes)
     return leave_out("more than the " + std::to_string(limits_.max_picture_bytes) +
                      " bytes allowed");

@@ -29,8 +29,9 @@ class NamedFiles {
   std::filesystem::path root_;
 };
 
-/// True for the first bytes of PNG and JPEG files.
-bool IsPicture(std::string_view bytes);
+/// Why bytes are no PNG or JPEG file that a renderer would show: another kind, cut off, without
+/// pixels or with more than 16384 along a side. Empty where they are. Pixels are not decoded.
+std::string PictureFault(std::string_view bytes);
 
 /// Collects the pictures that materials name. What cannot be had becomes a note: a mesh without its
 /// pictures is still a mesh.

@@ -143,17 +143,6 @@ LabelledCloud CropCloud(const DepthImage& depth, const CalibratedCamera& camera,
   return CropCloud(depth, camera.view.world_from_camera, *camera.directions, config);
 }
 
-std::optional<Eigen::Vector2d> PixelOf(const CalibratedCamera& camera,
-                                       const Eigen::Vector3d& point_m) {
-  constexpr double kNearest = 0.05;  // [m]
-  const PinholeView& view = camera.view;
-  const Eigen::Vector3d seen = view.world_from_camera.inverse() * point_m;
-  if (seen.z() < kNearest) return std::nullopt;
-  const auto at = Lens(camera.lens).SeenOf(seen.hnormalized());
-  if (!at) return std::nullopt;
-  return Eigen::Vector2d(view.fx * at->x() + view.cx, view.fy * at->y() + view.cy);
-}
-
 CalibratedCamera ReadCalibratedCamera(const fs::path& path) {
   const CalibratedCamera camera = ReadUndistorted(path);
   try {

@@ -4,9 +4,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <optional>
-
-#include <Eigen/Core>
 
 #include "doorforge/sensor/depth_camera.h"
 #include "doorforge/sensor/lens.h"
@@ -37,11 +34,6 @@ CalibratedCamera WithFinerPixels(CalibratedCamera camera, int times);
 /// CropCloud() through the camera's lens.
 LabelledCloud CropCloud(const DepthImage& depth, const CalibratedCamera& camera,
                         const CloudConfig& config = {});
-
-/// Where a point of the world appears [pixels], the first pixel's centre at (0.5, 0.5); nothing for
-/// what is beside or behind the lens.
-std::optional<Eigen::Vector2d> PixelOf(const CalibratedCamera& camera,
-                                       const Eigen::Vector3d& point_m);
 
 /// Reads a camera file, docs/act.md: our own, with or without a ROS camera_info that it names, or
 /// such a camera_info with our keys in it. Throws Error(kInvalidConfig) on keys that are missing or

@@ -15,9 +15,9 @@
 namespace doorforge {
 
 // Directions through pixels, whose length along the optical axis is 1.
-class PixelDirections {
+class PinholeDirections {
  public:
-  explicit PixelDirections(const CameraModel& camera) {
+  explicit PinholeDirections(const CameraModel& camera) {
     const PinholeView view = ViewOf(camera);
     const Eigen::Matrix3d& axes = view.world_from_camera.linear();
     origin_ = view.world_from_camera.translation().cast<float>();
@@ -105,7 +105,7 @@ void RgbRenderer::PlaceMeshes() {
 }
 
 void RgbRenderer::FindPoints(const CameraModel& camera, const SurfaceImage& surfaces) {
-  const PixelDirections directions(camera);
+  const PinholeDirections directions(camera);
   const Eigen::Vector3f& origin = directions.origin();
   image_.points.resize(surfaces.mesh.size());
   for (int row = 0; row < image_.height; ++row) {
@@ -245,7 +245,7 @@ void RgbRenderer::ShadePixels() {
 
 void RgbRenderer::SmoothEdges(const CameraModel& camera) {
   if (samples_ < 2) return;
-  const PixelDirections directions(camera);
+  const PinholeDirections directions(camera);
   std::vector<std::pair<std::size_t, LinearColor>> smooth;
   for (int row = 0; row < image_.height; ++row) {
     for (int column = 0; column < image_.width; ++column) {
@@ -281,7 +281,7 @@ class RgbRenderer::MetSurfaces {
 };
 
 // Samples that meet a surface again have the colour that the first had.
-LinearColor RgbRenderer::EdgeColor(const PixelDirections& directions, int column, int row) const {
+LinearColor RgbRenderer::EdgeColor(const PinholeDirections& directions, int column, int row) const {
   const Eigen::Vector3f& origin = directions.origin();
   const int side = std::max(1, static_cast<int>(std::lround(std::sqrt(samples_))));
   const float step = 1 / static_cast<float>(side);

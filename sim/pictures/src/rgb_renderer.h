@@ -20,7 +20,7 @@
 
 namespace doorforge {
 
-class PixelDirections;
+class PinholeDirections;
 
 /// Colours what a camera sees: lamps with soft shadows, light from all around that corners keep
 /// out, highlights, mirrors, glass, and the camera's own faults.
@@ -95,7 +95,7 @@ class RgbRenderer {
   LinearColor Behind(const SeenPoint& pane) const;
   void ShadePixels();
   void SmoothEdges(const CameraModel& camera);
-  LinearColor EdgeColor(const PixelDirections& directions, int column, int row) const;
+  LinearColor EdgeColor(const PinholeDirections& directions, int column, int row) const;
   LinearColor SampleColor(const EdgeSample& sample, const Eigen::Vector2i& pixel,
                           MetSurfaces& met) const;
   const LinearColor* ColorNear(const SeenPoint& point, int column, int row) const;

@@ -173,6 +173,8 @@ std::vector<DoorAsset> SomeDoors() {
     ComposeConfig config;
     if (doors.size() % 2 == 0) config.latch = LatchChoice::kBolt;
     if (doors.size() % 3 == 1) config.hinge_side = HingeSide::kRight;
+    const bool can_be_pushed = key.first == Category::kInterior || key.first == Category::kWindow;
+    if (doors.size() % 4 == 2 && can_be_pushed) config.opening = Opening::kPush;
     const Part body = BuildCataloguePart(bodies.at(key.first));
     try {
       doors.push_back(ComposeDoor(body, BuildCataloguePart(handle), config));

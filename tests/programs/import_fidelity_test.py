@@ -16,8 +16,9 @@ FORMATS = {"urdf": "model.urdf", "mjcf": "model.xml", "sdf": "model.sdf", "glb":
 DOORS = {
     "lever": ("interior_flush_01", "interior_lever_tube_01", ()),
     "bolt_right": ("interior_flush_01", "interior_lever_tube_01", ("latch=bolt", "hinge_side=right", "bolt_throw_m=0.015", "hinge_damping_nm_s=1.25")),
+    "pushed": ("interior_flush_02", "interior_lever_tube_01", ("opening=push",)),
     "wheel": ("safe_antique_06", "safe_wheel_five_01", ("relatch=true", "lock_effort_nm=80", "unlock_angle_rad=0.7")),
-    "flap": ("window_arched_01", "window_cockspur_03", ("unlocks_ajar=true",)),
+    "flap": ("window_arched_01", "window_cockspur_03", ("unlocks_ajar=true", "opening=push", "hinge_side=right")),
     "pull": ("storage_bowed_rounded_01", "storage_pull_bow_01", ()),
 }
 BOX = '<geometry><box size="{}"/></geometry>'

@@ -126,18 +126,6 @@ RigidTransform SeatedMount(const Pair& pair) {
   return body_from_handle;
 }
 
-bool KeepsTheAuthorsPlace(const Pair& pair) {
-  const HandlePlace place = pair.config.place;
-  if (place == HandlePlace::kSeat || place == HandlePlace::kPlane) return false;
-  if (place == HandlePlace::kAuto)
-    return pair.authored.has_value() && internal::MovesTheHandle(pair.config).empty();
-  if (!pair.authored)
-    internal::RefusePair("CMP011", "body \"" + pair.body.part.id + "\" and handle \"" +
-                                       pair.handle.part.id +
-                                       "\" were not imported together; use place: seat");
-  return true;
-}
-
 // Along its axis onto the leaf; a handle whose axis lies in the leaf stays where it was, and so
 // does one that has nothing near behind it.
 void SlideOntoLeaf(const Pair& pair, RigidTransform& body_from_handle) {
@@ -151,13 +139,42 @@ void SlideOntoLeaf(const Pair& pair, RigidTransform& body_from_handle) {
   if (std::abs(slide) <= kLongestSlide) body_from_handle.translation() += axis * (slide / axis.x());
 }
 
-RigidTransform AuthoredMount(const Pair& pair) {
+// The author's place as the parts are mapped: of a body that is pushed, front and back change
+// places, while the handle still points out of the front.
+RigidTransform MappedPlace(const Pair& pair) {
   RigidTransform body_from_handle = *pair.authored;
-  if (pair.config.hinge_side == HingeSide::kRight) {
-    const Eigen::Matrix3d mirror = internal::MirrorY();
-    body_from_handle.linear() = mirror * body_from_handle.linear() * mirror;
-    body_from_handle.translation() = mirror * body_from_handle.translation();
-  }
+  const auto mirror = [&](const Eigen::Matrix3d& by) {
+    body_from_handle.linear() = by * body_from_handle.linear() * by;
+    body_from_handle.translation() = by * body_from_handle.translation();
+  };
+  if (pair.config.hinge_side == HingeSide::kRight) mirror(internal::MirrorY());
+  if (pair.config.opening == Opening::kPush) mirror(internal::MirrorX());
+  return body_from_handle;
+}
+
+// Of parts that were imported from a door that is pulled, the place is on the back of one that is
+// pushed.
+bool ComesToLieBehind(const Pair& pair) {
+  return pair.config.opening == Opening::kPush &&
+         MappedPlace(pair).translation().x() < pair.body.leaf->bounds.center().x();
+}
+
+bool KeepsTheAuthorsPlace(const Pair& pair) {
+  const HandlePlace place = pair.config.place;
+  if (place == HandlePlace::kSeat || place == HandlePlace::kPlane) return false;
+  const bool kept = pair.authored.has_value() && !ComesToLieBehind(pair);
+  if (place == HandlePlace::kAuto) return kept && internal::MovesTheHandle(pair.config).empty();
+  if (!kept)
+    internal::RefusePair("CMP011", "body \"" + pair.body.part.id + "\" and handle \"" +
+                                       pair.handle.part.id +
+                                       (pair.authored ? "\" come from a door that is pulled"
+                                                      : "\" were not imported together") +
+                                       "; use place: seat");
+  return true;
+}
+
+RigidTransform AuthoredMount(const Pair& pair) {
+  RigidTransform body_from_handle = MappedPlace(pair);
   if (pair.config.place != HandlePlace::kAuthor) SlideOntoLeaf(pair, body_from_handle);
   return body_from_handle;
 }

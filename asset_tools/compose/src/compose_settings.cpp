@@ -162,7 +162,6 @@ std::string MovesTheHandle(const ComposeConfig& config) {
   if (config.handle_height_m > 0) return "handle_height_m";
   if (config.backset_m > 0) return "backset_m";
   if (config.handle_scale != 1) return "handle_scale";
-  if (config.opening == Opening::kPush) return "opening: push";
   if (config.handle_mirrored) return "handle_mirrored";
   if (config.handle_turn_deg != 0) return "handle_turn_deg";
   return config.seed != 0 ? "seed" : "";

@@ -197,10 +197,15 @@ std::optional<Category> CategoryOf(const UrdfModel& model, const std::string& na
   return guessed->category;
 }
 
+// Only exports of this project say so; of others' objects the front is where they open to.
+bool IsPushed(const UrdfModel& model) {
+  const auto told = model.words.find("door_opening");
+  return told != model.words.end() && told->second == NameOf(Opening::kPush);
+}
+
 // What `doorforge compose` has to be told for the door to come back; empty for others' objects.
 // Springs are the latch's, damping is the joints'.
-std::map<std::string, std::string> SettingsOf(const UrdfModel& model, const std::string& where,
-                                              std::vector<std::string>& notes) {
+std::map<std::string, std::string> SettingsOf(const UrdfModel& model, const std::string& where) {
   const std::optional<Latch> latch = LatchFromWords(model.words, where);
   if (!latch) return {};
   std::map<std::string, std::string> settings;
@@ -219,10 +224,7 @@ std::map<std::string, std::string> SettingsOf(const UrdfModel& model, const std:
   };
   settings["id"] = word("door_id");
   settings["hinge_side"] = word("door_hinge_side");
-  if (word("door_opening") == "push")
-    notes.emplace_back(
-        "it is pushed: read from the other side, where it is pulled; its settings do not bring it "
-        "back");
+  if (IsPushed(model)) settings["opening"] = NameOf(Opening::kPush);
   for (const UrdfJoint& joint : model.joints) {
     if (joint.child == "leaf") settings["hinge_damping_nm_s"] = Digits(joint.damping);
     if (joint.child == "handle" && joint.type != UrdfJointType::kFixed)
@@ -257,13 +259,14 @@ std::vector<ForeignObject> ReadModelObject(const ModelKind& kind, const fs::path
   const std::optional<Category> category = CategoryOf(object.model, name, config, notes);
   object.category = category.value_or(Category::kInterior);
   object.category_by_height = !category;
-  const std::map<std::string, std::string> settings =
-      AnyRefuses(faults) ? std::map<std::string, std::string>()
-                         : SettingsOf(object.model, urdf.string(), notes);
+  const std::map<std::string, std::string> settings = AnyRefuses(faults)
+                                                          ? std::map<std::string, std::string>()
+                                                          : SettingsOf(object.model, urdf.string());
   const auto license = object.model.words.find("door_license");
   const bool stated = license != object.model.words.end() && !license->second.empty();
   if (stated && object.license == LooseMeshConfig{}.license) object.license = license->second;
   object.exported = object.model.words.contains("latch_type");
+  object.pushed = object.exported && IsPushed(object.model);
   LeaveOutLatch(object.model);
   object.upright_from_base = UprightFrom(config.mesh.up.empty() ? "z" : config.mesh.up);
   object.height_m = config.height_m;

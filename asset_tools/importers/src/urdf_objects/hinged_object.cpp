@@ -180,8 +180,8 @@ class LeafReader {
   }
 
   void Note(const std::optional<HandleCandidate>& handle) {
-    read_.mirrored = motion_.mirrored;
-    if (motion_.mirrored) read_.notes.push_back("mirrored: the source's hinge is on the right");
+    read_.mirrored = HingeIsRight();
+    if (HingeIsRight()) read_.notes.push_back("mirrored: the source's hinge is on the right");
     if (motion_.level) read_.notes.push_back("its hinge is level: the leaf tilts");
     if (motion_.ajar_rad > 0)
       read_.notes.push_back("authored ajar by " + Degrees(motion_.ajar_rad) + ", was closed");
@@ -215,6 +215,15 @@ class LeafReader {
     return moves ? motion_.part_from_authored * closing : motion_.part_from_authored;
   }
 
+  // seen from where the handle is, which of a pushed door is behind it
+  bool HingeIsRight() const { return !motion_.level && motion_.mirrored != object_.pushed; }
+
+  Eigen::Affine3d HandleFromAuthored() const { return HandleFromBody() * PartFromAuthored(true); }
+
+  Eigen::Affine3d HandleFromBody() const {
+    return Eigen::Affine3d(Eigen::Scaling(object_.pushed ? -1.0 : 1.0, 1.0, 1.0));
+  }
+
   std::vector<SourceMesh> PlacedSources(const std::vector<std::size_t>& shapes,
                                         const std::string& piece,
                                         const Eigen::Affine3d& part_from_authored) const {
@@ -228,20 +237,20 @@ class LeafReader {
     return placed;
   }
 
-  TriangleMesh PlacedMesh(const std::vector<std::size_t>& shapes, bool moves) const {
+  TriangleMesh PlacedMesh(const std::vector<std::size_t>& shapes,
+                          const Eigen::Affine3d& part_from_authored) const {
     TriangleMesh mesh = Joined(shapes);
-    const Eigen::Affine3d part_from_authored = PartFromAuthored(moves);
     for (Eigen::Vector3d& vertex : mesh.vertices) vertex = part_from_authored * vertex;
     return mesh;
   }
 
   void MakeParts(const std::optional<HandleCandidate>& handle) {
-    const TriangleMesh leaf = PlacedMesh(on_leaf_, true);
+    const TriangleMesh leaf = PlacedMesh(on_leaf_, PartFromAuthored(true));
     Eigen::Vector3d mount = DefaultMount(leaf, object_.category);
     Mechanism mechanism = Mechanism::kNone;
     if (handle) {
       const HandlePlace place = PlaceOf(*handle);
-      mount = place.mount_m;
+      mount = HandleFromBody() * place.mount_m;  // its own inverse
       read_.hinge_to_handle_m = mount - motion_.hinge.origin_m;
       mechanism = place.mechanism;
       AddBody(leaf, mount);
@@ -255,9 +264,8 @@ class LeafReader {
   HandlePlace PlaceOf(const HandleCandidate& handle) const {
     HandleKnowledge known;
     known.category = object_.category;
-    if (handle.joint)
-      known.joint = MovedJoint(AuthoredJoint(*handle.joint), PartFromAuthored(true));
-    return PlaceHandle(PlacedMesh(handle.shapes, true), known);
+    if (handle.joint) known.joint = MovedJoint(AuthoredJoint(*handle.joint), HandleFromAuthored());
+    return PlaceHandle(PlacedMesh(handle.shapes, HandleFromAuthored()), known);
   }
 
   Part Facts(PartRole role) const {
@@ -267,7 +275,7 @@ class LeafReader {
     part.id = id_ + (role == PartRole::kHandle ? "-handle" : "");
     part.license = object_.license;
     part.source = object_.source + " " + object_.model.links[leaf_link_].name +
-                  (motion_.mirrored ? ", mirrored" : "");
+                  (HingeIsRight() ? ", mirrored" : "");
     return part;
   }
 
@@ -318,7 +326,8 @@ class LeafReader {
 
   void AddBody(const TriangleMesh& leaf, const Eigen::Vector3d& mount) {
     double lowest = BoundsOf(leaf).min().z();
-    if (!around_.empty()) lowest = std::min(lowest, BoundsOf(PlacedMesh(around_, false)).min().z());
+    if (!around_.empty())
+      lowest = std::min(lowest, BoundsOf(PlacedMesh(around_, PartFromAuthored(false))).min().z());
     const Eigen::Translation3d up(0, 0, -lowest);
     Part part = Facts(PartRole::kBody);
     part.joint = motion_.hinge;
@@ -340,11 +349,11 @@ class LeafReader {
     part.part_from_grasp = place.part_from_grasp;
     const Eigen::Translation3d to_mount(-place.mount_m);
     StatedMasses masses;
-    AddStatedMass("grip", handle.shapes, to_mount * PartFromAuthored(true), masses);
-    AddPart(std::move(part),
-            {PlacedSources(handle.shapes, "grip", to_mount * PartFromAuthored(true)),
-             std::move(masses)},
-            BoxDeviationOf(handle));
+    AddStatedMass("grip", handle.shapes, to_mount * HandleFromAuthored(), masses);
+    AddPart(
+        std::move(part),
+        {PlacedSources(handle.shapes, "grip", to_mount * HandleFromAuthored()), std::move(masses)},
+        BoxDeviationOf(handle));
   }
 
   // from the box that the source states for the handle's link

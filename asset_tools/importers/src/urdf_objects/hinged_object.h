@@ -33,6 +33,7 @@ struct HingedObject {
   std::function<std::filesystem::path(const std::string& filename)> find_mesh;
   std::filesystem::path folder;  ///< Materials and textures of its meshes lie below it.
   bool exported = false;         ///< By this project: closed meshes stay as they are.
+  bool pushed = false;           ///< The handle is on the side that the leaf swings away from.
   bool frame_may_miss = false;   ///< Meshes that no leaf carries may be absent.
 };
 
@@ -48,8 +49,10 @@ struct HingedObject {
 ///
 /// Part frame: turned about z by a multiple of 90 degrees, or freely where none fits within 20, so
 /// that opening moves the leaf towards +x; then, for an upright hinge at the large-y side, mirrored
-/// (see ForeignObject::mirrored). A hinge must be upright or level within 20 degrees, and opening
-/// must swing the leaf out rather than lift it.
+/// (see ForeignObject::mirrored). The handle of an object that is `pushed` is in that frame with
+/// front and back exchanged, so that it points towards +x, as `doorforge compose` expects of the
+/// handle of a door that it makes pushed. A hinge must be upright or level within 20 degrees, and
+/// opening must swing the leaf out rather than lift it.
 ///
 /// @throws Error(kMissing) if meshes are absent: all are named; Error(kFormat) if one cannot be
 ///     read, or the model is no tree.

@@ -190,7 +190,8 @@ class PreparedPart {
 /// and the handle sits on the face that is in front then. Deterministic.
 ///
 /// @param body_from_handle Where the author of an object that gave both parts had the handle, see
-///     author_place.h; parts as they were made.
+///     author_place.h; parts as they were made. Of a door that is pushed it counts only where its
+///     mirror image across x is in front of the leaf, as of parts that come from a pushed door.
 /// @throws Error(kInvalidArgument) that begins with the code of the rule if the two are no door;
 ///     Error(kInvalidConfig) on a config value out of range.
 DoorAsset ComposeDoor(const Part& body, const Part& handle, const ComposeConfig& config,

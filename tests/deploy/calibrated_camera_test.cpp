@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 const std::string kPose =
     "world_from_camera: {position_m: [1.8, 0, 1.8], quaternion_xyzw: [0, 0, 0.6, 0.8]}\n";
 
-// As `ros2 topic echo --once /depth/camera_info` prints it, of a time-of-flight camera.
+// `ros2 topic echo --once /depth/camera_info` prints a time-of-flight camera like this.
 const std::string kRos2 =
     "header:\n  stamp:\n    sec: 1\n    nanosec: 5\n  frame_id: depth_camera_link\n"
     "height: 576\nwidth: 640\ndistortion_model: rational_polynomial\n"
@@ -35,7 +35,7 @@ const std::string kRos2 =
     "- 0.0\nbinning_x: 0\nbinning_y: 0\nroi:\n  x_offset: 0\n  y_offset: 0\n  height: 0\n"
     "  width: 0\n  do_rectify: false\n";
 
-// As camera_calibration stores it.
+// camera_calibration stores a camera like this.
 const std::string kStored =
     "image_width: 640\nimage_height: 576\ncamera_name: depth\n"
     "camera_matrix:\n  rows: 3\n  cols: 3\n  data: [504.1, 0, 321.7, 0, 503.9, 336.2, 0, 0, 1]\n"
@@ -46,7 +46,7 @@ const std::string kStored =
     "projection_matrix:\n  rows: 3\n  cols: 4\n"
     "  data: [490, 0, 320, 0, 0, 491, 330, 0, 0, 0, 1, 0]\n";
 
-// As OpenCV's calibration example stores it.
+// OpenCV's calibration example stores a camera like this.
 const std::string kOpenCv =
     "%YAML:1.0\n---\ncalibration_time: \"Thu\"\nimage_width: 640\nimage_height: 576\n"
     "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n"

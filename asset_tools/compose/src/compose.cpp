@@ -152,8 +152,7 @@ RigidTransform MappedPlace(const Pair& pair) {
   return body_from_handle;
 }
 
-// Of parts that were imported from a door that is pulled, the place is on the back of one that is
-// pushed.
+// The place that parts had on a door that is pulled is on the back of one that is pushed.
 bool ComesToLieBehind(const Pair& pair) {
   return pair.config.opening == Opening::kPush &&
          MappedPlace(pair).translation().x() < pair.body.leaf->bounds.center().x();

@@ -23,7 +23,7 @@ struct Extent {
   std::uint64_t height = 0;
 };
 
-// Of bytes that are there; the most significant comes first.
+// The bytes must be there; the most significant comes first.
 std::uint64_t NumberAt(std::string_view bytes, std::size_t at, std::size_t size) {
   std::uint64_t number = 0;
   for (const char byte : bytes.substr(at, size))

@@ -53,7 +53,7 @@ LabelledCloud CropCloud(const DepthImage& image, const CameraModel& camera,
                         const CloudConfig& config = {});
 LabelledCloud CropCloud(const DepthImage& image, const PinholeView& view,
                         const CloudConfig& config = {});
-/// Likewise of a camera with a lens, whose pixels look along `directions`.
+/// Does the same for a camera with a lens, whose pixels look along `directions`.
 LabelledCloud CropCloud(const DepthImage& image, const RigidTransform& world_from_camera,
                         const PixelDirections& directions, const CloudConfig& config = {});
 

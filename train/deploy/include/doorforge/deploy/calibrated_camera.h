@@ -22,13 +22,13 @@ struct CalibratedCamera {
   std::shared_ptr<const PixelDirections> directions{};
 };
 
-/// The same camera with a lens before it.
+/// Gives the same camera with a lens before it.
 ///
 /// @throws Error(kInvalidArgument) as Lens, and if most of the pixels see nothing through it, with
 ///     how many: coefficients of another lens or in another order.
 CalibratedCamera WithLens(CalibratedCamera camera, const LensDistortion& lens);
 
-/// The same camera with a whole number of times as many pixels along each side.
+/// Gives the same camera with a whole number of times as many pixels along each side.
 CalibratedCamera WithFinerPixels(CalibratedCamera camera, int times);
 
 /// CropCloud() through the camera's lens.

@@ -64,6 +64,34 @@ TEST(Mirror, AnActionInTheMirrorLeadsToTheMirrorImageOfWhereItLed) {
   }
 }
 
+TEST(Mirror, ALevelMirrorDoesTheSameUpsideDown) {
+  const Eigen::Matrix3d level = Eigen::Vector3d(1, 1, -1).asDiagonal();
+  const auto hand_in = [&](const Eigen::Matrix3d& world_from_hand) {
+    Eigen::Matrix3d mirrored = level * world_from_hand;
+    mirrored.col(1) *= -1;
+    return mirrored;
+  };
+  Rng rng(3, "test/mirror");
+  for (int i = 0; i < 50; ++i) {
+    const Proprioception before = AnyProprioception(rng);
+    const Proprioception after = MirroredUpright(before);
+    EXPECT_LT((HandRotationOf(after) - hand_in(HandRotationOf(before))).norm(), 1e-6);
+    EXPECT_EQ(HandPositionOf(after), (level.cast<float>() * HandPositionOf(before)).eval());
+    EXPECT_EQ(BasePositionOf(after), (level.cast<float>() * BasePositionOf(before)).eval());
+    EXPECT_EQ(FingerOpeningsOf(after), FingerOpeningsOf(before).reverse().eval());
+    EXPECT_EQ(MirroredUpright(after), before);
+    const Eigen::Matrix3d target = HandRotationOf(AnyProprioception(rng));
+    const ActionVector action = ToVector({{rng.Normal(), rng.Normal(), rng.Normal()}, target});
+    const Action mirrored = FromVector(MirroredUpright(action));
+    EXPECT_LT((mirrored.world_from_hand_rotation - hand_in(target)).norm(), 1e-5);
+    const Eigen::Vector3d way = level * FromVector(action).position_delta_m;
+    EXPECT_EQ(mirrored.position_delta_m, way);
+    EXPECT_EQ(MirroredUpright(MirroredUpright(action)), action);
+  }
+  EXPECT_EQ(MirroredUpright(LabelledCloud{{1, 2, 3, 4, -5, 6}, {0, 1}}).xyz,
+            (std::vector<float>{1, 2, -3, 4, -5, -6}));
+}
+
 TEST(Mirror, APointInTheMirrorHasTheOppositeY) {
   const LabelledCloud cloud{{1, 2, 3, 4, -5, 6}, {0, 1}};
   const LabelledCloud mirrored = MirroredSideways(cloud);

@@ -12,7 +12,6 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/rng.h"
-#include "doorforge/policy/side_finder.h"
 #include "doorforge/schemas/mirror.h"
 
 namespace doorforge {
@@ -113,39 +112,6 @@ TEST_F(SideFile, IsReadAsItWasWritten) {
   EXPECT_EQ(ReadSideClassifier(folder_)->weight, classifier->weight);
   WriteSideClassifier(folder_, std::nullopt, "a");
   EXPECT_FALSE(ReadSideClassifier(folder_));
-}
-
-TEST(SideFinder, BeginsWithWhatThePictureSaysAndLeftWithoutOne) {
-  Rng rng(6, "test/side");
-  SideFinder finder(SideChoice::kAuto, FitSideClassifier(Examples(60, rng)));
-  EXPECT_TRUE(finder.WantsPicture());
-  for (const HingeSide side : {HingeSide::kRight, HingeSide::kLeft}) {
-    const SeenDoor door = DoorHinged(side, rng);
-    finder.Begin(door.cloud);
-    EXPECT_EQ(finder.SideFor(door.hand_m), side);
-  }
-  finder.Begin(std::nullopt);
-  EXPECT_EQ(finder.SideFor({0, 0, 0}), HingeSide::kLeft);
-  EXPECT_FALSE(finder.IsClear());
-  finder.Found(HingeSide::kRight);
-  EXPECT_EQ(finder.SideFor({0, 0, 0}), HingeSide::kRight);
-  SideFinder told(SideChoice::kRight, std::nullopt);
-  EXPECT_FALSE(told.WantsPicture() || told.MayChange());
-  EXPECT_EQ(told.SideFor({0, 0, 0}), HingeSide::kRight);
-}
-
-TEST(SideFinder, BeginsAnotherGraspWithTheOtherSideUnlessItIsSure) {
-  SideFinder finder(SideChoice::kAuto, std::nullopt);
-  finder.Begin(std::nullopt);
-  EXPECT_EQ(finder.SideFor({0, 0, 0}), HingeSide::kLeft);
-  finder.GoOver();
-  EXPECT_EQ(finder.SideFor({0, 0, 0}), HingeSide::kRight);
-  finder.Found(HingeSide::kLeft);  // of a stall; the grasp began with the right
-  finder.GoOver();
-  EXPECT_EQ(finder.SideFor({0, 0, 0}), HingeSide::kLeft);
-  finder.Confirm(HingeSide::kRight);
-  finder.GoOver();
-  EXPECT_EQ(finder.SideFor({0, 0, 0}), HingeSide::kRight);
 }
 
 }  // namespace

@@ -98,7 +98,7 @@ StagePolicies::StagePolicies(const StageConfig& config, const CollectionWords& w
   sets_.Take();
   if (!learner_ || stage_ == Stage::kGrasp) return;
   drivers_ = std::make_unique<ObjectPool<std::unique_ptr<Policy>>>(
-      [this] { return LoadPolicy(learner_->folder, {}, NameOf(stage_)); });
+      [this] { return LoadPolicy(learner_->folder, {}, stage_); });
   drivers_->Take();
   CheckLearnersClouds(learner_, config);
 }

@@ -49,7 +49,7 @@ void CheckOnlineControllerConfig(const OnlineControllerConfig& config) {
 OnlineController::OnlineController(const OnlineControllerSetup& setup)
     : setup_(setup), robot_(LoadRobot({}, setup.base)) {
   CheckOnlineControllerConfig(setup.config);
-  finder_ = LoadSideFinder(setup.opener, setup.config.policy);
+  belief_ = LoadDoorBelief(setup.opener, setup.config.policy);
   opener_ = LoadActor(setup.opener, Stage::kOpen);
   handler_ = LoadHandler(setup.handler);
   grasper_ = LoadGrasper(setup.grasper);
@@ -73,9 +73,9 @@ std::optional<OnlineController::Actor> OnlineController::LoadActor(const std::st
   auto familiarity = LoadFamiliarity(folder, record);
   const NetworkView view = record.networks.normalisation.view;
   GainCritic critic(record.networks);
-  Actor actor{MakePolicy(std::move(record.networks), setup_.config.policy, finder_),
+  Actor actor{MakePolicy({std::move(record.networks), stage}, setup_.config.policy, belief_),
               record.weights_sha256, std::move(critic), std::move(familiarity)};
-  actor.trying = dynamic_cast<TryingPolicy*>(actor.policy.get());
+  actor.mirroring = dynamic_cast<MirroringPolicy*>(actor.policy.get());
   actor.policy->Reset();
   actor.remembers = view.remembered_finer > 0;
   actor.crop_radius_m = static_cast<double>(view.cloud_crop_radius_m);
@@ -146,7 +146,7 @@ void OnlineController::KeepBefore(LabelledCloud before) {
   const Eigen::Vector3d start(static_cast<double>(before.xyz[0]),
                               static_cast<double>(before.xyz[1]),
                               static_cast<double>(before.xyz[2]));
-  finder_->Begin(
+  belief_->Begin(
       SampleCloud(before, start, {.point_count = setup_.config.cloud.point_count}).cloud);
   before_ = std::move(before);
 }
@@ -231,8 +231,8 @@ ActAnswer OnlineController::Answer(Stage stage, Actor& actor, const RobotState& 
   answer.world_from_hand.translation() =
       state.world_from_hand.translation() + action.position_delta_m;
   answer.world_from_hand_now = state.world_from_hand;
-  const Observation shown = actor.trying->AsShown(observation);
-  answer.expected_gain_rad = actor.critic.GainOf(shown, actor.trying->AsShown(action));
+  const Observation shown = actor.mirroring->AsShown(observation);
+  answer.expected_gain_rad = actor.critic.GainOf(shown, actor.mirroring->AsShown(action));
   answer.foreign = ForeignnessOf(
       actor.familiarity, SightNumbersOf({shown.cloud.xyz, shown.cloud.label}, shown.proprioception,
                                         NetworkFamily::kMotion));
@@ -244,7 +244,7 @@ ActAnswer OnlineController::Answer(Stage stage, Actor& actor, const RobotState& 
   // an action on a picture of something else must not end the stage, and whether the hand follows
   // only an unbroken sequence can tell
   const bool held = !answer.hold_reasons.empty();
-  if (held || !setup_.sees_every_decision) actor.trying->TakeBack();
+  if (held || !setup_.sees_every_decision) actor.mirroring->TakeBack();
   if (stage == Stage::kHandle && Predicts()) {
     if (held) actor.turning->TakeBack();
     answer.turned = actor.turning->Turned();

@@ -15,6 +15,7 @@
 #include "doorforge/evaluate/take_pictures.h"
 #include "doorforge/physics/load_robot.h"
 #include "doorforge/policy/policy_file.h"
+#include "doorforge/policy/stage_policy.h"
 #include "doorforge/registry/run_policy_set.h"
 #include "doorforge/rollout/opening_expert.h"
 #include "doorforge/rollout/proprioception.h"
@@ -114,6 +115,8 @@ void AddOpener(const EvaluationRequest& request, const PolicyChoice& opener,
     report.provenance.dataset_sha256 = policy.provenance.dataset_sha256;
     report.losses = internal::TrainingLosses(opener.folder);
     AddSeenParts(policy, opener.folder, request.allow_seen, report);
+    if (const auto pushed = PushedPolicyIn(opener.folder))
+      AddSeenParts(ReadPolicy(*pushed), *pushed, request.allow_seen, report);
     if (!request.data.empty()) RequireSameData(policy, request.data);
     AddTrainingDoors(request.data, report);
   }

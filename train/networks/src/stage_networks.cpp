@@ -253,7 +253,13 @@ PolicyState StateOf(StateKind kind, const Proprioception& proprioception, Motion
 }
 
 bool KnowsBothWays(const StageNormalisation& normalisation) {
-  return TellsOfTheHand(normalisation.view.state) && normalisation.state.mean[kWayNumber] > 0;
+  const float others = normalisation.state.mean[kWayNumber];
+  return TellsOfTheHand(normalisation.view.state) && others > 0 && others < 1;
+}
+
+MotionWay WayThatIsKnown(const StageNormalisation& normalisation, MotionWay way) {
+  if (KnowsBothWays(normalisation)) return way;
+  return normalisation.state.mean[kWayNumber] > 0 ? MotionWay::kOther : MotionWay::kUsual;
 }
 
 CloudWindow WindowOf(const StageNormalisation& normalisation,

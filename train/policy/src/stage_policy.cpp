@@ -3,6 +3,8 @@
 #include "doorforge/policy/stage_policy.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,13 +16,16 @@
 #include "doorforge/networks/hand_frame.h"
 #include "doorforge/networks/heads.h"
 #include "doorforge/networks/point_encoder.h"
+#include "doorforge/policy/mirroring_policy.h"
 #include "doorforge/policy/policy_file.h"
-#include "doorforge/policy/trying_policy.h"
 
 namespace doorforge {
 namespace {
 
+namespace fs = std::filesystem;
 using internal::HeadInputs;
+
+constexpr const char* kPushedFolder = "pushed";
 
 void AppendCopies(const std::vector<float>& values, int copies, std::vector<float>& out) {
   for (int i = 0; i < copies; ++i) out.insert(out.end(), values.begin(), values.end());
@@ -46,7 +51,8 @@ class StagePolicy : public TwoWayPolicy {
     const CloudGeometry geometry =
         BuildGeometry(observation.cloud.xyz,
                       WindowOf(networks_.normalisation, {hand_m.x(), hand_m.y(), hand_m.z()}));
-    HeadInputs batch = RobotInputs({observation.proprioception, way});
+    HeadInputs batch =
+        RobotInputs({observation.proprioception, WayThatIsKnown(networks_.normalisation, way)});
     AppendCopies(actor_.Forward(geometry).features, batch.size, batch.features);
     const std::vector<float> actions = actor_head_.Decode(batch, Latents());
     const std::size_t best = critic_ ? Best(geometry, actions, batch) : 0;
@@ -102,37 +108,95 @@ class StagePolicy : public TwoWayPolicy {
   std::uint64_t decision_ = 0;
 };
 
+// Two openers, of doors that are pulled and of doors that are pushed.
+class PullAndPush : public TwoWayPolicy {
+ public:
+  PullAndPush(std::unique_ptr<TwoWayPolicy> pull, std::unique_ptr<TwoWayPolicy> push)
+      : pull_(std::move(pull)), push_(std::move(push)) {}
+
+  void Reset() override {
+    pull_->Reset();
+    push_->Reset();
+  }
+  Action Act(const Observation& observation, MotionWay way) override {
+    return (way == MotionWay::kUsual ? pull_ : push_)->Act(observation, way);
+  }
+
+ private:
+  std::unique_ptr<TwoWayPolicy> pull_;
+  std::unique_ptr<TwoWayPolicy> push_;
+};
+
+// The mirror image of an arm is another arm, see mirror.h.
+bool HasMirrorImage(const StageNetworks& networks) {
+  return networks.normalisation.view.state != StateKind::kJoints;
+}
+
+std::unique_ptr<TwoWayPolicy> MakeTwoWay(MotionNetworks learned, const PolicyOptions& options) {
+  auto policy = std::make_unique<StagePolicy>(std::move(learned.networks), options);
+  if (!learned.pushed) return policy;
+  return std::make_unique<PullAndPush>(
+      std::move(policy), std::make_unique<StagePolicy>(std::move(*learned.pushed), options));
+}
+
 }  // namespace
 
-std::unique_ptr<Policy> MakePolicy(StageNetworks networks, const PolicyOptions& options,
-                                   std::shared_ptr<SideFinder> finder) {
+bool MotionNetworks::KnowsBothWays() const {
+  return pushed || doorforge::KnowsBothWays(networks.normalisation);
+}
+
+std::optional<fs::path> PushedPolicyIn(const fs::path& opener) {
+  fs::path pushed = opener / kPushedFolder;
+  if (!fs::exists(pushed)) return std::nullopt;
+  return pushed;
+}
+
+MotionNetworks ReadMotionNetworks(const fs::path& folder, Stage stage) {
+  MotionNetworks learned(ReadPolicy(folder, NameOf(stage)).networks, stage);
+  if (stage != Stage::kOpen) return learned;
+  if (const auto pushed = PushedPolicyIn(folder))
+    learned.pushed = ReadPolicy(*pushed, NameOf(stage)).networks;
+  return learned;
+}
+
+std::unique_ptr<Policy> MakePolicy(MotionNetworks learned, const PolicyOptions& options,
+                                   std::shared_ptr<DoorBelief> belief) {
   Require(options.candidates >= 1 && options.candidates <= 1000, ErrorCode::kInvalidConfig,
           "policy.candidates: must be 1 to 1000");
-  const StageNormalisation& normalisation = networks.normalisation;
-  std::vector<MotionWay> ways = {MotionWay::kUsual};
-  if (KnowsBothWays(normalisation)) ways.push_back(MotionWay::kOther);
-  // the mirror image of an arm is another arm, see mirror.h
-  const bool has_mirror_image = normalisation.view.state != StateKind::kJoints;
-  Require(has_mirror_image || options.side != SideChoice::kRight, ErrorCode::kInvalidConfig,
-          "policy.side: a policy that reads the arm's joints knows doors hinged left alone");
-  if (!has_mirror_image) finder.reset();
-  if (has_mirror_image && !finder && options.side != SideChoice::kAuto)
-    finder = std::make_shared<SideFinder>(options.side, std::nullopt);
-  return std::make_unique<TryingPolicy>(std::make_unique<StagePolicy>(std::move(networks), options),
-                                        options.stall, std::move(ways), std::move(finder));
+  const bool has_mirror_image = HasMirrorImage(learned.networks);
+  Require(has_mirror_image || (options.told.side != SideChoice::kRight &&
+                               options.told.turning != TurningChoice::kReversed),
+          ErrorCode::kInvalidConfig,
+          "policy.side, policy.turning: a policy that reads the arm's joints knows doors hinged "
+          "left and usual handles alone");
+  if (!has_mirror_image) belief.reset();
+  if (has_mirror_image && !belief)
+    belief = std::make_shared<DoorBelief>(options.told, std::nullopt);
+  MirroringRole role{learned.stage, learned.KnowsBothWays(), std::move(belief)};
+  return std::make_unique<MirroringPolicy>(MakeTwoWay(std::move(learned), options), std::move(role),
+                                           options.stall);
 }
 
-std::unique_ptr<Policy> LoadPolicy(const std::filesystem::path& folder,
-                                   const PolicyOptions& options, std::string_view stage,
-                                   std::shared_ptr<SideFinder> finder) {
-  return MakePolicy(ReadPolicy(folder, stage).networks, options, std::move(finder));
+std::unique_ptr<Policy> LoadPolicy(const fs::path& folder, const PolicyOptions& options,
+                                   Stage stage, std::shared_ptr<DoorBelief> belief) {
+  return MakePolicy(ReadMotionNetworks(folder, stage), options, std::move(belief));
 }
 
-std::shared_ptr<SideFinder> LoadSideFinder(const std::filesystem::path& opener,
-                                           const PolicyOptions& options) {
+std::shared_ptr<DoorBelief> LoadDoorBelief(const fs::path& opener, const PolicyOptions& options) {
+  ToldOfDoor told = options.told;
   std::optional<SideClassifier> classifier;
-  if (!opener.empty()) classifier = ReadSideClassifier(opener);
-  return std::make_shared<SideFinder>(options.side, std::move(classifier));
+  bool can_push = false;
+  if (!opener.empty()) {
+    classifier = ReadSideClassifier(opener);
+    can_push = ReadMotionNetworks(opener, Stage::kOpen).KnowsBothWays();
+  }
+  Require(can_push || told.opening != OpeningChoice::kPush || opener.empty(),
+          ErrorCode::kInvalidConfig,
+          "policy.opening: " + opener.string() +
+              " has not learned doors that are pushed; it would lie in its folder \"" +
+              kPushedFolder + '"');
+  if (!can_push && told.opening == OpeningChoice::kAuto) told.opening = OpeningChoice::kPull;
+  return std::make_shared<DoorBelief>(told, std::move(classifier));
 }
 
 }  // namespace doorforge

@@ -132,6 +132,13 @@ HandMotion MirroredSideways(const HandMotion& motion) {
   return mirrored;
 }
 
+// As an axis, which keeps z, and as a way.
+HandMotion MirroredUpright(const HandMotion& motion) {
+  HandMotion mirrored = motion;
+  for (const std::size_t odd : {0U, 1U, 3U, 4U, 8U, 11U}) mirrored.at(odd) = -mirrored.at(odd);
+  return mirrored;
+}
+
 std::optional<TurnedClassifier> FitTurnedClassifier(std::span<const TurnedExample> examples) {
   const auto turned =
       std::ranges::count_if(examples, [](const TurnedExample& one) { return one.turned; });

@@ -13,7 +13,7 @@ namespace doorforge {
 TurningPolicy::TurningPolicy(std::unique_ptr<Policy> policy, const TurnedClassifier& classifier,
                              double switch_probability)
     : policy_(std::move(policy)),
-      tries_(dynamic_cast<TryingPolicy*>(policy_.get())),
+      mirrors_(dynamic_cast<MirroringPolicy*>(policy_.get())),
       classifier_(classifier),
       switch_probability_(switch_probability) {
   Require(switch_probability > 0 && switch_probability < 1, ErrorCode::kInvalidConfig,
@@ -29,28 +29,28 @@ void TurningPolicy::Reset() {
 
 Action TurningPolicy::Act(const Observation& observation) {
   Action action = policy_->Act(observation);
-  // what was turned the wrong way counts for nothing
-  if (tries_ != nullptr && tries_->changed()) first_.reset();
   first_before_ = first_;
   turned_before_ = turned_;
   if (!first_) first_ = observation.proprioception;
   HandMotion motion = HandMotionOf(*first_, observation.proprioception, ToVector(action));
-  // the classifier, too, has learned doors hinged left
-  if (tries_ != nullptr && tries_->guess().side == HingeSide::kRight)
+  // the classifier, too, has learned doors hinged left with usual handles
+  if (mirrors_ != nullptr && mirrors_->guess().side == HingeSide::kRight)
     motion = MirroredSideways(motion);
-  turned_ = turned_ || classifier_.Probability(motion) >= switch_probability_;
+  if (mirrors_ != nullptr && mirrors_->IsUpsideDown()) motion = MirroredUpright(motion);
+  turned_ = turned_ || classifier_.Probability(motion) >= switch_probability_ ||
+            (mirrors_ != nullptr && mirrors_->IsStalled());
   return action;
 }
 
 void TurningPolicy::TakeBack() {
-  if (tries_ != nullptr) tries_->TakeBack();
+  if (mirrors_ != nullptr) mirrors_->TakeBack();
   first_ = first_before_;
   turned_ = turned_before_;
 }
 
 std::unique_ptr<TurningPolicy> LoadTurningPolicy(const std::filesystem::path& folder,
                                                  const PolicyOptions& options,
-                                                 std::shared_ptr<SideFinder> finder) {
+                                                 std::shared_ptr<DoorBelief> belief) {
   PolicyRecord record = ReadPolicy(folder, "handle");
   const auto classifier = ReadTurnedClassifier(folder, record.provenance.dataset_sha256);
   if (!classifier)
@@ -60,8 +60,8 @@ std::unique_ptr<TurningPolicy> LoadTurningPolicy(const std::filesystem::path& fo
                     "turned.safetensors, which earlier builds did not write); run its training "
                     "command again with --resume, which adds it, or use the privileged switch");
   return std::make_unique<TurningPolicy>(
-      MakePolicy(std::move(record.networks), options, std::move(finder)), *classifier,
-      options.switch_probability);
+      MakePolicy({std::move(record.networks), Stage::kHandle}, options, std::move(belief)),
+      *classifier, options.switch_probability);
 }
 
 }  // namespace doorforge

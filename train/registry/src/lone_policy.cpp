@@ -24,7 +24,7 @@ LonePolicy::LonePolicy(const std::string& word, Stage stage, const PolicyOptions
               "\"; there are handle, open");
   const PolicyChoice choice =
       BuiltInPolicies().Find(stage, word, stage == Stage::kOpen ? "--opener" : "--handler");
-  finder_ = LoadSideFinder(stage == Stage::kOpen ? choice.folder : "", options);
+  belief_ = LoadDoorBelief(stage == Stage::kOpen ? choice.folder : "", options);
   if (choice.IsFolder()) {
     Load(choice.folder.string(), stage, options);
   } else {
@@ -44,7 +44,7 @@ void LonePolicy::Load(const std::string& folder, Stage stage, const PolicyOption
   if (const NetworkView& view = record.networks.normalisation.view; stage == Stage::kHandle)
     remembered_ = {view.remembered_finer, static_cast<double>(view.cloud_crop_radius_m)};
   if (remembered_.IsOn()) tcp_in_hand_m_ = LoadMobileFranka().hand_from_tcp().translation();
-  policy_ = MakePolicy(std::move(record.networks), options, finder_);
+  policy_ = LoadPolicy(folder, options, stage, belief_);
   if (!classifier) return;
   auto turning =
       std::make_unique<TurningPolicy>(std::move(policy_), *classifier, options.switch_probability);
@@ -66,7 +66,7 @@ void LonePolicy::Begin(std::optional<LabelledCloud> before) {
                          {.point_count = kPoints})
                  .cloud;
   }
-  finder_->Begin(std::move(seen));
+  belief_->Begin(std::move(seen));
   policy_->Reset();
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "doorforge/core/error.h"
+#include "doorforge/policy/belief_grasp.h"
 #include "doorforge/policy/policy_file.h"
 #include "doorforge/policy/turning_policy.h"
 
@@ -20,12 +21,12 @@ PolicySetFactory::PolicySetFactory(const PolicyRegistry& registry, const PolicyW
 
 PolicySet PolicySetFactory::Make() const {
   PolicySet set;
-  const std::shared_ptr<SideFinder> finder = LoadSideFinder(opener_.folder, settings_.network);
-  set.memory = finder;
+  const std::shared_ptr<DoorBelief> belief = LoadDoorBelief(opener_.folder, settings_.network);
+  set.memory = belief;
   set.grasps = settings_.grasps;
-  AddOpener(set, finder);
-  AddHandler(set, finder);
-  AddGrasper(set);
+  AddOpener(set, belief);
+  AddHandler(set, belief);
+  AddGrasper(set, belief);
   return set;
 }
 
@@ -44,31 +45,32 @@ RememberedViewConfig PolicySetFactory::Remembered() const {
   return {view.remembered_finer, static_cast<double>(view.cloud_crop_radius_m)};
 }
 
-void PolicySetFactory::AddOpener(PolicySet& set, const std::shared_ptr<SideFinder>& finder) const {
+void PolicySetFactory::AddOpener(PolicySet& set, const std::shared_ptr<DoorBelief>& belief) const {
   set.open = opener_.IsFolder()
-                 ? LoadPolicy(opener_.folder, settings_.network, NameOf(Stage::kOpen), finder)
+                 ? LoadPolicy(opener_.folder, settings_.network, Stage::kOpen, belief)
                  : opener_.motion->make(settings_);
   Require(set.open != nullptr, ErrorCode::kInvalidArgument,
           "the policy \"" + opener_.word + "\" is to open doors, and its row makes none");
 }
 
-void PolicySetFactory::AddHandler(PolicySet& set, const std::shared_ptr<SideFinder>& finder) const {
+void PolicySetFactory::AddHandler(PolicySet& set, const std::shared_ptr<DoorBelief>& belief) const {
   if (!handler_.IsFolder()) {
     set.handle = handler_.motion->make(settings_);
     if (switch_source_ == SwitchSource::kPolicy)
       set.handle_turned = dynamic_cast<StageSwitch*>(set.handle.get());
   } else if (PredictsSwitch()) {
-    auto handler = LoadTurningPolicy(handler_.folder, settings_.network, finder);
+    auto handler = LoadTurningPolicy(handler_.folder, settings_.network, belief);
     set.handle_turned = handler.get();
     set.handle = std::move(handler);
   } else {
-    set.handle = LoadPolicy(handler_.folder, settings_.network, NameOf(Stage::kHandle), finder);
+    set.handle = LoadPolicy(handler_.folder, settings_.network, Stage::kHandle, belief);
   }
 }
 
-void PolicySetFactory::AddGrasper(PolicySet& set) const {
+void PolicySetFactory::AddGrasper(PolicySet& set, const std::shared_ptr<DoorBelief>& belief) const {
   if (grasper_.IsFolder()) {
-    set.grasp = LoadGraspPolicy(grasper_.folder, settings_.network_grasp);
+    set.grasp = std::make_unique<BeliefGrasp>(
+        LoadGraspPolicy(grasper_.folder, settings_.network_grasp), belief);
     set.grasp_resolution_scale = settings_.network_grasp_resolution;
   } else {
     set.grasp = grasper_.grasp->make(settings_);

@@ -70,6 +70,7 @@ Episode RunPolicySet(const EpisodePlace& place, const PolicySet& set, Observer* 
     roles.handle_turned = [turned = set.handle_turned] {
       return turned->Says() ? std::optional(turned->Turned()) : std::nullopt;
     };
+  if (set.memory) roles.gives_up = [memory = set.memory] { return memory->GivesUp(); };
   for (Fallible* policy : FallibleOf(set)) policy->ForgetFailure();
   Episode episode = RunStages(place.scene, place.door, place.robot, roles, observer);
   if (const std::string failure = FailureOf(set); !failure.empty()) {

@@ -19,6 +19,8 @@ class EpisodeMemory {
   /// @param before What the camera sees of the door before the robot comes, in the world, labels
   ///     unread; nothing where nobody looked.
   virtual void Begin(std::optional<LabelledCloud> before) = 0;
+  /// Whether the present grasp leads nowhere, so that another is better begun with at once.
+  virtual bool GivesUp() const { return false; }
 };
 
 }  // namespace doorforge

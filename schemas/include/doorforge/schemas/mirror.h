@@ -22,4 +22,12 @@ ActionVector MirroredSideways(const ActionVector& action);
 /// The points' y changes its sign; their labels stay.
 LabelledCloud MirroredSideways(LabelledCloud cloud);
 
+/// The same in a level mirror, the plane z = 0 of the world: a handle that unlocks as its lever is
+/// lifted is the mirror image of one that unlocks as it goes down, and a knob that turns one way of
+/// one that turns the other. Gravity is not mirrored, so this is for hands that hold something.
+/// An action's rotation must be an absolute target here.
+Proprioception MirroredUpright(const Proprioception& proprioception);
+ActionVector MirroredUpright(const ActionVector& action);
+LabelledCloud MirroredUpright(LabelledCloud cloud);
+
 }  // namespace doorforge

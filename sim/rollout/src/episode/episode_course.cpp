@@ -84,6 +84,11 @@ bool EpisodeCourse::SaysTurned() const {
   return ToldTurned().value_or(IsTurned(world_.scene().latch, world_.state()));
 }
 
+// The last grasp is not given up: nothing is left to be tried instead.
+bool EpisodeCourse::IsGivenUp() const {
+  return gives_up_ && state_.actions > 0 && state_.grasps < grasps_ && gives_up_();
+}
+
 void EpisodeCourse::EndTurnIfDone() {
   const long off = state_.log.StepsWithoutPads(world_.step());
   const bool torn_off = state_.actions > 0 &&
@@ -129,9 +134,10 @@ void EpisodeCourse::BeginOpening() {
 void EpisodeCourse::EndOpeningIfDone() {
   const ContactLog& log = state_.log;
   // a hand that has been off the door for a second does not come back by itself
-  const bool given_up =
+  const bool is_off =
       state_.actions > 0 && log.StepsWithoutTouch(world_.step()) >
                                 long{world_.limits().off_door_actions} * physics().steps_per_action;
+  const bool given_up = is_off || IsGivenUp();
   const bool far_enough = log.opened() && world_.state().hinge_rad > physics().finish_hinge_rad;
   const bool used_up = state_.actions >= physics().max_opening_actions;
   if (!given_up && !far_enough && !used_up && !log.coasted() && !world_.diverged()) return;

@@ -18,9 +18,12 @@ namespace doorforge::internal {
 class EpisodeCourse {
  public:
   /// @param handle_turned As EpisodePolicies::handle_turned.
-  /// @param grasps As EpisodePolicies::grasps.
-  EpisodeCourse(EpisodeWorld& world, HandleTurned handle_turned, int grasps)
-      : world_(world), handle_turned_(std::move(handle_turned)), grasps_(grasps) {}
+  /// @param gives_up, grasps As of EpisodePolicies.
+  EpisodeCourse(EpisodeWorld& world, HandleTurned handle_turned, GivesUp gives_up, int grasps)
+      : world_(world),
+        handle_turned_(std::move(handle_turned)),
+        gives_up_(std::move(gives_up)),
+        grasps_(grasps) {}
 
   /// The stage "grasp"; nothing where no point to take hold of is in view.
   void Grasp(std::optional<GraspCommand> grasp);
@@ -61,6 +64,7 @@ class EpisodeCourse {
   void BeginStage(Stage stage);
   std::optional<bool> ToldTurned() const;
   bool SaysTurned() const;
+  bool IsGivenUp() const;
   void EndTurnIfDone();
   void FinishTurn();
   void BeginOpening();
@@ -72,6 +76,7 @@ class EpisodeCourse {
 
   EpisodeWorld& world_;
   HandleTurned handle_turned_;
+  GivesUp gives_up_;
   int grasps_;
   State state_;
 };

@@ -41,6 +41,7 @@ class Play {
                  {.first = Stage::kGrasp,
                   .turn = roles.handle == nullptr ? &rule_ : nullptr,
                   .handle_turned = roles.handle_turned,
+                  .gives_up = roles.gives_up,
                   .grasps = roles.grasps,
                   .clouds = CloudsOf(roles),
                   .bad_action = BadAction::kDiverge}) {}

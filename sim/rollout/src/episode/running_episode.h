@@ -28,7 +28,7 @@ class EpisodeStepper::Running {
       : options_(options),
         door_(ApplyVariation(door, scene.variation)),
         world_(scene, door_, robot, observer),
-        course_(world_, options.handle_turned, options.grasps) {
+        course_(world_, options.handle_turned, options.gives_up, options.grasps) {
     world_.Watch(EpisodePhase::kStart);
   }
 

@@ -40,6 +40,7 @@ struct StepperOptions {
   /// Means what EpisodePolicies::handle_turned does, and is asked after each action at the stage
   /// "handle".
   HandleTurned handle_turned = nullptr;
+  GivesUp gives_up = nullptr;  ///< As EpisodePolicies::gives_up.
   /// Means what EpisodePolicies::grasps does. After a grasp that led nowhere the next stage is
   /// "grasp" again; above 1 where that stage is the caller's.
   int grasps = 1;

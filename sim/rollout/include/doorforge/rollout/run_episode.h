@@ -34,6 +34,9 @@ Episode RunEpisode(const Scene& scene, const DoorAsset& door, const RobotModel& 
 
 /// Whether the handle is turned, for who cannot look into the simulator; nothing: it is not said.
 using HandleTurned = std::function<std::optional<bool>()>;
+/// Whether the policies give the present grasp up, because what they ask for leads nowhere. Asked
+/// after every action.
+using GivesUp = std::function<bool()>;
 
 /// Who acts at each stage, and whose decisions the episode holds.
 struct EpisodePolicies {
@@ -45,6 +48,9 @@ struct EpisodePolicies {
   /// latch. Null: the simulator's flag, turned to "handle done" and unlocked, which doors without
   /// a latch are from the start; so it is after an action of which nothing is said.
   HandleTurned handle_turned = nullptr;
+  /// Null: nobody does. The opening of a grasp that is given up ends as one whose hand has let go;
+  /// the last grasp is never given up.
+  GivesUp gives_up = nullptr;
   Policy* open = nullptr;  ///< Never null.
   /// Drives the first `learner_decisions` of the recorded stage in the place of that stage's
   /// policy, which is asked at each of them what it would do: the record's action corrects the

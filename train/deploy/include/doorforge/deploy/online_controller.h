@@ -117,7 +117,7 @@ class OnlineController {
     std::string weights_sha256;
     GainCritic critic;
     std::optional<Familiarity> familiarity;
-    TryingPolicy* trying = nullptr;    // the same, or what turning plays
+    MirroringPolicy* mirroring = nullptr; // the same, or what turning plays
     TurningPolicy* turning = nullptr;  // the same, where it says when the handle is turned
     bool remembers = false;            // RememberedPoints, of so much:
     double crop_radius_m = 0;
@@ -152,7 +152,7 @@ class OnlineController {
   std::optional<Grasper> grasper_;
   SeenPicture seen_;
   std::optional<LabelledCloud> before_;
-  std::shared_ptr<SideFinder> finder_;
+  std::shared_ptr<DoorBelief> belief_;
   bool unlocked_ = false;
 };
 

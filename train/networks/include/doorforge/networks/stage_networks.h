@@ -100,6 +100,8 @@ StageNormalisation MeasureNormalisation(std::span<const TrainingSample> samples,
 /// Whether the networks have learned both ways that a motion may take: they are told then which one
 /// to take, and whoever uses them has to find out which one is the door's.
 bool KnowsBothWays(const StageNormalisation& normalisation);
+/// What they are told instead of `way` where they have learned one way alone: that one.
+MotionWay WayThatIsKnown(const StageNormalisation& normalisation, MotionWay way);
 /// Returns that of a cloud that is seen with the hand, or its own point 0, there.
 CloudWindow WindowOf(const StageNormalisation& normalisation,
                      const std::array<float, 3>& hand_or_point_m);

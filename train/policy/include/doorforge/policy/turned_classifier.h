@@ -26,6 +26,7 @@ HandMotion HandMotionOf(const Proprioception& first, const Proprioception& now,
 
 /// What it is in the mirror image of the scene, see mirror.h.
 HandMotion MirroredSideways(const HandMotion& motion);
+HandMotion MirroredUpright(const HandMotion& motion);
 
 /// A decision of the handle policy's data.
 struct TurnedExample {

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <memory>
 
+#include "doorforge/policy/mirroring_policy.h"
 #include "doorforge/policy/stage_policy.h"
-#include "doorforge/policy/trying_policy.h"
 #include "doorforge/policy/turned_classifier.h"
 #include "doorforge/schemas/policy.h"
 #include "doorforge/schemas/stage_switch.h"
@@ -35,7 +35,7 @@ class TurningPolicy : public Policy, public StageSwitch {
 
  private:
   std::unique_ptr<Policy> policy_;
-  TryingPolicy* tries_;  // policy_, where that is one; else null
+  MirroringPolicy* mirrors_;  // policy_, where that is one; else null
   TurnedClassifier classifier_;
   double switch_probability_;
   std::optional<Proprioception> first_;
@@ -50,6 +50,6 @@ class TurningPolicy : public Policy, public StageSwitch {
 ///     has no classifier, with the way to get one.
 std::unique_ptr<TurningPolicy> LoadTurningPolicy(const std::filesystem::path& folder,
                                                  const PolicyOptions& options = {},
-                                                 std::shared_ptr<SideFinder> finder = nullptr);
+                                                 std::shared_ptr<DoorBelief> belief = nullptr);
 
 }  // namespace doorforge

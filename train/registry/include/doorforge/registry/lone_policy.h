@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "doorforge/policy/side_finder.h"
+#include "doorforge/policy/door_belief.h"
 #include "doorforge/registry/policy_registry.h"
 #include "doorforge/rollout/remembered_view.h"
 #include "doorforge/schemas/episode_memory.h"
@@ -27,7 +27,7 @@ class LonePolicy : public Policy, public StageSwitch, public EpisodeMemory {
   LonePolicy(const std::string& word, Stage stage, const PolicyOptions& options = {});
 
   /// Whether it tells the hinge's side from a picture of the closed door.
-  bool WantsPicture() const override { return finder_->WantsPicture(); }
+  bool WantsPicture() const override { return belief_->WantsPicture(); }
   /// An episode begins.
   ///
   /// @param before What the camera saw of the closed door before the robot came, in the world, as
@@ -55,7 +55,7 @@ class LonePolicy : public Policy, public StageSwitch, public EpisodeMemory {
   void Load(const std::string& folder, Stage stage, const PolicyOptions& options);
 
   std::string word_;
-  std::shared_ptr<SideFinder> finder_;
+  std::shared_ptr<DoorBelief> belief_;
   std::unique_ptr<Policy> policy_;
   StageSwitch* switch_ = nullptr;  // policy_, where it says when the handle is turned
   RememberedViewConfig remembered_{.resolution_scale = 0};

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "doorforge/core/named_enum.h"
-#include "doorforge/policy/side_finder.h"
+#include "doorforge/policy/door_belief.h"
 #include "doorforge/registry/policy_registry.h"
 #include "doorforge/rollout/remembered_view.h"
 #include "doorforge/schemas/policy_set.h"
@@ -63,9 +63,9 @@ class PolicySetFactory {
   bool PredictsSwitch() const;
 
  private:
-  void AddOpener(PolicySet& set, const std::shared_ptr<SideFinder>& finder) const;
-  void AddHandler(PolicySet& set, const std::shared_ptr<SideFinder>& finder) const;
-  void AddGrasper(PolicySet& set) const;
+  void AddOpener(PolicySet& set, const std::shared_ptr<DoorBelief>& belief) const;
+  void AddHandler(PolicySet& set, const std::shared_ptr<DoorBelief>& belief) const;
+  void AddGrasper(PolicySet& set, const std::shared_ptr<DoorBelief>& belief) const;
 
   PolicySettings settings_;
   SwitchSource switch_source_;

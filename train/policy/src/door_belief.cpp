@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/policy/door_belief.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "logistic_regression.h"
+
+namespace doorforge {
+namespace {
+
+constexpr double kReversedShare = 0.15;  // of handles
+constexpr double kPushedShare = 0.25;    // of doors
+constexpr double kRightFails = 0.05;     // the chance that a right guess leads nowhere
+constexpr double kSlipsUnnoticed =
+    0.5;                              // that a hand stalls nowhere though the handle stands still
+constexpr double kLeastDoubt = 0.02;  // about the side, however clear the picture
+
+// Whether the hand does the same with the handle.
+bool TurnAlike(const DoorGuess& one, const DoorGuess& other) {
+  return one.side == other.side && one.turning == other.turning;
+}
+
+template <class Choice>
+double Share(Choice told, Choice first, Choice given, double share) {
+  if (told == Choice::kAuto) return given == first ? 1 - share : share;
+  return told == given ? 1 : 0;
+}
+
+}  // namespace
+
+void DoorBelief::Begin(std::optional<LabelledCloud> before) {
+  before_ = std::move(before);
+  is_weighed_ = handle_stalled_ = gives_up_ = false;
+  reached_.reset();
+}
+
+double DoorBelief::ShareOf(const DoorGuess& guess, double left) const {
+  const bool is_left = guess.side == HingeSide::kLeft;
+  const bool is_usual = guess.turning == MotionWay::kUsual;
+  const bool is_pulled = guess.opening == MotionWay::kUsual;
+  return Share(told_.side, SideChoice::kLeft, is_left ? SideChoice::kLeft : SideChoice::kRight,
+               1 - left) *
+         Share(told_.turning, TurningChoice::kUsual,
+               is_usual ? TurningChoice::kUsual : TurningChoice::kReversed, kReversedShare) *
+         Share(told_.opening, OpeningChoice::kPull,
+               is_pulled ? OpeningChoice::kPull : OpeningChoice::kPush, kPushedShare);
+}
+
+void DoorBelief::Weigh(const Eigen::Vector3f& hand_m) {
+  if (is_weighed_) return;
+  is_weighed_ = true;
+  double left = 0.5;
+  if (classifier_ && before_ && !before_->xyz.empty())
+    left = std::clamp(
+        internal::Logistic(classifier_->LogOddsOfLeft(SideNumbersOf(before_->xyz, hand_m))),
+        kLeastDoubt, 1 - kLeastDoubt);
+  auto* next = weighed_.begin();
+  for (const HingeSide side : {HingeSide::kLeft, HingeSide::kRight}) {
+    for (const MotionWay turning : {MotionWay::kUsual, MotionWay::kOther}) {
+      for (const MotionWay opening : {MotionWay::kUsual, MotionWay::kOther}) {
+        const DoorGuess guess{side, turning, opening};
+        *next++ = {guess, ShareOf(guess, left)};
+      }
+    }
+  }
+}
+
+// The chance that the present grasp goes as it went, at a door that is as guessed there.
+double DoorBelief::ChanceOfFailure(const DoorGuess& truth) const {
+  const bool is_handle_to_blame = handle_stalled_ || reached_ == Stage::kHandle;
+  if (TurnAlike(truth, guess_)) return is_handle_to_blame || truth == guess_ ? kRightFails : 1;
+  return is_handle_to_blame ? 1 : kSlipsUnnoticed;
+}
+
+void DoorBelief::NextGrasp() {
+  if (!reached_) return;
+  for (Weighed& one : weighed_) one.weight *= ChanceOfFailure(one.guess);
+  reached_.reset();
+  handle_stalled_ = gives_up_ = false;
+}
+
+void DoorBelief::NoteStall(Stage stage) {
+  handle_stalled_ = handle_stalled_ || stage == Stage::kHandle;
+  gives_up_ = gives_up_ || stage == Stage::kOpen;
+}
+
+const DoorGuess& DoorBelief::ForGrasp(const Eigen::Vector3f& contact_m) {
+  NextGrasp();
+  Weigh(contact_m);
+  // the first of equals
+  guess_ = std::ranges::max_element(weighed_, {}, &Weighed::weight)->guess;
+  return guess_;
+}
+
+const DoorGuess& DoorBelief::ForStage(Stage stage, const Eigen::Vector3f& hand_m) {
+  const bool goes_on = reached_ == Stage::kHandle && stage == Stage::kOpen;
+  if (!goes_on) ForGrasp(hand_m);
+  reached_ = stage;
+  return guess_;
+}
+
+}  // namespace doorforge

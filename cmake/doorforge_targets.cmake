@@ -56,15 +56,14 @@ endif()
 set(DOORFORGE_LIGHT_ROOMS
     cli pipeline catalogue importers exporters compose authoring validate foreign openable conformance preview view
     composer robot_meshes registry dataset collect report evaluate deploy remote verbs)
-set(DOORFORGE_LIGHT_OPTIONS $<$<CONFIG:Release>:-O1>)
+set(DOORFORGE_LIGHT_OPTIONS $<$<CONFIG:Release>:-O1>$<$<CONFIG:RelWithDebInfo>:-Og>)
 
 # For a build from nothing, as ./quickstart.sh and ./test.sh do: what nearly every source includes is
-# parsed once, and the sources of a room are compiled together, a few at a time. Not done where a
+# parsed once, the sources of a room are compiled together, and no line numbers are written. Not done where a
 # launcher such as ccache is set: it keeps nothing that was made with precompiled headers, and after
 # an edit more is compiled again. A source is then no longer seen to include what it uses, so clang-tidy
 # and builds with ccache look at each by itself.
 option(DOORFORGE_BUILD_FROM_NOTHING "arrange the build for speed from nothing" OFF)
-set(DOORFORGE_SOURCES_TOGETHER 12)
 set(DOORFORGE_PRECOMPILED_HEADERS
     <algorithm> <array> <cmath> <filesystem> <fstream> <functional> <map> <memory> <numbers>
     <optional> <set> <span> <sstream> <string> <string_view> <utility> <vector>
@@ -72,18 +71,25 @@ set(DOORFORGE_PRECOMPILED_HEADERS
 
 # doorforge_build_from_nothing(<target> <owner> [<further headers>])
 # The target takes the headers that the owner precompiles, which needs the same options of the
-# compiler; a target that owns them precompiles them for itself. Its sources are compiled together, so
-# names in their unnamed namespaces must differ.
+# compiler; a target that owns them precompiles them for itself, and one without an owner, "", goes without.
+# Its sources are compiled together, so names in their unnamed namespaces must differ.
 function(doorforge_build_from_nothing target owner)
   if(NOT DOORFORGE_BUILD_FROM_NOTHING OR CMAKE_CXX_COMPILER_LAUNCHER)
     return()
   endif()
   set_target_properties(${target} PROPERTIES
-    UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${DOORFORGE_SOURCES_TOGETHER})
+    UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
   # the first is about headers, which sources look like here; the compiler finds the others in strings of
   # the standard library where more is inlined
   target_compile_options(${target} PRIVATE
     $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage;-Wno-stringop-overflow;-Wno-array-bounds>)
+  # only debuggers and sanitizers ask for line numbers
+  if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+    target_compile_options(${target} PRIVATE -g0)
+  endif()
+  if(NOT owner)
+    return()
+  endif()
   if(target STREQUAL owner)
     target_precompile_headers(${target} PRIVATE ${DOORFORGE_PRECOMPILED_HEADERS} ${ARGN})
   else()
@@ -91,11 +97,19 @@ function(doorforge_build_from_nothing target owner)
   endif()
 endfunction()
 
-# doorforge_keep_apart(<room>)
-# One object a source: who needs a convex hull alone, such as the Python package, gets no CGAL (GPL)
-# with it, as it would from sources compiled together.
+# doorforge_keep_apart(<room> <sources>)
+# These sources of a room become an object of their own, or one each where each is named alone, apart from the object that
+# the others become: who needs a convex hull alone, such as the Python package, gets no CGAL (GPL) with it.
 function(doorforge_keep_apart room)
-  set_target_properties(doorforge_${room} PROPERTIES UNITY_BUILD OFF)
+  get_target_property(sources doorforge_${room} SOURCES)
+  get_target_property(grouped doorforge_${room} UNITY_BUILD_MODE)
+  if(NOT grouped STREQUAL "GROUP")
+    set_target_properties(doorforge_${room} PROPERTIES UNITY_BUILD_MODE GROUP)
+    set_source_files_properties(${sources} PROPERTIES UNITY_GROUP others)
+  endif()
+  list(GET ARGN 0 first)
+  get_filename_component(name ${first} NAME_WE)
+  set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP ${name})
 endfunction()
 
 # doorforge_add_library(<room> HEADERS <public .h> SOURCES <private .h .cpp> [INTERNAL <.h>] [ROOMS <rooms>]
@@ -125,8 +139,10 @@ function(doorforge_add_library room)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_compile_options(${target} PRIVATE ${DOORFORGE_COMPILE_OPTIONS})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${room} CXX_EXTENSIONS OFF)
-  # CGAL and libtorch come with options of their own
-  if(room STREQUAL mesh OR room STREQUAL training)
+  # CGAL and libtorch come with options of their own, and what libtorch needs is one object
+  if(room STREQUAL training)
+    doorforge_build_from_nothing(${target} "")
+  elseif(room STREQUAL mesh)
     doorforge_build_from_nothing(${target} ${target})
   elseif(room IN_LIST DOORFORGE_LIGHT_ROOMS)
     target_compile_options(${target} PRIVATE ${DOORFORGE_LIGHT_OPTIONS})

@@ -11,13 +11,13 @@ namespace doorforge {
 namespace {
 
 // A verb as the programs make them: two files, an option that must be there, and settings.
-struct Verb {
+struct TriedVerb {
   CLI::App app{"", "doorforge try"};
   std::vector<std::string> files;
   std::string body;
   std::vector<std::string> settings;
 
-  Verb() {
+  TriedVerb() {
     app.add_option("files", files)->required();
     app.add_option("-b,--body", body)->required();
     AddSettings(app, settings, "overrides one setting");
@@ -42,7 +42,7 @@ std::string RefusalOf(CLI::App& app, const std::vector<std::string>& words) {
 }
 
 TEST(CommandLine, ASettingLeavesWhatFollowsItToTheOthers) {
-  Verb verb;
+  TriedVerb verb;
   Parse(verb.app, {"--set", "a=1", "x.stl", "--set=b=2", "y.stl", "--body", "c"});
   EXPECT_EQ(verb.settings, (std::vector<std::string>{"a=1", "b=2"}));
   EXPECT_EQ(verb.files, (std::vector<std::string>{"x.stl", "y.stl"}));
@@ -58,10 +58,10 @@ TEST(CommandLine, ASecondSettingWithoutItsSetIsToldHowToBeGiven) {
 }
 
 TEST(CommandLine, AnUnknownOptionIsToldTheNearestOneThoughARequiredOneIsMissing) {
-  Verb verb;
+  TriedVerb verb;
   EXPECT_EQ(RefusalOf(verb.app, {"x.stl", "--bodi", "c"}),
             "unknown option \"--bodi\"; did you mean \"--body\"? see `doorforge try --help`");
-  Verb other;
+  TriedVerb other;
   EXPECT_EQ(RefusalOf(other.app, {"x.stl", "--hlep=3", "--body", "c"}),
             "unknown option \"--hlep\"; did you mean \"--help\"? see `doorforge try --help`");
 }
@@ -146,7 +146,7 @@ TEST(CommandLine, OverwriteMeansThatWhatIsThereIsReplaced) {
 }
 
 TEST(CommandLine, WhatIsMissingIsStillTold) {
-  Verb verb;
+  TriedVerb verb;
   const std::string refusal = RefusalOf(verb.app, {"x.stl"});
   EXPECT_NE(refusal.find("--body"), std::string::npos) << refusal;
 }

@@ -58,7 +58,7 @@ TEST(ConfigFile, RefusesWhatIsNoFiniteNumberAndSaysWhere) {
   EXPECT_EQ(ParseYaml("name: \"nan\"", "my.yaml").at("name"), "nan");
 }
 
-std::string WhyRefused(const std::string& yaml) {
+std::string WhyYamlRefused(const std::string& yaml) {
   try {
     ParseYaml(yaml, "my.yaml");
   } catch (const Error& error) {
@@ -69,8 +69,8 @@ std::string WhyRefused(const std::string& yaml) {
 }
 
 TEST(ConfigFile, ATextThatNamesItselfIsRefused) {
-  EXPECT_NE(WhyRefused("a: &a [*a]").find("my.yaml: line 1"), std::string::npos);
-  EXPECT_NE(WhyRefused("&a {b: *a}").find("levels"), std::string::npos);
+  EXPECT_NE(WhyYamlRefused("a: &a [*a]").find("my.yaml: line 1"), std::string::npos);
+  EXPECT_NE(WhyYamlRefused("&a {b: *a}").find("levels"), std::string::npos);
 }
 
 TEST(ConfigFile, AShortTextThatMeansBillionsOfValuesIsRefused) {
@@ -82,13 +82,13 @@ TEST(ConfigFile, AShortTextThatMeansBillionsOfValuesIsRefused) {
     for (int i = 0; i < 9; ++i) yaml += (i > 0 ? "," : "") + below;
     yaml += "]\n";
   }
-  EXPECT_NE(WhyRefused(yaml).find("100000 values"), std::string::npos);
+  EXPECT_NE(WhyYamlRefused(yaml).find("100000 values"), std::string::npos);
 }
 
 TEST(ConfigFile, DeepTextIsRefusedAndNamesUsedAgainAreFine) {
-  EXPECT_NE(WhyRefused(std::string(100, '[') + std::string(100, ']')), "");
-  EXPECT_NE(WhyRefused(std::string(100000, '[')), "");
-  EXPECT_NE(WhyRefused("? [a, b]\n: 1"), "") << "a key that is no name";
+  EXPECT_NE(WhyYamlRefused(std::string(100, '[') + std::string(100, ']')), "");
+  EXPECT_NE(WhyYamlRefused(std::string(100000, '[')), "");
+  EXPECT_NE(WhyYamlRefused("? [a, b]\n: 1"), "") << "a key that is no name";
   EXPECT_EQ(ParseYaml("{a: &x [1, 2], b: *x}", "t").dump(), R"({"a":[1,2],"b":[1,2]})");
 }
 

@@ -18,7 +18,7 @@
 namespace doorforge {
 namespace {
 
-constexpr double kRadPerDegree = std::numbers::pi / 180;
+constexpr double kOneDegree = std::numbers::pi / 180;
 
 class RunEpisodeTest : public testing::Test {
  protected:
@@ -47,7 +47,7 @@ TEST_F(RunEpisodeTest, TheExpertOpensRandomDoorsOfEachMechanism) {
       const Episode episode = Run(door, SampleScene(door, 21, i));
       EXPECT_EQ(episode.outcome, EpisodeOutcome::kOpened)
           << NameOf(mechanism) << " " << i << ": " << episode.detail;
-      EXPECT_GT(episode.peak_hinge_rad, 45 * kRadPerDegree);
+      EXPECT_GT(episode.peak_hinge_rad, 45 * kOneDegree);
       EXPECT_LE(episode.decisions.size(), 25U);
       if (mechanism != Mechanism::kNone) {
         EXPECT_GE(episode.peak_handle_rad, door.latch.handle_done_angle_rad);

@@ -24,14 +24,14 @@ constexpr int kTurning = 240;
 constexpr int kPulling = 240;
 constexpr int kSteps = kClosing + kTurning + kPulling;
 
-struct Kind {
+struct ImagedDoor {
   std::string name;
   Mechanism mechanism;
   LatchType latch;
   ArmController controller;
 };
 
-DoorAsset DoorOf(const Kind& kind, std::uint64_t index) {
+DoorAsset DoorOf(const ImagedDoor& kind, std::uint64_t index) {
   DoorAsset door = MakePrimitiveDoor(RandomPrimitive(kind.mechanism, 31, index));
   door.latch.type = kind.latch;
   if (kind.latch == LatchType::kBolt) door.latch.bolt_throw_m = 0.012;
@@ -48,7 +48,7 @@ struct Trace {
   bool touched = false;
 };
 
-class WorldImageTest : public testing::TestWithParam<Kind> {
+class WorldImageTest : public testing::TestWithParam<ImagedDoor> {
  protected:
   WorldImageTest() : robot_(LoadMobileFranka()), door_(DoorOf(GetParam(), 1)) {
     SceneConfig config;
@@ -138,11 +138,12 @@ TEST_P(WorldImageTest, TheSameCommandsGiveTheSameBitsAfterComingBack) {
 INSTANTIATE_TEST_SUITE_P(
     Kinds, WorldImageTest,
     testing::Values(
-        Kind{"lever", Mechanism::kLever, LatchType::kEffort, ArmController::kJointMotors},
-        Kind{"round", Mechanism::kRound, LatchType::kEffort, ArmController::kJointMotors},
-        Kind{"bolt", Mechanism::kLever, LatchType::kBolt, ArmController::kJointMotors},
-        Kind{"torques", Mechanism::kLever, LatchType::kEffort, ArmController::kOperationalSpace},
-        Kind{"none", Mechanism::kNone, LatchType::kNone, ArmController::kJointMotors}),
+        ImagedDoor{"lever", Mechanism::kLever, LatchType::kEffort, ArmController::kJointMotors},
+        ImagedDoor{"round", Mechanism::kRound, LatchType::kEffort, ArmController::kJointMotors},
+        ImagedDoor{"bolt", Mechanism::kLever, LatchType::kBolt, ArmController::kJointMotors},
+        ImagedDoor{"torques", Mechanism::kLever, LatchType::kEffort,
+                   ArmController::kOperationalSpace},
+        ImagedDoor{"none", Mechanism::kNone, LatchType::kNone, ArmController::kJointMotors}),
     [](const auto& info) { return info.param.name; });
 
 TEST(WorldImage, IsOfItsOwnWorldAlone) {

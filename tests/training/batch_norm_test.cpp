@@ -19,13 +19,12 @@
 
 #include "device_encoder.h"
 #include "door_cloud.h"
+#include "encoder_checks.h"
 #include "reference_network.h"
 #include "synthetic_samples.h"
 
 namespace doorforge {
 namespace {
-
-constexpr std::array<float, 3> kCentre = {0.1F, 0.0F, 1.0F};
 
 // Two clouds through an encoder with normalised layers, of whose features some are read.
 class NormalisedEncoder : public ::testing::Test {
@@ -47,7 +46,7 @@ class NormalisedEncoder : public ::testing::Test {
     }
     for (const std::vector<float>& cloud : clouds_)
       geometries_.push_back(std::make_shared<const CloudGeometry>(
-          BuildWholeGeometry(cloud, {kCentre}, read_, BestInstructionSet())));
+          BuildWholeGeometry(cloud, {testing::kCloudCentre}, read_, BestInstructionSet())));
     Rng draws(5, "test/wanted");
     wanted_.resize(clouds_.size() * read_.size() * kFeatureSize);
     for (float& w : wanted_) w = static_cast<float>(draws.Uniform(0.1, 1));
@@ -55,8 +54,8 @@ class NormalisedEncoder : public ::testing::Test {
 
   // The reference reads all points: what is wanted of the others is 0.
   testing::ReferenceNetwork::Result Expected() const {
-    testing::ReferenceNetwork reference(reference_layout_, parameters_, clouds_, kCentre,
-                                        testing::Precision::kDouble);
+    testing::ReferenceNetwork reference(reference_layout_, parameters_, clouds_,
+                                        testing::kCloudCentre, testing::Precision::kDouble);
     std::vector<float> wanted(clouds_.size() * kCloudPoints * kFeatureSize);
     for (std::size_t row = 0; row < clouds_.size() * read_.size(); ++row)
       std::copy_n(wanted_.begin() + static_cast<std::ptrdiff_t>(row * kFeatureSize), kFeatureSize,
@@ -76,16 +75,6 @@ class NormalisedEncoder : public ::testing::Test {
   internal::Geometries geometries_;
   std::vector<float> wanted_;
 };
-
-double RelativeDistance(std::span<const float> expected, std::span<const float> actual) {
-  double squared = 0;
-  double difference = 0;
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    squared += static_cast<double>(expected[i]) * expected[i];
-    difference += std::pow(static_cast<double>(expected[i]) - actual[i], 2);
-  }
-  return std::sqrt(difference / std::max(squared, 1e-30));
-}
 
 TEST_F(NormalisedEncoder, GivesTheFeaturesGradientsAndStatisticsOfTheFormula) {
   const auto expected = Expected();
@@ -110,7 +99,8 @@ TEST_F(NormalisedEncoder, GivesTheFeaturesGradientsAndStatisticsOfTheFormula) {
     const auto part = [&](const std::vector<float>& all) {
       return std::span(all).subspan(layer.offset, layer.end() - layer.offset);
     };
-    EXPECT_LT(RelativeDistance(part(expected.gradient), part(gradient)), 1e-5) << layer.name;
+    EXPECT_LT(testing::RelativeDistance(part(expected.gradient), part(gradient)), 1e-5)
+        << layer.name;
   }
 }
 
@@ -123,14 +113,17 @@ TEST_F(NormalisedEncoder, FoldedIntoTheWeightsItIsThePlainNetwork) {
   const PointEncoder plain(plain_layout_, "", folded, BestInstructionSet());
   for (std::size_t c = 0; c < clouds_.size(); ++c) {
     const std::vector<float> features =
-        plain.Forward(BuildGeometry(clouds_[c], {kCentre}, read_, BestInstructionSet())).features;
+        plain
+            .Forward(
+                BuildGeometry(clouds_[c], {testing::kCloudCentre}, read_, BestInstructionSet()))
+            .features;
     ASSERT_EQ(features.size(), read_.size() * kFeatureSize);
     for (std::size_t r = 0; r < read_.size(); ++r) {
       const std::size_t row = ReferenceRow(c * read_.size() + r);
-      EXPECT_LT(
-          RelativeDistance(std::span(expected.features).subspan(row * kFeatureSize, kFeatureSize),
-                           std::span(features).subspan(r * kFeatureSize, kFeatureSize)),
-          1e-4);  // single precision through 22 layers
+      EXPECT_LT(testing::RelativeDistance(
+                    std::span(expected.features).subspan(row * kFeatureSize, kFeatureSize),
+                    std::span(features).subspan(r * kFeatureSize, kFeatureSize)),
+                1e-4);  // single precision through 22 layers
     }
   }
   EXPECT_EQ(FoldNorms(plain_layout_, folded, {}), folded);
@@ -141,7 +134,7 @@ TEST(WholeGeometry, LeavesNothingOfTheWindowOut) {
   const std::vector<std::uint16_t> read = {0, 5};
   for (const float radius_m : {0.0F, 0.5F}) {
     const CloudGeometry whole =
-        BuildWholeGeometry(cloud, {kCentre, radius_m}, read, BestInstructionSet());
+        BuildWholeGeometry(cloud, {testing::kCloudCentre, radius_m}, read, BestInstructionSet());
     EXPECT_EQ(whole.upsampling[0].size(), whole.xyz.size() / 3);
     for (std::size_t l = 0; l < 4; ++l) {
       EXPECT_EQ(whole.levels[l].size(), static_cast<std::size_t>(kSetAbstractions[l].points));
@@ -161,7 +154,7 @@ TEST(LayerStatistics, MoveByATenth) {
   EXPECT_FLOAT_EQ(running.variance[0], 2.05F);
 }
 
-TrainConfig SmallConfig() {
+TrainConfig NormalisedConfig() {
   TrainConfig config;
   config.epochs = 1;
   config.batch_size = 4;
@@ -173,7 +166,7 @@ TrainConfig SmallConfig() {
 TEST(TrainWithBatchNorm, GivesTheSameBitsForAnyNumberOfThreadsAndAnyInterruption) {
   const auto train = testing::MakeSyntheticSamples(1, 12);
   const auto validation = testing::MakeSyntheticSamples(2, 3);
-  const TrainConfig config = SmallConfig();
+  const TrainConfig config = NormalisedConfig();
   TrainHooks one;
   one.threads = 1;
   const TrainerState whole = TrainStage(train.samples, validation.samples, config, one);
@@ -206,7 +199,7 @@ TEST(TrainWithBatchNorm, GivesTheSameBitsForAnyNumberOfThreadsAndAnyInterruption
 
 TEST(TrainWithBatchNorm, RefusesWhatItCannotDo) {
   const auto train = testing::MakeSyntheticSamples(1, 4);
-  TrainConfig config = SmallConfig();
+  TrainConfig config = NormalisedConfig();
   TrainHooks hooks;
   hooks.initial = InitialNetworks(MeasureNormalisation(train.samples), false, 1);
   hooks.initial->normalisation.view.frame = ViewFrame::kHand;

@@ -13,7 +13,7 @@
 namespace doorforge {
 namespace {
 
-Observation SomeObservation() {
+Observation TurnedObservation() {
   const auto made = testing::MakeSyntheticSamples(2, 1);
   Observation observation;
   observation.cloud.xyz = made.clouds.front();
@@ -27,7 +27,7 @@ Observation SomeObservation() {
 // the draws of few: by the same critic more candidates are never worse, and many are better.
 TEST(GainCritic, RatesActionsAsThePolicyThatChoosesAmongThem) {
   const auto made = testing::MakeSyntheticSamples(1, 5);
-  const Observation observation = SomeObservation();
+  const Observation observation = TurnedObservation();
   for (const ViewFrame frame : {ViewFrame::kWorld, ViewFrame::kHand}) {
     NetworkView view;
     view.frame = frame;

@@ -21,7 +21,7 @@
 namespace doorforge::internal {
 namespace {
 
-const Eigen::Vector3d kApproach(-1, 0, 0);
+const Eigen::Vector3d kStraightIn(-1, 0, 0);
 
 TrainConfig Config(double roll_rad, bool mirror) {
   TrainConfig config;
@@ -36,9 +36,9 @@ TEST(GraspAugmentation, TurnsAboutTheWayInAndMirrorsSidewaysAndNothingElse) {
   int mirrored = 0;
   double most = 0;
   for (int i = 0; i < 200; ++i) {
-    const Eigen::Matrix3d a = DrawAugmentation(Config(0.5, true), kApproach, rng);
+    const Eigen::Matrix3d a = DrawAugmentation(Config(0.5, true), kStraightIn, rng);
     EXPECT_LT((a * a.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
-    EXPECT_LT((a * kApproach - kApproach).norm(), 1e-12) << "neither turns the door around";
+    EXPECT_LT((a * kStraightIn - kStraightIn).norm(), 1e-12) << "neither turns the door around";
     // what was up is still up but for the roll
     const double roll = std::acos(std::clamp((a * Eigen::Vector3d::UnitZ()).z(), -1.0, 1.0));
     EXPECT_LE(roll, 0.5 + 1e-12);
@@ -48,8 +48,8 @@ TEST(GraspAugmentation, TurnsAboutTheWayInAndMirrorsSidewaysAndNothingElse) {
   EXPECT_GT(most, 0.45);
   EXPECT_GT(mirrored, 70);
   EXPECT_LT(mirrored, 130);
-  EXPECT_TRUE(DrawAugmentation(Config(0, false), kApproach, rng).isIdentity(0));
-  EXPECT_GT(DrawAugmentation(Config(0.5, false), kApproach, rng).determinant(), 0);
+  EXPECT_TRUE(DrawAugmentation(Config(0, false), kStraightIn, rng).isIdentity(0));
+  EXPECT_GT(DrawAugmentation(Config(0.5, false), kStraightIn, rng).determinant(), 0);
 }
 
 TEST(GraspAugmentation, AGeometryIsThatOfTheAugmentedCloud) {
@@ -72,10 +72,10 @@ TEST(GraspAugmentation, AGeometryIsThatOfTheAugmentedCloud) {
 
 TEST(GraspAugmentation, AHandStaysAHandThatHoldsTheSame) {
   Rng rng(2, "test");
-  const Eigen::Matrix3d hand = SampleOrientations(kApproach, {1, 0.1}, rng).front();
+  const Eigen::Matrix3d hand = SampleOrientations(kStraightIn, {1, 0.1}, rng).front();
   const Eigen::Vector3d contact(0.1, -0.2, 0.3);
   for (int i = 0; i < 20; ++i) {
-    const Eigen::Matrix3d a = DrawAugmentation(Config(0.5, true), kApproach, rng);
+    const Eigen::Matrix3d a = DrawAugmentation(Config(0.5, true), kStraightIn, rng);
     const Action shown = FromVector(Augmented(ToVector({contact, hand}), a));
     const Eigen::Matrix3d& rotation = shown.world_from_hand_rotation;
     EXPECT_NEAR(rotation.determinant(), 1, 1e-5);

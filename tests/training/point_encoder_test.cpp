@@ -15,22 +15,12 @@
 
 #include "device_encoder.h"
 #include "door_cloud.h"
+#include "encoder_checks.h"
 #include "packed_encoder.h"
 #include "reference_network.h"
 
 namespace doorforge {
 namespace {
-
-constexpr std::array<float, 3> kCentre = {0.1F, 0.0F, 1.0F};
-
-std::vector<InstructionSet> SupportedSets() {
-  std::vector<InstructionSet> sets;
-  for (const InstructionSet set :
-       {InstructionSet::kBaseline, InstructionSet::kAvx2, InstructionSet::kAvx512}) {
-    if (IsSupported(set)) sets.push_back(set);
-  }
-  return sets;
-}
 
 struct Net {
   ParameterLayout layout;
@@ -72,17 +62,6 @@ double WorstRelative(std::span<const float> expected, std::span<const float> act
   return worst / scale;
 }
 
-// Length of the difference over the length of what is expected.
-double RelativeDistance(std::span<const float> expected, std::span<const float> actual) {
-  double squared = 0;
-  double difference = 0;
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    squared += static_cast<double>(expected[i]) * expected[i];
-    difference += std::pow(static_cast<double>(expected[i]) - actual[i], 2);
-  }
-  return std::sqrt(difference / std::max(squared, 1e-30));
-}
-
 void ExpectSameGradients(const ParameterLayout& layout, std::span<const float> expected,
                          std::span<const float> actual, double tolerance) {
   for (const DenseLayer& layer : layout.layers()) {
@@ -92,8 +71,9 @@ void ExpectSameGradients(const ParameterLayout& layout, std::span<const float> e
     const auto bias = [&](std::span<const float> all) {
       return all.subspan(layer.bias_offset(), static_cast<std::size_t>(layer.outputs));
     };
-    EXPECT_LT(RelativeDistance(weight(expected), weight(actual)), tolerance) << layer.name;
-    EXPECT_LT(RelativeDistance(bias(expected), bias(actual)), tolerance) << layer.name << " bias";
+    EXPECT_LT(testing::RelativeDistance(weight(expected), weight(actual)), tolerance) << layer.name;
+    EXPECT_LT(testing::RelativeDistance(bias(expected), bias(actual)), tolerance)
+        << layer.name << " bias";
   }
 }
 
@@ -103,12 +83,12 @@ TEST(PointEncoder, GivesTheFeaturesAndGradientsOfStockOperatorsForAllPoints) {
   std::vector<float> wanted = RandomVector(std::size_t{kCloudPoints} * kFeatureSize, "all");
   // all of one sign: the sum is large against the few ReLUs that rounding switches
   for (float& w : wanted) w = std::abs(w);
-  testing::ReferenceNetwork reference(net.layout, net.parameters, {cloud}, kCentre,
+  testing::ReferenceNetwork reference(net.layout, net.parameters, {cloud}, testing::kCloudCentre,
                                       testing::Precision::kDouble);
   const auto expected = reference.Run(wanted);
-  for (const InstructionSet set : SupportedSets()) {
+  for (const InstructionSet set : testing::SupportedSets()) {
     SCOPED_TRACE(NameOf(set));
-    const CloudGeometry geometry = BuildGeometry(cloud, {kCentre}, AllPoints(), set);
+    const CloudGeometry geometry = BuildGeometry(cloud, {testing::kCloudCentre}, AllPoints(), set);
     const PointEncoder encoder(net.layout, "", net.parameters, set);
     const PointEncoder::Trace trace = encoder.Forward(geometry);
     EXPECT_LT(WorstRelative(expected.features, trace.features), 1e-5);
@@ -125,12 +105,12 @@ TEST(PointEncoder, GivesTheFeatureAndGradientOfStockOperatorsForPointZeroAlone) 
   const std::vector<float> wanted = RandomVector(kFeatureSize, "zero");
   std::vector<float> wanted_of_all(std::size_t{kCloudPoints} * kFeatureSize);
   std::copy(wanted.begin(), wanted.end(), wanted_of_all.begin());
-  testing::ReferenceNetwork reference(net.layout, net.parameters, {cloud}, kCentre,
+  testing::ReferenceNetwork reference(net.layout, net.parameters, {cloud}, testing::kCloudCentre,
                                       testing::Precision::kDouble);
   const auto expected = reference.Run(wanted_of_all);
-  for (const InstructionSet set : SupportedSets()) {
+  for (const InstructionSet set : testing::SupportedSets()) {
     SCOPED_TRACE(NameOf(set));
-    const CloudGeometry geometry = BuildGeometry(cloud, {kCentre});
+    const CloudGeometry geometry = BuildGeometry(cloud, {testing::kCloudCentre});
     const PointEncoder encoder(net.layout, "", net.parameters, set);
     const PointEncoder::Trace trace = encoder.Forward(geometry);
     ASSERT_EQ(trace.features.size(), std::size_t{kFeatureSize});
@@ -146,8 +126,8 @@ TEST(PointEncoder, LeavesOutOnlyWhatPointZeroDoesNotDependOn) {
   const std::vector<float> cloud = testing::DoorCloud(7, 0.1);
   const InstructionSet set = BestInstructionSet();
   const PointEncoder encoder(net.layout, "", net.parameters, set);
-  const CloudGeometry all = BuildGeometry(cloud, {kCentre}, AllPoints(), set);
-  const CloudGeometry one = BuildGeometry(cloud, {kCentre});
+  const CloudGeometry all = BuildGeometry(cloud, {testing::kCloudCentre}, AllPoints(), set);
+  const CloudGeometry one = BuildGeometry(cloud, {testing::kCloudCentre});
   EXPECT_EQ(one.upsampling[0].size(), 1U);
   EXPECT_EQ(one.upsampling[1].size(), 3U);
   EXPECT_LE(one.upsampling[2].size(), 9U);
@@ -161,8 +141,9 @@ TEST(PointEncoder, LeavesOutOnlyWhatPointZeroDoesNotDependOn) {
 
 TEST(PointEncoder, ProjectsFirstWhereManyPointsAreInterpolatedFromFew) {
   const std::vector<float> cloud = testing::DoorCloud(7, 0.1);
-  const CloudGeometry all = BuildGeometry(cloud, {kCentre}, AllPoints(), BestInstructionSet());
-  const CloudGeometry one = BuildGeometry(cloud, {kCentre});
+  const CloudGeometry all =
+      BuildGeometry(cloud, {testing::kCloudCentre}, AllPoints(), BestInstructionSet());
+  const CloudGeometry one = BuildGeometry(cloud, {testing::kCloudCentre});
   for (std::size_t l = 0; l < 4; ++l) {
     EXPECT_TRUE(internal::ProjectsFirst(all, l)) << l;
     EXPECT_FALSE(internal::ProjectsFirst(one, l)) << l;
@@ -187,11 +168,11 @@ TEST(PointEncoder, OnAnotherDeviceItIsTheSameNetwork) {
   const std::vector<float> cloud = testing::DoorCloud(1, 0.3);
   std::vector<float> wanted = RandomVector(std::size_t{kCloudPoints} * kFeatureSize, "all");
   for (float& w : wanted) w = std::abs(w);
-  testing::ReferenceNetwork reference(net.layout, net.parameters, {cloud}, kCentre,
+  testing::ReferenceNetwork reference(net.layout, net.parameters, {cloud}, testing::kCloudCentre,
                                       testing::Precision::kDouble);
   const auto expected = reference.Run(wanted);
   const auto geometry = std::make_shared<const CloudGeometry>(
-      BuildGeometry(cloud, {kCentre}, AllPoints(), BestInstructionSet()));
+      BuildGeometry(cloud, {testing::kCloudCentre}, AllPoints(), BestInstructionSet()));
   const auto [features, gradient] = OnDevice(net, {geometry}, wanted);
   ASSERT_EQ(features.size(), expected.features.size());
   for (std::size_t i = 0; i < features.size(); ++i)
@@ -204,8 +185,9 @@ TEST(PointEncoder, OnAnotherDeviceABatchIsTheSumOfItsClouds) {
   internal::Geometries all;
   for (const std::uint64_t seed : {3U, 4U, 5U}) {
     const std::vector<std::uint16_t> outputs = {0, static_cast<std::uint16_t>(seed)};
-    all.push_back(std::make_shared<const CloudGeometry>(BuildGeometry(
-        testing::DoorCloud(seed, 0.2), {kCentre, 50}, outputs, BestInstructionSet())));
+    all.push_back(std::make_shared<const CloudGeometry>(
+        BuildGeometry(testing::DoorCloud(seed, 0.2), {testing::kCloudCentre, 50}, outputs,
+                      BestInstructionSet())));
   }
   constexpr std::size_t kShare = std::size_t{2} * kFeatureSize;
   const std::vector<float> wanted = RandomVector(3 * kShare, "device");
@@ -244,13 +226,13 @@ TEST(PointEncoder, SeesNothingBeyondTheWindow) {
   const PointEncoder encoder(net.layout, "", net.parameters, BestInstructionSet());
   const std::vector<float> cloud = testing::DoorCloud(7, 0.1);
   const auto features = [&](const std::vector<float>& xyz, float radius_m) {
-    return encoder.Forward(BuildGeometry(xyz, {kCentre, radius_m})).features;
+    return encoder.Forward(BuildGeometry(xyz, {testing::kCloudCentre, radius_m})).features;
   };
   constexpr float kRadius = 0.7F;
   const std::size_t inside = PointsWithinOfFirst(cloud, kRadius);
   ASSERT_GT(inside, 1100U);
   ASSERT_LT(inside, 3500U);
-  EXPECT_EQ(BuildGeometry(cloud, {kCentre, kRadius}).xyz.size(), 3 * inside);
+  EXPECT_EQ(BuildGeometry(cloud, {testing::kCloudCentre, kRadius}).xyz.size(), 3 * inside);
   const std::vector<float> moved = WithFarPointsMoved(cloud, kRadius);
   EXPECT_EQ(features(moved, kRadius), features(cloud, kRadius));
   EXPECT_NE(features(moved, 0), features(cloud, 0));
@@ -274,14 +256,17 @@ TEST(PointEncoder, ZoomIsTheSameAsACloudOfALargerThing) {
 
 TEST(PointEncoder, AWindowWithFewPointsHoldsTheNearest) {
   const std::vector<float> cloud = testing::DoorCloud(7, 0.1);
-  const CloudGeometry geometry = BuildGeometry(cloud, {kCentre, 0.01F});
+  const CloudGeometry geometry = BuildGeometry(cloud, {testing::kCloudCentre, 0.01F});
   EXPECT_EQ(geometry.xyz.size(), std::size_t{3} * 1024);
   constexpr std::array<std::uint16_t, 2> kOutputs = {0, 4095};
-  EXPECT_EQ(
-      BuildGeometry(cloud, {kCentre, 50}, kOutputs, BestInstructionSet()).upsampling[0].size(), 2U);
+  EXPECT_EQ(BuildGeometry(cloud, {testing::kCloudCentre, 50}, kOutputs, BestInstructionSet())
+                .upsampling[0]
+                .size(),
+            2U);
   std::vector<float> alone = cloud;
   alone[std::size_t{3} * 4095] += 40;
-  EXPECT_THROW(BuildGeometry(alone, {kCentre, 0.01F}, kOutputs, BestInstructionSet()), Error);
+  EXPECT_THROW(BuildGeometry(alone, {testing::kCloudCentre, 0.01F}, kOutputs, BestInstructionSet()),
+               Error);
 }
 
 TEST(PointEncoder, GivesTheSameBitsWithEveryFusingInstructionSet) {
@@ -292,7 +277,7 @@ TEST(PointEncoder, GivesTheSameBitsWithEveryFusingInstructionSet) {
   std::vector<std::vector<float>> gradients;
   for (const InstructionSet set : {InstructionSet::kAvx2, InstructionSet::kAvx512}) {
     constexpr std::array<std::uint16_t, 1> kPointZero = {0};
-    const CloudGeometry geometry = BuildGeometry(cloud, {kCentre}, kPointZero, set);
+    const CloudGeometry geometry = BuildGeometry(cloud, {testing::kCloudCentre}, kPointZero, set);
     const PointEncoder encoder(net.layout, "", net.parameters, set);
     gradients.emplace_back(net.parameters.size());
     encoder.AddGradient(geometry, encoder.Forward(geometry), wanted, gradients.back());
@@ -303,7 +288,7 @@ TEST(PointEncoder, GivesTheSameBitsWithEveryFusingInstructionSet) {
 TEST(PointEncoder, AgreesWithFiniteDifferences) {
   Net net;
   const std::vector<float> cloud = testing::DoorCloud(3, 0.5);
-  const CloudGeometry geometry = BuildGeometry(cloud, {kCentre});
+  const CloudGeometry geometry = BuildGeometry(cloud, {testing::kCloudCentre});
   const std::vector<float> wanted = RandomVector(kFeatureSize, "differences");
   const auto value = [&] {
     const PointEncoder encoder(net.layout, "", net.parameters, BestInstructionSet());

@@ -11,17 +11,10 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/rng.h"
 
+#include "encoder_checks.h"
+
 namespace doorforge {
 namespace {
-
-std::vector<InstructionSet> SupportedSets() {
-  std::vector<InstructionSet> sets;
-  for (const InstructionSet set :
-       {InstructionSet::kBaseline, InstructionSet::kAvx2, InstructionSet::kAvx512}) {
-    if (IsSupported(set)) sets.push_back(set);
-  }
-  return sets;
-}
 
 // Points on a coarse grid: many equal distances, and a count that fills no vector register.
 PointColumns GridPoints(std::size_t count) {
@@ -51,7 +44,7 @@ TEST(PointOperators, FarthestPointsFollowTheDefinitionWithTiesToTheLowestIndex) 
     }
     expected.push_back(static_cast<std::uint16_t>(best));
   }
-  for (const InstructionSet set : SupportedSets())
+  for (const InstructionSet set : testing::SupportedSets())
     EXPECT_EQ(FarthestPoints(points, 300, set), expected) << NameOf(set);
 }
 
@@ -66,7 +59,7 @@ TEST(PointOperators, FarthestPointsOfALineHalveIt) {
 
 TEST(PointOperators, BallsHoldTheFirstPointsStrictlyInside) {
   const PointColumns points = GridPoints(701);
-  for (const InstructionSet set : SupportedSets()) {
+  for (const InstructionSet set : testing::SupportedSets()) {
     for (std::size_t c = 0; c < 50; ++c) {
       std::vector<std::uint16_t> expected;
       for (std::size_t i = 0; i < points.size() && expected.size() < 32; ++i) {

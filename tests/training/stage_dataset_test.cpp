@@ -81,14 +81,14 @@ testing::SyntheticSamples WriteDataset(const fs::path& folder, const std::string
   return made;
 }
 
-fs::path EmptyFolder(const std::string& name) {
+fs::path EmptyDataset(const std::string& name) {
   const fs::path folder = fs::path(::testing::TempDir()) / ("doorforge_dataset_" + name);
   fs::remove_all(folder);
   return folder;
 }
 
 TEST(StageDataset, HoldsTheDecisionsOfTheShards) {
-  const fs::path folder = EmptyFolder("read");
+  const fs::path folder = EmptyDataset("read");
   const auto made = WriteDataset(folder, "train", 4);
   const StageDataset dataset = ReadStageDataset({{folder}}, "open", 0.25);
   ASSERT_EQ(dataset.train.size(), 9U);
@@ -111,7 +111,7 @@ TEST(StageDataset, HoldsTheDecisionsOfTheShards) {
 }
 
 TEST(StageDataset, SaysOfTheHandlesDecisionsWhichTurnedIt) {
-  const fs::path folder = EmptyFolder("turned");
+  const fs::path folder = EmptyDataset("turned");
   WriteDataset(folder, "train", 4, 0, "handle");
   const StageDataset dataset = ReadStageDataset({{folder}}, "handle", 0.25);
   ASSERT_EQ(dataset.turned_train.size(), 9U);
@@ -121,7 +121,7 @@ TEST(StageDataset, SaysOfTheHandlesDecisionsWhichTurnedIt) {
   const TurnedExample& example = dataset.turned_train[4];  // episode 1, decision 1
   EXPECT_NEAR(example.motion[6], 0.04F, 1e-6);             // the hand's way along x
   EXPECT_NEAR(example.motion[9], 0.04F + dataset.train[4].executed[0], 1e-6);
-  const fs::path other = EmptyFolder("not_turned");
+  const fs::path other = EmptyDataset("not_turned");
   WriteDataset(other, "train", 4);
   EXPECT_TRUE(ReadStageDataset({{other}}, "open", 0.25).turned_train.empty());
 }
@@ -129,7 +129,7 @@ TEST(StageDataset, SaysOfTheHandlesDecisionsWhichTurnedIt) {
 // One episode with three decisions, the last of which brought the handle to 34 degrees and back,
 // and whose rewards are no angles.
 std::vector<bool> TurnedOf(EpisodeOutcome outcome, double simulated_s) {
-  const fs::path folder = EmptyFolder("rewarded");
+  const fs::path folder = EmptyDataset("rewarded");
   ShardWriter writer(folder / "handle" / "train", {0, "handle", "train", "config"});
   Episode episode;
   episode.outcome = outcome;
@@ -164,7 +164,7 @@ TEST(StageDataset, WhetherAHandleIsTurnedIsNotReadFromTheReward) {
 }
 
 TEST(StageDataset, UsesTheSplitForValidationWhereThereIsOne) {
-  const fs::path folder = EmptyFolder("val");
+  const fs::path folder = EmptyDataset("val");
   WriteDataset(folder, "train", 2);
   const std::string alone = ReadStageDataset({{folder}}, "open", 0).content_sha256;
   WriteDataset(folder, "val", 3);
@@ -176,8 +176,8 @@ TEST(StageDataset, UsesTheSplitForValidationWhereThereIsOne) {
 }
 
 TEST(StageDataset, HoldsSeveralDataSetsInTheirOrder) {
-  const fs::path first = EmptyFolder("first");
-  const fs::path second = EmptyFolder("second");
+  const fs::path first = EmptyDataset("first");
+  const fs::path second = EmptyDataset("second");
   const auto made = WriteDataset(first, "train", 4);
   WriteDataset(second, "train", 2);
   const StageDataset dataset = ReadStageDataset({{second, first}}, "open", 0.5);
@@ -200,7 +200,7 @@ int RunTrain(const std::string& arguments, const std::string& variables = {}) {
 }
 
 TEST(TrainProgram, ResumesToTheBytesOfAnUninterruptedRun) {
-  const fs::path folder = EmptyFolder("program");
+  const fs::path folder = EmptyDataset("program");
   WriteDataset(folder / "data", "train", 4);
   const std::string common = "--data " + (folder / "data").string() +
                              " --epochs 2 --set batch_size=4 --set warmup_steps=1 --seed 5 --out ";
@@ -221,7 +221,7 @@ TEST(TrainProgram, ResumesToTheBytesOfAnUninterruptedRun) {
 }
 
 TEST(TrainProgram, KeepsTheBestBesideTheLast) {
-  const fs::path folder = EmptyFolder("best");
+  const fs::path folder = EmptyDataset("best");
   WriteDataset(folder / "data", "train", 6);
   const std::string out = (folder / "out").string();
   const std::string common = "--data " + (folder / "data").string() +
@@ -252,7 +252,7 @@ TEST(TrainProgram, KeepsTheBestBesideTheLast) {
 }
 
 TEST(TrainProgram, WritesWhatTellsForeignPicturesAndResumingAddsItWhereItIsMissing) {
-  const fs::path folder = EmptyFolder("familiar");
+  const fs::path folder = EmptyDataset("familiar");
   WriteDataset(folder / "data", "train", 8);
   const fs::path out = folder / "out";
   const std::string common = "--data " + (folder / "data").string() +
@@ -275,7 +275,7 @@ TEST(TrainProgram, WritesWhatTellsForeignPicturesAndResumingAddsItWhereItIsMissi
 }
 
 TEST(TrainProgram, TwoProcessesEndInTheBytesOfOne) {
-  const fs::path folder = EmptyFolder("nodes");
+  const fs::path folder = EmptyDataset("nodes");
   WriteDataset(folder / "data", "train", 4);
   const auto arguments = [&](const char* out) {
     return "--data " + (folder / "data").string() +
@@ -310,7 +310,7 @@ void ExpectRefusal(const std::string& arguments, const std::string& reason) {
 }
 
 TEST(TrainProgram, RefusesShardsOfAnotherStageOrVersion) {
-  const fs::path folder = EmptyFolder("other");
+  const fs::path folder = EmptyDataset("other");
   const std::string data = (folder / "data").string();
   const std::string common = " --data " + data + " --out " + (folder / "out").string();
   WriteDataset(data, "train", 2);
@@ -329,7 +329,7 @@ TEST(TrainProgram, RefusesShardsOfAnotherStageOrVersion) {
 }
 
 TEST(TrainProgram, NamesACorruptShardInTheMiddleAndKeepsTheCheckpoint) {
-  const fs::path folder = EmptyFolder("corrupt");
+  const fs::path folder = EmptyDataset("corrupt");
   for (int shard = 0; shard < 3; ++shard) WriteDataset(folder / "data", "train", 1, shard);
   const std::string out = (folder / "out").string();
   const std::string arguments = "open --data " + (folder / "data").string() +
@@ -352,7 +352,7 @@ TEST(TrainProgram, NamesACorruptShardInTheMiddleAndKeepsTheCheckpoint) {
 
 // Writers refuse such numbers; a foreign one might not.
 TEST(TrainProgram, NamesTheEpisodeWithANumberThatIsNone) {
-  const fs::path folder = EmptyFolder("nan");
+  const fs::path folder = EmptyDataset("nan");
   const auto made = testing::MakeSyntheticSamples(11, 1);
   Episode episode;
   Decision& decision = episode.decisions.emplace_back();
@@ -373,7 +373,7 @@ TEST(TrainProgram, NamesTheEpisodeWithANumberThatIsNone) {
 }
 
 TEST(TrainProgram, ALossThatIsNoNumberEndsTheRunAndTheLastGoodPolicyIsKept) {
-  const fs::path folder = EmptyFolder("diverged");
+  const fs::path folder = EmptyDataset("diverged");
   WriteDataset(folder / "data", "train", 4);
   const fs::path out = folder / "out";
   TrainConfig config;
@@ -408,7 +408,7 @@ TEST(TrainProgram, ALossThatIsNoNumberEndsTheRunAndTheLastGoodPolicyIsKept) {
 }
 
 TEST(TrainProgram, ARefusalToGoOnNamesTheSettingsThatDifferAndTheWaysOut) {
-  const fs::path folder = EmptyFolder("other_settings");
+  const fs::path folder = EmptyDataset("other_settings");
   WriteDataset(folder / "data", "train", 4);
   WriteDataset(folder / "more", "train", 5);
   const std::string out = (folder / "out").string();
@@ -438,7 +438,7 @@ TEST(TrainProgram, ARefusalToGoOnNamesTheSettingsThatDifferAndTheWaysOut) {
 }
 
 TEST(TrainProgram, RefusesAbsurdPlacesInAGroup) {
-  const fs::path folder = EmptyFolder("places");
+  const fs::path folder = EmptyDataset("places");
   fs::create_directories(folder);
   const std::string use = "--nodes --data " + folder.string() + " --out " + (folder / "o").string();
   const std::string place = "MASTER_ADDR=127.0.0.1 MASTER_PORT=29538 ";
@@ -449,7 +449,7 @@ TEST(TrainProgram, RefusesAbsurdPlacesInAGroup) {
 }
 
 TEST(TrainProgram, RefusesWrongUse) {
-  const fs::path folder = EmptyFolder("use");
+  const fs::path folder = EmptyDataset("use");
   fs::create_directories(folder);
   EXPECT_EQ(RunTrain("--out x"), 2);
   EXPECT_EQ(RunTrain("--data " + folder.string() + " --out " + (folder / "o").string()), 3);

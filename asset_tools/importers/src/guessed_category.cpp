@@ -18,7 +18,7 @@ struct CategoryWords {
 };
 
 // In the order in which they tell: a cabinet has doors, too.
-const std::vector<CategoryWords>& Words() {
+const std::vector<CategoryWords>& KnownCategories() {
   static const std::vector<CategoryWords> words = {
       {Category::kRefrigerator, {"fridge", "refrigerator", "freezer"}},
       {Category::kWindow, {"window", "casement"}},
@@ -53,7 +53,7 @@ std::vector<std::string> TokensOf(const std::string& name) {
 }  // namespace
 
 std::optional<GuessedCategory> CategoryByName(std::span<const std::string> names) {
-  for (const CategoryWords& known : Words()) {
+  for (const CategoryWords& known : KnownCategories()) {
     for (const std::string& name : names) {
       for (const std::string& token : TokensOf(name)) {
         if (known.words.contains(token))

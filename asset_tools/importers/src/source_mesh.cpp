@@ -52,7 +52,7 @@ TriangleMesh Moved(TriangleMesh mesh, const Eigen::Affine3d& to_from_mesh) {
   return mesh;
 }
 
-ImportedMesh Import(const SourceMesh& source) {
+ImportedMesh ImportedFrom(const SourceMesh& source) {
   if (source.file.empty()) {
     ImportedPiece solid;
     solid.mesh = source.solid;
@@ -86,7 +86,7 @@ RawPiece LoadPiece(const std::vector<SourceMesh>& meshes, const std::string& nam
   RawPiece piece;
   for (const SourceMesh& mesh : meshes) {
     if (mesh.piece != name) continue;
-    const ImportedMesh imported = Import(mesh);
+    const ImportedMesh imported = ImportedFrom(mesh);
     ColoredMesh loaded = Load(mesh, imported);
     authored.Add(imported, mesh.part_from_raw, mesh.color_rgba);
     for (const std::string& note : imported.notes)
@@ -119,7 +119,7 @@ void Add(Json& json, const Eigen::Vector3d& value) {
 
 }  // namespace
 
-TriangleMesh LoadMesh(const SourceMesh& mesh) { return Load(mesh, Import(mesh)).mesh; }
+TriangleMesh LoadMesh(const SourceMesh& mesh) { return Load(mesh, ImportedFrom(mesh)).mesh; }
 
 std::vector<RawPiece> LoadPieces(const std::vector<SourceMesh>& meshes) {
   std::vector<RawPiece> pieces;

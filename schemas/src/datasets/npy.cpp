@@ -15,14 +15,14 @@ namespace {
 static_assert(std::endian::native == std::endian::little,
               "arrays are written as they lie in memory");
 
-constexpr std::string_view kMagic("\x93NUMPY\x01\x00", 8);
+constexpr std::string_view kNpyMagic("\x93NUMPY\x01\x00", 8);
 constexpr std::size_t kAlignment = 64;  // of the data, in NumPy's own files too
 
 struct ElementType {
   std::string_view name;
   std::size_t size;
 };
-constexpr std::array<ElementType, 6> kTypes = {
+constexpr std::array<ElementType, 6> kElementTypes = {
     {{"<f4", 4}, {"<f8", 8}, {"<i8", 8}, {"<u2", 2}, {"|i1", 1}, {"|u1", 1}}};
 
 // The dictionary in the header as Python writes it, with its keys in this order.
@@ -80,7 +80,7 @@ class HeaderText {
 };
 
 std::size_t ElementSize(std::string_view type, const std::string& path) {
-  for (const ElementType& known : kTypes) {
+  for (const ElementType& known : kElementTypes) {
     if (known.name == type) return known.size;
   }
   throw Error(ErrorCode::kFormat, path + ": element type " + std::string(type) +
@@ -110,11 +110,11 @@ std::string ShapeText(const std::vector<std::size_t>& shape) {
 std::string MakeNpyHeader(std::string_view type, const std::vector<std::size_t>& shape) {
   std::string dictionary = "{'descr': '" + std::string(type) +
                            "', 'fortran_order': False, 'shape': " + ShapeText(shape) + ", }";
-  const std::size_t unpadded = kMagic.size() + 2 + dictionary.size() + 1;
+  const std::size_t unpadded = kNpyMagic.size() + 2 + dictionary.size() + 1;
   dictionary.append((kAlignment - unpadded % kAlignment) % kAlignment, ' ');
   dictionary += '\n';
   Require(dictionary.size() <= 0xFFFF, ErrorCode::kInvalidArgument, "npy: shape is too long");
-  std::string header(kMagic);
+  std::string header(kNpyMagic);
   header += static_cast<char>(dictionary.size() & 0xFFU);
   header += static_cast<char>(dictionary.size() >> 8);
   return header + dictionary;
@@ -122,9 +122,9 @@ std::string MakeNpyHeader(std::string_view type, const std::vector<std::size_t>&
 
 NpyHeader ParseNpyHeader(std::span<const std::byte> bytes, const std::string& path) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (!text.starts_with(kMagic) || text.size() < kMagic.size() + 2)
+  if (!text.starts_with(kNpyMagic) || text.size() < kNpyMagic.size() + 2)
     throw Error(ErrorCode::kFormat, path + ": not an .npy file of version 1.0");
-  const std::size_t start = kMagic.size() + 2;
+  const std::size_t start = kNpyMagic.size() + 2;
   const std::size_t length =
       static_cast<unsigned char>(text[8]) + 256U * static_cast<unsigned char>(text[9]);
   if (text.size() < start + length)

@@ -25,7 +25,7 @@ constexpr std::size_t kMostJsonBytes = 64ULL << 20U;
 constexpr std::size_t kMostLinks = 2000;
 constexpr int kDeepestNode = 64;
 constexpr std::uint64_t kMostTriangles = 5'000'000;
-constexpr std::uint32_t kMagic = 0x46546C67;
+constexpr std::uint32_t kGlbMagic = 0x46546C67;
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
 constexpr std::uint32_t kBinaryChunk = 0x004E4942;
 constexpr std::size_t kHeaderBytes = 12;
@@ -43,29 +43,29 @@ struct Chunks {
   std::string_view binary;
 };
 
-[[noreturn]] void Refuse(const std::string& name, const std::string& problem) {
+[[noreturn]] void RefuseGlb(const std::string& name, const std::string& problem) {
   throw Error(ErrorCode::kFormat, name + ": " + problem);
 }
 
 Chunks ChunksOf(std::string_view bytes, const std::string& name) {
-  if (bytes.size() < kHeaderBytes + kChunkHeaderBytes || NumberAt(bytes, 0) != kMagic)
-    Refuse(name, "is no binary glTF");
+  if (bytes.size() < kHeaderBytes + kChunkHeaderBytes || NumberAt(bytes, 0) != kGlbMagic)
+    RefuseGlb(name, "is no binary glTF");
   if (NumberAt(bytes, 4) != 2)
-    Refuse(name, "glTF version " + std::to_string(NumberAt(bytes, 4)) + ", read is version 2");
+    RefuseGlb(name, "glTF version " + std::to_string(NumberAt(bytes, 4)) + ", read is version 2");
   Chunks chunks;
   std::size_t at = kHeaderBytes;
   while (at + kChunkHeaderBytes <= bytes.size()) {
     const std::size_t length = NumberAt(bytes, at);
     const std::uint32_t type = NumberAt(bytes, at + 4);
     at += kChunkHeaderBytes;
-    if (length > bytes.size() - at) Refuse(name, "a chunk is longer than the file");
+    if (length > bytes.size() - at) RefuseGlb(name, "a chunk is longer than the file");
     const std::string_view chunk = bytes.substr(at, length);
     if (type == kJsonChunk && chunks.json.empty()) chunks.json = chunk;
     if (type == kBinaryChunk && chunks.binary.empty()) chunks.binary = chunk;
     at += length;
   }
-  if (chunks.json.empty()) Refuse(name, "has no chunk of JSON");
-  if (chunks.json.size() > kMostJsonBytes) Refuse(name, "has more than 64 MiB of JSON");
+  if (chunks.json.empty()) RefuseGlb(name, "has no chunk of JSON");
+  if (chunks.json.size() > kMostJsonBytes) RefuseGlb(name, "has more than 64 MiB of JSON");
   return chunks;
 }
 
@@ -108,7 +108,7 @@ class GlbModel {
   };
 
   [[noreturn]] void Fail(const std::string& pointer, const std::string& problem) const {
-    Refuse(name_, pointer + ": " + problem);
+    RefuseGlb(name_, pointer + ": " + problem);
   }
 
   const Json& List(const char* key) const {
@@ -406,7 +406,8 @@ bool HasLinks(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::string head(kHeaderBytes + kChunkHeaderBytes, '\0');
   if (!file.read(head.data(), static_cast<std::streamsize>(head.size()))) return false;
-  if (NumberAt(head, 0) != kMagic || NumberAt(head, kHeaderBytes + 4) != kJsonChunk) return false;
+  if (NumberAt(head, 0) != kGlbMagic || NumberAt(head, kHeaderBytes + 4) != kJsonChunk)
+    return false;
   const std::size_t length = NumberAt(head, kHeaderBytes);
   if (length > kMostJsonBytes) return false;
   std::string json(length, '\0');
@@ -421,7 +422,7 @@ UrdfModel ParseGlb(std::string_view bytes, const std::string& name) {
   try {
     return GlbModel(bytes, name).Read();
   } catch (const nlohmann::json::exception& error) {
-    Refuse(name, error.what());
+    RefuseGlb(name, error.what());
   }
 }
 

@@ -22,7 +22,7 @@ using internal::Json;
 constexpr const char* kPoolSchema = "doorforge.mesh_pool";
 constexpr const char* kShapeSchema = "doorforge.shape";
 constexpr std::size_t kDigitsInName = 20;
-constexpr std::uint64_t kMaxFileBytes = 1ULL << 30;
+constexpr std::uint64_t kMaxPooledBytes = 1ULL << 30;
 
 bool IsHash(const std::string& text) {
   return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
@@ -118,7 +118,7 @@ fs::path MeshPool::MeshFile(const std::string& sha256) const { return FileOf(sha
 
 std::string MeshPool::Read(const std::string& sha256, const std::string& extension) const {
   const fs::path file = FileOf(sha256, extension);
-  std::string text = ReadFile(file, kMaxFileBytes);
+  std::string text = ReadFile(file, kMaxPooledBytes);
   const std::string found = Sha256Hex(text);
   if (found != sha256)
     throw Error(ErrorCode::kFormat, file.string() + ": SHA-256 " + found.substr(0, 12) +

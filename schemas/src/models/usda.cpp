@@ -25,7 +25,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kUnlimited = 1e30;
 constexpr const char* kWorld = "world";
 
-std::string WordOf(double number) {
+std::string UsdaWordOf(double number) {
   char digits[32];
   return {digits, std::to_chars(digits, digits + sizeof digits, number + 0.0).ptr};
 }
@@ -253,7 +253,7 @@ class UsdaModelReader {
         Vector(prim, "physics:diagonalInertia", Eigen::Vector3d::Zero());
     if (moments.isZero(0)) return std::nullopt;
     if (*mass < 0)
-      Fail(prim, "physics:mass " + WordOf(*mass) + ", allowed are masses above 0",
+      Fail(prim, "physics:mass " + UsdaWordOf(*mass) + ", allowed are masses above 0",
            UrdfFaultKind::kWrong);
     MassProperties read;
     read.mass_kg = *mass;
@@ -529,7 +529,7 @@ class UsdaModelReader {
         const UsdaValue& value = property.value;
         std::string word;
         if (!value.texts.empty()) word = value.texts[0];
-        if (!value.numbers.empty()) word = WordOf(value.numbers[0]);
+        if (!value.numbers.empty()) word = UsdaWordOf(value.numbers[0]);
         model_.words[(latch ? "latch_" : "door_") + SnakeCase(name)] = word;
       }
     }

@@ -17,7 +17,6 @@
 namespace doorforge::internal {
 namespace {
 
-using torch::Tensor;
 using Indices = std::vector<std::int64_t>;
 
 constexpr std::int64_t kBall = 32;  // members of a ball, padded
@@ -91,7 +90,7 @@ struct Place {
 };
 
 template <class T>
-Tensor Rows(const std::vector<T>& values, std::int64_t columns, const Place& place) {
+torch::Tensor Rows(const std::vector<T>& values, std::int64_t columns, const Place& place) {
   constexpr bool kReal = std::is_same_v<T, float>;
   return torch::from_blob(const_cast<T*>(values.data()),
                           {static_cast<std::int64_t>(values.size()) / columns, columns},
@@ -99,7 +98,9 @@ Tensor Rows(const std::vector<T>& values, std::int64_t columns, const Place& pla
       .to(place.device, kReal ? place.real : torch::kInt64, /*non_blocking=*/false, /*copy=*/true);
 }
 
-Tensor Here(const Tensor& tensor) { return tensor.to(torch::kCPU, torch::kFloat32).contiguous(); }
+torch::Tensor Here(const torch::Tensor& tensor) {
+  return tensor.to(torch::kCPU, torch::kFloat32).contiguous();
+}
 
 std::string LayerName(const char* kind, std::size_t level, int i) {
   return kind + std::to_string(level + 1) + "." + std::to_string(i);
@@ -125,13 +126,13 @@ void RequireDevice(const std::string& device) {
 struct DeviceEncoder::Network {
   const ParameterLayout* layout;
   Place place;
-  std::vector<Tensor> weights;  // of the encoder's layers, others undefined
-  std::vector<Tensor> biases;
-  std::vector<Tensor> means;      // of the batch, of each normalised layer, others undefined
-  std::vector<Tensor> variances;  // unbiased
-  Tensor features;
+  std::vector<torch::Tensor> weights;  // of the encoder's layers, others undefined
+  std::vector<torch::Tensor> biases;
+  std::vector<torch::Tensor> means;      // of the batch, of each normalised layer, others undefined
+  std::vector<torch::Tensor> variances;  // unbiased
+  torch::Tensor features;
 
-  Tensor Dense(const std::string& name, const Tensor& x) const {
+  torch::Tensor Dense(const std::string& name, const torch::Tensor& x) const {
     const std::vector<DenseLayer>& layers = layout->layers();
     for (std::size_t i = 0; i < layers.size(); ++i) {
       if (layers[i].name != "encoder." + name) continue;
@@ -146,37 +147,37 @@ struct DeviceEncoder::Network {
     throw Error(ErrorCode::kInvalidArgument, "no layer \"" + name + "\" in this network");
   }
 
-  Tensor Abstract(const JoinedGeometry& joined, std::size_t l, const Tensor& xyz,
-                  const Tensor& feature) const {
-    const Tensor ball = Rows(joined.ball[l], 1, place).view(-1);
-    const Tensor centre = Rows(joined.centre[l], 3, place).repeat_interleave(kBall, 0);
-    Tensor rows =
+  torch::Tensor Abstract(const JoinedGeometry& joined, std::size_t l, const torch::Tensor& xyz,
+                         const torch::Tensor& feature) const {
+    const torch::Tensor ball = Rows(joined.ball[l], 1, place).view(-1);
+    const torch::Tensor centre = Rows(joined.centre[l], 3, place).repeat_interleave(kBall, 0);
+    torch::Tensor rows =
         torch::cat({xyz.index_select(0, ball) - centre, feature.index_select(0, ball)}, 1);
     for (int i = 0; i < 3; ++i) rows = Dense(LayerName("sa", l, i), rows);
     return rows.view({-1, kBall, rows.size(1)}).amax(1);
   }
 
-  Tensor Propagate(const JoinedGeometry& joined, std::size_t l, const Tensor& coarse,
-                   const Tensor& own) const {
-    const Tensor neighbour = Rows(joined.neighbour[l], 1, place).view(-1);
-    const Tensor weight = Rows(joined.weight[l], 3, place).view({-1, 3, 1});
-    const Tensor near = coarse.index_select(0, neighbour).view({-1, 3, coarse.size(1)});
-    const Tensor skip = Rows(joined.skip[l], 1, place).view(-1);
-    Tensor rows = torch::cat({(near * weight).sum(1), own.index_select(0, skip)}, 1);
+  torch::Tensor Propagate(const JoinedGeometry& joined, std::size_t l, const torch::Tensor& coarse,
+                          const torch::Tensor& own) const {
+    const torch::Tensor neighbour = Rows(joined.neighbour[l], 1, place).view(-1);
+    const torch::Tensor weight = Rows(joined.weight[l], 3, place).view({-1, 3, 1});
+    const torch::Tensor near = coarse.index_select(0, neighbour).view({-1, 3, coarse.size(1)});
+    const torch::Tensor skip = Rows(joined.skip[l], 1, place).view(-1);
+    torch::Tensor rows = torch::cat({(near * weight).sum(1), own.index_select(0, skip)}, 1);
     for (int i = 0; i < (l == 0 ? 3 : 2); ++i) rows = Dense(LayerName("fp", l, i), rows);
     return rows;
   }
 
-  Tensor Forward(const JoinedGeometry& joined) const {
-    Tensor xyz = Rows(joined.xyz, 3, place);
-    std::array<Tensor, 5> feature{xyz};
+  torch::Tensor Forward(const JoinedGeometry& joined) const {
+    torch::Tensor xyz = Rows(joined.xyz, 3, place);
+    std::array<torch::Tensor, 5> feature{xyz};
     for (std::size_t l = 0; l < 4; ++l) {
       feature[l + 1] = Abstract(joined, l, xyz, feature[l]);
       xyz = Rows(joined.centre[l], 3, place);
     }
-    Tensor up = feature[4];
+    torch::Tensor up = feature[4];
     for (std::size_t l = 4; l-- > 0;) up = Propagate(joined, l, up, feature[l]);
-    const Tensor read = Rows(joined.read, 1, place).view(-1);
+    const torch::Tensor read = Rows(joined.read, 1, place).view(-1);
     return Dense("head", up).index_select(0, read);
   }
 };
@@ -198,14 +199,15 @@ DeviceEncoder::DeviceEncoder(const ParameterLayout& layout, std::span<const floa
     const float* data = parameters.data();
     const std::vector<float> weight(data + layer.offset, data + layer.bias_offset());
     const std::vector<float> bias(data + layer.bias_offset(), data + layer.end());
-    const auto leaf = [&](const Tensor& tensor) { return tensor.set_requires_grad(true); };
+    const auto leaf = [&](const torch::Tensor& tensor) { return tensor.set_requires_grad(true); };
     network_->weights.push_back(ours ? leaf(Rows(weight, layer.inputs, network_->place))
-                                     : Tensor());
+                                     : torch::Tensor());
     network_->biases.push_back(
-        ours ? leaf(Rows(bias, layer.outputs, network_->place).view(-1).detach()) : Tensor());
+        ours ? leaf(Rows(bias, layer.outputs, network_->place).view(-1).detach())
+             : torch::Tensor());
     const auto statistic = [&] {
       return NormBehind(layout, i) == nullptr
-                 ? Tensor()
+                 ? torch::Tensor()
                  : Rows(std::vector<float>(bias.size()), layer.outputs, network_->place).view(-1);
     };
     network_->means.push_back(statistic());
@@ -218,26 +220,26 @@ DeviceEncoder::DeviceEncoder(DeviceEncoder&&) noexcept = default;
 DeviceEncoder& DeviceEncoder::operator=(DeviceEncoder&&) noexcept = default;
 
 std::vector<float> DeviceEncoder::Forward(const Geometries& geometries, bool for_gradient) {
-  network_->features = Tensor();
+  network_->features = torch::Tensor();
   if (geometries.empty()) return {};
   JoinedGeometry joined;
   for (const auto& geometry : geometries) Append(*geometry, joined);
   const at::AutoGradMode mode(for_gradient);
-  const Tensor features = network_->Forward(joined);
+  const torch::Tensor features = network_->Forward(joined);
   if (for_gradient) network_->features = features;
-  const Tensor here = Here(features.detach());
+  const torch::Tensor here = Here(features.detach());
   return {here.data_ptr<float>(), here.data_ptr<float>() + here.numel()};
 }
 
 LayerStatistics DeviceEncoder::Statistics() const {
   LayerStatistics statistics;
-  const auto append = [](const Tensor& tensor, std::vector<float>& out) {
+  const auto append = [](const torch::Tensor& tensor, std::vector<float>& out) {
     if (!tensor.defined()) return;
-    const Tensor here = Here(tensor);
+    const torch::Tensor here = Here(tensor);
     out.insert(out.end(), here.data_ptr<float>(), here.data_ptr<float>() + here.numel());
   };
-  for (const Tensor& mean : network_->means) append(mean, statistics.mean);
-  for (const Tensor& variance : network_->variances) append(variance, statistics.variance);
+  for (const torch::Tensor& mean : network_->means) append(mean, statistics.mean);
+  for (const torch::Tensor& variance : network_->variances) append(variance, statistics.variance);
   return statistics;
 }
 
@@ -246,9 +248,9 @@ void DeviceEncoder::AddGradient(std::span<const float> feature_gradient,
   if (!network_->features.defined()) return;
   const std::vector<float> wanted(feature_gradient.begin(), feature_gradient.end());
   network_->features.backward(Rows(wanted, kFeatureSize, network_->place));
-  const auto add = [&](const Tensor& tensor, std::size_t offset) {
+  const auto add = [&](const torch::Tensor& tensor, std::size_t offset) {
     if (!tensor.defined() || !tensor.grad().defined()) return;
-    const Tensor here = Here(tensor.grad());
+    const torch::Tensor here = Here(tensor.grad());
     const float* from = here.data_ptr<float>();
     for (std::int64_t i = 0; i < here.numel(); ++i)
       gradient[offset + static_cast<std::size_t>(i)] += from[i];

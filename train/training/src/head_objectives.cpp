@@ -15,30 +15,28 @@
 namespace doorforge::internal {
 namespace {
 
-using torch::Tensor;
-
 constexpr double kLeakySlope = 0.01;
 constexpr std::int64_t kNearFeatures = 128;
 
-Tensor View(const std::vector<float>& values, std::int64_t columns) {
+torch::Tensor View(const std::vector<float>& values, std::int64_t columns) {
   return torch::from_blob(const_cast<float*>(values.data()),
                           {static_cast<std::int64_t>(values.size()) / columns, columns});
 }
 
 template <std::size_t N>
-Tensor Row(const std::array<float, N>& values) {
+torch::Tensor Row(const std::array<float, N>& values) {
   return torch::from_blob(const_cast<float*>(values.data()), {1, static_cast<std::int64_t>(N)})
       .clone();
 }
 
 template <std::size_t N>
-Tensor Denormalise(const Normaliser<N>& normaliser, const Tensor& value) {
+torch::Tensor Denormalise(const Normaliser<N>& normaliser, const torch::Tensor& value) {
   return value * Row(normaliser.deviation) + Row(normaliser.mean);
 }
 
 enum class Activation { kNone, kLeaky, kRectified };
 
-Tensor Activate(Activation activation, const Tensor& x) {
+torch::Tensor Activate(Activation activation, const torch::Tensor& x) {
   if (activation == Activation::kLeaky) return torch::leaky_relu(x, kLeakySlope);
   return activation == Activation::kRectified ? torch::relu(x) : x;
 }
@@ -58,7 +56,7 @@ class HeadParameters {
     }
   }
 
-  Tensor Dense(const std::string& name, const Tensor& x) const {
+  torch::Tensor Dense(const std::string& name, const torch::Tensor& x) const {
     for (std::size_t i = 0; i < weights_.size(); ++i) {
       if (layout_.layers()[i].name == name) return torch::addmm(biases_[i], x, weights_[i].t());
     }
@@ -66,16 +64,17 @@ class HeadParameters {
   }
 
   // "<name>.0", "<name>.1", "<name>.2" with the activation between them.
-  Tensor Branch(const std::string& name, Activation activation, const Tensor& x) const {
-    const Tensor first = Activate(activation, Dense(name + ".0", x));
-    const Tensor second = Activate(activation, Dense(name + ".1", first));
+  torch::Tensor Branch(const std::string& name, Activation activation,
+                       const torch::Tensor& x) const {
+    const torch::Tensor first = Activate(activation, Dense(name + ".0", x));
+    const torch::Tensor second = Activate(activation, Dense(name + ".1", first));
     return Dense(name + ".2", second);
   }
 
   void AddGradient(std::span<float> gradient) const {
-    const auto add = [&](const Tensor& tensor, std::size_t offset) {
+    const auto add = [&](const torch::Tensor& tensor, std::size_t offset) {
       if (!tensor.grad().defined()) return;
-      const Tensor grad = tensor.grad().contiguous();
+      const torch::Tensor grad = tensor.grad().contiguous();
       const float* from = grad.data_ptr<float>();
       for (std::int64_t i = 0; i < grad.numel(); ++i)
         gradient[offset + static_cast<std::size_t>(i)] += from[i];
@@ -88,38 +87,38 @@ class HeadParameters {
 
  private:
   const ParameterLayout& layout_;
-  std::vector<Tensor> weights_;
-  std::vector<Tensor> biases_;
+  std::vector<torch::Tensor> weights_;
+  std::vector<torch::Tensor> biases_;
 };
 
 // Rows x, y, z of the rotations that six numbers stand for (Gram-Schmidt; Zhou et al. 2019).
-std::array<Tensor, 3> RotationRows(const Tensor& six) {
-  const auto normalise = [](const Tensor& v) {
+std::array<torch::Tensor, 3> RotationRows(const torch::Tensor& six) {
+  const auto normalise = [](const torch::Tensor& v) {
     return v / (v.square().sum(1, true) + 1e-12).sqrt();
   };
-  const Tensor x = normalise(six.narrow(1, 0, 3));
-  const Tensor second = six.narrow(1, 3, 3);
-  const Tensor y = normalise(second - (x * second).sum(1, true) * x);
+  const torch::Tensor x = normalise(six.narrow(1, 0, 3));
+  const torch::Tensor second = six.narrow(1, 3, 3);
+  const torch::Tensor y = normalise(second - (x * second).sum(1, true) * x);
   return {x, y, torch::cross(x, y, 1)};
 }
 
 // Mean angle between rotations. The angle is 2 asin(|A - B| / sqrt 8): the arc cosine of the trace
 // has no usable gradient at 0, where training ends.
-Tensor MeanGeodesicAngle(const Tensor& six_a, const Tensor& six_b) {
+torch::Tensor MeanGeodesicAngle(const torch::Tensor& six_a, const torch::Tensor& six_b) {
   const auto a = RotationRows(six_a);
   const auto b = RotationRows(six_b);
-  Tensor squared = torch::zeros({six_a.size(0)});
+  torch::Tensor squared = torch::zeros({six_a.size(0)});
   for (std::size_t i = 0; i < 3; ++i) squared = squared + (a[i] - b[i]).square().sum(1);
-  const Tensor half_sine = ((squared + 1e-10) / 8).sqrt().clamp_max(1 - 1e-4);
+  const torch::Tensor half_sine = ((squared + 1e-10) / 8).sqrt().clamp_max(1 - 1e-4);
   return (2 * torch::asin(half_sine)).mean();
 }
 
 struct Reconstruction {
-  Tensor position;  // mean absolute error of a component [m]
-  Tensor rotation;  // mean angle [rad]
+  torch::Tensor position;  // mean absolute error of a component [m]
+  torch::Tensor rotation;  // mean angle [rad]
 };
 
-Reconstruction Compare(const Tensor& decoded, const Tensor& wanted) {
+Reconstruction Compare(const torch::Tensor& decoded, const torch::Tensor& wanted) {
   return {(decoded.narrow(1, 0, 3) - wanted.narrow(1, 0, 3)).abs().mean(),
           MeanGeodesicAngle(decoded.narrow(1, 3, 6), wanted.narrow(1, 3, 6))};
 }
@@ -127,7 +126,7 @@ Reconstruction Compare(const Tensor& decoded, const Tensor& wanted) {
 class Actor {
  public:
   Actor(const StageNetworks& networks, const HeadParameters& parameters, const HeadBatch& batch,
-        const Tensor& features)
+        const torch::Tensor& features)
       : parameters_(parameters),
         networks_(networks),
         activation_(networks.linear_branches ? Activation::kNone : Activation::kLeaky),
@@ -135,15 +134,16 @@ class Actor {
         state_(parameters_.Branch("state", activation_, View(batch.states, 18))) {}
 
   // Action numbers in the world's units.
-  Tensor Decode(const Tensor& latent) const {
-    const Tensor condition = torch::cat({latent, features_, state_}, 1);
+  torch::Tensor Decode(const torch::Tensor& latent) const {
+    const torch::Tensor condition = torch::cat({latent, features_, state_}, 1);
     return Denormalise(networks_.normalisation.action,
                        parameters_.Branch("decoder", activation_, condition));
   }
 
-  std::pair<Tensor, Tensor> Posterior(const Tensor& actions) const {
-    const Tensor action = parameters_.Branch("action", activation_, actions);
-    Tensor hidden = parameters_.Dense("posterior.0", torch::cat({action, features_, state_}, 1));
+  std::pair<torch::Tensor, torch::Tensor> Posterior(const torch::Tensor& actions) const {
+    const torch::Tensor action = parameters_.Branch("action", activation_, actions);
+    torch::Tensor hidden =
+        parameters_.Dense("posterior.0", torch::cat({action, features_, state_}, 1));
     hidden = parameters_.Dense("posterior.1", torch::leaky_relu(hidden, kLeakySlope));
     return {parameters_.Dense("mean", hidden), parameters_.Dense("log_variance", hidden)};
   }
@@ -152,17 +152,17 @@ class Actor {
   const HeadParameters& parameters_;
   const StageNetworks& networks_;
   Activation activation_;
-  Tensor features_;
-  Tensor state_;
+  torch::Tensor features_;
+  torch::Tensor state_;
 };
 
-Tensor CriticScore(const HeadParameters& parameters, const StageNetworks& networks,
-                   const HeadBatch& batch, const Tensor& features) {
+torch::Tensor CriticScore(const HeadParameters& parameters, const StageNetworks& networks,
+                          const HeadBatch& batch, const torch::Tensor& features) {
   const auto branch = [&](const char* name, const std::vector<float>& values,
                           std::int64_t columns) {
     return parameters.Branch(name, Activation::kRectified, View(values, columns));
   };
-  const Tensor joined =
+  const torch::Tensor joined =
       torch::cat({features, branch("state", batch.states, 18), branch("action", batch.actions, 9),
                   branch("hand", batch.hands, 3), branch("base", batch.bases, 3)},
                  1);
@@ -171,22 +171,22 @@ Tensor CriticScore(const HeadParameters& parameters, const StageNetworks& networ
 }
 
 // The two heads of the grasp: two layers of score behind the feature and its branches.
-Tensor GraspScore(const HeadParameters& parameters, const StageNetworks& networks,
-                  const std::vector<Tensor>& joined) {
-  const Tensor hidden = parameters.Dense("score.0", torch::cat(joined, 1));
+torch::Tensor GraspScore(const HeadParameters& parameters, const StageNetworks& networks,
+                         const std::vector<torch::Tensor>& joined) {
+  const torch::Tensor hidden = parameters.Dense("score.0", torch::cat(joined, 1));
   return Denormalise(networks.normalisation.angle_gain_rad,
                      parameters.Dense("score.1", torch::leaky_relu(hidden, kLeakySlope)));
 }
 
 // The maximum over the near points, feature by feature.
-Tensor NearFeatures(const HeadParameters& parameters, const HeadBatch& batch) {
-  const Tensor each =
+torch::Tensor NearFeatures(const HeadParameters& parameters, const HeadBatch& batch) {
+  const torch::Tensor each =
       torch::relu(parameters.Branch("near", Activation::kRectified, View(batch.near, 3)));
   return std::get<0>(each.view({batch.size, -1, kNearFeatures}).max(1));
 }
 
-Tensor DiscriminatorScore(const HeadParameters& parameters, const StageNetworks& networks,
-                          const HeadBatch& batch, const Tensor& features) {
+torch::Tensor DiscriminatorScore(const HeadParameters& parameters, const StageNetworks& networks,
+                                 const HeadBatch& batch, const torch::Tensor& features) {
   const auto none = [&](std::int64_t columns) { return torch::zeros({batch.size, columns}); };
   if (!batch.near.empty())
     return GraspScore(parameters, networks,
@@ -197,25 +197,25 @@ Tensor DiscriminatorScore(const HeadParameters& parameters, const StageNetworks&
        none(kNearFeatures)});
 }
 
-Tensor AffordanceScore(const HeadParameters& parameters, const StageNetworks& networks,
-                       const HeadBatch& batch, const Tensor& features) {
+torch::Tensor AffordanceScore(const HeadParameters& parameters, const StageNetworks& networks,
+                              const HeadBatch& batch, const torch::Tensor& features) {
   return GraspScore(
       parameters, networks,
       {features, parameters.Branch("point", Activation::kRectified, View(batch.points, 3))});
 }
 
-std::vector<float> ToVector(const Tensor& tensor) {
-  const Tensor flat = tensor.contiguous();
+std::vector<float> ToVector(const torch::Tensor& tensor) {
+  const torch::Tensor flat = tensor.contiguous();
   return {flat.data_ptr<float>(), flat.data_ptr<float>() + flat.numel()};
 }
 
 // What a head gives for a batch: what is minimised, and what is reported.
 struct Loss {
-  Tensor objective;
+  torch::Tensor objective;
   StageLosses losses = {};
 };
 
-Loss MeanAbsolute(const Tensor& score, const HeadBatch& batch,
+Loss MeanAbsolute(const torch::Tensor& score, const HeadBatch& batch,
                   std::optional<double> StageLosses::*reported) {
   Loss loss{(score - View(batch.angle_gains_rad, 1)).abs().mean()};
   loss.losses.*reported = loss.objective.item<double>();
@@ -234,7 +234,8 @@ template <class LossOf>
 HeadResult Evaluate(const Head& head, const HeadBatch& batch, const LossOf& loss_of) {
   const bool with_gradient = !head.gradient.empty();
   const at::AutoGradMode mode(with_gradient);
-  const Tensor features = View(batch.features, kFeatureSize).set_requires_grad(with_gradient);
+  const torch::Tensor features =
+      View(batch.features, kFeatureSize).set_requires_grad(with_gradient);
   const HeadParameters parameters(head.layout, head.values, with_gradient);
   const Loss loss = loss_of(parameters, features);
   HeadResult result{loss.losses, loss.objective.template item<double>(), {}};
@@ -254,13 +255,13 @@ void UseOneTorchThread() {
 
 HeadResult ActorObjective(const StageNetworks& networks, const HeadBatch& batch,
                           const TrainConfig& config, std::span<float> gradient) {
-  const auto loss_of = [&](const HeadParameters& parameters, const Tensor& features) {
+  const auto loss_of = [&](const HeadParameters& parameters, const torch::Tensor& features) {
     const Actor actor(networks, parameters, batch, features);
-    const Tensor actions = View(batch.actions, 9);
-    const Tensor wanted = Denormalise(networks.normalisation.action, actions);
+    const torch::Tensor actions = View(batch.actions, 9);
+    const torch::Tensor wanted = Denormalise(networks.normalisation.action, actions);
     const auto [mean, log_variance] = actor.Posterior(actions);
-    const Tensor latent = mean + (0.5 * log_variance).exp() * View(batch.noise, kLatentSize);
-    const Tensor divergence =
+    const torch::Tensor latent = mean + (0.5 * log_variance).exp() * View(batch.noise, kLatentSize);
+    const torch::Tensor divergence =
         (0.5 * (mean.square() + log_variance.exp() - 1 - log_variance)).sum(1).mean();
     const Reconstruction posterior = Compare(actor.Decode(latent), wanted);
     const Reconstruction prior = Compare(actor.Decode(torch::zeros_like(latent)), wanted);
@@ -281,7 +282,7 @@ HeadResult ActorObjective(const StageNetworks& networks, const HeadBatch& batch,
 HeadResult CriticObjective(const StageNetworks& networks, const HeadBatch& batch,
                            std::span<float> gradient) {
   return Evaluate({CriticLayout(networks.family, networks.norm), networks.critic, gradient}, batch,
-                  [&](const HeadParameters& parameters, const Tensor& features) {
+                  [&](const HeadParameters& parameters, const torch::Tensor& features) {
                     return MeanAbsolute(CriticScore(parameters, networks, batch, features), batch,
                                         &StageLosses::angle_gain_rad);
                   });
@@ -289,8 +290,8 @@ HeadResult CriticObjective(const StageNetworks& networks, const HeadBatch& batch
 
 HeadResult DiscriminatorObjective(const StageNetworks& networks, const HeadBatch& batch,
                                   const TrainConfig& config, std::span<float> gradient) {
-  const auto loss_of = [&](const HeadParameters& parameters, const Tensor& features) {
-    const Tensor score = DiscriminatorScore(parameters, networks, batch, features);
+  const auto loss_of = [&](const HeadParameters& parameters, const torch::Tensor& features) {
+    const torch::Tensor score = DiscriminatorScore(parameters, networks, batch, features);
     Loss loss = MeanAbsolute(score, batch, &StageLosses::angle_gain_rad);
     if (config.score_loss == ScoreLoss::kSquared)
       loss.objective = (score - View(batch.angle_gains_rad, 1)).square().mean();
@@ -303,7 +304,7 @@ HeadResult DiscriminatorObjective(const StageNetworks& networks, const HeadBatch
 HeadResult AffordanceObjective(const StageNetworks& networks, const HeadBatch& batch,
                                std::span<float> gradient) {
   return Evaluate({ActorLayout(networks.family, networks.norm), networks.actor, gradient}, batch,
-                  [&](const HeadParameters& parameters, const Tensor& features) {
+                  [&](const HeadParameters& parameters, const torch::Tensor& features) {
                     return MeanAbsolute(AffordanceScore(parameters, networks, batch, features),
                                         batch, &StageLosses::affordance_rad);
                   });

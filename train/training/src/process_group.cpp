@@ -50,15 +50,15 @@ int NumberIn(const char* name, int least, int most) {
   return value;
 }
 
-struct Place {
+struct RankPlace {
   int rank;
   int size;
   std::string host;
   int port;
 };
 
-Place PlaceFromEnvironment() {
-  Place place;
+RankPlace PlaceFromEnvironment() {
+  RankPlace place;
   place.size = NumberIn("WORLD_SIZE", 1, 8);
   Require((place.size & (place.size - 1)) == 0, ErrorCode::kInvalidArgument,
           "--nodes: WORLD_SIZE=" + std::to_string(place.size) + ", expected 1, 2, 4 or 8");
@@ -73,7 +73,7 @@ Place PlaceFromEnvironment() {
 // libtorch's own back end over TCP.
 class GlooGroup : public ProcessGroup {
  public:
-  explicit GlooGroup(const Place& place) : place_(place) {
+  explicit GlooGroup(const RankPlace& place) : place_(place) {
     c10d::TCPStoreOptions store;
     store.port = static_cast<std::uint16_t>(place.port);
     store.isServer = place.rank == 0;
@@ -135,12 +135,12 @@ class GlooGroup : public ProcessGroup {
  private:
   static constexpr int kSumTag = 1;
 
-  Place place_;
+  RankPlace place_;
   c10::intrusive_ptr<c10d::ProcessGroupGloo> group_;
   std::vector<float> theirs_;
 };
 
-std::unique_ptr<ProcessGroup> Join(const Place& place) {
+std::unique_ptr<ProcessGroup> Join(const RankPlace& place) {
   try {
     return std::make_unique<GlooGroup>(place);
   } catch (const std::exception& error) {
@@ -153,7 +153,7 @@ std::unique_ptr<ProcessGroup> Join(const Place& place) {
 
 #else
 
-std::unique_ptr<ProcessGroup> Join(const Place&) {
+std::unique_ptr<ProcessGroup> Join(const RankPlace&) {
   throw Error(ErrorCode::kInvalidArgument,
               "--nodes: this build of doorforge has no distributed back end: libtorch without "
               "Gloo, or its headers were not found (Debian: libgloo-dev)");
@@ -166,7 +166,7 @@ std::unique_ptr<ProcessGroup> Join(const Place&) {
 std::unique_ptr<ProcessGroup> SingleProcessGroup() { return std::make_unique<OneProcess>(); }
 
 std::unique_ptr<ProcessGroup> ProcessGroupFromEnvironment() {
-  const Place place = PlaceFromEnvironment();
+  const RankPlace place = PlaceFromEnvironment();
   return place.size == 1 ? SingleProcessGroup() : Join(place);
 }
 

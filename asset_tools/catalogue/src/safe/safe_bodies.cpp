@@ -281,8 +281,8 @@ Polygon OuterPolygon(const SafeBody& body, const Rectangle& box, const std::stri
 }
 
 // The box with its cavity; the front is x = front_x.
-Solid Shell(const SafeBody& body, const SafeLayout& layout, double front_x_m,
-            const std::string& path) {
+Solid SafeShell(const SafeBody& body, const SafeLayout& layout, double front_x_m,
+                const std::string& path) {
   CupShape cup;
   cup.outer = OuterPolygon(body, layout.box, path);
   cup.inner = BoxPolygon(layout.opening.min_m, layout.opening.max_m);
@@ -465,7 +465,7 @@ Part BuildSafeBox(const nlohmann::ordered_json& json, const std::string& path) {
   const auto body = ReadParameters<SafeBody>(json, path);
   Check(body, path);
   const SafeLayout layout = LayoutOf(body, 0, 0, 0);
-  std::vector<Solid> frame = {Shell(body, layout, 0, path)};
+  std::vector<Solid> frame = {SafeShell(body, layout, 0, path)};
   AddShelves(body, layout.opening, 0, frame);
   AddTop(body, path, layout.box, 0, frame);
   AddBase(body, layout.box, 0, frame);
@@ -488,7 +488,7 @@ Part BuildWall(const nlohmann::ordered_json& json, const std::string& path) {
                 layout.opening.max_m.array() + body.wall_m};
   const double front = -body.flange_thickness_m - kSafeJointM;
   std::vector<Solid> frame = {ReliefSolid(flange, kSafeHullToleranceM),
-                              Shell(body, layout, front, path)};
+                              SafeShell(body, layout, front, path)};
   AddShelves(body, layout.opening, front, frame);
   return SafePart(body, path, layout.leaf, frame, LeafSolid(body, layout.leaf));
 }
@@ -602,7 +602,7 @@ Part BuildTiered(const nlohmann::ordered_json& json, const std::string& path) {
   const double more = body.tier_m + body.wall_m;
   const SafeLayout layout =
       LayoutOf(body, body.tier_below ? more : 0, body.tier_below ? 0 : more, 0);
-  std::vector<Solid> frame = {Shell(body, layout, 0, path)};
+  std::vector<Solid> frame = {SafeShell(body, layout, 0, path)};
   const double z0 =
       body.tier_below ? layout.box.min_m.y() + body.wall_m : layout.opening.max_m.y() + body.wall_m;
   AddFixedFronts(body.tier,
@@ -619,7 +619,7 @@ Part BuildHotel(const nlohmann::ordered_json& json, const std::string& path) {
   Check(body, path);
   RequireRange(path, "panel_m", body.panel_m, 0.09, 0.3);
   const SafeLayout layout = LayoutOf(body, 0, 0, body.panel_m);
-  std::vector<Solid> frame = {Shell(body, layout, 0, path)};
+  std::vector<Solid> frame = {SafeShell(body, layout, 0, path)};
   const double y = layout.opening.max_m.x() + body.panel_m / 2 + body.wall_m / 2;
   const double z = CenterOf(layout.leaf).y();
   // display above, three by four keys below
@@ -649,7 +649,7 @@ Part BuildAntique(const nlohmann::ordered_json& json, const std::string& path) {
   const Rectangle outside = layout.box;
   layout.box.min_m.y() += mouldings;
   layout.box.max_m.y() -= mouldings;
-  std::vector<Solid> frame = {Shell(body, layout, 0, path)};
+  std::vector<Solid> frame = {SafeShell(body, layout, 0, path)};
   for (int i = 0; i < body.steps; ++i) {
     const double out = body.step_m * (i + 1);
     const double up = layout.box.max_m.y() + i * body.step_m;

@@ -143,15 +143,15 @@ PartJoint ObjectJoint(const UrdfJoint& joint, const RigidTransform& base_from_jo
 
 void Reverse(PartJoint& joint) { joint.axis = -joint.axis; }
 
-Eigen::Vector3d VelocityAt(const PartJoint& joint, const Eigen::Vector3d& point) {
+Eigen::Vector3d HingeVelocityAt(const PartJoint& joint, const Eigen::Vector3d& point) {
   return joint.axis.cross(point - joint.origin_m);
 }
 
 // positive angles open towards +x and unlock; a lever unlocks when it goes down
 void OrientJoints(UniDoorManipObject& object) {
-  if (VelocityAt(object.hinge, object.handle_joint.origin_m).x() < 0) Reverse(object.hinge);
+  if (HingeVelocityAt(object.hinge, object.handle_joint.origin_m).x() < 0) Reverse(object.hinge);
   const Eigen::Vector3d grasp = object.object_from_grasp.translation();
-  const Eigen::Vector3d velocity = VelocityAt(object.handle_joint, grasp);
+  const Eigen::Vector3d velocity = HingeVelocityAt(object.handle_joint, grasp);
   const bool swings_up = object.mechanism == Mechanism::kLever && velocity.z() > 0.02 &&
                          velocity.z() > std::abs(velocity.y());
   const bool swings_in = object.mechanism == Mechanism::kFlap && velocity.x() < 0;

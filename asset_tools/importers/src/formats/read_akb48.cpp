@@ -20,12 +20,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kUrdf = "motion_unity.urdf";
+constexpr const char* kUrdfName = "motion_unity.urdf";
 constexpr std::string_view kScheme = "package://";
 
 bool IsAkb48(const fs::path& path) {
   std::error_code error;
-  return fs::is_regular_file(path / kUrdf, error);
+  return fs::is_regular_file(path / kUrdfName, error);
 }
 
 std::string WithoutScheme(const std::string& name) {
@@ -110,7 +110,7 @@ std::vector<ForeignObject> ReadAkb48(const fs::path& folder, const ReadConfig& c
   HingedObject object;
   object.name = "akb48/" + name;
   object.id = "akb-" + name;
-  object.where = (folder / kUrdf).string();
+  object.where = (folder / kUrdfName).string();
   object.source = "AKB-48 " + name;
   object.license = "NOASSERTION";
   object.upright_from_base = UprightFrom(config.mesh.up.empty() ? "x" : config.mesh.up);
@@ -120,7 +120,7 @@ std::vector<ForeignObject> ReadAkb48(const fs::path& folder, const ReadConfig& c
     return FileInside(folder, WithoutScheme(file), where);
   };
   object.frame_may_miss = config.allow_missing == "frame";
-  const UrdfModel raw = ReadUrdf(folder / kUrdf);
+  const UrdfModel raw = ReadUrdf(folder / kUrdfName);
   // readers of the data set disagree on one sign; the meshes decide
   HingedObject negated = object;
   object.model = InObjectFrame(raw, 1, object.where);

@@ -20,15 +20,15 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kMaxMeshes = 256;
 
 // the three kinds of handle, by the folder they lie in
-struct Kind {
+struct HandleKind {
   const char* folder;
   const char* name;
   Mechanism mechanism;
   double metres_a_unit;  // of the meshes, which are in mm; DoorGym enlarges levers
 };
-constexpr std::array<Kind, 3> kKinds = {{{"leverknobs", "lever", Mechanism::kLever, 0.0015},
-                                         {"roundknobs", "round", Mechanism::kRound, 0.001},
-                                         {"pullknobs", "pull", Mechanism::kNone, 0.001}}};
+constexpr std::array<HandleKind, 3> kKinds = {{{"leverknobs", "lever", Mechanism::kLever, 0.0015},
+                                               {"roundknobs", "round", Mechanism::kRound, 0.001},
+                                               {"pullknobs", "pull", Mechanism::kNone, 0.001}}};
 
 bool IsDoorGym(const fs::path& path) {
   std::error_code error;
@@ -36,10 +36,10 @@ bool IsDoorGym(const fs::path& path) {
          fs::is_regular_file(path / "body_1.stl", error);
 }
 
-const Kind& KindOf(const fs::path& folder) {
+const HandleKind& KindOf(const fs::path& folder) {
   const std::string parent =
       (fs::absolute(folder).lexically_normal() / "x").parent_path().parent_path().filename();
-  for (const Kind& kind : kKinds) {
+  for (const HandleKind& kind : kKinds) {
     if (parent == kind.folder) return kind;
   }
   throw Error(ErrorCode::kInvalidArgument,
@@ -98,7 +98,7 @@ Eigen::AlignedBox3d StatedBox(const fs::path& folder, const Json& record, double
 }
 
 std::vector<ForeignObject> ReadDoorGym(const fs::path& folder, const ReadConfig& config) {
-  const Kind& kind = KindOf(folder);
+  const HandleKind& kind = KindOf(folder);
   const Json record = ReadJsonFile(folder / "info.json");
   HandleSource handle;
   handle.name = std::string("doorgym/") + kind.name + "/" + ObjectNameOf(folder);

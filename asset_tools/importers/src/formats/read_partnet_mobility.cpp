@@ -44,7 +44,7 @@ constexpr std::array<ModelCategory, 10> kModelCategories = {
      {"WashingMachine", Category::kStorageFurniture, 0.95}}};
 constexpr double kUsualHeight = 0.5;  // of anything else
 
-std::string ModelKind(const fs::path& folder) {
+std::string KindOfModel(const fs::path& folder) {
   const fs::path file = folder / "meta.json";
   std::error_code error;
   if (!fs::exists(file, error)) return "";
@@ -172,7 +172,7 @@ HingedObject ReadPartNetFiles(const fs::path& folder, const PartNetFiles& files,
   const std::vector<LinkSemantics> semantics = ReadSemantics(folder / files.semantics);
   for (const LinkSemantics& link : semantics) object.words[link.link] = link.word;
   RestoreJoints(folder, semantics, object.model);
-  const ModelCategory* kind = KindNamed(ModelKind(folder));
+  const ModelCategory* kind = KindNamed(KindOfModel(folder));
   object.category = CategoryOr(config, kind ? kind->category : Category::kStorageFurniture);
   object.height_m = config.height_m > 0 ? config.height_m : kind ? kind->height_m : kUsualHeight;
   object.folder = folder;
@@ -187,7 +187,7 @@ HingedObject ReadPartNetFiles(const fs::path& folder, const PartNetFiles& files,
 std::vector<ForeignObject> ReadPartNetObject(const fs::path& folder, const PartNetFiles& files,
                                              const ReadConfig& config) {
   std::vector<ForeignObject> objects = ReadHingedObject(ReadPartNetFiles(folder, files, config));
-  const std::string kind = ModelKind(folder);
+  const std::string kind = KindOfModel(folder);
   if (!config.category.empty() || KindNamed(kind) != nullptr) return objects;
   // it has a hinge that swings, but is it a door?
   for (ForeignObject& object : objects) {

@@ -8,13 +8,13 @@
 namespace doorforge {
 namespace {
 
-constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t kNoCell = std::numeric_limits<std::size_t>::max();
 constexpr int kDepth = 12;
 
 }  // namespace
 
 BoxOctree::BoxOctree(const Eigen::AlignedBox3d& bounds, std::size_t count)
-    : boxes_(count), cell_of_(count, kNone) {
+    : boxes_(count), cell_of_(count, kNoCell) {
   AddCell(bounds.center(), 0.5 * bounds.sizes().maxCoeff());
 }
 
@@ -26,11 +26,11 @@ void BoxOctree::Put(std::size_t number, const Eigen::AlignedBox3d& box) {
 }
 
 void BoxOctree::Remove(std::size_t number) {
-  if (cell_of_[number] == kNone) return;
+  if (cell_of_[number] == kNoCell) return;
   std::vector<std::size_t>& numbers = cells_[cell_of_[number]].numbers;
   *std::find(numbers.begin(), numbers.end(), number) = numbers.back();
   numbers.pop_back();
-  cell_of_[number] = kNone;
+  cell_of_[number] = kNoCell;
 }
 
 void BoxOctree::Find(const Eigen::AlignedBox3d& box, std::vector<std::size_t>& found) const {

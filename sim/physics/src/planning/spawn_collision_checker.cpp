@@ -24,7 +24,7 @@ ProbedPiece MakePiece(const TriangleMesh& mesh, int body, const std::string& nam
   return {internal::MakeProbeHull(mesh, RigidTransform::Identity(), kStartMargin), body, name};
 }
 
-bool Overlap(const ProbedPiece& a, const RigidTransform& b_from_a, const ProbedPiece& b) {
+bool DoOverlap(const ProbedPiece& a, const RigidTransform& b_from_a, const ProbedPiece& b) {
   if (!a.hull.box.transformed(b_from_a).intersects(b.hull.box)) return false;
   const double distance = internal::Separate(a.hull, b_from_a, b.hull).distance;
   // no distance is found only for pieces that share so much that no way out is
@@ -66,7 +66,7 @@ std::optional<StartOverlap> SpawnCollisionChecker::Find(
       const RigidTransform& world_from_piece =
           piece.body < 0 ? pose.world_from_base
                          : pose.world_from_body[static_cast<std::size_t>(piece.body)];
-      if (Overlap(piece, part_from_world * world_from_piece, part))
+      if (DoOverlap(piece, part_from_world * world_from_piece, part))
         return StartOverlap{piece.name, part.name};
     }
   }

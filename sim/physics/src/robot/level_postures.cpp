@@ -17,8 +17,8 @@
 namespace doorforge::internal {
 namespace {
 
-constexpr int kTries = 40;            // of each roll
-constexpr double kLeastHeight = 0.1;  // [m] of a joint over the base
+constexpr int kTries = 40;                 // of each roll
+constexpr double kLeastJointHeight = 0.1;  // [m] of a joint over the base
 constexpr double kUnreached = 100;
 
 JointVector Relaxed(const RobotModel& robot) {
@@ -66,7 +66,7 @@ double CostOf(const RobotModel& robot, const JointVector& position) {
   const double base_height = pose.world_from_body[0].translation().z();
   for (int i = robot.base_count() + 1; i < robot.arm_count(); ++i) {
     const double height = pose.world_from_body[static_cast<std::size_t>(i)].translation().z();
-    cost += 20 * std::max(0.0, kLeastHeight - (height - std::min(base_height, 0.0)));
+    cost += 20 * std::max(0.0, kLeastJointHeight - (height - std::min(base_height, 0.0)));
   }
   // Yoshikawa's measure of the arm alone
   const ArmJacobian all = robot.TcpJacobian(pose);

@@ -8,7 +8,7 @@ namespace doorforge::internal {
 namespace {
 
 // In front of hulls a few millimetres wide the usual one would hide their shape.
-constexpr double kMargin = 1e-4;
+constexpr double kBoltMargin = 1e-4;
 constexpr double kMostImpulse = 1000;  // [N s]
 
 /// Keeps the bolt at least as far back as the handle draws it: one row, which only pulls.
@@ -79,7 +79,7 @@ BulletLink BoltBody::LinkOf(const Bolt& bolt, int leaf) {
   link.mass.mass_kg = bolt.mass_kg;
   link.mass.inertia_kg_m2 = Eigen::Matrix3d::Identity() * 1e-5;
   link.hulls = {bolt.bolt_hull};
-  link.hull_margin_m = kMargin;
+  link.hull_margin_m = kBoltMargin;
   link.friction = bolt.friction;
   link.side = ContactSide::kBolt;
   return link;
@@ -96,7 +96,7 @@ BoltBody::~BoltBody() {
 }
 
 void BoltBody::PlaceStrike(const RigidTransform& world_from_door) {
-  strike_shape_ = MakeHull(bolt_.strike_hull, RigidTransform::Identity(), kMargin);
+  strike_shape_ = MakeHull(bolt_.strike_hull, RigidTransform::Identity(), kBoltMargin);
   strike_->setCollisionShape(strike_shape_.get());
   strike_->setWorldTransform(ToBullet(world_from_door * bolt_.base_from_strike));
   strike_->setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT);

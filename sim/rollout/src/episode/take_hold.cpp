@@ -9,7 +9,7 @@ constexpr double kBack = 0.1;          // [m] clear of the handle
 constexpr double kJointsThere = 0.01;  // [rad or m] from the place before the grasp
 
 // The joints go to the place before the grasp, then the hand straight in.
-std::optional<Verdict> Reach(EpisodeWorld& world, ContactLog& log, const GraspPlan& plan) {
+std::optional<Verdict> ReachHandle(EpisodeWorld& world, ContactLog& log, const GraspPlan& plan) {
   const double dt = world.scene().physics.time_step_s;
   const int budget = world.StepsIn(world.limits().reach_time_s);
   const int arm = world.robot().arm_count();
@@ -88,7 +88,7 @@ GraspPlan PlanOf(const GraspCommand& grasp, const EpisodeWorld& world) {
 
 std::optional<Verdict> TakeHold(EpisodeWorld& world, ContactLog& log, const GraspCommand& grasp) {
   world.controller().SetPosture(grasp.plan->grasp);
-  std::optional<Verdict> unreached = Reach(world, log, *grasp.plan);
+  std::optional<Verdict> unreached = ReachHandle(world, log, *grasp.plan);
   if (unreached && grasp.both_pads) return unreached;
   const std::optional<Verdict> missed = Close(world, log, grasp.both_pads);
   if (!missed || !unreached || world.diverged()) return missed;

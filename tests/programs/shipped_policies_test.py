@@ -8,7 +8,7 @@ import unittest
 from programs import SOURCE, ProgramTest, run
 
 POLICIES = SOURCE / "data/policies"
-STAGES = {"opener": "open", "handler": "handle", "grasper": "grasp"}
+STAGES = {"opener": "open", "opener/pushed": "open", "handler": "handle", "grasper": "grasp"}
 # bodies and handles of the split full:test, and of the categories that are never trained on
 DOORS = {"interior_arched_03": "interior_lever_wave_04", "interior_louvred_04": "interior_round_egg_03",
          "window_casement_03": "window_espagnolette_03", "car_sedan_01": "car_flap_03",
@@ -19,8 +19,8 @@ DOORS = {"interior_arched_03": "interior_lever_wave_04", "interior_louvred_04": 
 
 class ShippedPolicies(ProgramTest):
     def test_they_are_what_their_records_say(self):
-        files = [path for path in POLICIES.rglob("*") if path.is_file()]
-        self.assertLess(sum(path.stat().st_size for path in files), 20e6)
+        weights = POLICIES.rglob("*.safetensors")
+        self.assertLess(sum(path.stat().st_size for path in weights), 20e6)
         for name, stage in STAGES.items():
             record = json.loads((POLICIES / name / "policy.json").read_text())
             self.assertEqual(record["stage"], stage)
@@ -37,6 +37,20 @@ class ShippedPolicies(ProgramTest):
         self.assertEqual(len(episodes), 2 * len(DOORS))
         failed = [f'{episode["door_id"]}: {episode["detail"]}' for episode in episodes if episode["outcome"] != "opened"]
         self.assertLessEqual(len(failed), 1, failed)
+
+    def test_doors_of_other_kinds_open_without_being_told(self):
+        kinds = {"right": ["hinge_side=right"], "pushed": ["opening=push"], "reversed": ["handle_sense=reversed"]}
+        for name, settings in kinds.items():
+            options = [word for setting in settings for word in ("--set", setting)]
+            self.assert_ends(run("compose", "--body", "interior_louvred_04", "--handle", "interior_lever_wave_04",
+                                 "--out", self.folder / "kinds" / name, *options), 0)
+        untold = [word for what in ("side", "turning", "opening") for word in ("--set", f"policy.{what}=auto")]
+        result = run("eval", "--opener", POLICIES / "opener", "--handler", POLICIES / "handler", "--grasper", POLICIES / "grasper",
+                     "--doors", self.folder / "kinds", "--seeds", 1, *untold, "--set", "grasps=4", "--set", "expert_reference=false",
+                     "--out", self.folder / "kinds_report")
+        self.assert_ends(result, 0)
+        episodes = json.loads((self.folder / "kinds_report/report.json").read_text())["episodes"]
+        self.assertEqual([episode["outcome"] for episode in episodes], ["opened"] * 3, episodes)
 
 
 if __name__ == "__main__":

@@ -240,21 +240,6 @@ bool IsRecordOf(const fs::path& record, const FolderKind& kind) {
 
 }  // namespace
 
-std::string ReadFile(const fs::path& path, std::uint64_t max_bytes) {
-  std::error_code error;
-  if (!fs::is_regular_file(path, error))
-    throw Error(ErrorCode::kMissing, path.string() + ": no such file");
-  const std::uint64_t size = fs::file_size(path, error);
-  if (error || size > max_bytes)
-    throw Error(ErrorCode::kIo, path.string() + ": " + std::to_string(size) + " bytes, allowed " +
-                                    std::to_string(max_bytes));
-  std::ifstream file(path, std::ios::binary);
-  std::string content(size, '\0');
-  if (!file.read(content.data(), static_cast<std::streamsize>(size)))
-    throw Error(ErrorCode::kIo, path.string() + ": read failed");
-  return content;
-}
-
 void CommitFile(const fs::path& path, std::string_view content, Existing existing) {
   CommitFile(SystemFiles(), path, content, existing);
 }

@@ -49,7 +49,7 @@ TEST(LonePolicy, AHandlerThatRemembersJoinsWhatWasSeenBefore) {
 TEST(LonePolicy, AnOpenerWantsAPictureWhereItIsToTellTheSide) {
   EXPECT_FALSE(LonePolicy(kFolder + "opener", Stage::kOpen).WantsPicture());
   PolicyOptions options;
-  options.side = SideChoice::kAuto;
+  options.told.side = SideChoice::kAuto;
   LonePolicy opener(kFolder + "opener", Stage::kOpen, options);
   EXPECT_TRUE(opener.WantsPicture());
   EXPECT_FALSE(opener.Says());

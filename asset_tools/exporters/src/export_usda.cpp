@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
 #include <cctype>
+#include <cmath>
 #include <numbers>
 #include <optional>
 
@@ -82,19 +83,33 @@ class List {
   std::string text_;
 };
 
+// Of the face, since surfaces here are flat; to four decimals, as renderers need no more.
+Eigen::Vector3d NormalOf(const std::vector<Eigen::Vector3d>& vertices, const Eigen::Vector3i& t) {
+  const auto at = [&](int k) -> const Eigen::Vector3d& {
+    return vertices[static_cast<std::size_t>(t[k])];
+  };
+  const Eigen::Vector3d across = (at(1) - at(0)).cross(at(2) - at(0));
+  const double length = across.norm();
+  if (!(length > 0)) return Eigen::Vector3d::UnitZ();
+  return (across / length).unaryExpr([](double x) { return std::round(1e4 * x) / 1e4; });
+}
+
 void AddMesh(const std::vector<Eigen::Vector3d>& vertices,
              const std::vector<Eigen::Vector3i>& triangles, UsdaText& usda) {
   List counts;
   List indices;
   List points;
+  List normals;
   for (const Eigen::Vector3i& triangle : triangles) {
     counts.Add("3");
     for (const int index : triangle) indices.Add(std::to_string(index));
+    normals.Add(Tuple(NormalOf(vertices, triangle)));
   }
   for (const Eigen::Vector3d& vertex : vertices) points.Add(Tuple(vertex));
   usda.Line("int[] faceVertexCounts = " + counts.InBrackets());
   usda.Line("int[] faceVertexIndices = " + indices.InBrackets());
   usda.Line("point3f[] points = " + points.InBrackets());
+  usda.Line("normal3f[] normals = " + normals.InBrackets() + " (interpolation = \"uniform\")");
   Eigen::AlignedBox3d bounds;
   for (const Eigen::Vector3d& vertex : vertices) bounds.extend(vertex);
   if (!bounds.isEmpty())
@@ -126,9 +141,17 @@ void AddPicture(const VisualMaterial& material, const std::string& look, UsdaTex
   usda.Close();
 }
 
+// `schemas` are those that the material has beside that of its label.
+void OpenMaterial(const std::string& look, const std::string& label, const std::string& schemas,
+                  UsdaText& usda) {
+  usda.Open("def Material \"" + look.substr(look.rfind('/') + 1) + "\"",
+            "\"SemanticsLabelsAPI:material\"" + schemas);
+  usda.Line("token[] semantics:labels:material = [\"" + Identifier(label) + "\"]");
+}
+
 void AddLook(const VisualMaterial& material, const std::string& look, UsdaText& usda) {
   const Eigen::Vector4d& c = material.color_rgba;
-  usda.Open("def Material \"" + look.substr(look.rfind('/') + 1) + "\"");
+  OpenMaterial(look, material.name, {}, usda);
   usda.Line("token outputs:surface.connect = <" + look + "/surface.outputs:surface>");
   if (material.texture != nullptr) AddPicture(material, look, usda);
   usda.Open("def Shader \"surface\"");
@@ -385,23 +408,76 @@ void AddBoltJoint(const Bolt& bolt, const std::array<std::string, 3>& paths,
 
 // The contact is as hard as the engine bears: at Newton's usual stiffness a pull of 75 N pushes the
 // bolt through the strike. It is dry: where the mimic is soft, a greased bolt slips back.
-void AddSteel(UsdaText& usda) {
-  usda.Open("def Material \"latch_steel\"", "\"PhysicsMaterialAPI\", \"NewtonMaterialAPI\"");
+void AddSteel(const std::string& steel, UsdaText& usda) {
+  OpenMaterial(steel, "steel", ", \"PhysicsMaterialAPI\", \"NewtonMaterialAPI\"", usda);
   usda.Line("float physics:staticFriction = 1");
   usda.Line("float physics:dynamicFriction = 1");
   usda.Line("float newton:contactStiffness = 1000000");
   usda.Line("float newton:contactDamping = 2000");
+  usda.Line("token outputs:surface.connect = <" + steel + "/surface.outputs:surface>");
+  usda.Open("def Shader \"surface\"");
+  usda.Line("uniform token info:id = \"UsdPreviewSurface\"");
+  usda.Line("color3f inputs:diffuseColor = (0.52, 0.52, 0.57)");
+  usda.Line("float inputs:metallic = 1");
+  usda.Line("float inputs:roughness = 0.4");
+  usda.Line("token outputs:surface");
+  usda.Close();
   usda.Close();
 }
 
 void AddBoltLink(const Bolt& bolt, const Placed& placed, const std::string& steel, UsdaText& usda) {
   OpenLink(internal::BoltMass(bolt), placed, usda);
-  usda.Open("def Mesh \"bolt_visual\"");
+  // one mesh is seen and touches: two would be one on the other
+  usda.Open("def Mesh \"bolt_shape\"",
+            "\"PhysicsCollisionAPI\", \"PhysicsMeshCollisionAPI\", \"MaterialBindingAPI\"");
+  usda.Line("rel material:binding = <" + steel + ">");
+  usda.Line("rel material:binding:physics = <" + steel + ">");
   AddMesh(bolt.bolt_hull.vertices, bolt.bolt_hull.triangles, usda);
   usda.Line("color3f[] primvars:displayColor = [(0.75, 0.75, 0.78)]");
+  usda.Line("uniform token physics:approximation = \"convexHull\"");
   usda.Close();
-  AddCollision("bolt", bolt.bolt_hull, steel, usda);
   usda.Close();
+}
+
+std::string Quoted(const std::string& text) {
+  std::string quoted;
+  for (const char c : text) quoted += c == '"' || c == '\\' ? '\'' : c;
+  return '"' + quoted + '"';
+}
+
+// What SimReady's rule SR.004 asks of a catalogue's entry.
+void AddCatalogueEntry(const DoorAsset& door, double bolt_kg, UsdaText& usda) {
+  const std::array<RigidTransform, 3> poses = DoorFromLinks(door, 0, 0);
+  Eigen::AlignedBox3d box;
+  double mass_kg = bolt_kg;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    mass_kg += door.links[i].mass.mass_kg;
+    for (const DoorGeometry& geometry : door.links[i].geometry) {
+      for (const TriangleMesh& hull : geometry.hulls) {
+        for (const Eigen::Vector3d& vertex : hull.vertices) box.extend(poses[i] * vertex);
+      }
+    }
+  }
+  const Eigen::Vector3d size = box.isEmpty() ? Eigen::Vector3d::Zero() : box.sizes().eval();
+  const auto word = [&](const char* name, const std::string& text) {
+    usda.Line("            string " + std::string(name) + " = " + Quoted(text));
+  };
+  usda.Line("    customLayerData = {");
+  usda.Line("        dictionary SimReady_Metadata = {");
+  word("author", "doorforge");
+  word("asset_name", door.id);
+  word("asset_type", "articulated prop");
+  word("asset_license", door.license.empty() ? "NOASSERTION" : door.license);
+  word("category", std::string(NameOf(door.category)) + " door");
+  word("source_file", "door.json");
+  // the same door gives the same bytes on any day
+  word("usd_date_generated", "not stated");
+  word("qcode", "Q36794");  // door, in Wikidata
+  usda.Line("            int rigid_body_count = " + std::to_string(bolt_kg > 0 ? 4 : 3));
+  usda.Line("            double mass = " + Decimal(mass_kg));
+  usda.Line("            float3 asset_extents = " + Tuple(size));
+  usda.Line("        }");
+  usda.Line("    }");
 }
 
 void AddAnchor(const std::string& base, UsdaText& usda) {
@@ -419,6 +495,7 @@ std::string ToUsda(const DoorAsset& door, const ExportSettings& settings) {
   const std::string name = Identifier(door.id);
   usda.Line("#usda 1.0");
   usda.Line("(");
+  AddCatalogueEntry(door, latch ? internal::BoltMass(latch->bolt).mass_kg : 0, usda);
   usda.Line("    defaultPrim = \"" + name + "\"");
   usda.Line("    metersPerUnit = 1");
   usda.Line("    kilogramsPerUnit = 1");
@@ -439,7 +516,7 @@ std::string ToUsda(const DoorAsset& door, const ExportSettings& settings) {
     paths[i] = "/" + name + "/" + Identifier(door.links[i].name);
   const std::string bolt_path = "/" + name + "/" + internal::kBoltLink;
   const std::string steel = "/" + name + "/latch_steel";
-  if (latch) AddSteel(usda);
+  if (latch) AddSteel(steel, usda);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const DoorLink& link = door.links[i];
     Placed placed{paths[i], poses[i], {}};

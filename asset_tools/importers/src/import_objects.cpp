@@ -398,6 +398,14 @@ class Import {
   std::mutex mutex_;
 };
 
+// Names of files may hold what a terminal obeys; lines of a message stay lines.
+std::string Shown(std::string text) {
+  for (char& c : text) {
+    if ((static_cast<unsigned char>(c) < 0x20 && c != '\n') || c == 0x7F) c = '?';
+  }
+  return text;
+}
+
 std::string LineOf(const ImportedObject& object) {
   std::string notes;
   if (!object.handle_id.empty() && !object.grasp_holds) notes = "no grasp that holds was found";
@@ -450,7 +458,7 @@ std::string ImportText(const ImportReport& report) {
   std::map<ImportOutcome, int> counts;
   for (const ImportedObject& object : report.objects) {
     ++counts[object.outcome];
-    if (object.outcome == ImportOutcome::kImported) text += LineOf(object);
+    if (object.outcome == ImportOutcome::kImported) text += Shown(LineOf(object));
   }
   const auto counted = [](std::size_t count) {
     return std::to_string(count) + (count == 1 ? " object" : " objects");
@@ -468,8 +476,8 @@ std::vector<std::string> FaultsOf(const ImportReport& report) {
   std::vector<std::string> faults;
   for (const ImportedObject& object : report.objects) {
     if (object.outcome != ImportOutcome::kImported)
-      faults.push_back(object.name + ": " + std::string(NameOf(object.outcome)) + ": " +
-                       object.message);
+      faults.push_back(
+          Shown(object.name + ": " + std::string(NameOf(object.outcome)) + ": " + object.message));
   }
   return faults;
 }

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/mesh_transform.h"
@@ -118,6 +119,18 @@ void Add(Json& json, const Eigen::Vector3d& value) {
 }
 
 }  // namespace
+
+std::string HashOfMeshFile(const std::filesystem::path& file) {
+  const std::uint64_t most = MeshImportLimits().max_file_bytes;
+  std::error_code error;
+  const std::uint64_t size = std::filesystem::file_size(file, error);
+  if (error || size > most)
+    throw Error(ErrorCode::kFormat,
+                file.string() + ": " +
+                    (error ? error.message()
+                           : std::to_string(size) + " bytes, allowed " + std::to_string(most)));
+  return Sha256OfFile(file);
+}
 
 TriangleMesh LoadMesh(const SourceMesh& mesh) { return Load(mesh, ImportedFrom(mesh)).mesh; }
 

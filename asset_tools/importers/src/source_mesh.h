@@ -29,6 +29,9 @@ struct SourceMesh {
   std::optional<Eigen::Vector4d> color_rgba = {};  ///< Overrides the file's.
 };
 
+/// SHA-256 of a mesh file. Throws Error, naming it, where it is larger than any that is imported.
+std::string HashOfMeshFile(const std::filesystem::path& file);
+
 /// Loads one mesh into the part's frame; a reflection turns its triangles round.
 TriangleMesh LoadMesh(const SourceMesh& mesh);
 

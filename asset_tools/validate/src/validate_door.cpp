@@ -396,11 +396,15 @@ ValidationReport ValidatePart(const fs::path& folder, ValidationProfile profile)
 }
 
 std::vector<fs::path> FindRecords(const fs::path& path) {
-  const auto holds_record = [](const fs::path& folder) {
-    return fs::is_regular_file(folder / "door.json") || fs::is_regular_file(folder / "part.json");
+  // an entry that cannot be looked at, such as a link to itself, is no record
+  std::error_code ignored;
+  const auto holds_record = [&](const fs::path& folder) {
+    return fs::is_regular_file(folder / "door.json", ignored) ||
+           fs::is_regular_file(folder / "part.json", ignored);
   };
-  if (!fs::exists(path)) throw Error(ErrorCode::kMissing, path.string() + ": no such folder");
-  if (!fs::is_directory(path))
+  if (!fs::exists(path, ignored))
+    throw Error(ErrorCode::kMissing, path.string() + ": no such folder");
+  if (!fs::is_directory(path, ignored))
     throw Error(ErrorCode::kMissing,
                 path.string() +
                     ": not a folder; what is no door or part yet becomes one with "
@@ -410,7 +414,7 @@ std::vector<fs::path> FindRecords(const fs::path& path) {
   std::error_code error;
   auto entry = fs::recursive_directory_iterator(path, error);
   for (; !error && entry != fs::end(entry); entry.increment(error)) {
-    if (!entry->is_directory()) continue;
+    if (!entry->is_directory(ignored)) continue;
     if (entry->path().filename().string().starts_with('.')) {
       entry.disable_recursion_pending();
       continue;

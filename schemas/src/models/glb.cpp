@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <set>
 
 #include <nlohmann/json.hpp>
@@ -14,6 +13,7 @@
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
+#include "doorforge/core/read_beginning.h"
 
 namespace doorforge {
 namespace {
@@ -403,16 +403,13 @@ class GlbModel {
 }  // namespace
 
 bool HasLinks(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string head(kHeaderBytes + kChunkHeaderBytes, '\0');
-  if (!file.read(head.data(), static_cast<std::streamsize>(head.size()))) return false;
-  if (NumberAt(head, 0) != kGlbMagic || NumberAt(head, kHeaderBytes + 4) != kJsonChunk)
-    return false;
+  constexpr std::size_t kHeadBytes = kHeaderBytes + kChunkHeaderBytes;
+  const std::string head = ReadBeginning(path, kHeadBytes);
+  if (head.size() < kHeadBytes) return false;
+  if (NumberAt(head, 0) != kGlbMagic || NumberAt(head, kHeaderBytes + 4) != kJsonChunk) return false;
   const std::size_t length = NumberAt(head, kHeaderBytes);
   if (length > kMostJsonBytes) return false;
-  std::string json(length, '\0');
-  file.read(json.data(), static_cast<std::streamsize>(length));
-  json.resize(static_cast<std::size_t>(file.gcount()));
+  const std::string json = ReadBeginning(path, kHeadBytes + length).erase(0, kHeadBytes);
   // looked at as text, since files are searched by the thousand
   return json.find("\"mass_kg\"") != std::string::npos &&
          json.find("\"joint\"") != std::string::npos;

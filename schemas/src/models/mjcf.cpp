@@ -149,6 +149,11 @@ class MjcfReader {
         made[e->Name()][a->Name()] = a->Value();
     }
     settings_.classes[name] = made;
+    // each class holds what those around it say, so that their product counts
+    for (const auto& [tag, attributes] : made) of_classes_ += attributes.size();
+    if (of_classes_ > kMostOfClasses)
+      source_.Stop(element.GetLineNum(),
+                   "more than 100000 attributes of classes and of those around them");
     if (settings_.classes.size() > internal::kMaxModelElements)
       source_.Stop(element.GetLineNum(), "more than 2000 classes");
     for (const XMLElement* e = element.FirstChildElement("default"); e != nullptr;
@@ -458,6 +463,8 @@ class MjcfReader {
 
   const XMLElement& root_;
   const ModelSource& source_;
+  static constexpr std::size_t kMostOfClasses = 100'000;
+  std::size_t of_classes_ = 0;  // attributes of classes, with those of the ones around them
   Settings settings_;
   std::map<std::string, UrdfMeshFile> meshes_;
   std::set<std::string> names_;

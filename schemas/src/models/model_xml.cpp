@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models/model_xml.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <string_view>
@@ -15,6 +16,7 @@ using tinyxml2::XMLElement;
 
 constexpr int kMaxDepth = 64;
 constexpr std::size_t kLongestName = 1024;
+constexpr int kMostAttributes = 64;  // the parser compares each with those before it
 
 // The element, and which link, joint or body it is or belongs to.
 std::string OwnedName(const XMLElement& element) {
@@ -52,6 +54,30 @@ void RefuseDeclarations(std::string_view text, const ModelSource& source) {
     const std::size_t end = text.find(comment ? "-->" : "]]>", at);
     if (end == std::string_view::npos) return;  // the parser reports it
     at = end + 3;
+  }
+}
+
+// Of one element. The parser is not asked: it would take minutes over a million.
+void RefuseManyAttributes(std::string_view text, const ModelSource& source) {
+  char quote = 0;
+  bool in_tag = false;
+  int attributes = 0;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    if (!in_tag && text.substr(at).starts_with("<!")) {  // a comment or CDATA, where tags are text
+      at = std::min(text.find(text[at + 2] == '-' ? "-->" : "]]>", at), text.size());
+    } else if (!in_tag) {
+      in_tag = c == '<';
+      attributes = 0;
+    } else if (quote != 0) {
+      if (c == quote) quote = 0;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '=' && ++attributes > kMostAttributes) {
+      source.Stop(LineAt(text, at), "an element of more than 64 attributes");
+    } else if (c == '>') {
+      in_tag = false;
+    }
   }
 }
 
@@ -118,6 +144,7 @@ const XMLElement& ParseModelXml(const std::string& text, const char* root,
   if (text.size() > kMaxModelBytes)
     throw Error(ErrorCode::kFormat, source.name + ": larger than the 16 MiB that a model may have");
   RefuseDeclarations(text, source);
+  RefuseManyAttributes(text, source);
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS)
     source.Stop(document.ErrorLineNum(),
                 "not well-formed XML; each tag needs its end, each value its quotes");

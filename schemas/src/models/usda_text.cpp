@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
 
 namespace doorforge {
 namespace {
@@ -148,6 +149,8 @@ class UsdaParser {
     const char* last = text_.data() + text_.size();
     const auto [end, error] = std::from_chars(text_.data() + begin, last, number_);
     if (error == std::errc::invalid_argument) Fail("no number");
+    if (error == std::errc::result_out_of_range)  // what is too small to be held is 0
+      number_ = std::strtod(std::string(text_.data() + begin, end).c_str(), nullptr);
     word_ = text_.substr(at_, static_cast<std::size_t>(end - text_.data()) - at_);
     at_ = static_cast<std::size_t>(end - text_.data());
     token_ = UsdaToken::kNumber;

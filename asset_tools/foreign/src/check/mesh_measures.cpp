@@ -198,7 +198,8 @@ std::optional<fs::path> MeshFiles::Find(const ForeignFileName& name, FaultList& 
   const fs::path root = of_package ? begin : places_.root;
   if (!IsInside(path, root)) return fail("GEO002", "leads out of " + root.string());
   std::error_code error;
-  if (!fs::is_regular_file(path, error)) return fail("GEO001", "no such file");
+  if (!fs::is_regular_file(path, error))
+    return fail("GEO001", fs::exists(path, error) ? kNoRegularFile : "no such file");
   const fs::path real = fs::canonical(path, error);
   if (error || !IsInside(real, fs::canonical(root, error)))
     return fail("GEO002", "is a link that leads out of " + root.string());

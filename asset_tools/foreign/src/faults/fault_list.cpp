@@ -81,6 +81,12 @@ bool FaultList::HasError() const {
 
 bool FaultList::Has(std::string_view code) const { return counts_.contains(code); }
 
+bool FaultList::Says(std::string_view words) const {
+  return std::any_of(findings_.begin(), findings_.end(), [&](const Finding& finding) {
+    return finding.measured.find(words) != std::string::npos;
+  });
+}
+
 std::string WhereOf(const SourcePlace& place) {
   std::string where = place.file;
   if (place.line > 0) where += ":" + std::to_string(place.line);

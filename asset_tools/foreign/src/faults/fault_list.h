@@ -26,6 +26,9 @@ struct Measured {
   std::string unit;
 };
 
+/// What is said of a name that leads to a pipe, a device or a folder.
+inline constexpr const char* kNoRegularFile = "not a regular file";
+
 /// The findings about one file. Those beyond kMost of one rule are counted and told in one.
 class FaultList {
  public:
@@ -36,6 +39,7 @@ class FaultList {
   std::vector<Finding> Sorted() const;
   bool HasError() const;
   bool Has(std::string_view code) const;
+  bool Says(std::string_view words) const;  ///< Whether a finding says them of what it measured.
 
  private:
   std::vector<Finding> findings_;

@@ -102,6 +102,7 @@ struct Elements {
 
 class GltfCheck {
   static constexpr std::uint64_t kMostElements = 200'000'000;
+  static constexpr std::size_t kMostLevels = 1000;
   static constexpr std::uint64_t kMostBufferBytes = 1ULL << 29U;
 
  public:
@@ -294,8 +295,14 @@ class GltfCheck {
     }
     elements.numbers = type->second;
     const std::uint64_t size = component->bytes * type->second;
+    CheckSparse(Member(accessor, "sparse"), elements.count, pointer);
     const Json& view_index = Member(accessor, "bufferView");
-    if (view_index.is_null()) return std::nullopt;  // zeros, or compressed
+    if (view_index.is_null()) {  // zeros, or compressed
+      if (elements.count > kMostElements)
+        Fail("FIL003", pointer,
+             "more than the " + std::to_string(kMostElements) + " elements allowed");
+      return std::nullopt;
+    }
     const std::uint64_t view = Unsigned(accessor, "bufferView", 1ULL << 39U, pointer);
     if (view >= views_.size()) {
       Fail("GLB002", pointer + "/bufferView", Count(view, views_.size()));
@@ -325,6 +332,14 @@ class GltfCheck {
     }
     elements.bytes = views_[view].substr(offset);
     return elements;
+  }
+
+  void CheckSparse(const Json& sparse, std::uint64_t count, const std::string& pointer) {
+    if (!sparse.is_object()) return;
+    const std::uint64_t changed = Unsigned(sparse, "count", 0, pointer + "/sparse");
+    if (changed > count)
+      Fail("GLB003", pointer + "/sparse",
+           std::to_string(changed) + " elements replaced, of " + std::to_string(count));
   }
 
   // An index of another list, where there is one.
@@ -371,22 +386,7 @@ class GltfCheck {
       for (std::size_t k = 0; children.is_array() && k < children.size(); ++k)
         Adopt(i, children[k], At("nodes", i) + "/children/" + std::to_string(k));
     }
-    // a walk up from each node stops where an earlier one has been: 0 new, 1 on this walk, 2 before
-    std::vector<int> state(nodes.size(), 0);
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      std::vector<std::size_t> way;
-      for (std::size_t at = i; state[at] == 0;) {
-        state[at] = 1;
-        way.push_back(at);
-        if (parent_[at] < 0) break;
-        at = static_cast<std::size_t>(parent_[at]);
-        if (state[at] == 1) {
-          Fail("GLB006", At("nodes", at), "below itself");
-          loops_ = true;
-        }
-      }
-      for (const std::size_t at : way) state[at] = 2;
-    }
+    FindLoops(nodes.size());
     const Json& scenes = List("scenes");
     for (std::size_t i = 0; i < scenes.size(); ++i) {
       const Json& roots = Member(scenes[i], "nodes");
@@ -395,6 +395,33 @@ class GltfCheck {
           Fail("GLB002", At("scenes", i) + "/nodes/" + std::to_string(k),
                roots[k].dump().substr(0, 40) + " of " + std::to_string(nodes.size()));
       }
+    }
+  }
+
+  void FindLoops(std::size_t nodes) {
+    // a walk up from each node stops where an earlier one has been: 0 new, 1 on this walk, 2 before
+    std::vector<int> state(nodes, 0);
+    std::vector<std::size_t> depth(nodes, 0);
+    for (std::size_t i = 0; i < nodes; ++i) {
+      std::vector<std::size_t> way;
+      std::size_t at = i;
+      for (; state[at] == 0; at = static_cast<std::size_t>(parent_[at])) {
+        state[at] = 1;
+        way.push_back(at);
+        if (parent_[at] < 0) break;
+      }
+      if (state[at] == 1 && parent_[at] >= 0) {
+        Fail("GLB006", At("nodes", at), "below itself");
+        loops_ = true;
+      }
+      std::size_t levels = state[at] == 2 ? depth[at] : 0;
+      for (auto it = way.rbegin(); it != way.rend(); ++it) {
+        state[*it] = 2;
+        depth[*it] = ++levels;
+      }
+      if (levels > kMostLevels)
+        return Fail("FIL003", At("nodes", i),
+                    "more than the " + std::to_string(kMostLevels) + " levels of nodes allowed");
     }
   }
 

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 
 namespace doorforge::foreign {
 namespace {
@@ -85,8 +86,10 @@ double WordLines::Number() {
   if (word.starts_with('+')) word.remove_prefix(1);
   double number = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  if (error == std::errc::result_out_of_range && end == word.data() + word.size()) return 0;
-  if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(number))
+  if (error == std::errc::result_out_of_range)  // what is too small to be held is 0
+    number = std::strtod(std::string(word).c_str(), nullptr);
+  if (error == std::errc::invalid_argument || end != word.data() + word.size() ||
+      !std::isfinite(number))
     Fail("\"" + shown + "\" is no finite number");
   return number;
 }

@@ -78,44 +78,56 @@ const std::set<std::string>& GeomTypes() {
   return types;
 }
 
-/// The attributes that each class gives to each kind of element.
+/// The attributes that each class gives to each kind of element. A class knows the one around it
+/// and what it says itself: copies of all that those around it say would grow with their product.
 class MjcfDefaults {
  public:
-  void Read(const XmlElement& element, const std::string& parent, int depth,
-            const XmlSource& source) {
-    const XmlAttribute* named = element.Attribute("class");
-    const std::string name = named != nullptr ? named->value : depth == 0 ? "main" : "";
-    if (depth > 0 && name.empty())
-      source.faults().Add("FIL007", source.At(element), "no attribute class");
-    // a class begins as a copy of the one around it, so that one must be whole before those within
-    classes_[name] = parent.empty() ? std::map<std::string, Values>() : classes_[parent];
-    for (const XmlElement* child : element.children) {
-      if (child->name == "default") continue;
-      for (const XmlAttribute& attribute : child->attributes)
-        classes_[name][child->name][attribute.name] = {child, &attribute};
-    }
-    for (const XmlElement* child : element.children) {
-      if (child->name == "default") Read(*child, name, depth + 1, source);
-    }
+  void Read(const XmlElement& element, const std::string& name, const XmlSource& source) {
+    Read(element, name, nullptr, source);
   }
 
-  bool Has(const std::string& name) const { return name == "main" || classes_.contains(name); }
+  bool Has(const std::string& name) const { return name == "main" || named_.contains(name); }
 
   /// The element that states an attribute of an element of a class: itself, or a default's.
   const XmlElement* StatedBy(const XmlElement& element, std::string_view attribute,
                              const std::string& name) const {
     if (element.Attribute(attribute) != nullptr) return &element;
-    const auto values = classes_.find(name.empty() ? "main" : name);
-    if (values == classes_.end()) return nullptr;
-    const auto kind = values->second.find(element.name);
-    if (kind == values->second.end()) return nullptr;
-    const auto value = kind->second.find(std::string(attribute));
-    return value == kind->second.end() ? nullptr : value->second.first;
+    const auto named = named_.find(name.empty() ? "main" : name);
+    const std::pair<std::string_view, std::string_view> key(element.name, attribute);
+    for (const Class* at = named == named_.end() ? nullptr : named->second; at != nullptr;
+         at = at->around) {
+      if (const auto found = at->stated.find(key); found != at->stated.end()) return found->second;
+    }
+    return nullptr;
   }
 
  private:
-  using Values = std::map<std::string, std::pair<const XmlElement*, const XmlAttribute*>>;
-  std::map<std::string, std::map<std::string, Values>> classes_;
+  struct Class {
+    const Class* around = nullptr;
+    // by the name of an element and of an attribute, which the document keeps
+    std::map<std::pair<std::string_view, std::string_view>, const XmlElement*> stated;
+  };
+
+  void Read(const XmlElement& element, const std::string& name, const Class* around,
+            const XmlSource& source) {
+    Class& made = classes_.emplace_back();
+    made.around = around;
+    named_[name] = &made;
+    for (const XmlElement* child : element.children) {
+      if (child->name == "default") {
+        const XmlAttribute* named = child->Attribute("class");
+        if (named == nullptr || named->value.empty())
+          source.faults().Add("FIL007", source.At(*child), "no attribute class");
+        Read(*child, named == nullptr ? "" : named->value, &made, source);
+      } else {
+        for (const XmlAttribute& attribute : child->attributes)
+          made.stated[{child->name, attribute.name}] = child;
+      }
+    }
+  }
+
+  std::deque<Class> classes_;  // they stay where they are
+  std::map<std::string, const Class*> named_;
 };
 
 struct MeshAsset {
@@ -135,6 +147,7 @@ class MjcfReader {
     object_.place = main_.At(mujoco);
     if (const XmlAttribute* model = mujoco.Attribute("model")) object_.name = model->value;
     tops_.push_back({&mujoco, &main_});
+    included_.insert(fs::absolute(main_.file()).lexically_normal().string());
     // what is included may include; the list grows while it is walked
     for (std::size_t i = 0; i < tops_.size(); ++i) FollowIncludes(i);
     for (const Top& top : tops_) top.source->CheckSpelling(*top.root, MjcfElements());
@@ -142,7 +155,8 @@ class MjcfReader {
     Each("compiler",
          [&](const XmlElement& element, const XmlSource& source) { Compiler(element, source); });
     Each("default", [&](const XmlElement& element, const XmlSource& source) {
-      defaults_.Read(element, "", 0, source);
+      const XmlAttribute* named = element.Attribute("class");
+      defaults_.Read(element, named == nullptr ? "main" : named->value, source);
     });
     Each("asset",
          [&](const XmlElement& element, const XmlSource& source) { Assets(element, source); });
@@ -203,7 +217,9 @@ class MjcfReader {
       return faults_.Add("GEO002", source.At(include, "file"), "\"" + *name + '"');
     std::error_code error;
     if (!fs::is_regular_file(path, error))
-      return faults_.Add("GEO001", source.At(include, "file"), "\"" + *name + "\": no such file");
+      return faults_.Add(
+          "GEO001", source.At(include, "file"),
+          '"' + *name + "\": " + (fs::exists(path, error) ? kNoRegularFile : "no such file"));
     // ends circles that the paths do not show, such as those of links
     if (documents_.size() >= 64)
       return faults_.Add("FIL003", source.At(include), "more than the 64 includes allowed");

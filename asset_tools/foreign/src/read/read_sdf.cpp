@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <map>
@@ -111,6 +112,14 @@ class SdfReader {
   }
 
   void ModelContent(const XmlElement& model, const std::string& prefix) {
+    // another program's graph of frames takes minutes over ten thousand
+    constexpr std::ptrdiff_t kMostFrames = 2000;
+    const auto frames =
+        std::count_if(model.children.begin(), model.children.end(),
+                      [](const XmlElement* child) { return child->name == "frame"; });
+    if (frames > kMostFrames)
+      source_.faults().Add("FIL003", source_.At(model),
+                           std::to_string(frames) + " frames, more than the 2000 allowed");
     std::map<std::string, Pose> poses;
     for (const XmlElement* child : model.children) {
       if (child->name == "link" || child->name == "frame" || child->name == "joint")

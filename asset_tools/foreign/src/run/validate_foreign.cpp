@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <fstream>
 #include <set>
 
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
+#include "doorforge/core/read_beginning.h"
 #include "doorforge/foreign/foreign_rules.h"
 #include "doorforge/mesh/import_mesh.h"
 #include "doorforge/mesh/work_budget.h"
@@ -104,7 +104,7 @@ class FileCheck {
     std::error_code error;
     const fs::file_status status = fs::status(file_, error);
     if (!fs::exists(status)) return "no such file";
-    if (!fs::is_regular_file(status)) return "not a regular file";
+    if (!fs::is_regular_file(status)) return kNoRegularFile;
     if (fs::file_size(file_, error) == 0) return "the file is empty";
     return {};
   }
@@ -147,9 +147,8 @@ class FileCheck {
 
   void Usd() {
     kind_ = ValidatedKind::kUsda;
-    std::array<char, 8> begin{};
-    std::ifstream(file_, std::ios::binary).read(begin.data(), begin.size());
-    const std::string_view magic(begin.data(), begin.size());
+    const std::string begin = ReadBeginning(file_, 8);
+    const std::string_view magic = begin;
     if (magic == "PXR-USDC" || magic.starts_with("PK")) {
       kind_ = ValidatedKind::kUnknown;
       const bool crate = magic == "PXR-USDC";
@@ -203,7 +202,14 @@ class FileCheck {
     return std::find(checks_.ask.begin(), checks_.ask.end(), program) != checks_.ask.end();
   }
 
+  // What is beyond our limits would keep another program busy for as long as it may run, and a pipe
+  // in the place of a file would keep it waiting.
+  bool IsBeyondLimits() const {
+    return faults_.Has("FIL003") || faults_.Has("FIL004") || faults_.Says(kNoRegularFile);
+  }
+
   void Ask() {
+    if (IsBeyondLimits()) return notes_.push_back("no other program was asked about it");
     if (kind_ == ValidatedKind::kUrdf) {
       if (Asks("urdfdom"))
         Say(AskProgram("urdfdom", file_), "EXT001");
@@ -229,6 +235,7 @@ class FileCheck {
     const std::string ending = LowerEndingOf(file_);
     const bool own = ending == ".obj" || ending == ".stl" || ending == ".ply";
     const std::string name = own ? "`doorforge import`" : "assimp";
+    if (IsBeyondLimits()) return notes_.push_back(name + " was not asked about it");
     if (!Asks("assimp")) return notes_.push_back(name + " was not asked");
     SecondOpinion opinion{Opinion::kTakes, name, {}};
     try {
@@ -353,10 +360,7 @@ ValidationReport ForeignValidator::Validate(const std::filesystem::path& file,
 namespace {
 
 bool BeginsWithRoot(const std::filesystem::path& file) {
-  std::string begin(2048, '\0');
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  begin.resize(static_cast<std::size_t>(stream.gcount()));
+  const std::string begin = ReadBeginning(file, 2048);
   const auto has = [&](std::string_view tag) {
     const std::size_t at = begin.find(tag);
     return at != std::string::npos && at + tag.size() < begin.size() &&
@@ -382,10 +386,10 @@ FileKind KindOf(const std::filesystem::path& file) {
 
 std::vector<std::filesystem::path> FindForeignFiles(const std::filesystem::path& path) {
   namespace fs = std::filesystem;
-  if (!fs::is_directory(path)) return {path};
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return {path};
   std::vector<fs::path> objects;
   std::vector<fs::path> meshes;
-  std::error_code error;
   auto entry = fs::recursive_directory_iterator(path, error);
   for (; !error && entry != fs::end(entry); entry.increment(error)) {
     const fs::path& at = entry->path();

@@ -31,6 +31,14 @@ std::string CountsOf(std::size_t errors, std::size_t warnings) {
   return CountOf(errors, "error") + ", " + CountOf(warnings, "warning");
 }
 
+// Names of files may hold what a terminal obeys.
+std::string Shown(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
+  }
+  return text;
+}
+
 /// What lies at the paths.
 struct Found {
   RecordsFound records;
@@ -48,16 +56,26 @@ bool IsExcluded(const fs::path& path, const ValidationSettings& settings) {
                      [&](const std::string& folder) { return IsBelow(path, folder); });
 }
 
+bool IsFolder(const fs::path& path) {
+  std::error_code error;
+  return fs::is_directory(path, error);
+}
+
+bool IsFile(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
 void AddFiles(const fs::path& path, const ValidationSettings& settings, Found& found) {
   for (const fs::path& file : FindForeignFiles(path)) {
     if (!IsExcluded(file, settings))
-      found.files.emplace_back(file, fs::is_directory(path) ? path : fs::path());
+      found.files.emplace_back(file, IsFolder(path) ? path : fs::path());
   }
 }
 
 void AddFolder(const std::string& path, const ValidationSettings& settings, Found& found) {
   RecordsFound one = FindAllRecords(std::array{path});
-  if (one.folders.empty() && one.missing.empty() && fs::is_directory(path)) {
+  if (one.folders.empty() && one.missing.empty() && IsFolder(path)) {
     const std::size_t before = found.files.size();
     AddFiles(path, settings, found);
     if (found.files.size() > before) return;
@@ -90,11 +108,11 @@ Found FindAll(const ValidationRequest& request) {
       const fs::path at(path);
       const bool record = at.filename() == "door.json" || at.filename() == "part.json";
       const fs::path parent = at.has_parent_path() ? at.parent_path() : fs::path(".");
-      if (record && fs::is_regular_file(at))
+      if (record && IsFile(at))
         AddFolder(parent.string(), request.settings, found);
-      else if (fs::is_regular_file(at))
+      else if (IsFile(at))
         AddFiles(at, request.settings, found);
-      else if (!fs::exists(at) && at.has_extension())
+      else if (std::error_code error; !fs::exists(at, error) && at.has_extension())
         found.records.problems.push_back(path + ": no such file or folder, no such folder");
       else
         AddFolder(path, request.settings, found);
@@ -207,7 +225,7 @@ class Run {
 
   static std::string TextOf(const ValidationReport& report, bool is_file) {
     if (report.findings.empty() && !is_file) return {};
-    std::string text = report.folder.string() + ": ";
+    std::string text = Shown(report.folder.string()) + ": ";
     text += report.findings.empty() ? std::string(NameOf(report.kind)) + ", passed\n"
                                     : CountsOf(static_cast<std::size_t>(report.errors),
                                                static_cast<std::size_t>(report.warnings)) +
@@ -221,7 +239,7 @@ class Run {
     std::string text;
     for (const CheckedFolder& folder : checked_) {
       for (const Fix& fix : folder.fixes.fixes)
-        text += folder.fixes.folder.string() +
+        text += Shown(folder.fixes.folder.string()) +
                 (request_.checks.fix == FixMode::kDryRun ? ": would fix " : ": fixed ") + fix.code +
                 ": " + fix.where + ": " + fix.done + "\n";
     }
@@ -249,7 +267,7 @@ class Run {
                        : text + "; " + CountOf(known_, "finding") + " of the baseline left out";
   }
 
-  void Say(const std::string& message) { messages_ += "doorforge: " + message + "\n"; }
+  void Say(const std::string& message) { messages_ += "doorforge: " + Shown(message) + "\n"; }
 
   int ExitCode() {
     for (const std::string& problem : found_.records.problems) Say(problem);

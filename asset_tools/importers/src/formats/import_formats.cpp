@@ -58,9 +58,11 @@ std::vector<ForeignSource> SearchFolder(const fs::path& folder, const std::strin
   auto entry = fs::recursive_directory_iterator(
       folder, fs::directory_options::skip_permission_denied, error);
   for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+    std::error_code unreachable;  // as a link to itself is, beside which the others count
+    if (!entry->exists(unreachable)) continue;
     const ImportFormat* format = FormatOf(entry->path(), wanted, false);
     if (format != nullptr) found.push_back({entry->path(), format->name});
-    if (!entry->is_directory(error)) continue;
+    if (!entry->is_directory(unreachable)) continue;
     if (format != nullptr || entry.depth() >= kMaxDepth) entry.disable_recursion_pending();
   }
   std::sort(found.begin(), found.end(),

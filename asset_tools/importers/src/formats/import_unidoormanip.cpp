@@ -106,7 +106,7 @@ class MeshCollector {
                             Eigen::Affine3d(LinkFromRaw() * scale);
     try {
       found.file = FileInside(folder_, mesh->filename, where_);
-      found.sha256 = Sha256OfFile(found.file);
+      found.sha256 = internal::HashOfMeshFile(found.file);
     } catch (const Error& error) {
       if (error.code() != ErrorCode::kMissing) throw;
       std::vector<std::string>& list = piece == "frame" ? missing_of_frame_ : missing_;

@@ -3,7 +3,6 @@
 #include <array>
 
 #include "doorforge/core/error.h"
-#include "doorforge/core/hash.h"
 #include "doorforge/core/inside_folder.h"
 #include "doorforge/core/json_file.h"
 
@@ -70,7 +69,7 @@ std::vector<SourceMesh> MeshesOf(const fs::path& folder, const Json& record, dou
     const std::string file = name.get<std::string>() + ".stl";
     try {
       mesh.file = FileInside(folder, file, path);
-      mesh.sha256 = Sha256OfFile(mesh.file);
+      mesh.sha256 = HashOfMeshFile(mesh.file);
     } catch (const Error& error) {
       if (error.code() != ErrorCode::kMissing) throw;
       missing += ' ' + file;

@@ -9,7 +9,6 @@
 #include <sstream>
 
 #include "doorforge/core/error.h"
-#include "doorforge/core/hash.h"
 #include "doorforge/core/mesh_transform.h"
 #include "doorforge/mesh/import_mesh.h"
 
@@ -255,7 +254,7 @@ SourceMesh MeshFrom(const FileFacts& facts, const std::string& piece,
   SourceMesh mesh;
   mesh.piece = piece;
   mesh.file = facts.file;
-  mesh.sha256 = Sha256OfFile(facts.file);
+  mesh.sha256 = HashOfMeshFile(facts.file);
   mesh.part_from_raw = PartFromRead(config, ReadingOf(config, facts.frame));
   return mesh;
 }

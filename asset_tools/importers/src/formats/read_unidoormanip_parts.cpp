@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "doorforge/core/error.h"
-#include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/mesh_transform.h"
 
@@ -199,7 +198,7 @@ SourceMesh MeshFrom(const fs::path& file, const std::string& piece, double scale
   SourceMesh mesh;
   mesh.piece = piece;
   mesh.file = file;
-  mesh.sha256 = Sha256OfFile(file);
+  mesh.sha256 = HashOfMeshFile(file);
   mesh.part_from_raw = PartFromRaw(scale);
   return mesh;
 }

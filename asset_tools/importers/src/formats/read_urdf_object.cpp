@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -11,6 +10,7 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/inside_folder.h"
+#include "doorforge/core/read_beginning.h"
 #include "doorforge/schemas/door_words.h"
 #include "doorforge/schemas/glb.h"
 #include "doorforge/schemas/mjcf.h"
@@ -51,12 +51,8 @@ constexpr ModelKind kUrdf{
 constexpr ModelKind kSdf{"sdf", "SDF", ".sdf", nullptr, ReadSdf};
 // Whether the file begins as one of this kind does, comments aside.
 bool HoldsRoot(const fs::path& path, const char* root) {
-  constexpr std::streamsize kLooked = 4096;
-  std::string beginning(kLooked, '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(beginning.data(), kLooked);
-  beginning.resize(static_cast<std::size_t>(file.gcount()));
-  return beginning.find(root) != std::string::npos;
+  constexpr std::uint64_t kLooked = 4096;
+  return ReadBeginning(path, kLooked).find(root) != std::string::npos;
 }
 
 constexpr ModelKind kMjcf{"mjcf", "MJCF", ".xml",

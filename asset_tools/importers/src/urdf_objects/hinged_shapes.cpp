@@ -73,7 +73,7 @@ class ShapeCollector {
     try {
       source.file = object_.find_mesh(mesh.filename);
       source.object_folder = object_.folder;
-      source.sha256 = Sha256OfFile(source.file);
+      source.sha256 = HashOfMeshFile(source.file);
       return true;
     } catch (const Error& error) {
       if (error.code() != ErrorCode::kMissing) throw;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <string>
 
 #include <Eigen/LU>
@@ -35,7 +36,10 @@ class FolderIo : public Assimp::DefaultIOSystem {
   }
 
   Assimp::IOStream* Open(const char* file, const char* mode) override {
-    return files_.IsBelow(file) ? Assimp::DefaultIOSystem::Open(file, mode) : nullptr;
+    // a pipe would keep it waiting, a device has no end
+    std::error_code error;
+    const bool reads = files_.IsBelow(file) && std::filesystem::is_regular_file(file, error);
+    return reads ? Assimp::DefaultIOSystem::Open(file, mode) : nullptr;
   }
 
  private:

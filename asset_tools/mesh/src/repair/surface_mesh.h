@@ -10,6 +10,8 @@
 
 #include "doorforge/core/triangle_mesh.h"
 
+#include "repair/exact_orientation.h"
+
 // Only for the four sources named in surface_operations.h.
 
 namespace doorforge {

@@ -406,7 +406,8 @@ bool HasLinks(const std::filesystem::path& path) {
   constexpr std::size_t kHeadBytes = kHeaderBytes + kChunkHeaderBytes;
   const std::string head = ReadBeginning(path, kHeadBytes);
   if (head.size() < kHeadBytes) return false;
-  if (NumberAt(head, 0) != kGlbMagic || NumberAt(head, kHeaderBytes + 4) != kJsonChunk) return false;
+  if (NumberAt(head, 0) != kGlbMagic || NumberAt(head, kHeaderBytes + 4) != kJsonChunk)
+    return false;
   const std::size_t length = NumberAt(head, kHeaderBytes);
   if (length > kMostJsonBytes) return false;
   const std::string json = ReadBeginning(path, kHeadBytes + length).erase(0, kHeadBytes);

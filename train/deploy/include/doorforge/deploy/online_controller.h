@@ -117,9 +117,9 @@ class OnlineController {
     std::string weights_sha256;
     GainCritic critic;
     std::optional<Familiarity> familiarity;
-    MirroringPolicy* mirroring = nullptr; // the same, or what turning plays
-    TurningPolicy* turning = nullptr;  // the same, where it says when the handle is turned
-    bool remembers = false;            // RememberedPoints, of so much:
+    MirroringPolicy* mirroring = nullptr;  // the same, or what turning plays
+    TurningPolicy* turning = nullptr;      // the same, where it says when the handle is turned
+    bool remembers = false;                // RememberedPoints, of so much:
     double crop_radius_m = 0;
   };
   struct Grasper {

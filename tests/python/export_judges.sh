@@ -15,7 +15,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
 "$python" -m venv "$scratch/venv"
-"$scratch/venv/bin/pip" install -q mujoco pybullet sapien drake newton mujoco-warp usd-core trimesh scipy
+"$scratch/venv/bin/pip" install -q mujoco pybullet sapien drake newton mujoco-warp newton-usd-schemas usd-core trimesh scipy
 doors=${3:-$scratch/doors}
 if [ $# -lt 3 ]; then
   doorforge compose --body interior_flush_01 --handle interior_lever_tube_01 --out "$doors/a"

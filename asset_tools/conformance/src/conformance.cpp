@@ -19,7 +19,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array kClients = {
     ConformanceClient{"mujoco", "pip install mujoco"},
-    ConformanceClient{"newton", "pip install newton mujoco-warp usd-core trimesh scipy"},
+    ConformanceClient{"newton",
+                      "pip install newton mujoco-warp newton-usd-schemas usd-core trimesh scipy"},
     ConformanceClient{"pybullet", "pip install pybullet (Python 3.11 or earlier)"},
     ConformanceClient{"sapien", "pip install sapien"},
     ConformanceClient{"drake", "pip install drake"}};

@@ -70,14 +70,17 @@ TEST(DoorBelief, BeginsOnTheSideThatThePictureShows) {
 TEST(DoorBelief, TriesEveryKindOfDoorThatIsLeftOpen) {
   DoorBelief belief(kNothing, std::nullopt);
   belief.Begin(std::nullopt);
-  const std::vector<DoorGuess> guesses = GuessesOf(belief, 8);
-  for (std::size_t i = 0; i < guesses.size(); ++i)
-    EXPECT_EQ(std::count(guesses.begin(), guesses.end(), guesses[i]), 1) << i;
+  // the common kinds again before the rarest of all for the first time
+  const std::vector<DoorGuess> guesses = GuessesOf(belief, 16);
+  std::vector<DoorGuess> kinds;
+  for (const DoorGuess& guess : guesses)
+    if (std::count(kinds.begin(), kinds.end(), guess) == 0) kinds.push_back(guess);
+  EXPECT_EQ(kinds.size(), 8U);
 }
 
 TEST(DoorBelief, APictureThatIsClearKeepsTheSideAndTriesTheRest) {
   DoorBelief belief(kNothing, BySignOfTheFirst());
-  belief.Begin(DoorOnTheSideOf(-0.12F));
+  belief.Begin(DoorOnTheSideOf(-0.1F));
   const std::vector<DoorGuess> guesses = GuessesOf(belief, 3);
   for (const DoorGuess& guess : guesses) EXPECT_EQ(guess.side, HingeSide::kRight);
   EXPECT_EQ(guesses[1].opening, MotionWay::kOther);  // the handle seemed to turn: it is pushed

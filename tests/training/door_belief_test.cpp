@@ -81,11 +81,12 @@ TEST(DoorBelief, TriesEveryKindOfDoorThatIsLeftOpen) {
 TEST(DoorBelief, APictureThatIsClearKeepsTheSideAndTriesTheRest) {
   DoorBelief belief(kNothing, BySignOfTheFirst());
   belief.Begin(DoorOnTheSideOf(-0.1F));
-  const std::vector<DoorGuess> guesses = GuessesOf(belief, 3);
+  const std::vector<DoorGuess> guesses = GuessesOf(belief, 4);
   for (const DoorGuess& guess : guesses) EXPECT_EQ(guess.side, HingeSide::kRight);
   EXPECT_EQ(guesses[1].opening, MotionWay::kOther);  // the handle seemed to turn: it is pushed
   EXPECT_EQ(guesses[1].turning, MotionWay::kUsual);
-  EXPECT_EQ(guesses[2].turning, MotionWay::kOther);
+  EXPECT_EQ(guesses[2].opening, MotionWay::kUsual);  // or the first grasp failed by itself
+  EXPECT_EQ(guesses[3].turning, MotionWay::kOther);
 }
 
 TEST(DoorBelief, AHandleThatStallsIsTurnedTheOtherWayNext) {

@@ -424,7 +424,7 @@ TEST(TrainProgram, ARefusalToGoOnNamesTheSettingsThatDifferAndTheWaysOut) {
   const ProgramAnswer longer =
       RunTraining(data + common + " --epochs 3 --set learning_rate=0.5 --resume");
   EXPECT_EQ(longer.code, 2);
-  EXPECT_EQ(longer.text.substr(longer.text.find("doorforge: ")),
+  EXPECT_EQ(longer.text.substr(longer.text.find("doorforge: " + out)),
             "doorforge: " + out + "/training.safetensors: this training has other settings" + ways +
                 "epochs: recorded 1, given 3\n  learning_rate: recorded 0.001, given 0.5\n");
 

@@ -62,17 +62,21 @@ void WriteDataset(const DoorAsset& door, const fs::path& folder) {
 }
 
 // networks as they are before training: whatever they do, they do it reproducibly
-void WriteUntrainedPolicy(const fs::path& data, const std::string& stage, const fs::path& folder) {
+void WriteUntrainedPolicy(const fs::path& data, const std::string& stage, const fs::path& folder,
+                          bool colors = false) {
   const StageDataset dataset = ReadStageDataset({{data}}, stage, 0);
   PolicyProvenance provenance;
   provenance.stage = stage;
   provenance.dataset_sha256 = dataset.content_sha256;
   provenance.trained_on = dataset.parts;
   provenance.config.family = FamilyOf(stage);
-  WritePolicy(
-      folder,
-      InitialNetworks(MeasureNormalisation(dataset.train), false, 3, provenance.config.family),
-      provenance);
+  provenance.config.colors = colors;
+  NetworkView view;
+  view.colors = colors;
+  WritePolicy(folder,
+              InitialNetworks(MeasureNormalisation(dataset.train, view), false, 3,
+                              provenance.config.family),
+              provenance);
 }
 
 class EvaluateOpenerTest : public testing::Test {
@@ -274,6 +278,27 @@ TEST_F(EvaluateOpenerTest, TheExpertNeedsNeitherPolicyNorData) {
   EXPECT_EQ(evaluation.report.provenance.policy, "expert");
   EXPECT_TRUE(evaluation.report.reference.empty());
   EXPECT_EQ(evaluation.report.episodes[0].outcome, EpisodeOutcome::kOpened);
+}
+
+// All three stages: where they read colours, it matters how the scene looks, and only then.
+TEST_F(EvaluateOpenerTest, APolicyThatReadsColoursIsShownThem) {
+  const auto states = [&](bool colors, SceneAppearance appearance) {
+    const fs::path out = folder_ / (colors ? "with_colors" : "without_colors");
+    for (const std::string stage : {"open", "handle", "grasp"}) {
+      if (!fs::exists(out / stage))
+        WriteUntrainedPolicy(folder_ / "data", stage, out / stage, colors);
+    }
+    EvaluationRequest request = RequestFor("held_out");
+    request.policies = {.opener = out / "open", .handler = out / "handle", .grasper = out / "grasp"};
+    request.config.scene.appearance = appearance;
+    std::vector<std::string> ends;
+    for (const EvaluatedEpisode& episode : EvaluateOpener(request).report.episodes)
+      ends.push_back(episode.state_sha256);
+    return ends;
+  };
+  EXPECT_EQ(states(false, SceneAppearance::kOff), states(false, SceneAppearance::kFull));
+  EXPECT_EQ(states(true, SceneAppearance::kFull), states(true, SceneAppearance::kFull));
+  EXPECT_NE(states(true, SceneAppearance::kOff), states(true, SceneAppearance::kFull));
 }
 
 }  // namespace

@@ -26,8 +26,8 @@ struct Net {
   ParameterLayout layout;
   std::vector<float> parameters;
 
-  Net() {
-    AddEncoderLayers("", layout);
+  explicit Net(EncoderKind kind = {}) {
+    AddEncoderLayers("", layout, kind);
     parameters = HeInitialisation(layout, 3, "");
     // biases that are not zero, so that their use is seen
     Rng rng(3, "test/bias");
@@ -153,9 +153,10 @@ TEST(PointEncoder, ProjectsFirstWhereManyPointsAreInterpolatedFromFew) {
 // Features and gradient of a batch, each cloud with its own share of `wanted`.
 std::pair<std::vector<float>, std::vector<float>> OnDevice(const Net& net,
                                                            const internal::Geometries& geometries,
-                                                           std::span<const float> wanted) {
+                                                           std::span<const float> wanted,
+                                                           EncoderKind kind = {}) {
   ParameterLayout layout;  // the same places in the flat vector
-  AddEncoderLayers("encoder.", layout);
+  AddEncoderLayers("encoder.", layout, kind);
   internal::DeviceEncoder device(layout, net.parameters, "libtorch", /*in_double=*/true);
   std::vector<float> features = device.Forward(geometries, true);
   std::vector<float> gradient(net.parameters.size());
@@ -178,6 +179,60 @@ TEST(PointEncoder, OnAnotherDeviceItIsTheSameNetwork) {
   for (std::size_t i = 0; i < features.size(); ++i)
     ASSERT_NEAR(features[i], expected.features[i], 1e-5) << i;
   ExpectSameGradients(net.layout, expected.gradient, gradient, 1e-5);
+}
+
+std::vector<std::uint8_t> RandomColors() {
+  Rng rng(6, "test/colors");
+  std::vector<std::uint8_t> rgb(std::size_t{3} * kCloudPoints);
+  for (std::uint8_t& value : rgb) value = static_cast<std::uint8_t>(rng.Index(256));
+  return rgb;
+}
+
+TEST(PointEncoder, ReadsColoursAsTheSameNetworkInStockOperators) {
+  const EncoderKind kind{EncoderNorm::kNone, true};
+  const Net net(kind);
+  EXPECT_EQ(net.layout.layers().front().inputs, 9);
+  const std::vector<float> cloud = testing::DoorCloud(1, 0.3);
+  const std::vector<std::uint8_t> rgb = RandomColors();
+  // a window that leaves points out, so that each must keep its own colour
+  const CloudWindow window{testing::kCloudCentre, 0.5F};
+  const std::vector<std::uint16_t> outputs = {0};
+  const std::vector<float> wanted = RandomVector(kFeatureSize, "colors");
+  const auto geometry = std::make_shared<const CloudGeometry>(
+      BuildGeometry({cloud, rgb}, window, outputs, BestInstructionSet()));
+  ASSERT_LT(geometry->rgb.size(), rgb.size());
+  const auto [features, gradient] = OnDevice(net, {geometry}, wanted, kind);
+  for (const InstructionSet set : testing::SupportedSets()) {
+    SCOPED_TRACE(NameOf(set));
+    const PointEncoder encoder(net.layout, "", net.parameters, set);
+    const PointEncoder::Trace trace = encoder.Forward(*geometry);
+    EXPECT_LT(WorstRelative(features, trace.features), 1e-5);
+    std::vector<float> found(net.parameters.size());
+    encoder.AddGradient(*geometry, trace, wanted, found);
+    ExpectSameGradients(net.layout, gradient, found, 1e-4);
+  }
+}
+
+TEST(PointEncoder, GivesEachPointItsOwnColour) {
+  const std::vector<float> cloud = testing::DoorCloud(1, 0.3);
+  std::vector<std::uint8_t> rgb(cloud.size());
+  for (std::size_t i = 0; i < rgb.size(); ++i)  // where a point lies is what colour it has
+    rgb[i] = static_cast<std::uint8_t>(std::clamp(100 * cloud[i] + 100, 0.0F, 255.0F));
+  const CloudGeometry geometry = BuildGeometry({cloud, rgb}, {{}, 0.5F});
+  ASSERT_EQ(geometry.rgb.size(), geometry.xyz.size());
+  for (std::size_t i = 0; i < geometry.xyz.size(); ++i)
+    ASSERT_EQ(geometry.rgb[i], static_cast<std::uint8_t>(
+                                   std::clamp(100 * geometry.xyz[i] + 100, 0.0F, 255.0F)))
+        << i;
+}
+
+TEST(PointEncoder, RefusesACloudWithoutTheColoursThatItReads) {
+  const Net net({EncoderNorm::kNone, true});
+  const PointEncoder encoder(net.layout, "", net.parameters, BestInstructionSet());
+  const std::vector<float> cloud = testing::DoorCloud(1, 0.3);
+  EXPECT_THROW(encoder.Forward(BuildGeometry(cloud, {testing::kCloudCentre})), Error);
+  const std::vector<std::uint8_t> few(30);
+  EXPECT_THROW(BuildGeometry({cloud, few}, {testing::kCloudCentre}), Error);
 }
 
 TEST(PointEncoder, OnAnotherDeviceABatchIsTheSumOfItsClouds) {

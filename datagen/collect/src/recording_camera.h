@@ -30,6 +30,9 @@ class RecordingCamera : public Observer {
   /// Does what CameraObserver::Remember() does.
   void Remember(RememberedView before) { camera_.Remember(std::move(before)); }
 
+  /// Does what CameraObserver::ColorWith() does.
+  void ColorWith(std::unique_ptr<ColorSource> colors) { camera_.ColorWith(std::move(colors)); }
+
   LabelledCloud Observe(const SceneSnapshot& snapshot) override;
   /// Observes too, but keeps every point that is visible.
   LabelledCloud ObserveAll(const SceneSnapshot& snapshot);

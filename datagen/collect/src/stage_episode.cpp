@@ -40,6 +40,24 @@ struct EpisodeToRun {
   const StageConfig& config;
 };
 
+// What those who act in the recorded stage are shown besides what the camera sees now.
+struct ShownBesides {
+  bool remembers;
+  const RememberedViewConfig& remembered;
+  bool colors;
+};
+
+void PrepareToAct(RecordingCamera& camera, const EpisodePlace& place, const ShownBesides& besides) {
+  std::optional<RememberedView> before;
+  if (besides.remembers)
+    before.emplace(place.scene, place.door, place.robot, place.cloud, besides.remembered);
+  if (besides.colors) {
+    camera.ColorWith(PolicyColors(place)(place.scene, place.cloud.robot));
+    if (before) before->ColorWith(PolicyColors(place));
+  }
+  if (before) camera.Remember(*std::move(before));
+}
+
 // `film`, where there is one, looks on.
 CollectedEpisode RunRecorded(const EpisodeToRun& run, StagePolicies& policies, FilmRecorder* film) {
   const auto& [planned, identified, robot, config] = run;
@@ -57,15 +75,14 @@ CollectedEpisode RunRecorded(const EpisodeToRun& run, StagePolicies& policies, F
     before.emplace(recorded_scene, door, robot, config.cloud, /*sees_robot=*/false);
   std::optional<RecordingCamera> later;
   if (!at_grasp) later.emplace(scene, door, robot, config.cloud, /*sees_robot=*/true);
+  const EpisodePlace place{scene, door, robot, config.cloud};
   const bool remembers = config.stage == Stage::kHandle && config.remembered.IsOn();
-  if (remembers) later->Remember({scene, door, robot, config.cloud, config.remembered});
+  if (later) PrepareToAct(*later, place, {remembers, config.remembered, UsesColors(*set)});
   RecordingCamera& camera = at_grasp ? *before : *later;
-  std::optional<CameraObserver> policies_camera;
-  if (at_grasp) {
-    policies_camera.emplace(scene, door, robot, config.cloud);
-    if (policies.remembered().IsOn())
-      policies_camera->Remember({scene, door, robot, config.cloud, policies.remembered()});
-  }
+  if (before && set->grasp && set->grasp->UsesColors())
+    before->ColorWith(PolicyColors(place)(recorded_scene, /*sees_robot=*/false));
+  std::unique_ptr<CameraObserver> policies_camera;
+  if (at_grasp) policies_camera = CameraOf(place, policies.remembered(), UsesColors(*set));
   const CloudExtent extent{config.cloud.point_count, crop_radius_m};
   const auto look = [&](const SceneSnapshot& snapshot) { return before->ObserveAll(snapshot); };
   EpisodePolicies roles{.recorded = config.stage, .open = set->open.get()};
@@ -82,10 +99,10 @@ CollectedEpisode RunRecorded(const EpisodeToRun& run, StagePolicies& policies, F
     roles.learner_decisions = LearnerDecisions(config, planned);
   }
 
-  BeginEpisode(*set, {scene, door, robot, config.cloud});
+  BeginEpisode(*set, place);
   CollectedEpisode collected;
   Observer* observer = &camera;
-  if (policies_camera) observer = &*policies_camera;
+  if (policies_camera) observer = policies_camera.get();
   if (film != nullptr) {
     film->LookThrough(observer);
     observer = film;

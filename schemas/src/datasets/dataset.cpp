@@ -518,6 +518,11 @@ EpisodeArrays DatasetReader::Arrays(std::size_t episode) const {
   return ViewEpisode(shards_[place.shard], place.episode);
 }
 
+std::span<const std::uint8_t> DatasetReader::CloudColors(std::size_t episode) const {
+  const Place& place = places_.at(episode);
+  return ViewCloudColors(shards_[place.shard], place.episode);
+}
+
 Json DatasetReader::Meta(std::size_t episode) const {
   const Place& place = places_.at(episode);
   return ReadEpisodeMeta(shards_[place.shard], place.episode);

@@ -12,6 +12,7 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/schemas/npy.h"
+#include "doorforge/schemas/picture_streams.h"
 
 namespace doorforge {
 namespace {
@@ -212,6 +213,13 @@ EpisodeArrays ViewEpisode(const ShardReader& reader, std::size_t episode) {
         column);
   }
   return arrays;
+}
+
+std::span<const std::uint8_t> ViewCloudColors(const ShardReader& reader, std::size_t episode) {
+  const std::string name(kCloudColors);
+  if (!Has(reader, episode, name + ".npy")) return {};
+  const EpisodeArrays arrays = ViewEpisode(reader, episode);
+  return ViewArray<std::uint8_t>(reader, episode, name, {arrays.decisions, arrays.points, 3});
 }
 
 nlohmann::ordered_json ReadEpisodeMeta(const ShardReader& reader, std::size_t episode) {

@@ -13,6 +13,7 @@
 
 #include "cloud_colors.h"
 #include "picture_arrays.h"
+#include "picture_meshes.h"
 #include "rgb_renderer.h"
 
 namespace doorforge {
@@ -20,17 +21,10 @@ namespace {
 
 constexpr std::size_t kLookBefore = 1000000;  // its noise is none of an episode's looks
 
-std::vector<VisibleMesh> MeshesOf(const PictureScene& scene) {
-  std::vector<VisibleMesh> meshes = VisibleMeshesOf(scene.door, scene.robot);
-  if (!scene.sees_robot)
-    std::erase_if(meshes, [](const VisibleMesh& mesh) { return mesh.label == PointLabel::kRobot; });
-  return meshes;
-}
-
 class Photographer {
  public:
   Photographer(const PictureScene& scene, const PicturesConfig& config)
-      : scene_(scene), config_(config), depth_(MeshesOf(scene)) {
+      : scene_(scene), config_(config), depth_(PictureMeshesOf(scene)) {
     const auto& streams = config.streams;
     shows_rgb_ = std::ranges::find(streams, PictureStream::kRgb) != streams.end();
     if (shows_rgb_ || config.cloud_rgb) rgb_.emplace(scene, config, depth_.scene());
@@ -70,7 +64,7 @@ class Photographer {
 
   ColoredLook LookOfBefore(const RememberedLook& before) const {
     const PictureScene empty{before.scene, scene_.door, scene_.robot, false, before.as_calibrated};
-    DepthCamera depth(MeshesOf(empty));
+    DepthCamera depth(PictureMeshesOf(empty));
     const SurfaceImage surfaces =
         depth.RenderSurfaces(before.scene.camera, LinkPosesOf(before.snapshot));
     return {&before.depth, ViewOf(before.as_calibrated),

@@ -50,9 +50,9 @@ TrialPolicies PoliciesOf(const PolicySetFactory& factory, const EvaluationConfig
       "config.scene.physics.base: a policy knows sliders, a fixed base or a flying hand, found " +
           std::string(NameOf(base)));
   return {[&factory] { return factory.Make(); },
-          [&config, robot, remembered = factory.Remembered()](const Scene& scene,
-                                                              const DoorAsset& door) {
-            return CameraOf({scene, door, *robot, config.cloud}, remembered);
+          [&config, robot, remembered = factory.Remembered()](
+              const Scene& scene, const DoorAsset& door, const PolicySet& set) {
+            return CameraOf({scene, door, *robot, config.cloud}, remembered, UsesColors(set));
           }};
 }
 

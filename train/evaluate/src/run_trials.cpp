@@ -91,9 +91,9 @@ std::vector<EvaluatedEpisode> RunTrials(const TrialPlan& trials, const TrialPoli
     const auto [held, scene, gone] = trials.At(i);
     if (held != nullptr) {
       const DoorAsset& door = *held;
-      std::unique_ptr<Observer> observer;
-      if (policies.make_observer) observer = policies.make_observer(scene, door);
       const auto set = pool.Take();
+      std::unique_ptr<Observer> observer;
+      if (policies.make_observer) observer = policies.make_observer(scene, door, *set);
       rows[i] = RowOf(
           RunPolicySet({scene, door, trials.robot(), trials.cloud()}, *set, observer.get()), door);
     } else {

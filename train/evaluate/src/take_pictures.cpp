@@ -78,7 +78,7 @@ FilmedTrial FilmTrial(const FinishedTrials& finished, std::size_t index, const P
   if (held == nullptr) return {};
   const DoorAsset& door = *held;
   const RobotModel robot = LoadRobot({}, scene.physics.base);
-  internal::EpisodeFilm film(policies.make_observer ? policies.make_observer(scene, door)
+  internal::EpisodeFilm film(policies.make_observer ? policies.make_observer(scene, door, set)
                                                     : nullptr);
   const Episode episode = RunPolicySet({scene, door, robot, finished.trials.cloud()}, set, &film);
   const bool repeated = episode.state_sha256 == finished.rows[index].state_sha256;
@@ -101,7 +101,7 @@ std::optional<EpisodeFilm> FilmOfTrial(const FinishedTrials& finished, std::size
   const DoorAsset& door = *held;
   const RobotModel robot = LoadRobot({}, scene.physics.base);
   std::unique_ptr<Observer> camera;
-  if (policies.make_observer) camera = policies.make_observer(scene, door);
+  if (policies.make_observer) camera = policies.make_observer(scene, door, set);
   FilmRecorder recorder(camera.get());
   const Episode episode =
       RunPolicySet({scene, door, robot, finished.trials.cloud()}, set, &recorder);

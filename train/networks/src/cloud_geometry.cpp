@@ -117,12 +117,14 @@ struct SampledLevels {
   std::array<PointColumns, 5> points;
 };
 
-SampledLevels SampleLevels(std::span<const float> xyz, const CloudWindow& window,
-                           InstructionSet set) {
+SampledLevels SampleLevels(const CloudView& cloud, const CloudWindow& window, InstructionSet set) {
+  const std::span<const float> xyz = cloud.xyz;
   Require(xyz.size() == std::size_t{3} * kCloudPoints, ErrorCode::kInvalidArgument,
           "a cloud must hold 4096 points, found " + std::to_string(xyz.size() / 3));
   Require(std::all_of(xyz.begin(), xyz.end(), [](float v) { return std::isfinite(v); }),
           ErrorCode::kInvalidArgument, "a cloud must hold finite numbers");
+  Require(cloud.rgb.empty() || cloud.rgb.size() == xyz.size(), ErrorCode::kInvalidArgument,
+          "a cloud must have a colour for each of its points");
   SampledLevels levels;
   std::array<PointColumns, 5>& points = levels.points;
   points[0] = ToColumns(xyz, window.centre);
@@ -160,29 +162,43 @@ CloudGeometry GeometryOf(const std::array<PointColumns, 5>& points, const Indice
   return geometry;
 }
 
-}  // namespace
-
-CloudGeometry BuildGeometry(std::span<const float> xyz, const CloudWindow& window,
-                            std::span<const std::uint16_t> outputs, InstructionSet set) {
-  const SampledLevels levels = SampleLevels(xyz, window, set);
-  return GeometryOf(levels.points, OutputsInside(levels.inside, outputs), set);
+std::vector<std::uint8_t> ColorsInside(const CloudView& cloud, const Indices& inside) {
+  std::vector<std::uint8_t> rgb;
+  if (cloud.rgb.empty()) return rgb;
+  rgb.reserve(3 * inside.size());
+  for (const std::uint16_t point : inside) {
+    const auto color = cloud.rgb.subspan(std::size_t{3} * point, 3);
+    rgb.insert(rgb.end(), color.begin(), color.end());
+  }
+  return rgb;
 }
 
-CloudGeometry BuildWholeGeometry(std::span<const float> xyz, const CloudWindow& window,
+}  // namespace
+
+CloudGeometry BuildGeometry(const CloudView& cloud, const CloudWindow& window,
+                            std::span<const std::uint16_t> outputs, InstructionSet set) {
+  const SampledLevels levels = SampleLevels(cloud, window, set);
+  CloudGeometry geometry = GeometryOf(levels.points, OutputsInside(levels.inside, outputs), set);
+  geometry.rgb = ColorsInside(cloud, levels.inside);
+  return geometry;
+}
+
+CloudGeometry BuildWholeGeometry(const CloudView& cloud, const CloudWindow& window,
                                  std::span<const std::uint16_t> outputs, InstructionSet set) {
-  const SampledLevels levels = SampleLevels(xyz, window, set);
+  const SampledLevels levels = SampleLevels(cloud, window, set);
   Indices all(levels.inside.size());
   std::iota(all.begin(), all.end(), std::uint16_t{0});
   // every centre of a level is a point of the level below, whose own nearest it is: none is left
   // out
   CloudGeometry geometry = GeometryOf(levels.points, all, set);
   geometry.read = OutputsInside(levels.inside, outputs);
+  geometry.rgb = ColorsInside(cloud, levels.inside);
   return geometry;
 }
 
-CloudGeometry BuildGeometry(std::span<const float> xyz, const CloudWindow& window) {
+CloudGeometry BuildGeometry(const CloudView& cloud, const CloudWindow& window) {
   constexpr std::array<std::uint16_t, 1> kPointZero = {0};
-  return BuildGeometry(xyz, window, kPointZero, BestInstructionSet());
+  return BuildGeometry(cloud, window, kPointZero, BestInstructionSet());
 }
 
 }  // namespace doorforge

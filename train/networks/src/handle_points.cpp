@@ -39,10 +39,24 @@ std::size_t MiddlePoint(std::span<const float> xyz, std::span<const std::size_t>
   return nearest;
 }
 
-std::vector<float> BeginningAt(std::span<const float> xyz, std::size_t first) {
-  std::vector<float> swapped(xyz.begin(), xyz.end());
+namespace {
+
+template <class T>
+std::vector<T> WithFirst(std::span<const T> points, std::size_t first) {
+  std::vector<T> swapped(points.begin(), points.end());
+  if (swapped.empty()) return swapped;
   for (std::size_t k = 0; k < 3; ++k) std::swap(swapped[k], swapped[3 * first + k]);
   return swapped;
+}
+
+}  // namespace
+
+std::vector<float> BeginningAt(std::span<const float> xyz, std::size_t first) {
+  return WithFirst(xyz, first);
+}
+
+std::vector<std::uint8_t> BeginningAt(std::span<const std::uint8_t> rgb, std::size_t first) {
+  return WithFirst(rgb, first);
 }
 
 std::array<float, 3> GraspOrigin(const StageNormalisation& normalisation,

@@ -16,13 +16,11 @@ namespace {
 constexpr int kBranchFeatures = 128;  // of the grasp's branches
 
 std::shared_ptr<const DenseLayers> ActorLayers(const StageNetworks& networks, InstructionSet set) {
-  return std::make_shared<DenseLayers>(ActorLayout(networks.family, networks.norm), networks.actor,
-                                       set);
+  return std::make_shared<DenseLayers>(networks.actor_layout(), networks.actor, set);
 }
 
 std::shared_ptr<const DenseLayers> CriticLayers(const StageNetworks& networks, InstructionSet set) {
-  return std::make_shared<DenseLayers>(CriticLayout(networks.family, networks.norm),
-                                       networks.critic, set);
+  return std::make_shared<DenseLayers>(networks.critic_layout(), networks.critic, set);
 }
 
 template <std::size_t N>

@@ -48,19 +48,16 @@ std::vector<float> ReadParameters(const ParameterLayout& layout, const std::stri
 TensorFile WeightsOf(const StageNetworks& networks, MakeFloats make) {
   TensorFile file;
   const NetworkNames names = NamesOf(networks.family);
-  AddParameters(ActorLayout(networks.family, networks.norm), NetworkPrefix(names.actor),
-                networks.actor, make, file);
-  AddParameters(CriticLayout(networks.family, networks.norm), NetworkPrefix(names.critic),
-                networks.critic, make, file);
+  AddParameters(networks.actor_layout(), NetworkPrefix(names.actor), networks.actor, make, file);
+  AddParameters(networks.critic_layout(), NetworkPrefix(names.critic), networks.critic, make, file);
   return file;
 }
 
 void ReadWeights(const TensorFile& file, const std::string& path, StageNetworks& networks) {
   const NetworkNames names = NamesOf(networks.family);
-  networks.actor = ReadParameters(ActorLayout(networks.family, networks.norm),
-                                  NetworkPrefix(names.actor), file, path);
-  networks.critic = ReadParameters(CriticLayout(networks.family, networks.norm),
-                                   NetworkPrefix(names.critic), file, path);
+  networks.actor = ReadParameters(networks.actor_layout(), NetworkPrefix(names.actor), file, path);
+  networks.critic =
+      ReadParameters(networks.critic_layout(), NetworkPrefix(names.critic), file, path);
 }
 
 }  // namespace doorforge::internal

@@ -50,6 +50,10 @@ struct PackedEncoder {
   std::array<std::array<PackedLayer, 3>, 4> abstraction;
   std::array<std::vector<PackedLayer>, 4> propagation;
   PackedLayer head;
+
+  bool reads_colors() const;
+  /// Width of a level's point rows: position and feature.
+  int LevelWidth(std::size_t level) const;
 };
 
 /// Memory for intermediate rows, not initialised.
@@ -75,7 +79,7 @@ void ForRowBlocks(int rows, const Body& body) {
     body(row, rows - row < kBlockRows ? rows - row : kBlockRows);
 }
 
-/// Width of a level's point rows: position and feature.
+/// What an abstraction gives a point of level `level`, 1 to 4: its position and feature.
 int LevelWidth(std::size_t level);
 
 /// How many coarser points propagation l interpolates between.

@@ -24,11 +24,14 @@ using internal::Scratch;
 
 namespace {
 
-// Sizes of UniDoorManip's PointNet++; the first number of each abstraction counts the position.
+// Sizes of UniDoorManip's PointNet++; the first number of each abstraction counts the position. The
+// first layers of "sa1" and "fp1" have kColors inputs more where colours are read.
 constexpr std::array<std::array<int, 4>, 4> kAbstractionSizes = {
     {{6, 32, 32, 64}, {67, 64, 64, 128}, {131, 128, 128, 256}, {259, 256, 256, 512}}};
 const std::array<std::vector<int>, 4> kPropagationSizes = {
     {{131, 128, 128, 128}, {320, 256, 128}, {384, 256, 256}, {768, 256, 256}}};
+
+constexpr int kColors = 3;
 
 std::string LayerName(const char* kind, std::size_t level, std::size_t i) {
   return kind + std::to_string(level + 1) + "." + std::to_string(i);
@@ -125,16 +128,16 @@ void AbstractSet(const PackedEncoder& encoder, const CloudGeometry& geometry, st
   const CloudGeometry::Level& level = geometry.levels[l];
   const auto& layers = encoder.abstraction[l];
   const int width = layers[0].outputs;
-  const int below = static_cast<int>(trace.level[l].size()) / LevelWidth(l);
+  const int row_width = encoder.LevelWidth(l);
+  const int below = static_cast<int>(trace.level[l].size()) / row_width;
   const int centres = static_cast<int>(level.size());
 
   // W [p_k - c_s, f_k] + b = (W [p_k, f_k] + b) - W_xyz c_s: once per point instead of once per row
   trace.source[l].resize(static_cast<std::size_t>(below) * width);
   internal::ForRowBlocks(below, [&](std::ptrdiff_t row, int count) {
-    kernels.multiply(
-        {trace.level[l].data() + row * LevelWidth(l), LevelWidth(l), count, LevelWidth(l)},
-        layers[0].ForwardPanels(), layers[0].bias.data(),
-        {trace.source[l].data() + row * width, width}, false);
+    kernels.multiply({trace.level[l].data() + row * row_width, row_width, count, row_width},
+                     layers[0].ForwardPanels(), layers[0].bias.data(),
+                     {trace.source[l].data() + row * width, width}, false);
   });
   trace.centre[l].resize(static_cast<std::size_t>(centres) * width);
   kernels.multiply({level.centre_xyz.data(), 3, centres, 3}, layers[0].ForwardPanels(), nullptr,
@@ -166,6 +169,23 @@ void AbstractSet(const PackedEncoder& encoder, const CloudGeometry& geometry, st
 
 using Floats = std::vector<float>;
 
+// A colour enters from -0.5 to 0.5: about as far as positions reach.
+void FillPointRows(const PackedEncoder& encoder, const CloudGeometry& geometry, Floats& rows) {
+  const bool reads_colors = encoder.reads_colors();
+  Require(!reads_colors || geometry.rgb.size() == geometry.xyz.size(), ErrorCode::kInvalidArgument,
+          "these networks read the colours of points, and the cloud has none");
+  const auto width = static_cast<std::size_t>(encoder.LevelWidth(0));
+  rows.resize(geometry.xyz.size() / 3 * width);
+  float* row = rows.data();
+  for (std::size_t i = 0; i < geometry.xyz.size(); i += 3, row += width) {
+    std::copy_n(geometry.xyz.data() + i, 3, row);
+    std::copy_n(geometry.xyz.data() + i, 3, row + 3);
+    if (!reads_colors) continue;
+    for (std::size_t k = 0; k < 3; ++k)
+      row[6 + k] = static_cast<float>(geometry.rgb[i + k]) / 255.0F - 0.5F;
+  }
+}
+
 // y += the weighted features of target t's three neighbours.
 void AddInterpolated(const Kernels& kernels, const CloudGeometry::Upsampling& upsampling,
                      std::size_t t, const Rows& features, float* y) {
@@ -176,11 +196,13 @@ void AddInterpolated(const Kernels& kernels, const CloudGeometry::Upsampling& up
 }
 
 // Inputs of propagation l: the interpolated features, unless those come later, and the point's own.
-Floats PropagationInputs(const Kernels& kernels, const CloudGeometry& geometry, std::size_t l,
+Floats PropagationInputs(const PackedEncoder& encoder, const CloudGeometry& geometry, std::size_t l,
                          const PointEncoder::Trace& trace) {
+  const Kernels& kernels = *encoder.kernels;
   const CloudGeometry::Upsampling& upsampling = geometry.upsampling[l];
   const Rows features = internal::CoarseFeatures(geometry, trace, l);
-  const int own = LevelWidth(l) - 3;
+  const int row_width = encoder.LevelWidth(l);
+  const int own = row_width - 3;
   const bool interpolates = !internal::ProjectsFirst(geometry, l);
   const int coarse = interpolates ? features.columns : 0;
   Floats input(upsampling.size() * (coarse + own));
@@ -188,7 +210,7 @@ Floats PropagationInputs(const Kernels& kernels, const CloudGeometry& geometry, 
     float* row = input.data() + t * (coarse + own);
     if (interpolates) AddInterpolated(kernels, upsampling, t, features, row);
     const float* skip =
-        trace.level[l].data() + static_cast<std::size_t>(upsampling.skip[t]) * LevelWidth(l) + 3;
+        trace.level[l].data() + static_cast<std::size_t>(upsampling.skip[t]) * row_width + 3;
     std::copy_n(skip, own, row + coarse);
   }
   return input;
@@ -209,7 +231,7 @@ Floats ProjectedLayer(const PackedEncoder& encoder, const CloudGeometry& geometr
         layer.ForwardPanels(), nullptr, {projected.data() + row * width, width}, false);
   });
   const int targets = static_cast<int>(geometry.upsampling[l].size());
-  const int own_width = LevelWidth(l) - 3;
+  const int own_width = encoder.LevelWidth(l) - 3;
   const Floats zero(static_cast<std::size_t>(width));
   Floats output(static_cast<std::size_t>(targets) * width);
   internal::ForRowBlocks(targets, [&](std::ptrdiff_t row, int count) {
@@ -241,8 +263,14 @@ Floats Dense(const Kernels& kernels, const PackedLayer& layer, const Floats& inp
 
 namespace internal {
 
-int LevelWidth(std::size_t level) {
-  return level == 0 ? 6 : 3 + kAbstractionSizes[level - 1].back();
+int LevelWidth(std::size_t level) { return 3 + kAbstractionSizes.at(level - 1).back(); }
+
+bool PackedEncoder::reads_colors() const {
+  return abstraction[0][0].inputs == kAbstractionSizes[0][0] + kColors;
+}
+
+int PackedEncoder::LevelWidth(std::size_t level) const {
+  return level == 0 ? abstraction[0][0].inputs : internal::LevelWidth(level);
 }
 
 std::size_t CoarsePoints(const CloudGeometry& geometry, std::size_t l) {
@@ -274,10 +302,11 @@ CentreBlock BlockFrom(const CloudGeometry::Level& level, std::size_t first) {
 
 }  // namespace internal
 
-void AddEncoderLayers(const std::string& prefix, ParameterLayout& layout, EncoderNorm norm) {
+void AddEncoderLayers(const std::string& prefix, ParameterLayout& layout, EncoderKind kind) {
   const auto add = [&](const std::string& name, int inputs, int outputs) {
-    layout.Add(prefix + name, inputs, outputs);
-    if (norm == EncoderNorm::kBatch) layout.Add(prefix + name + ".norm", 1, outputs);
+    const bool reads_points = name == "sa1.0" || name == "fp1.0";
+    layout.Add(prefix + name, inputs + (kind.colors && reads_points ? kColors : 0), outputs);
+    if (kind.norm == EncoderNorm::kBatch) layout.Add(prefix + name + ".norm", 1, outputs);
   };
   for (std::size_t level = 0; level < 4; ++level) {
     const auto& sizes = kAbstractionSizes[level];
@@ -317,17 +346,13 @@ PointEncoder::PointEncoder(const ParameterLayout& layout, const std::string& pre
 
 PointEncoder::Trace PointEncoder::Forward(const CloudGeometry& geometry, Trace storage) const {
   Trace trace = std::move(storage);
-  trace.level[0].resize(geometry.xyz.size() * 2);
-  for (std::size_t i = 0; i < geometry.xyz.size(); i += 3) {
-    std::copy_n(geometry.xyz.data() + i, 3, trace.level[0].data() + 2 * i);
-    std::copy_n(geometry.xyz.data() + i, 3, trace.level[0].data() + 2 * i + 3);
-  }
+  FillPointRows(*packed_, geometry, trace.level[0]);
   for (std::size_t level = 0; level < 4; ++level) AbstractSet(*packed_, geometry, level, trace);
   for (std::size_t level = 4; level-- > 0;) {
     const auto& layers = packed_->propagation[level];
     auto& rows = trace.propagation[level];
     rows.clear();
-    rows.push_back(PropagationInputs(*packed_->kernels, geometry, level, trace));
+    rows.push_back(PropagationInputs(*packed_, geometry, level, trace));
     for (std::size_t i = 0; i < layers.size(); ++i) {
       const bool projects = i == 0 && internal::ProjectsFirst(geometry, level);
       rows.push_back(projects ? ProjectedLayer(*packed_, geometry, level, trace, rows[0])

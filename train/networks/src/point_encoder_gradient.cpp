@@ -52,7 +52,7 @@ void AddLayerGradient(const Kernels& kernels, const PackedLayer& layer, const Ma
                       const Matrix& output_gradient, std::span<float> gradient) {
   float* weight = gradient.data() + layer.weight_offset + layer.inputs - input.columns;
   float* bias = gradient.data() + layer.bias_offset;
-  const int tail = input.columns % 32;  // the position columns of the last propagation
+  const int tail = input.columns % 32;  // the last propagation's columns of position and colour
   internal::ForRowBlocks(input.rows, [&](std::ptrdiff_t row, int count) {
     internal::Rows columns = input.Part(row, count).View();
     columns.columns -= tail;
@@ -91,7 +91,8 @@ class SetGradient {
         trace_(trace),
         l_(l),
         widths_{layers_[0].outputs, layers_[1].outputs, layers_[2].outputs},
-        below_(static_cast<int>(trace.level[l].size()) / LevelWidth(l)),
+        row_width_(encoder.LevelWidth(l)),
+        below_(static_cast<int>(trace.level[l].size()) / row_width_),
         source_(static_cast<std::size_t>(below_) * widths_[0]),
         centre_(level_.size() * widths_[0]),
         first_(Scratch(std::size_t{kBlockRows} * widths_[0])),
@@ -208,13 +209,12 @@ class SetGradient {
 
   Floats FirstLayer(std::span<float> gradient) {
     const PackedLayer& layer = layers_[0];
-    const int row_width = LevelWidth(l_);
     const float* points = trace_.level[l_].data();
-    const int by_hand = l_ == 0 ? 6 : 3;  // position columns of the weight
+    const int by_hand = l_ == 0 ? row_width_ : 3;  // columns of the weight for what is given
     Floats position(static_cast<std::size_t>(by_hand) * static_cast<std::size_t>(widths_[0]));
     for (int k = 0; k < below_; ++k)
       AddPosition(source_.data() + static_cast<std::ptrdiff_t>(k) * widths_[0],
-                  points + static_cast<std::ptrdiff_t>(k) * row_width, by_hand, position);
+                  points + static_cast<std::ptrdiff_t>(k) * row_width_, by_hand, position);
     for (std::size_t s = 0; s < level_.size(); ++s)
       AddPosition(centre_.data() + s * widths_[0], level_.centre_xyz.data() + 3 * s, 3, position);
     float* weight = gradient.data() + layer.weight_offset;
@@ -225,7 +225,7 @@ class SetGradient {
                           widths_[0], bias);
     if (l_ == 0) return {};
     const Matrix source_gradient{source_.data(), below_, widths_[0]};
-    kernels_.add_outer(source_gradient.View(), {points + 3, row_width, below_, row_width - 3},
+    kernels_.add_outer(source_gradient.View(), {points + 3, row_width_, below_, row_width_ - 3},
                        {weight + 3, layer.inputs});
     Floats below(static_cast<std::size_t>(below_) * layer.backward_count);
     PassBack(kernels_, layer.BackwardPanels(), source_gradient, below.data());
@@ -247,6 +247,7 @@ class SetGradient {
   const PointEncoder::Trace& trace_;
   std::size_t l_;
   std::array<int, 3> widths_;
+  int row_width_;
   int below_;
   Floats source_;  // gradient of Trace::source
   Floats centre_;  // gradient of Trace::centre
@@ -329,6 +330,7 @@ class ProjectedGradient {
                     const PointEncoder::Trace& trace, std::size_t l)
       : kernels_(*encoder.kernels),
         layer_(encoder.propagation[l][0]),
+        own_(encoder.LevelWidth(l) - 3),
         geometry_(geometry),
         rows_(trace.propagation[l]),
         features_(internal::CoarseFeatures(geometry, trace, l)),
@@ -341,12 +343,11 @@ class ProjectedGradient {
     kernels_.mask(rows_[1].data(), targets * width, output_gradient.data());
     const Matrix masked{output_gradient.data(), targets, width};
     Coarse(masked, CoarseGradient(gradients, l_), gradient);
-    const int own = LevelWidth(l_) - 3;
-    AddLayerGradient(kernels_, layer_, {rows_[0].data(), targets, own}, masked, gradient);
+    AddLayerGradient(kernels_, layer_, {rows_[0].data(), targets, own_}, masked, gradient);
     if (l_ == 0) return;
-    Floats own_gradient(static_cast<std::size_t>(targets) * own);
+    Floats own_gradient(static_cast<std::size_t>(targets) * own_);
     PassBack(kernels_, layer_.BackwardPanels(features_.columns, own), masked, own_gradient.data());
-    ScatterToOwn(kernels_, geometry_, l_, {own_gradient.data(), own, targets, own}, gradients);
+    ScatterToOwn(kernels_, geometry_, l_, {own_gradient.data(), own_, targets, own_}, gradients);
   }
 
  private:
@@ -365,6 +366,7 @@ class ProjectedGradient {
 
   const Kernels& kernels_;
   const PackedLayer& layer_;
+  int own_;  // columns of the points' own features
   const CloudGeometry& geometry_;
   const std::vector<Floats>& rows_;
   internal::Rows features_;

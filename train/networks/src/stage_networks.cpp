@@ -29,9 +29,9 @@ void AddBranch(const std::string& name, std::initializer_list<int> sizes, Parame
 
 // The order of the layers is that of the numbers in policies on disk. Sizes of actor and critic are
 // UniDoorManip's.
-ParameterLayout MakeActorLayout(EncoderNorm norm) {
+ParameterLayout MakeActorLayout(EncoderKind kind) {
   ParameterLayout layout;
-  AddEncoderLayers("encoder.", layout, norm);
+  AddEncoderLayers("encoder.", layout, kind);
   AddBranch("action", {9, 128, 128, 64}, layout);
   AddBranch("state", {18, 128, 128, 64}, layout);
   AddBranch("posterior", {kFeatureSize + 128, 128, 128}, layout);
@@ -41,9 +41,9 @@ ParameterLayout MakeActorLayout(EncoderNorm norm) {
   return layout;
 }
 
-ParameterLayout MakeCriticLayout(EncoderNorm norm) {
+ParameterLayout MakeCriticLayout(EncoderKind kind) {
   ParameterLayout layout;
-  AddEncoderLayers("encoder.", layout, norm);
+  AddEncoderLayers("encoder.", layout, kind);
   AddBranch("state", {18, 128, 128, 64}, layout);
   AddBranch("action", {9, 128, 128, 64}, layout);
   AddBranch("hand", {3, 128, 128, 64}, layout);
@@ -52,27 +52,32 @@ ParameterLayout MakeCriticLayout(EncoderNorm norm) {
   return layout;
 }
 
-ParameterLayout MakeAffordanceLayout(EncoderNorm norm) {
+ParameterLayout MakeAffordanceLayout(EncoderKind kind) {
   ParameterLayout layout;
-  AddEncoderLayers("encoder.", layout, norm);
+  AddEncoderLayers("encoder.", layout, kind);
   AddBranch("point", {3, 128, 128, 128}, layout);
   AddBranch("score", {kFeatureSize + 128, 128, 1}, layout);
   return layout;
 }
 
-ParameterLayout MakeDiscriminatorLayout(EncoderNorm norm) {
+ParameterLayout MakeDiscriminatorLayout(EncoderKind kind) {
   ParameterLayout layout;
-  AddEncoderLayers("encoder.", layout, norm);
+  AddEncoderLayers("encoder.", layout, kind);
   AddBranch("action", {9, 128, 128, 128}, layout);
   AddBranch("near", {3, 64, 64, 128}, layout);
   AddBranch("score", {kFeatureSize + 128 + 128, 128, 1}, layout);
   return layout;
 }
 
-using LayoutsByNorm = std::array<ParameterLayout, 2>;
+using LayoutsByKind = std::array<ParameterLayout, 4>;
 
-LayoutsByNorm OfBothNorms(ParameterLayout (*make)(EncoderNorm)) {
-  return {make(EncoderNorm::kNone), make(EncoderNorm::kBatch)};
+LayoutsByKind OfAllKinds(ParameterLayout (*make)(EncoderKind)) {
+  return {make({EncoderNorm::kNone, false}), make({EncoderNorm::kBatch, false}),
+          make({EncoderNorm::kNone, true}), make({EncoderNorm::kBatch, true})};
+}
+
+std::size_t IndexOf(EncoderKind kind) {
+  return static_cast<std::size_t>(kind.norm) + (kind.colors ? 2 : 0);
 }
 
 // What gives a result begins near 0, so that an untrained network answers with about the mean of
@@ -206,6 +211,7 @@ NetworkView ViewFromJson(const Json& json, const std::string& path) {
   if (json.contains("remembered_finer"))
     view.remembered_finer = ValueOf<int>(json, "remembered_finer", path);
   if (json.contains("near_points")) view.near_points = ValueOf<int>(json, "near_points", path);
+  if (json.contains("colors")) view.colors = ValueOf<bool>(json, "colors", path);
   return view;
 }
 
@@ -302,20 +308,23 @@ StageNormalisation MeasureNormalisation(std::span<const TrainingSample> samples,
 }
 
 Json NormalisationToJson(const StageNormalisation& normalisation) {
-  return {{"frame", NameOf(normalisation.view.frame)},
-          {"state_of", NameOf(normalisation.view.state)},
-          {"context_m", normalisation.view.crop_radius_m},
-          {"zoom", normalisation.view.point_scale},
-          {"cloud_within_m", normalisation.view.cloud_crop_radius_m},
-          {"remembered_finer", normalisation.view.remembered_finer},
-          {"near_points", normalisation.view.near_points},
-          {"cloud_centre_m", normalisation.cloud_centre_m},
-          {"cloud_scale", 1},
-          {"state", NormaliserToJson(normalisation.state)},
-          {"action", NormaliserToJson(normalisation.action)},
-          {"hand_m", NormaliserToJson(normalisation.hand_m)},
-          {"base_m", NormaliserToJson(normalisation.base_m)},
-          {"score_rad", NormaliserToJson(normalisation.angle_gain_rad)}};
+  Json json{{"frame", NameOf(normalisation.view.frame)},
+            {"state_of", NameOf(normalisation.view.state)},
+            {"context_m", normalisation.view.crop_radius_m},
+            {"zoom", normalisation.view.point_scale},
+            {"cloud_within_m", normalisation.view.cloud_crop_radius_m},
+            {"remembered_finer", normalisation.view.remembered_finer},
+            {"near_points", normalisation.view.near_points},
+            {"cloud_centre_m", normalisation.cloud_centre_m},
+            {"cloud_scale", 1},
+            {"state", NormaliserToJson(normalisation.state)},
+            {"action", NormaliserToJson(normalisation.action)},
+            {"hand_m", NormaliserToJson(normalisation.hand_m)},
+            {"base_m", NormaliserToJson(normalisation.base_m)},
+            {"score_rad", NormaliserToJson(normalisation.angle_gain_rad)}};
+  if (normalisation.view.colors)
+    json["colors"] = true;  // others are as from before there was a choice
+  return json;
 }
 
 StageNormalisation NormalisationFromJson(const Json& json, const std::string& path) {
@@ -341,27 +350,28 @@ NetworkNames NamesOf(NetworkFamily family) {
 }
 
 // Made once: whoever reads a policy asks for them at every layer.
-const ParameterLayout& ActorLayout(NetworkFamily family, EncoderNorm norm) {
-  static const LayoutsByNorm kActor = OfBothNorms(MakeActorLayout);
-  static const LayoutsByNorm kAffordance = OfBothNorms(MakeAffordanceLayout);
-  const LayoutsByNorm& layouts = family == NetworkFamily::kGrasp ? kAffordance : kActor;
-  return layouts.at(static_cast<std::size_t>(norm));
+const ParameterLayout& ActorLayout(NetworkFamily family, EncoderKind kind) {
+  static const LayoutsByKind kActor = OfAllKinds(MakeActorLayout);
+  static const LayoutsByKind kAffordance = OfAllKinds(MakeAffordanceLayout);
+  const LayoutsByKind& layouts = family == NetworkFamily::kGrasp ? kAffordance : kActor;
+  return layouts.at(IndexOf(kind));
 }
 
-const ParameterLayout& CriticLayout(NetworkFamily family, EncoderNorm norm) {
-  static const LayoutsByNorm kCritic = OfBothNorms(MakeCriticLayout);
-  static const LayoutsByNorm kDiscriminator = OfBothNorms(MakeDiscriminatorLayout);
-  const LayoutsByNorm& layouts = family == NetworkFamily::kGrasp ? kDiscriminator : kCritic;
-  return layouts.at(static_cast<std::size_t>(norm));
+const ParameterLayout& CriticLayout(NetworkFamily family, EncoderKind kind) {
+  static const LayoutsByKind kCritic = OfAllKinds(MakeCriticLayout);
+  static const LayoutsByKind kDiscriminator = OfAllKinds(MakeDiscriminatorLayout);
+  const LayoutsByKind& layouts = family == NetworkFamily::kGrasp ? kDiscriminator : kCritic;
+  return layouts.at(IndexOf(kind));
 }
 
 StageNetworks InitialNetworks(const StageNormalisation& normalisation, bool linear_branches,
                               std::uint64_t seed, NetworkFamily family, EncoderNorm norm) {
   const NetworkNames names = NamesOf(family);
+  const EncoderKind kind{norm, normalisation.view.colors};
   return {normalisation,
           linear_branches,
-          Initial(ActorLayout(family, norm), seed, std::string(names.actor) + "."),
-          Initial(CriticLayout(family, norm), seed, std::string(names.critic) + "."),
+          Initial(ActorLayout(family, kind), seed, std::string(names.actor) + "."),
+          Initial(CriticLayout(family, kind), seed, std::string(names.critic) + "."),
           family,
           norm};
 }

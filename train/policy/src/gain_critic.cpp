@@ -21,7 +21,7 @@ StageNetworks RequireMotion(StageNetworks networks) {
 
 GainCritic::GainCritic(StageNetworks networks)
     : networks_(RequireMotion(std::move(networks))),
-      encoder_(CriticLayout(), "encoder.", networks_.critic, BestInstructionSet()),
+      encoder_(networks_.critic_layout(), "encoder.", networks_.critic, BestInstructionSet()),
       head_(networks_) {}
 
 double GainCritic::GainOf(const Observation& observation, const Action& action) const {
@@ -31,7 +31,7 @@ double GainCritic::GainOf(const Observation& observation, const Action& action) 
   const CloudWindow window = WindowOf(normalisation, {hand_m.x(), hand_m.y(), hand_m.z()});
   internal::HeadInputs batch;
   batch.size = 1;
-  batch.features = encoder_.Forward(BuildGeometry(observation.cloud.xyz, window)).features;
+  batch.features = encoder_.Forward(BuildGeometry(observation.cloud, window)).features;
   internal::AppendRobotState(normalisation, {proprioception}, batch);
   ActionVector numbers = ToVector(action);
   if (normalisation.view.frame == ViewFrame::kHand)

@@ -65,12 +65,12 @@ class NetworkGraspPolicy : public GraspPolicy {
   NetworkGraspPolicy(StageNetworks networks, const GraspOptions& options)
       : networks_(std::move(networks)),
         options_(options),
-        affordance_(ActorLayout(NetworkFamily::kGrasp), "encoder.", networks_.actor,
-                    BestInstructionSet()),
+        affordance_(networks_.actor_layout(), "encoder.", networks_.actor, BestInstructionSet()),
         head_(networks_),
         rater_(networks_) {}
 
   bool Explains() const override { return true; }
+  bool UsesColors() const override { return networks_.normalisation.view.colors; }
 
   std::optional<GraspAction> Choose(const GraspObservation& seen) override {
     const LabelledCloud& visible = seen.visible;
@@ -105,8 +105,7 @@ class NetworkGraspPolicy : public GraspPolicy {
     internal::HeadInputs batch;
     batch.size = static_cast<int>(outputs.size());
     batch.features =
-        affordance_.Forward(BuildGeometry(cloud.xyz, window, outputs, BestInstructionSet()))
-            .features;
+        affordance_.Forward(BuildGeometry(cloud, window, outputs, BestInstructionSet())).features;
     for (const std::size_t point : handle) {
       for (std::size_t k = 0; k < 3; ++k) {
         const float coordinate = cloud.xyz[3 * point + k];
@@ -146,7 +145,7 @@ class NetworkGraspPolicy : public GraspPolicy {
       Rng rng(options_.seed, "grasp/orientations/" + std::to_string(i));
       const std::vector<Eigen::Matrix3d> orientations =
           SampleOrientations(seen.approach, {options_.orientations, options_.tilt_rad}, rng);
-      const std::vector<float> ratings = rater_.Rate(clouds[i].xyz, orientations);
+      const std::vector<float> ratings = rater_.Rate(clouds[i], orientations);
       for (std::size_t k = 0; k < orientations.size(); ++k) {
         hands.push_back(
             {PointOf(clouds[i].xyz, 0), orientations[k], static_cast<double>(ratings[k])});

@@ -61,17 +61,17 @@ class Neighbourhood {
 
 GraspRater::GraspRater(const StageNetworks& networks)
     : networks_(&networks),
-      encoder_(CriticLayout(NetworkFamily::kGrasp), "encoder.", networks.critic,
-               BestInstructionSet()),
+      encoder_(networks.critic_layout(), "encoder.", networks.critic, BestInstructionSet()),
       head_(networks) {}
 
-std::vector<float> GraspRater::Rate(std::span<const float> xyz,
+std::vector<float> GraspRater::Rate(const CloudView& cloud,
                                     std::span<const Eigen::Matrix3d> orientations) const {
+  const std::span<const float> xyz = cloud.xyz;
   const StageNormalisation& normalisation = networks_->normalisation;
   const bool by_near_points = normalisation.view.near_points > 0;
   std::vector<float> feature;
   if (!by_near_points)
-    feature = encoder_.Forward(BuildGeometry(xyz, GraspWindow(normalisation, xyz))).features;
+    feature = encoder_.Forward(BuildGeometry(cloud, GraspWindow(normalisation, xyz))).features;
   const std::array<float, 3> origin = GraspOrigin(normalisation, xyz);
   const Eigen::Vector3d contact(xyz[0] - origin[0], xyz[1] - origin[1], xyz[2] - origin[2]);
   const Eigen::Matrix3Xf near = InPatches(NearestToFirst(xyz, normalisation.view.near_points));

@@ -36,21 +36,22 @@ class StagePolicy : public TwoWayPolicy {
   StagePolicy(StageNetworks networks, const PolicyOptions& options)
       : networks_(std::move(networks)),
         options_(options),
-        actor_(ActorLayout(), "encoder.", networks_.actor, BestInstructionSet()),
+        actor_(networks_.actor_layout(), "encoder.", networks_.actor, BestInstructionSet()),
         actor_head_(networks_) {
     if (options_.candidates > 1) {
-      critic_.emplace(CriticLayout(), "encoder.", networks_.critic, BestInstructionSet());
+      critic_.emplace(networks_.critic_layout(), "encoder.", networks_.critic,
+                      BestInstructionSet());
       critic_head_.emplace(networks_);
     }
   }
 
   void Reset() override { decision_ = 0; }
+  bool UsesColors() const override { return networks_.normalisation.view.colors; }
 
   Action Act(const Observation& observation, MotionWay way) override {
     const Eigen::Vector3f hand_m = HandPositionOf(observation.proprioception);
-    const CloudGeometry geometry =
-        BuildGeometry(observation.cloud.xyz,
-                      WindowOf(networks_.normalisation, {hand_m.x(), hand_m.y(), hand_m.z()}));
+    const CloudGeometry geometry = BuildGeometry(
+        observation.cloud, WindowOf(networks_.normalisation, {hand_m.x(), hand_m.y(), hand_m.z()}));
     HeadInputs batch =
         RobotInputs({observation.proprioception, WayThatIsKnown(networks_.normalisation, way)});
     AppendCopies(actor_.Forward(geometry).features, batch.size, batch.features);
@@ -121,6 +122,7 @@ class PullAndPush : public TwoWayPolicy {
   Action Act(const Observation& observation, MotionWay way) override {
     return (way == MotionWay::kUsual ? pull_ : push_)->Act(observation, way);
   }
+  bool UsesColors() const override { return pull_->UsesColors() || push_->UsesColors(); }
 
  private:
   std::unique_ptr<TwoWayPolicy> pull_;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "doorforge/pictures/scene_colors.h"
 #include "doorforge/rollout/grasp_camera.h"
 #include "doorforge/rollout/remembered_view.h"
 #include "doorforge/schemas/fallible.h"
@@ -31,6 +32,9 @@ std::string FailureOf(const PolicySet& set) {
   return "";
 }
 
+// A point's colour is that of the pixel's middle: rays to the pixel's corners would add nothing.
+constexpr int kPolicyColorSamples = 1;
+
 }  // namespace
 
 std::unique_ptr<GraspFromPolicy> GraspOf(const PolicySet& set, const EpisodePlace& place) {
@@ -40,17 +44,28 @@ std::unique_ptr<GraspFromPolicy> GraspOf(const PolicySet& set, const EpisodePlac
     scene = SceneOf({.resolution_scale = set.grasp_resolution_scale}, scene);
   const auto camera = std::make_shared<CameraObserver>(scene, place.door, place.robot, place.cloud,
                                                        /*sees_robot=*/false);
+  if (set.grasp->UsesColors()) camera->ColorWith(PolicyColors(place)(scene, /*sees_robot=*/false));
   return std::make_unique<GraspFromPolicy>(
       *set.grasp, scene, place.door, place.robot,
       [camera](const SceneSnapshot& snapshot) { return camera->Render(snapshot).visible; });
 }
 
 std::unique_ptr<CameraObserver> CameraOf(const EpisodePlace& place,
-                                         const RememberedViewConfig& remembered) {
+                                         const RememberedViewConfig& remembered, bool colors) {
   auto camera = std::make_unique<CameraObserver>(place.scene, place.door, place.robot, place.cloud);
+  std::optional<RememberedView> before;
   if (remembered.IsOn())
-    camera->Remember({place.scene, place.door, place.robot, place.cloud, remembered});
+    before.emplace(place.scene, place.door, place.robot, place.cloud, remembered);
+  if (colors) {
+    camera->ColorWith(PolicyColors(place)(place.scene, place.cloud.robot));
+    if (before) before->ColorWith(PolicyColors(place));
+  }
+  if (before) camera->Remember(*std::move(before));
   return camera;
+}
+
+ColorSources PolicyColors(const EpisodePlace& place) {
+  return SceneColors(place.door, place.robot, kPolicyColorSamples);
 }
 
 void BeginEpisode(const PolicySet& set, const EpisodePlace& place) {
@@ -84,6 +99,10 @@ bool IsFallible(const PolicySet& set) { return !FallibleOf(set).empty(); }
 
 bool UsesPointCloud(const PolicySet& set) {
   return (set.open && set.open->UsesPointCloud()) || (set.handle && set.handle->UsesPointCloud());
+}
+
+bool UsesColors(const PolicySet& set) {
+  return (set.open && set.open->UsesColors()) || (set.handle && set.handle->UsesColors());
 }
 
 }  // namespace doorforge

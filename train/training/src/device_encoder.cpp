@@ -34,6 +34,7 @@ std::optional<torch::Device> DeviceOf(const std::string& name) {
 // The geometries of a batch as one: rows of all samples under each other.
 struct JoinedGeometry {
   std::vector<float> xyz;                    // level 0
+  std::vector<float> rgb;                    // likewise, -0.5 to 0.5
   std::array<std::vector<float>, 4> centre;  // of each level's balls
   std::array<Indices, 4> ball;               // rows of the level below, 32 a ball
   std::array<Indices, 4> skip;               // of each upsampling, rows of its level
@@ -64,6 +65,8 @@ void Append(const CloudGeometry& geometry, JoinedGeometry& joined) {
   for (std::size_t l = 0; l < 4; ++l) targets[l] = joined.skip[l].size();
   targets[4] = rows[4];
   joined.xyz.insert(joined.xyz.end(), geometry.xyz.begin(), geometry.xyz.end());
+  for (const std::uint8_t value : geometry.rgb)
+    joined.rgb.push_back(static_cast<float>(value) / 255.0F - 0.5F);
   for (std::size_t l = 0; l < 4; ++l) {
     const CloudGeometry::Level& level = geometry.levels[l];
     const CloudGeometry::Upsampling& upsampling = geometry.upsampling[l];
@@ -147,6 +150,8 @@ struct DeviceEncoder::Network {
     throw Error(ErrorCode::kInvalidArgument, "no layer \"" + name + "\" in this network");
   }
 
+  bool ReadsColors() const { return layout->layers().front().inputs > 6; }
+
   torch::Tensor Abstract(const JoinedGeometry& joined, std::size_t l, const torch::Tensor& xyz,
                          const torch::Tensor& feature) const {
     const torch::Tensor ball = Rows(joined.ball[l], 1, place).view(-1);
@@ -171,6 +176,11 @@ struct DeviceEncoder::Network {
   torch::Tensor Forward(const JoinedGeometry& joined) const {
     torch::Tensor xyz = Rows(joined.xyz, 3, place);
     std::array<torch::Tensor, 5> feature{xyz};
+    if (ReadsColors()) {
+      Require(joined.rgb.size() == joined.xyz.size(), ErrorCode::kInvalidArgument,
+              "these networks read the colours of points, and a cloud has none");
+      feature[0] = torch::cat({xyz, Rows(joined.rgb, 3, place)}, 1);
+    }
     for (std::size_t l = 0; l < 4; ++l) {
       feature[l + 1] = Abstract(joined, l, xyz, feature[l]);
       xyz = Rows(joined.centre[l], 3, place);

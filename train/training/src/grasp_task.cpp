@@ -93,12 +93,14 @@ class GraspTask : public StageTask {
 
   CloudGeometry GeometryOf(SampleSet set, int phase, std::size_t i) const {
     const StageNormalisation& normalisation = input_.networks->normalisation;
-    const std::span<const float> cloud = SamplesOf(set)[i].cloud;
+    const TrainingSample& sample = SamplesOf(set)[i];
     if (phase != kAffordancePhase)
-      return GeometryFor(*input_.config, set, cloud, {GraspWindow(normalisation, cloud), {0}});
+      return GeometryFor(*input_.config, set, {sample.cloud, sample.rgb},
+                         {GraspWindow(normalisation, sample.cloud), {0}});
     const RatedPoints& rated = rated_.at(static_cast<std::size_t>(set))[i];
-    const std::vector<float> begun = BeginningAt(cloud, rated.first);
-    return GeometryFor(*input_.config, set, begun,
+    const std::vector<float> begun = BeginningAt(sample.cloud, rated.first);
+    const std::vector<std::uint8_t> rgb = BeginningAt(sample.rgb, rated.first);
+    return GeometryFor(*input_.config, set, {begun, rgb},
                        {GraspWindow(normalisation, begun), rated.points});
   }
 
@@ -172,6 +174,7 @@ class GraspTask : public StageTask {
     RatedPoints rated;
     rated.first = MiddlePoint(sample.cloud, handle);
     const std::vector<float> cloud = BeginningAt(sample.cloud, rated.first);
+    const std::vector<std::uint8_t> rgb = BeginningAt(sample.rgb, rated.first);
     for (std::size_t& point : handle) {  // places after the exchange of two points
       if (point == rated.first || point == 0) point = point == 0 ? rated.first : 0;
     }
@@ -184,12 +187,14 @@ class GraspTask : public StageTask {
     std::sort(handle.begin(), handle.end());
     for (const std::size_t point : handle) {
       rated.points.push_back(static_cast<std::uint16_t>(point));
-      rated.targets.push_back(Target(rater, BeginningAt(cloud, point), sample.approach, rng));
+      const std::vector<float> begun = BeginningAt(cloud, point);
+      const std::vector<std::uint8_t> colors = BeginningAt(rgb, point);
+      rated.targets.push_back(Target(rater, {begun, colors}, sample.approach, rng));
     }
     return rated;
   }
 
-  float Target(const GraspRater& rater, const std::vector<float>& cloud,
+  float Target(const GraspRater& rater, const CloudView& cloud,
                const std::array<float, 3>& approach, Rng& rng) const {
     const TrainConfig& config = *input_.config;
     const std::vector<Eigen::Matrix3d> orientations =

@@ -275,13 +275,12 @@ HeadResult ActorObjective(const StageNetworks& networks, const HeadBatch& batch,
     loss.losses.divergence = divergence.item<double>();
     return loss;
   };
-  return Evaluate({ActorLayout(networks.family, networks.norm), networks.actor, gradient}, batch,
-                  loss_of);
+  return Evaluate({networks.actor_layout(), networks.actor, gradient}, batch, loss_of);
 }
 
 HeadResult CriticObjective(const StageNetworks& networks, const HeadBatch& batch,
                            std::span<float> gradient) {
-  return Evaluate({CriticLayout(networks.family, networks.norm), networks.critic, gradient}, batch,
+  return Evaluate({networks.critic_layout(), networks.critic, gradient}, batch,
                   [&](const HeadParameters& parameters, const torch::Tensor& features) {
                     return MeanAbsolute(CriticScore(parameters, networks, batch, features), batch,
                                         &StageLosses::angle_gain_rad);
@@ -297,13 +296,12 @@ HeadResult DiscriminatorObjective(const StageNetworks& networks, const HeadBatch
       loss.objective = (score - View(batch.angle_gains_rad, 1)).square().mean();
     return loss;
   };
-  return Evaluate({CriticLayout(networks.family, networks.norm), networks.critic, gradient}, batch,
-                  loss_of);
+  return Evaluate({networks.critic_layout(), networks.critic, gradient}, batch, loss_of);
 }
 
 HeadResult AffordanceObjective(const StageNetworks& networks, const HeadBatch& batch,
                                std::span<float> gradient) {
-  return Evaluate({ActorLayout(networks.family, networks.norm), networks.actor, gradient}, batch,
+  return Evaluate({networks.actor_layout(), networks.actor, gradient}, batch,
                   [&](const HeadParameters& parameters, const torch::Tensor& features) {
                     return MeanAbsolute(AffordanceScore(parameters, networks, batch, features),
                                         batch, &StageLosses::affordance_rad);

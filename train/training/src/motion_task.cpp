@@ -100,7 +100,7 @@ class MotionTask : public StageTask {
     const auto samples = set == SampleSet::kTrain ? input_.train : input_.validation;
     const StageNormalisation& normalisation = input_.networks->normalisation;
     return {samples.size(), 1, bytes, [this, set, samples, &normalisation](std::size_t i) {
-              return GeometryFor(*input_.config, set, samples[i].cloud,
+              return GeometryFor(*input_.config, set, {samples[i].cloud, samples[i].rgb},
                                  {WindowOf(normalisation, HandOf(samples[i].proprioception)), {0}});
             }};
   }

@@ -155,28 +155,15 @@ std::vector<SideExample> SidesOf(const DatasetReader& reader, std::size_t begin,
   return examples;
 }
 
-// Episodes [begin, end) of a split.
-std::vector<TrainingSample> SamplesOf(const DatasetReader& reader, const std::string& stage,
-                                      std::size_t begin, std::size_t end) {
-  std::vector<TrainingSample> samples;
-  for (std::size_t i = begin; i < end; ++i) {
-    const EpisodeArrays arrays = reader.Arrays(i);
-    if (arrays.points != kCloudPoints)
-      throw Error(ErrorCode::kFormat, "episode " + reader.entry(i).key + ": clouds of " +
-                                          std::to_string(arrays.points) +
-                                          " points; the networks read " +
-                                          std::to_string(kCloudPoints));
-    RequireFinite(arrays, reader.entry(i).key);
-    AppendEpisode(arrays, samples);
-    AddWhatTheRecordSays(reader, i, std::span(samples).last(arrays.decisions));
-    if (FamilyOf(stage) == NetworkFamily::kGrasp) samples.back().approach = ApproachOf(reader, i);
-  }
-  return samples;
-}
-
-template <class T>
-void AppendAll(std::vector<T> from, std::vector<T>& to) {
-  to.insert(to.end(), from.begin(), from.end());
+void AddColors(const DatasetReader& reader, std::size_t episode,
+               std::span<TrainingSample> samples) {
+  const std::span<const std::uint8_t> rgb = reader.CloudColors(episode);
+  Require(!rgb.empty(), ErrorCode::kInvalidArgument,
+          "episode " + reader.entry(episode).key +
+              ": its clouds have no colours; train with colors=false, or add them by `doorforge "
+              "dataset re-observe ... --set pictures.cloud_rgb=true`");
+  for (std::size_t t = 0; t < samples.size(); ++t)
+    samples[t].rgb = rgb.subspan(t * kCloudFloats, kCloudFloats);
 }
 
 // Episodes [begin, end) of a stage's split.
@@ -187,9 +174,34 @@ struct EpisodeRange {
   std::size_t end;
 };
 
-void AppendEpisodes(const EpisodeRange& range, std::vector<TrainingSample>& samples,
+std::vector<TrainingSample> SamplesOf(const EpisodeRange& range, bool colors) {
+  const DatasetReader& reader = range.reader;
+  std::vector<TrainingSample> samples;
+  for (std::size_t i = range.begin; i < range.end; ++i) {
+    const EpisodeArrays arrays = reader.Arrays(i);
+    if (arrays.points != kCloudPoints)
+      throw Error(ErrorCode::kFormat, "episode " + reader.entry(i).key + ": clouds of " +
+                                          std::to_string(arrays.points) +
+                                          " points; the networks read " +
+                                          std::to_string(kCloudPoints));
+    RequireFinite(arrays, reader.entry(i).key);
+    AppendEpisode(arrays, samples);
+    AddWhatTheRecordSays(reader, i, std::span(samples).last(arrays.decisions));
+    if (colors) AddColors(reader, i, std::span(samples).last(arrays.decisions));
+    if (FamilyOf(range.stage) == NetworkFamily::kGrasp)
+      samples.back().approach = ApproachOf(reader, i);
+  }
+  return samples;
+}
+
+template <class T>
+void AppendAll(std::vector<T> from, std::vector<T>& to) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+void AppendEpisodes(const EpisodeRange& range, bool colors, std::vector<TrainingSample>& samples,
                     std::vector<TurnedExample>& turned) {
-  AppendAll(SamplesOf(range.reader, range.stage, range.begin, range.end), samples);
+  AppendAll(SamplesOf(range, colors), samples);
   if (range.stage == NameOf(Stage::kHandle))
     AppendAll(TurnedExamplesOf(range.reader, range.begin, range.end), turned);
 }
@@ -204,18 +216,20 @@ void AppendDataset(const fs::path& folder, const std::string& stage, double vali
   if (fs::exists(folder / stage / "val")) {
     dataset.readers.push_back(std::make_unique<DatasetReader>(folder, stage, "val"));
     const DatasetReader& validation = *dataset.readers.back();
-    AppendEpisodes({train, stage, 0, episodes}, dataset.train, dataset.turned_train);
+    AppendEpisodes({train, stage, 0, episodes}, dataset.colors, dataset.train,
+                   dataset.turned_train);
     if (opens) AppendAll(SidesOf(train, 0, episodes), dataset.sides);
-    AppendEpisodes({validation, stage, 0, validation.size()}, dataset.validation,
+    AppendEpisodes({validation, stage, 0, validation.size()}, dataset.colors, dataset.validation,
                    dataset.turned_validation);
     return;
   }
   const auto aside = std::min(
       episodes > 0 ? episodes - 1 : 0,
       static_cast<std::size_t>(std::ceil(validation_share * static_cast<double>(episodes))));
-  AppendEpisodes({train, stage, 0, episodes - aside}, dataset.train, dataset.turned_train);
+  AppendEpisodes({train, stage, 0, episodes - aside}, dataset.colors, dataset.train,
+                 dataset.turned_train);
   if (opens) AppendAll(SidesOf(train, 0, episodes - aside), dataset.sides);
-  AppendEpisodes({train, stage, episodes - aside, episodes}, dataset.validation,
+  AppendEpisodes({train, stage, episodes - aside, episodes}, dataset.colors, dataset.validation,
                  dataset.turned_validation);
 }
 
@@ -231,9 +245,10 @@ void StageDataset::RequireWhole() const {
 }
 
 StageDataset ReadStageDataset(std::span<const fs::path> folders, std::string_view stage,
-                              double validation_share) {
+                              double validation_share, bool colors) {
   Require(!folders.empty(), ErrorCode::kInvalidArgument, "no data set to read samples from");
   StageDataset dataset;
+  dataset.colors = colors;
   for (const fs::path& folder : folders) {
     dataset.parts = Union(dataset.parts, SeenPartsOfDataset(folder));
     AppendDataset(folder, StageReadOf(folder, stage), validation_share, dataset);

@@ -6,7 +6,7 @@
 
 namespace doorforge::internal {
 
-CloudGeometry GeometryFor(const TrainConfig& config, SampleSet set, std::span<const float> cloud,
+CloudGeometry GeometryFor(const TrainConfig& config, SampleSet set, const CloudView& cloud,
                           const EncoderQuery& reading) {
   const bool whole = set == SampleSet::kTrain && config.encoder_norm == EncoderNorm::kBatch;
   const InstructionSet instructions = BestInstructionSet();

@@ -30,7 +30,7 @@ struct EncoderQuery {
 
 /// What the encoder needs to know of a cloud: no more than what is read depends on, but all of it
 /// where training reads statistics over all rows.
-CloudGeometry GeometryFor(const TrainConfig& config, SampleSet set, std::span<const float> cloud,
+CloudGeometry GeometryFor(const TrainConfig& config, SampleSet set, const CloudView& cloud,
                           const EncoderQuery& reading);
 
 /// Some samples on their way through a network.

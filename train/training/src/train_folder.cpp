@@ -298,8 +298,8 @@ TrainingOutcome TrainIntoFolder(const TrainingRequest& request) {
     RemoveStaleFiles(SystemFiles(), request.out);
   }
   if (const std::string slow = SlowLinearAlgebra(); !slow.empty()) request.warn(slow);
-  const StageDataset dataset =
-      ReadStageDataset(request.data, request.stage, request.config.validation_share);
+  const StageDataset dataset = ReadStageDataset(
+      request.data, request.stage, request.config.validation_share, request.config.colors);
   return FolderTraining(request, *group, dataset).Run();
 }
 

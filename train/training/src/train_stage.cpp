@@ -112,6 +112,7 @@ NetworkView ViewOf(const TrainConfig& config, std::span<const TrainingSample> sa
   view.cloud_crop_radius_m = samples.front().cloud_crop_radius_m;
   view.remembered_finer = samples.front().remembered_finer;
   if (config.family == NetworkFamily::kGrasp) view.near_points = config.near_points;
+  view.colors = config.colors;
   return view;
 }
 
@@ -165,14 +166,14 @@ class Trainer {
         threads_(ThreadCount(hooks.threads)),
         instruction_set_(BestInstructionSet()),
         state_(hooks.resume ? *hooks.resume : InitialState()),
-        networks_{
-            Network{NetworkRole::kActor, &ActorLayout(config.family, config.encoder_norm),
-                    &ActorLayout(config.family), &state_.networks.actor, &state_.actor_first_moment,
-                    &state_.actor_second_moment, &state_.actor_statistics},
-            Network{NetworkRole::kCritic, &CriticLayout(config.family, config.encoder_norm),
-                    &CriticLayout(config.family), &state_.networks.critic,
-                    &state_.critic_first_moment, &state_.critic_second_moment,
-                    &state_.critic_statistics}},
+        networks_{Network{NetworkRole::kActor, &state_.networks.actor_layout(),
+                          &ActorLayout(config.family, PlainKind()), &state_.networks.actor,
+                          &state_.actor_first_moment, &state_.actor_second_moment,
+                          &state_.actor_statistics},
+                  Network{NetworkRole::kCritic, &state_.networks.critic_layout(),
+                          &CriticLayout(config.family, PlainKind()), &state_.networks.critic,
+                          &state_.critic_first_moment, &state_.critic_second_moment,
+                          &state_.critic_statistics}},
         task_(MakeTask()) {}
 
   TrainerState Run() {
@@ -211,14 +212,16 @@ class Trainer {
     return true;
   }
 
+  EncoderKind PlainKind() const { return {EncoderNorm::kNone, config_.colors}; }
+
   TrainerState InitialState() const {
     TrainerState state;
     state.networks = hooks_.initial
                          ? *hooks_.initial
                          : InitialNetworks(MeasuredNormalisation(), config_.linear_branches,
                                            config_.seed, config_.family, config_.encoder_norm);
-    state.actor_statistics = InitialStatistics(ActorLayout(config_.family, config_.encoder_norm));
-    state.critic_statistics = InitialStatistics(CriticLayout(config_.family, config_.encoder_norm));
+    state.actor_statistics = InitialStatistics(state.networks.actor_layout());
+    state.critic_statistics = InitialStatistics(state.networks.critic_layout());
     state.actor_first_moment.resize(state.networks.actor.size());
     state.actor_second_moment.resize(state.networks.actor.size());
     state.critic_first_moment.resize(state.networks.critic.size());
@@ -605,10 +608,10 @@ class Trainer {
 StageNetworks PolicyOf(const TrainerState& state) {
   StageNetworks policy = state.networks;
   policy.norm = EncoderNorm::kNone;
-  policy.actor = FoldNorms(ActorLayout(policy.family, state.networks.norm), state.networks.actor,
-                           state.actor_statistics);
-  policy.critic = FoldNorms(CriticLayout(policy.family, state.networks.norm), state.networks.critic,
-                            state.critic_statistics);
+  policy.actor =
+      FoldNorms(state.networks.actor_layout(), state.networks.actor, state.actor_statistics);
+  policy.critic =
+      FoldNorms(state.networks.critic_layout(), state.networks.critic, state.critic_statistics);
   return policy;
 }
 
@@ -620,7 +623,7 @@ TrainerState TrainStage(std::span<const TrainingSample> train,
   const NetworkView view = ViewOf(config, train);
   Require(!hooks.initial || hooks.initial->normalisation.view == view, ErrorCode::kInvalidArgument,
           "the networks to begin with were trained with other settings of frame, state, "
-          "context_m, zoom or near_points, or from clouds of another extent, than \"" +
+          "context_m, zoom, near_points or colors, or from clouds of another extent, than \"" +
               std::string(NameOf(config.frame)) + "\", \"" + std::string(NameOf(config.state)) +
               "\", " + std::to_string(config.crop_radius_m));
   if (config.encoder_norm == EncoderNorm::kBatch) {

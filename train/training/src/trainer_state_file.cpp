@@ -39,9 +39,9 @@ void VisitVectors(State& state, const Visit& visit) {
     visit("norm." + name + "mean", statistics.mean, outputs);
     visit("norm." + name + "variance", statistics.variance, outputs);
   };
-  visit_network(internal::NetworkPrefix(names.actor), ActorLayout(networks.family, networks.norm),
+  visit_network(internal::NetworkPrefix(names.actor), networks.actor_layout(),
                 state.actor_first_moment, state.actor_second_moment, state.actor_statistics);
-  visit_network(internal::NetworkPrefix(names.critic), CriticLayout(networks.family, networks.norm),
+  visit_network(internal::NetworkPrefix(names.critic), networks.critic_layout(),
                 state.critic_first_moment, state.critic_second_moment, state.critic_statistics);
 }
 
@@ -50,11 +50,13 @@ void AddBest(const BestNetworks& best, TensorFile& file) {
   const NetworkFamily family = best.networks.family;
   const NetworkNames names = NamesOf(family);
   if (best.epochs.actor > 0)
-    internal::AddParameters(ActorLayout(family), "best." + internal::NetworkPrefix(names.actor),
-                            best.networks.actor, MakeTensor<float>, file);
+    internal::AddParameters(best.networks.actor_layout(),
+                            "best." + internal::NetworkPrefix(names.actor), best.networks.actor,
+                            MakeTensor<float>, file);
   if (best.epochs.critic > 0)
-    internal::AddParameters(CriticLayout(family), "best." + internal::NetworkPrefix(names.critic),
-                            best.networks.critic, MakeTensor<float>, file);
+    internal::AddParameters(best.networks.critic_layout(),
+                            "best." + internal::NetworkPrefix(names.critic), best.networks.critic,
+                            MakeTensor<float>, file);
   file.tensors["best.epochs"] =
       MakeTensor<double>(std::vector<double>{static_cast<double>(best.epochs.actor),
                                              static_cast<double>(best.epochs.critic)},
@@ -71,10 +73,10 @@ BestNetworks ReadBest(const TensorFile& file, const std::string& path,
   best.networks.critic.clear();
   if (best.epochs.actor > 0)
     best.networks.actor = internal::ReadParameters(
-        ActorLayout(networks.family), "best." + internal::NetworkPrefix(names.actor), file, path);
+        best.networks.actor_layout(), "best." + internal::NetworkPrefix(names.actor), file, path);
   if (best.epochs.critic > 0)
     best.networks.critic = internal::ReadParameters(
-        CriticLayout(networks.family), "best." + internal::NetworkPrefix(names.critic), file, path);
+        best.networks.critic_layout(), "best." + internal::NetworkPrefix(names.critic), file, path);
   return best;
 }
 

@@ -15,6 +15,8 @@ inline constexpr int kPointLabelCount = 5;
 struct LabelledCloud {
   std::vector<float> xyz;           ///< [m], N x 3, row by row.
   std::vector<std::uint8_t> label;  ///< PointLabel values, length N.
+  /// Colours of the pixels that the points were made of, sRGB, N x 3; empty: nobody looked at them.
+  std::vector<std::uint8_t> rgb{};
 };
 
 }  // namespace doorforge

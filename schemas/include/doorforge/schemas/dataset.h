@@ -146,6 +146,8 @@ class DatasetReader {
   const ShardEpisode& entry(std::size_t episode) const;
   EpisodeArrays Arrays(
       std::size_t episode) const;  ///< It does what ViewEpisode() does and is thread-safe.
+  std::span<const std::uint8_t> CloudColors(
+      std::size_t episode) const;  ///< It does what ViewCloudColors() does and is thread-safe.
   nlohmann::ordered_json Meta(std::size_t episode) const;  ///< It does what ReadEpisodeMeta() does.
 
   /// ShardReader::RequireWhole() of all shards.

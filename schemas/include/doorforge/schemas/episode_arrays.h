@@ -56,6 +56,11 @@ struct EpisodeArrays {
 /// its type or shape is not as above.
 EpisodeArrays ViewEpisode(const ShardReader& reader, std::size_t episode);
 
+/// The colours of an episode's clouds, sRGB, T x P x 3; empty where they have none.
+///
+/// @throws Error(kFormat), naming tar and member, if they are damaged or not as many as the points.
+std::span<const std::uint8_t> ViewCloudColors(const ShardReader& reader, std::size_t episode);
+
 /// The parsed meta.json. Throws Error(kFormat or kMissing).
 nlohmann::ordered_json ReadEpisodeMeta(const ShardReader& reader, std::size_t episode);
 

@@ -82,6 +82,8 @@ class GraspPolicy {
   virtual std::optional<GraspAction> Choose(const GraspObservation& observation) = 0;
   /// Whether its actions have an explanation.
   virtual bool Explains() const { return false; }
+  /// Whether it reads the colours of points, which the cloud must have then.
+  virtual bool UsesColors() const { return false; }
 };
 
 }  // namespace doorforge

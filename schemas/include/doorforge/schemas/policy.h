@@ -79,6 +79,8 @@ class Policy {
   virtual Action Act(const Observation& observation) = 0;
   /// Whether Act() reads the cloud. One that does not may be given an empty cloud.
   virtual bool UsesPointCloud() const { return true; }
+  /// Whether Act() reads the colours of the cloud's points, which must have some then.
+  virtual bool UsesColors() const { return false; }
 };
 
 }  // namespace doorforge

@@ -77,14 +77,22 @@ Rng CameraObserver::Stream(const std::string& purpose) const { return {seed_, st
 
 void CameraObserver::Remember(RememberedView before) { before_ = std::move(before); }
 
+void CameraObserver::ColorWith(std::unique_ptr<ColorSource> colors) {
+  Require(!whole_, ErrorCode::kInvalidArgument,
+          "a whole cloud has no colours: no picture shows all of its points");
+  colors_ = std::move(colors);
+}
+
 CameraFrame CameraObserver::Render(const SceneSnapshot& snapshot) {
   const std::vector<RigidTransform> poses = LinkPosesOf(snapshot);
   CameraFrame frame;
   frame.ideal = camera_.Render(model_, poses);
-  frame.depth =
-      WithDepthNoise(frame.ideal, model_, config_.noise, Stream(std::to_string(looks_++)));
+  const int look = looks_++;
+  frame.depth = WithDepthNoise(frame.ideal, model_, config_.noise, Stream(std::to_string(look)));
+  std::vector<std::uint8_t> rgb;
+  if (colors_) rgb = colors_->ColorsAt(snapshot, look);
   frame.visible = whole_ ? whole_->At(poses, config_.min_height_m)
-                         : CropCloud(frame.depth, camera_as_calibrated_, config_);
+                         : CropCloud(frame.depth, camera_as_calibrated_, config_, rgb);
   frame.sampled = SampleCloud(frame.visible, snapshot.robot.world_from_tcp.translation(),
                               {config_.point_count});
   if (before_ && snapshot.phase == EpisodePhase::kUnlock && !frame.visible.label.empty())

@@ -31,6 +31,17 @@ void RequireRemembered(const RememberedViewConfig& config) {
           "config.remembered.finer: 0, so nothing is remembered");
 }
 
+RememberedLook LookFrom(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
+                        const RememberedViewConfig& config) {
+  RequireRemembered(config);
+  RememberedLook look;
+  look.scene = scene;
+  look.scene.camera.width *= config.resolution_scale;
+  look.scene.camera.height *= config.resolution_scale;
+  look.snapshot = ClosedDoor(scene, door, robot);
+  return look;
+}
+
 }  // namespace
 
 void CheckRememberedView(const RememberedViewConfig& config) {
@@ -42,8 +53,12 @@ void CheckRememberedView(const RememberedViewConfig& config) {
 
 LabelledCloud JoinedCloud(LabelledCloud visible, const LabelledCloud& before,
                           const Eigen::Vector3d& start_m, const CloudExtent& extent) {
+  Require(
+      visible.label.empty() || before.label.empty() || visible.rgb.empty() == before.rgb.empty(),
+      ErrorCode::kInvalidArgument, "a cloud with colours is joined with one without");
   Append(before.xyz, visible.xyz);
   Append(before.label, visible.label);
+  Append(before.rgb, visible.rgb);
   return SampleCloud(visible, start_m, extent).cloud;
 }
 
@@ -58,12 +73,7 @@ LabelledCloud ClosedDoorCloud(const Scene& scene, const DoorAsset& door, const R
 
 RememberedLook LookBefore(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
                           const CloudConfig& cloud, const RememberedViewConfig& config) {
-  RequireRemembered(config);
-  RememberedLook look;
-  look.scene = scene;
-  look.scene.camera.width *= config.resolution_scale;
-  look.scene.camera.height *= config.resolution_scale;
-  look.snapshot = ClosedDoor(scene, door, robot);
+  RememberedLook look = LookFrom(scene, door, robot, config);
   CameraObserver camera(look.scene, door, robot, cloud, /*sees_robot=*/false);
   CameraFrame frame = camera.Render(look.snapshot);
   look.as_calibrated = camera.as_calibrated();
@@ -79,7 +89,12 @@ RememberedView::RememberedView(const Scene& scene, const DoorAsset& door, const 
 }
 
 LabelledCloud RememberedView::With(LabelledCloud visible, const Eigen::Vector3d& start_m) {
-  if (!before_) before_ = LookBefore(scene_, *door_, *robot_, cloud_, config_).visible;
+  if (!before_) {
+    const RememberedLook look = LookFrom(scene_, *door_, *robot_, config_);
+    CameraObserver camera(look.scene, *door_, *robot_, cloud_, /*sees_robot=*/false);
+    if (colors_) camera.ColorWith(colors_(look.scene, /*sees_robot=*/false));
+    before_ = camera.Render(look.snapshot).visible;
+  }
   return JoinedCloud(std::move(visible), *before_, start_m,
                      {cloud_.point_count, config_.crop_radius_m});
 }

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "doorforge/rollout/color_source.h"
 #include "doorforge/rollout/observer.h"
 #include "doorforge/rollout/remembered_view.h"
 #include "doorforge/schemas/door_asset.h"
@@ -48,6 +50,12 @@ class CameraObserver : public Observer {
   /// From now on the clouds of the stage "unlock" are joined with what is remembered.
   void Remember(RememberedView before);
 
+  /// From now on the points of clouds have the colours that this source gives, which belongs to the
+  /// same scene.
+  ///
+  /// @throws Error(kInvalidArgument) where clouds are whole: a picture does not show all of them.
+  void ColorWith(std::unique_ptr<ColorSource> colors);
+
   /// The camera where calibration believes it to be: what clouds are unprojected with.
   const CameraModel& as_calibrated() const { return camera_as_calibrated_; }
 
@@ -67,6 +75,7 @@ class CameraObserver : public Observer {
   DepthCamera camera_;
   std::optional<SurfaceCloud> whole_;
   std::optional<RememberedView> before_;
+  std::unique_ptr<ColorSource> colors_;
   int looks_ = 0;
 };
 

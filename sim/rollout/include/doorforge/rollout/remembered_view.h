@@ -3,10 +3,12 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include <Eigen/Core>
 
 #include "doorforge/physics/robot_model.h"
+#include "doorforge/rollout/color_source.h"
 #include "doorforge/rollout/observer.h"
 #include "doorforge/schemas/camera_model.h"
 #include "doorforge/schemas/cloud.h"
@@ -45,7 +47,8 @@ void CheckRememberedView(const RememberedViewConfig& config);
 /// @param visible Every point that is visible now, in the world.
 /// @param before Every point that was visible before the robot came, in the world.
 /// @param start_m Point 0 is the point of both nearest to it.
-/// @throws Error(kInvalidArgument) as SampleCloud() does.
+/// @throws Error(kInvalidArgument) as SampleCloud() does, or if one of them has colours and the
+///     other has not.
 LabelledCloud JoinedCloud(LabelledCloud visible, const LabelledCloud& before,
                           const Eigen::Vector3d& start_m, const CloudExtent& extent);
 
@@ -78,6 +81,10 @@ class RememberedView {
   RememberedView(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
                  const CloudConfig& cloud, const RememberedViewConfig& config);
 
+  /// The points from before have the colours that these sources give. Those that are visible now
+  /// must have some as well.
+  void ColorWith(ColorSources colors) { colors_ = std::move(colors); }
+
   /// Joins the points that are visible now with those from before, as JoinedCloud() does.
   LabelledCloud With(LabelledCloud visible, const Eigen::Vector3d& start_m);
 
@@ -87,6 +94,7 @@ class RememberedView {
   const RobotModel* robot_;
   CloudConfig cloud_;
   RememberedViewConfig config_;
+  ColorSources colors_;
   std::optional<LabelledCloud> before_;
 };
 

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <type_traits>
 
 #include <Eigen/Core>
@@ -48,14 +50,18 @@ struct CloudConfig {
 /// A pixel whose depth is not above 0, such as one that a sensor left out, is no point.
 ///
 /// @param image Rendered with this very `camera`, or with the one that it is believed to be.
-/// @throws Error(kInvalidArgument) if the sizes of image and camera differ.
+/// @param rgb Colours of the image's pixels, sRGB, height x width x 3, which the points then have;
+///     empty: they have none.
+/// @throws Error(kInvalidArgument) if the sizes of image and camera differ, or of image and
+/// colours.
 LabelledCloud CropCloud(const DepthImage& image, const CameraModel& camera,
-                        const CloudConfig& config = {});
+                        const CloudConfig& config = {}, std::span<const std::uint8_t> rgb = {});
 LabelledCloud CropCloud(const DepthImage& image, const PinholeView& view,
-                        const CloudConfig& config = {});
+                        const CloudConfig& config = {}, std::span<const std::uint8_t> rgb = {});
 /// Does the same for a camera with a lens, whose pixels look along `directions`.
 LabelledCloud CropCloud(const DepthImage& image, const RigidTransform& world_from_camera,
-                        const PixelDirections& directions, const CloudConfig& config = {});
+                        const PixelDirections& directions, const CloudConfig& config = {},
+                        std::span<const std::uint8_t> rgb = {});
 
 /// The pixel that a point of a cloud was made of, as an index into `image`: the one whose point in
 /// CropCloud(image, view) is the same, bit for bit. Nothing if no pixel's is.
@@ -78,7 +84,7 @@ struct SampledCloud {
   int visible_count = 0;  ///< Points to sample from: in the crop and within the extent.
 };
 
-/// Farthest point sampling of a cropped cloud.
+/// Farthest point sampling of a cropped cloud, whose points keep their labels and colours.
 ///
 /// Point 0 is the visible point nearest to `start_m` (lowest index among equals). The reference
 /// code starts with the first pixel instead; but its networks read the feature of point 0 to

@@ -69,9 +69,10 @@ class TrialPlan {
 struct TrialPolicies {
   /// A new set, equal to all others; called from one thread at a time.
   std::function<PolicySet()> make;
-  /// The camera of an episode; nothing for policies that need no cloud. May be called from several
-  /// threads at once.
-  std::function<std::unique_ptr<Observer>(const Scene&, const DoorAsset&)> make_observer = nullptr;
+  /// The camera of an episode with one of the sets; nothing for policies that need no cloud. May be
+  /// called from several threads at once.
+  std::function<std::unique_ptr<Observer>(const Scene&, const DoorAsset&, const PolicySet&)>
+      make_observer = nullptr;
 };
 
 /// How episodes are carried out; but for those of doors that are gone, none of it changes the rows.

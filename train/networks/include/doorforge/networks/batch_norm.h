@@ -19,6 +19,15 @@ inline constexpr NamedValue<EncoderNorm> kEncoderNorms[] = {{EncoderNorm::kNone,
                                                             {EncoderNorm::kBatch, "batch"}};
 constexpr std::span<const NamedValue<EncoderNorm>> ValuesOf(EncoderNorm) { return kEncoderNorms; }
 
+/// Which encoder: what normalises its layers, and whether a point's colour is an input beside its
+/// position.
+struct EncoderKind {
+  EncoderNorm norm = EncoderNorm::kNone;
+  bool colors = false;
+
+  friend bool operator==(const EncoderKind&, const EncoderKind&) = default;
+};
+
 inline constexpr float kNormEpsilon = 1e-5F;  ///< Added to variances (PyTorch's).
 inline constexpr float kNormMomentum = 0.1F;  ///< Share of the newest batch (PyTorch's).
 

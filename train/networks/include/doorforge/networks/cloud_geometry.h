@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "doorforge/networks/instruction_set.h"
+#include "doorforge/schemas/cloud.h"
 
 namespace doorforge {
 
@@ -46,6 +47,7 @@ struct CloudGeometry {
     std::size_t size() const { return skip.size(); }
   };
   std::vector<float> xyz;  ///< The window's points x 3, from its centre [m * point_scale]: level 0.
+  std::vector<std::uint8_t> rgb;  ///< Their colours, sRGB; empty: none are known.
   std::array<Level, 4> levels;
   std::array<Upsampling, 4> upsampling;  ///< [0] ends in the output points.
   /// Which targets of upsampling[0] are read; empty: all. The others are there for the sake of
@@ -64,20 +66,31 @@ struct CloudWindow {
   float point_scale = 1;
 };
 
-/// @param xyz 4096 x 3 finite numbers [m], world frame.
+/// A cloud that somebody else keeps.
+struct CloudView {
+  std::span<const float> xyz;           ///< N x 3 [m], world frame.
+  std::span<const std::uint8_t> rgb{};  ///< sRGB, N x 3; empty: no colours.
+
+  CloudView(std::span<const float> points, std::span<const std::uint8_t> colors = {})
+      : xyz(points), rgb(colors) {}
+  CloudView(const std::vector<float>& points) : xyz(points) {}
+  CloudView(const LabelledCloud& cloud) : xyz(cloud.xyz), rgb(cloud.rgb) {}
+};
+
+/// @param cloud 4096 points of finite numbers.
 /// @param outputs Points whose feature will be read, ascending; the policies read point 0. All of
 ///     them must be in the window.
-/// @throws Error(kInvalidArgument) on another number of points, numbers that are not finite, or an
-///     output outside of the window.
-CloudGeometry BuildGeometry(std::span<const float> xyz, const CloudWindow& window,
+/// @throws Error(kInvalidArgument) on another number of points or colours, numbers that are not
+///     finite, or an output outside of the window.
+CloudGeometry BuildGeometry(const CloudView& cloud, const CloudWindow& window,
                             std::span<const std::uint16_t> outputs, InstructionSet set);
 
 /// All points and all balls of the window, as batch normalisation wants them in training; `outputs`
 /// are read, else as BuildGeometry().
-CloudGeometry BuildWholeGeometry(std::span<const float> xyz, const CloudWindow& window,
+CloudGeometry BuildWholeGeometry(const CloudView& cloud, const CloudWindow& window,
                                  std::span<const std::uint16_t> outputs, InstructionSet set);
 
 /// BuildGeometry() for point 0 alone.
-CloudGeometry BuildGeometry(std::span<const float> xyz, const CloudWindow& window);
+CloudGeometry BuildGeometry(const CloudView& cloud, const CloudWindow& window);
 
 }  // namespace doorforge

@@ -21,8 +21,9 @@ std::vector<std::size_t> HandlePointsOf(std::span<const std::uint8_t> label);
 /// there. `points` must not be empty.
 std::size_t MiddlePoint(std::span<const float> xyz, std::span<const std::size_t> points);
 
-/// The cloud with point `first` and point 0 in each other's place.
+/// The cloud with point `first` and point 0 in each other's place; its colours likewise.
 std::vector<float> BeginningAt(std::span<const float> xyz, std::size_t first);
+std::vector<std::uint8_t> BeginningAt(std::span<const std::uint8_t> rgb, std::size_t first);
 
 /// Where the numbers of a grasp are told from: point 0 of the cloud in the frame kHand, else the
 /// world's origin.

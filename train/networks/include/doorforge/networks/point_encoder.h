@@ -25,20 +25,20 @@ inline constexpr int kFeatureSize = 128;
 
 /// PointNet++ for segmentation, single-scale (Qi et al. 2017; UniDoorManip's sizes): four set
 /// abstractions, four feature propagations, one dense layer, all with bias and ReLU. A point's
-/// input feature is its position; the first set abstraction reads the position relative to the
-/// centre as well.
+/// input feature is its position, and with EncoderKind::colors its colour; the first set
+/// abstraction reads the position relative to the centre as well.
 ///
 /// Adds the encoder's layers ("<prefix>sa1.0" ... "<prefix>fp1.2", "<prefix>head") to `layout`,
 /// with kBatch behind each its normalisation, see NormBehind().
-void AddEncoderLayers(const std::string& prefix, ParameterLayout& layout,
-                      EncoderNorm norm = EncoderNorm::kNone);
+void AddEncoderLayers(const std::string& prefix, ParameterLayout& layout, EncoderKind kind = {});
 
 /// The encoder's parameters in the order that the inner loops of one instruction set read them.
 class PointEncoder {
  public:
   /// What a forward pass keeps for the backward pass, and its result.
   struct Trace {
-    /// [l]: n x (3 + C_l), position and feature of level l's points; [0] has its position twice.
+    /// [l]: n x (3 + C_l), position and feature of level l's points; [0] has its position twice,
+    /// and its colour where that is read.
     std::array<std::vector<float>, 5> level;
     std::array<std::vector<float>, 4> source;  ///< First layer of each point, before the centre.
     std::array<std::vector<float>, 4> centre;  ///< First layer of each centre's position.
@@ -51,12 +51,14 @@ class PointEncoder {
   };
 
   /// `parameters` is a flat vector of `layout`, in which the encoder's layers have `prefix` and no
-  /// normalisation.
+  /// normalisation. Whether it reads colours follows from the layout.
   PointEncoder(const ParameterLayout& layout, const std::string& prefix,
                std::span<const float> parameters, InstructionSet set);
 
   /// Features of all rows of the geometry's last upsampling. `storage` may be any former trace, to
   /// reuse memory.
+  ///
+  /// @throws Error(kInvalidArgument) if the encoder reads colours and the geometry has none.
   Trace Forward(const CloudGeometry& geometry, Trace storage = {}) const;
 
   /// Adds the gradient of sum(feature_gradient * features) to `gradient`, a flat vector of the

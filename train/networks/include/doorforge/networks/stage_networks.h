@@ -75,6 +75,7 @@ struct NetworkView {
   /// reads, in the hand's own frame, instead of the cloud and the rotation; 0: those, as
   /// UniDoorManip.
   int near_points = 0;
+  bool colors = false;  ///< The encoders read the colours of points.
 
   friend bool operator==(const NetworkView&, const NetworkView&) = default;
 };
@@ -128,13 +129,13 @@ NetworkNames NamesOf(NetworkFamily family);
 /// latents, decoder 320-512-256-9. The affordance: encoder, contact point 3-128-128-128, score
 /// 256-128-1.
 const ParameterLayout& ActorLayout(NetworkFamily family = NetworkFamily::kMotion,
-                                   EncoderNorm norm = EncoderNorm::kNone);
+                                   EncoderKind kind = {});
 
 /// The critic: encoder of its own, state 18-128-128-64, action 9-128-128-64, hand and base position
 /// 3-128-128-64 each, score 384-256-128-1. The discriminator: encoder and action 9-128-128-128, or
 /// near points 3-64-64-128 and their maximum (as Liang et al. 2019), the other 0; score 384-128-1.
 const ParameterLayout& CriticLayout(NetworkFamily family = NetworkFamily::kMotion,
-                                    EncoderNorm norm = EncoderNorm::kNone);
+                                    EncoderKind kind = {});
 
 /// The trained values of both networks, each a flat vector of its layout.
 struct StageNetworks {
@@ -144,6 +145,10 @@ struct StageNetworks {
   std::vector<float> critic;     ///< At "grasp" the discriminator.
   NetworkFamily family = NetworkFamily::kMotion;
   EncoderNorm norm = EncoderNorm::kNone;  ///< kBatch in training alone, see PolicyOf().
+
+  EncoderKind encoder() const { return {norm, normalisation.view.colors}; }
+  const ParameterLayout& actor_layout() const { return ActorLayout(family, encoder()); }
+  const ParameterLayout& critic_layout() const { return CriticLayout(family, encoder()); }
 };
 
 /// He initialisation; layers that give results start at a tenth of it, so training starts near the

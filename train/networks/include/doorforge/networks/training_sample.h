@@ -16,6 +16,7 @@ struct TrainingSample {
   /// 4096 x 3, world [m]; point 0 is the visible point nearest to the hand, at "grasp" to the
   /// contact. Not owned.
   std::span<const float> cloud;
+  std::span<const std::uint8_t> rgb{};  ///< Of each point, sRGB. Not owned; empty: none are known.
   /// PointLabel of each point. Not owned; the stage "grasp" alone reads it.
   std::span<const std::uint8_t> label{};
   Proprioception proprioception{};

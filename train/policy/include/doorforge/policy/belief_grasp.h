@@ -27,6 +27,7 @@ class BeliefGrasp : public GraspPolicy {
 
   std::optional<GraspAction> Choose(const GraspObservation& seen) override;
   bool Explains() const override { return policy_->Explains(); }
+  bool UsesColors() const override { return policy_->UsesColors(); }
 
  private:
   std::unique_ptr<GraspPolicy> policy_;

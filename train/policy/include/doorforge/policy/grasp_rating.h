@@ -20,8 +20,8 @@ class GraspRater {
   explicit GraspRater(const StageNetworks& networks);
 
   /// Final door angles [rad] that are expected, one an orientation: the mean of both ways to hold
-  /// the hand. `xyz`: 4096 points, point 0 is the contact.
-  std::vector<float> Rate(std::span<const float> xyz,
+  /// the hand. `cloud`: 4096 points, point 0 is the contact.
+  std::vector<float> Rate(const CloudView& cloud,
                           std::span<const Eigen::Matrix3d> orientations) const;
 
  private:

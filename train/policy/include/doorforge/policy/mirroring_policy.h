@@ -18,6 +18,7 @@ class TwoWayPolicy {
   virtual ~TwoWayPolicy() = default;
   virtual void Reset() = 0;
   virtual Action Act(const Observation& observation, MotionWay way) = 0;
+  virtual bool UsesColors() const { return false; }  ///< As Policy::UsesColors().
 };
 
 /// What one of a set's policies has learned, and who tells it what to take the door for.
@@ -46,6 +47,7 @@ class MirroringPolicy : public Policy {
 
   void Reset() override;
   Action Act(const Observation& observation) override;
+  bool UsesColors() const override { return policy_->UsesColors(); }
   void TakeBack() { stall_.TakeBack(); }  ///< The last action is not carried out.
 
   const DoorGuess& guess() const { return guess_; }  ///< The last Act() went by it.

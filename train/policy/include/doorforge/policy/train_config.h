@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <type_traits>
 
 #include "doorforge/core/named_enum.h"
 #include "doorforge/networks/batch_norm.h"
@@ -68,6 +69,8 @@ struct TrainConfig {
   double crop_radius_m = 0;
   /// CloudWindow::point_scale of every cloud.
   double point_scale = 1;
+  /// The encoders read the colours of points, which the data set must have then.
+  bool colors = false;
   /// The critic learns on every n-th step only; 1: on all.
   int critic_interval = 1;
   ScoreLoss score_loss = ScoreLoss::kSquared;
@@ -124,6 +127,8 @@ struct TrainConfig {
     visit("frame", self.frame);
     visit("context_m", self.crop_radius_m);
     visit("zoom", self.point_scale);
+    // records from before there was a choice stay as they are, byte by byte
+    if (!std::is_const_v<Self> || self.colors) visit("colors", self.colors);
     visit("encoder_norm", self.encoder_norm);
     visit("device", self.device);
     visit("validation_share", self.validation_share);

@@ -28,6 +28,7 @@ class TurningPolicy : public Policy, public StageSwitch {
   /// for.
   void TakeBack();
   bool UsesPointCloud() const override { return policy_->UsesPointCloud(); }
+  bool UsesColors() const override { return policy_->UsesColors(); }
 
   /// Whether the handle is turned once the actions so far have been carried out: false after
   /// Reset(), and true from the first action on that the classifier gives the probability.

@@ -48,6 +48,7 @@ class LonePolicy : public Policy, public StageSwitch, public EpisodeMemory {
   Action ActOnJoined(const Observation& observation) { return policy_->Act(observation); }
 
   bool UsesPointCloud() const override { return policy_->UsesPointCloud(); }
+  bool UsesColors() const override { return policy_->UsesColors(); }
   bool Says() const override { return switch_ != nullptr; }
   bool Turned() const override { return switch_->Turned(); }
 

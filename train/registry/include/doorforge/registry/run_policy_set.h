@@ -35,9 +35,13 @@ std::unique_ptr<GraspFromPolicy> GraspOf(const PolicySet& set, const EpisodePlac
 /// The camera of who opens and who turns, which remembers the closed door where that is on. The
 /// place's door and robot must outlive it.
 ///
-/// @throws as CameraObserver.
+/// @param colors Its clouds have colours.
+/// @throws as CameraObserver; Error(kInvalidArgument) as CameraObserver::ColorWith().
 std::unique_ptr<CameraObserver> CameraOf(const EpisodePlace& place,
-                                         const RememberedViewConfig& remembered);
+                                         const RememberedViewConfig& remembered, bool colors);
+
+/// What policies that read colours are shown, wherever they act and learn.
+ColorSources PolicyColors(const EpisodePlace& place);
 
 /// Makes the set forget the last episode, and shows it the closed door where that is of use. Before
 /// every episode that is not run by RunPolicySet().
@@ -57,5 +61,8 @@ bool IsFallible(const PolicySet& set);
 
 /// Whether the set's opener or handler looks at the cloud, which an observer must give then.
 bool UsesPointCloud(const PolicySet& set);
+
+/// Whether the set's opener or handler reads the colours of the cloud.
+bool UsesColors(const PolicySet& set);
 
 }  // namespace doorforge

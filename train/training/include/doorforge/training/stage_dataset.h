@@ -31,6 +31,7 @@ struct StageDataset {
   std::vector<SideExample> sides;
   SeenParts parts;             ///< They are those of the doors of all data sets.
   std::string content_sha256;  ///< StageContentSha256() gives it.
+  bool colors = false;         ///< Whether samples have the colours of their points.
   std::vector<std::unique_ptr<DatasetReader>> readers;
 
   StageDataset();
@@ -48,9 +49,11 @@ struct StageDataset {
 /// episodes; none if the share is 0 or there is only one). Several data sets: the samples of the
 /// first, then the second's.
 ///
+/// @param colors Samples have the colours of their points as well.
 /// @throws Error(kMissing or kFormat) as DatasetReader, or if clouds do not hold 4096 points;
-///     Error(kInvalidArgument) without a folder.
+///     Error(kInvalidArgument) without a folder, or where clouds have no colours that are asked
+///     for.
 StageDataset ReadStageDataset(std::span<const std::filesystem::path> folders,
-                              std::string_view stage, double validation_share);
+                              std::string_view stage, double validation_share, bool colors = false);
 
 }  // namespace doorforge

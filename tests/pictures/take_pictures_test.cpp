@@ -15,8 +15,10 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/physics/scene_sampling.h"
+#include "doorforge/pictures/scene_colors.h"
 #include "doorforge/rollout/base_placement.h"
 #include "doorforge/rollout/camera_observer.h"
+#include "doorforge/rollout/remembered_view.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/schemas/npy.h"
 
@@ -299,6 +301,62 @@ TEST(TakePictures, RememberedPointsHaveTheColoursThatTheyHadBefore) {
   EXPECT_GT(std::set<std::uint8_t>(colors.begin(), colors.end()).size(), 10U);
   EXPECT_THROW(TakePictures(scene, setting.config, std::span(&look, 1), {{&points}, nullptr}),
                Error);
+}
+
+// What a policy is shown while it acts is what it learned from: the arrays of a data set.
+TEST(SceneColors, ArePartOfTheCloudsAndThoseOfThePictures) {
+  Setting setting;
+  setting.config.cameras.clear();
+  setting.config.cloud_rgb = true;
+  setting.config.samples = 1;
+  setting.scene.appearance = SceneAppearance::kFull;
+  CloudConfig cloud;
+  cloud.point_count = 600;
+  cloud.noise.sensor = DepthSensor::kTimeOfFlight;
+  cloud.noise.extrinsic_rad = 0.02;
+  const RememberedViewConfig remembered{.resolution_scale = 2, .crop_radius_m = 0};
+  PictureLook look = setting.LookAt(0);
+  look.snapshot.phase = EpisodePhase::kUnlock;
+  const ColorSources colors = SceneColors(setting.door, setting.robot, 1);
+  CameraObserver camera(setting.scene, setting.door, setting.robot, cloud);
+  camera.ColorWith(colors(setting.scene, /*sees_robot=*/true));
+  RememberedView view(setting.scene, setting.door, setting.robot, cloud, remembered);
+  view.ColorWith(colors);
+  camera.Remember(std::move(view));
+  const CameraFrame frame = camera.Render(look.snapshot);
+  look.depth = frame.depth;
+  const LabelledCloud& points = frame.sampled.cloud;
+  ASSERT_EQ(points.rgb.size(), points.xyz.size());
+  const RememberedLook before =
+      LookBefore(setting.scene, setting.door, setting.robot, cloud, remembered);
+  const PictureScene scene{setting.scene, setting.door, setting.robot, true,
+                           camera.as_calibrated()};
+  const Pictures pictures =
+      TakePictures(scene, setting.config, std::span(&look, 1), {{&points}, &before});
+  const auto recorded = ArrayOf<std::uint8_t>(pictures, "cloud_rgb.npy", {1, 600, 3});
+  // noise of the colours is drawn by the look, and the one before has a number of its own
+  std::size_t far = 0;
+  for (std::size_t i = 0; i < recorded.size(); ++i)
+    far += std::abs(int{recorded[i]} - int{points.rgb[i]}) > 12 ? 1U : 0U;
+  EXPECT_LT(far, recorded.size() / 100);
+  EXPECT_GT(std::set<std::uint8_t>(points.rgb.begin(), points.rgb.end()).size(), 30U);
+}
+
+TEST(SceneColors, AreJoinedWithColoursAloneAndNeverOfWholeSurfaces) {
+  const Setting setting;
+  const ColorSources colors = SceneColors(setting.door, setting.robot, 1);
+  CloudConfig whole;
+  whole.whole = true;
+  CameraObserver everywhere(setting.scene, setting.door, setting.robot, whole);
+  EXPECT_THROW(everywhere.ColorWith(colors(setting.scene, true)), Error);
+  LabelledCloud bare;
+  bare.xyz = {0, 0, 1};
+  bare.label = {0};
+  LabelledCloud colored = bare;
+  colored.rgb = {1, 2, 3};
+  EXPECT_THROW(JoinedCloud(bare, colored, {0, 0, 1}, {1}), Error);
+  EXPECT_EQ(JoinedCloud(colored, colored, {0, 0, 1}, {2}).rgb,
+            (std::vector<std::uint8_t>{1, 2, 3, 1, 2, 3}));
 }
 
 TEST(TakePictures, TheHandsCameraGoesWithTheHandAndTheOtherStays) {

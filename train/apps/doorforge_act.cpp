@@ -32,7 +32,6 @@ struct Options {
   DecisionFiles files;
   std::string stage = "auto";
   std::string picture;
-  std::string color;
   std::string foreign_limit;
   std::string least_gain;
   std::string config;
@@ -87,8 +86,10 @@ void AddAnswers(CLI::App& app, Options& options) {
   app.add_flag("--text", options.text, "a few lines for people instead of JSON");
   app.add_option("--picture", options.picture,
                  "PNG to draw the answer into: crop, hand now (white) and next (red), contact");
-  app.add_option("--color", options.color, "PNG or JPEG to draw into, of the depth picture's size")
-      ->needs("--picture");
+  app.add_option("--color", options.files.color,
+                 "colours of --depth (PNG or JPEG of its size), which policies may read and the "
+                 "answer is drawn into; --before-color: of --before");
+  app.add_option("--before-color", options.files.before_color)->group("");
   app.add_flag("--overwrite", options.overwrite, "replace the file of --picture");
   app.add_option("--config", options.config, "YAML file with settings")->check(CLI::ExistingFile);
   AddSettings(app, options.settings, "a.b=c overrides one setting, e.g. cloud.max_depth_m");
@@ -99,9 +100,9 @@ void CheckOptions(const Options& options) {
   const auto require = [](bool condition, const std::string& problem) {
     Require(condition, ErrorCode::kInvalidArgument, problem + "; see `doorforge act --help`");
   };
-  const auto& [depth, state, handle, before, camera] = options.files;
-  const bool one = !depth.empty() && state.empty() != handle.empty();
-  const bool none = depth.empty() && state.empty() && handle.empty();
+  const DecisionFiles& files = options.files;
+  const bool one = !files.depth.empty() && files.state.empty() != files.handle.empty();
+  const bool none = files.depth.empty() && files.state.empty() && files.handle.empty();
   const OnlineControllerSetup& setup = options.setup;
   require(
       setup.sees_every_decision ? none : one,
@@ -148,7 +149,6 @@ int Act(Options options) {
   if (options.stage != "auto") options.setup.stage = StageNamed(options.stage);
   RequireNoFile(options.picture, options.overwrite);
   options.setup.camera = ReadCalibratedCamera(options.files.camera);
-  const auto color = ReadColorPicture(options.color, options.setup.camera);
   RequireTrainedPolicies({options.setup.opener, options.setup.handler, options.setup.grasper},
                          "rules read what only the simulator knows, and no robot does");
   OnlineController controller(options.setup);
@@ -160,7 +160,7 @@ int Act(Options options) {
   const ActAnswer answer = DecideFromFiles(controller, options.files);
   PrintAnswer(!options.text, AnswerToJson(answer), AnswerText(answer));
   if (!options.picture.empty())
-    WritePng(options.picture, AnswerPicture(answer, controller, options.setup.config.cloud, color));
+    WritePng(options.picture, AnswerPicture(answer, controller, options.setup.config.cloud));
   return answer.hold_reasons.empty() ? 0 : 1;
 }
 

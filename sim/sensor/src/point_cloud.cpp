@@ -59,10 +59,9 @@ std::size_t IndexOf(const DepthImage& image, int column, int row) {
 
 // The pixels inside the crop, where `point_at` puts them. What is compared with NaN is left out.
 template <class PointAt>
-LabelledCloud Cropped(const DepthImage& image, const CloudConfig& config,
-                      std::span<const std::uint8_t> rgb, const PointAt& point_at) {
-  Require(rgb.empty() || rgb.size() == 3 * image.depth_m.size(), ErrorCode::kInvalidArgument,
-          "point cloud: image and colours differ in size");
+LabelledCloud Cropped(const DepthImage& image, const CloudConfig& config, const PointAt& point_at) {
+  Require(image.rgb.empty() || image.rgb.size() == 3 * image.depth_m.size(),
+          ErrorCode::kInvalidArgument, "point cloud: depth and colours differ in size");
   LabelledCloud cloud;
   for (int row = 0; row < image.height; ++row) {
     for (int column = 0; column < image.width; ++column) {
@@ -73,9 +72,9 @@ LabelledCloud Cropped(const DepthImage& image, const CloudConfig& config,
       if (!(point.z() > config.min_height_m)) continue;
       for (const double coordinate : point) cloud.xyz.push_back(static_cast<float>(coordinate));
       cloud.label.push_back(image.label[pixel]);
-      if (rgb.empty()) continue;
-      const auto color = rgb.subspan(3 * pixel, 3);
-      cloud.rgb.insert(cloud.rgb.end(), color.begin(), color.end());
+      if (image.rgb.empty()) continue;
+      const std::uint8_t* rgb = &image.rgb[3 * pixel];
+      cloud.rgb.insert(cloud.rgb.end(), rgb, rgb + 3);
     }
   }
   return cloud;
@@ -90,24 +89,23 @@ PinholeView ViewOf(const CameraModel& camera) {
 }
 
 LabelledCloud CropCloud(const DepthImage& image, const CameraModel& camera,
-                        const CloudConfig& config, std::span<const std::uint8_t> rgb) {
-  return CropCloud(image, ViewOf(camera), config, rgb);
+                        const CloudConfig& config) {
+  return CropCloud(image, ViewOf(camera), config);
 }
 
-LabelledCloud CropCloud(const DepthImage& image, const PinholeView& view, const CloudConfig& config,
-                        std::span<const std::uint8_t> rgb) {
+LabelledCloud CropCloud(const DepthImage& image, const PinholeView& view,
+                        const CloudConfig& config) {
   RequireSameSize(image, view.width, view.height);
   const PixelRays rays(view);
-  return Cropped(image, config, rgb, [&](int column, int row, double depth_m) {
+  return Cropped(image, config, [&](int column, int row, double depth_m) {
     return rays.PointAt(column + 0.5, row + 0.5, depth_m);
   });
 }
 
 LabelledCloud CropCloud(const DepthImage& image, const RigidTransform& world_from_camera,
-                        const PixelDirections& directions, const CloudConfig& config,
-                        std::span<const std::uint8_t> rgb) {
+                        const PixelDirections& directions, const CloudConfig& config) {
   RequireSameSize(image, directions.width, directions.height);
-  return Cropped(image, config, rgb, [&](int column, int row, double depth_m) -> Eigen::Vector3d {
+  return Cropped(image, config, [&](int column, int row, double depth_m) -> Eigen::Vector3d {
     const Eigen::Vector2d& ideal = directions.ideal[IndexOf(image, column, row)];
     return world_from_camera * Eigen::Vector3d(depth_m * ideal.homogeneous());
   });

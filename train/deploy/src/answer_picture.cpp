@@ -120,7 +120,6 @@ class Canvas {
 struct Excerpt {
   SeenPicture seen;
   PixelMask kept;  // which pixels the policy is given
-  std::optional<Picture> color;
   PinholeView view;
 };
 
@@ -150,7 +149,9 @@ PixelMask KeptOf(const DepthImage& depth, const CalibratedCamera& camera,
 
 // Washes out what the policy is not given.
 Picture CroppedPreview(const Excerpt& part, const CloudConfig& config) {
-  Picture picture = part.color ? *part.color : DepthPreview(part.seen.depth, config.max_depth_m);
+  const DepthImage& depth = part.seen.depth;
+  Picture picture{depth.width, depth.height, depth.rgb};
+  if (depth.rgb.empty()) picture = DepthPreview(depth, config.max_depth_m);
   for (std::size_t i = 0; i < part.kept.set.size(); ++i) {
     if (part.kept.set[i] != 0) continue;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -221,7 +222,7 @@ Excerpt CloseUp(const Excerpt& whole, const Eigen::Vector3d& place) {
   };
   const Window window{begin(view.fx, seen.x(), view.cx, view.width),
                       begin(view.fy, seen.y(), view.cy, view.height), side};
-  Excerpt part{{}, {side, side, Cut(whole.kept.set, view.width, window)}, {}, view};
+  Excerpt part{{}, {side, side, Cut(whole.kept.set, view.width, window)}, view};
   part.view.width = side;
   part.view.height = side;
   part.view.cx -= window.left;
@@ -232,7 +233,7 @@ Excerpt CloseUp(const Excerpt& whole, const Eigen::Vector3d& place) {
   cut.depth_m = Cut(whole.seen.depth.depth_m, view.width, window);
   if (whole.seen.handle)
     part.seen.handle = {side, side, Cut(whole.seen.handle->set, view.width, window)};
-  if (whole.color) part.color = {side, side, Cut(whole.color->rgb, view.width, window, 3)};
+  if (!whole.seen.depth.rgb.empty()) cut.rgb = Cut(whole.seen.depth.rgb, view.width, window, 3);
   return part;
 }
 
@@ -258,12 +259,12 @@ Picture Drawn(const Excerpt& part, const Drawing& drawing) {
 }  // namespace
 
 Picture AnswerPicture(const ActAnswer& answer, const OnlineController& controller,
-                      const CloudConfig& cloud, const std::optional<Picture>& color) {
+                      const CloudConfig& cloud) {
   constexpr int kTile = 640;
   const CalibratedCamera& camera = controller.camera();
   const Drawing drawing{answer, controller.robot().hand_from_tcp(), Lens(camera.lens), cloud};
   const Excerpt whole{controller.last_seen(), KeptOf(controller.last_seen().depth, camera, cloud),
-                      color, camera.view};
+                      camera.view};
   const Excerpt close =
       CloseUp(whole, (answer.world_from_hand * drawing.hand_from_tcp).translation());
   const std::vector<Picture> tiles = {Drawn(whole, drawing), Drawn(close, drawing)};

@@ -28,6 +28,8 @@ ActAnswer AnswerLine(OnlineController& controller, const std::string& camera,
   files.depth = file("depth", true);
   files.handle = file("handle", false);
   files.before = file("before", false);
+  files.color = file("color", false);
+  files.before_color = file("before_color", false);
   files.state = file("state", files.handle.empty());
   return DecideFromFiles(controller, files);
 }

@@ -106,18 +106,17 @@ PixelMask ReadMaskPicture(const fs::path& path) {
   return DecodeMaskPng(ReadFile(path, kMostPictureBytes), path.string());
 }
 
-std::optional<Picture> ReadColorPicture(const fs::path& path, const CalibratedCamera& camera) {
-  if (path.empty()) return std::nullopt;
+void AddColors(const fs::path& path, DepthImage& depth) {
+  if (path.empty()) return;
   Picture picture = DecodePicture(ReadFile(path, kMostPictureBytes), path.string());
-  const PinholeView& view = camera.view;
-  if (picture.width != view.width || picture.height != view.height)
+  if (picture.width != depth.width || picture.height != depth.height)
     throw Error(ErrorCode::kInvalidArgument,
                 path.string() + ": the colours have " + std::to_string(picture.width) + " x " +
-                    std::to_string(picture.height) + " pixels, the depth by its camera file " +
-                    std::to_string(view.width) + " x " + std::to_string(view.height) +
+                    std::to_string(picture.height) + " pixels, the depth has " +
+                    std::to_string(depth.width) + " x " + std::to_string(depth.height) +
                     "; register the depth to the colours (realsense2_camera: align_depth), and "
                     "give the colour camera's calibration and pose");
-  return picture;
+  depth.rgb = std::move(picture.rgb);
 }
 
 }  // namespace doorforge

@@ -32,6 +32,12 @@ DepthImage WithHoles(DepthImage depth) {
   return depth;
 }
 
+void RequireColors(bool uses, bool lacks) {
+  Require(!uses || !lacks, ErrorCode::kInvalidArgument,
+          "the policy reads colours, and the depth picture has none; pass the colours that show "
+          "pixel by pixel the same as --color, in a stream as \"color\"");
+}
+
 }  // namespace
 
 void CheckOnlineControllerConfig(const OnlineControllerConfig& config) {
@@ -109,6 +115,7 @@ ActAnswer OnlineController::DecideGrasp(DepthImage depth, PixelMask handle,
     throw Error(ErrorCode::kInvalidArgument,
                 "a grasp is to be chosen, and --grasper, which chooses it, was not given");
   const double yaw = setup_.config.door_yaw_rad;
+  RequireColors(grasper_->policy->UsesColors(), depth.rgb.empty());
   seen_ = {WithHoles(std::move(depth)), std::move(handle)};
   HandleObservation seen =
       NamingInputs(names.depth + ", " + names.handle + " and " + names.camera, [&] {
@@ -154,12 +161,16 @@ void OnlineController::KeepBefore(LabelledCloud before) {
 RobotObservation OnlineController::ObservationOf(const Actor& actor,
                                                  const RobotState& state) const {
   const CloudConfig& cloud = setup_.config.cloud;
+  RequireColors(actor.policy->UsesColors(), seen_.depth.rgb.empty());
   if (!actor.remembers) return ObserveDepth(seen_.depth, setup_.camera, state, cloud);
   if (!before_)
     throw Error(ErrorCode::kInvalidArgument,
                 "the policy that turns the handle remembers what the camera saw before the robot "
                 "came, and there is no such picture; pass it as --before, in a stream as "
                 "\"before\"");
+  Require(!actor.policy->UsesColors() || !before_->rgb.empty(), ErrorCode::kInvalidArgument,
+          "the policy that turns the handle reads colours, and the picture from before the robot "
+          "came has none; pass them as --before-color, in a stream as \"before_color\"");
   return ObserveDepth(seen_.depth, setup_.camera, state, {*before_, actor.crop_radius_m}, cloud);
 }
 
@@ -254,8 +265,9 @@ ActAnswer OnlineController::Answer(Stage stage, Actor& actor, const RobotState& 
 
 void RememberFromFile(OnlineController& controller, const DecisionFiles& files) {
   if (files.before.empty()) return;
-  controller.Remember(ReadDepthPicture(files.before, controller.camera()),
-                      {.depth = files.before, .camera = files.camera});
+  DepthImage before = ReadDepthPicture(files.before, controller.camera());
+  AddColors(files.before_color, before);
+  controller.Remember(before, {.depth = files.before, .camera = files.camera});
 }
 
 ActAnswer DecideFromFiles(OnlineController& controller, const DecisionFiles& files) {
@@ -263,13 +275,14 @@ ActAnswer DecideFromFiles(OnlineController& controller, const DecisionFiles& fil
   InputNames names;
   names.depth = files.depth;
   names.camera = files.camera;
+  DepthImage depth = ReadDepthPicture(files.depth, controller.camera());
+  AddColors(files.color, depth);
   if (files.handle.empty()) {
     names.state = files.state;
-    const RobotState state = ReadRobotState(files.state, controller.robot());
-    return controller.Decide(ReadDepthPicture(files.depth, controller.camera()), state, names);
+    return controller.Decide(std::move(depth), ReadRobotState(files.state, controller.robot()),
+                             names);
   }
   names.handle = files.handle;
-  DepthImage depth = ReadDepthPicture(files.depth, controller.camera());
   return controller.DecideGrasp(std::move(depth), ReadMaskPicture(files.handle), names);
 }
 

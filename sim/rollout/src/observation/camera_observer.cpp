@@ -89,10 +89,9 @@ CameraFrame CameraObserver::Render(const SceneSnapshot& snapshot) {
   frame.ideal = camera_.Render(model_, poses);
   const int look = looks_++;
   frame.depth = WithDepthNoise(frame.ideal, model_, config_.noise, Stream(std::to_string(look)));
-  std::vector<std::uint8_t> rgb;
-  if (colors_) rgb = colors_->ColorsAt(snapshot, look);
+  if (colors_) frame.depth.rgb = colors_->ColorsAt(snapshot, look);
   frame.visible = whole_ ? whole_->At(poses, config_.min_height_m)
-                         : CropCloud(frame.depth, camera_as_calibrated_, config_, rgb);
+                         : CropCloud(frame.depth, camera_as_calibrated_, config_);
   frame.sampled = SampleCloud(frame.visible, snapshot.robot.world_from_tcp.translation(),
                               {config_.point_count});
   if (before_ && snapshot.phase == EpisodePhase::kUnlock && !frame.visible.label.empty())

@@ -3,9 +3,7 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
-#include <span>
 #include <type_traits>
 
 #include <Eigen/Core>
@@ -47,21 +45,19 @@ struct CloudConfig {
 ///
 /// The image is taken as it is: `config.noise` is for whoever makes the image.
 ///
-/// A pixel whose depth is not above 0, such as one that a sensor left out, is no point.
+/// A pixel whose depth is not above 0, such as one that a sensor left out, is no point. Where the
+/// image has colours, the points have theirs.
 ///
 /// @param image Rendered with this very `camera`, or with the one that it is believed to be.
-/// @param rgb Colours of the image's pixels, sRGB, height x width x 3, which the points then have;
-///     empty: they have none.
-/// @throws Error(kInvalidArgument) if the sizes of image and camera differ, or of image and
-/// colours.
+/// @throws Error(kInvalidArgument) if the sizes of image and camera, or of depth and colours,
+/// differ.
 LabelledCloud CropCloud(const DepthImage& image, const CameraModel& camera,
-                        const CloudConfig& config = {}, std::span<const std::uint8_t> rgb = {});
+                        const CloudConfig& config = {});
 LabelledCloud CropCloud(const DepthImage& image, const PinholeView& view,
-                        const CloudConfig& config = {}, std::span<const std::uint8_t> rgb = {});
+                        const CloudConfig& config = {});
 /// Does the same for a camera with a lens, whose pixels look along `directions`.
 LabelledCloud CropCloud(const DepthImage& image, const RigidTransform& world_from_camera,
-                        const PixelDirections& directions, const CloudConfig& config = {},
-                        std::span<const std::uint8_t> rgb = {});
+                        const PixelDirections& directions, const CloudConfig& config = {});
 
 /// The pixel that a point of a cloud was made of, as an index into `image`: the one whose point in
 /// CropCloud(image, view) is the same, bit for bit. Nothing if no pixel's is.

@@ -18,8 +18,7 @@ namespace doorforge {
 ///
 /// @param answer The last answer of `controller`, whose robot says where the fingers are in the
 ///     hand's frame.
-/// @param color Shown in place of the depth: a picture as ReadColorPicture() reads it.
 Picture AnswerPicture(const ActAnswer& answer, const OnlineController& controller,
-                      const CloudConfig& cloud, const std::optional<Picture>& color = {});
+                      const CloudConfig& cloud);
 
 }  // namespace doorforge

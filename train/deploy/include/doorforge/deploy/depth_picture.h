@@ -33,12 +33,11 @@ DepthImage ReadDepthPicture(const std::filesystem::path& path, const CalibratedC
 /// Reads a mask as DecodeMaskPng() does. Throws Error(kMissing), and as it.
 PixelMask ReadMaskPicture(const std::filesystem::path& path);
 
-/// Reads a picture in colours that shows pixel by pixel what the camera's depth shows; nothing of
-/// an empty path.
+/// Reads a picture in colours that shows pixel by pixel what the depth shows, and keeps it as the
+/// depth's; nothing is done for an empty path.
 ///
 /// @throws Error(kMissing), Error(kFormat) naming the file; Error(kInvalidArgument) if it has
-///     another size than the camera, which depth that was registered to it would have.
-std::optional<Picture> ReadColorPicture(const std::filesystem::path& path,
-                                        const CalibratedCamera& camera);
+///     another size than the depth, which depth that was registered to it would have.
+void AddColors(const std::filesystem::path& path, DepthImage& depth);
 
 }  // namespace doorforge

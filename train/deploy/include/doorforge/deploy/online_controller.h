@@ -158,11 +158,13 @@ class OnlineController {
 
 /// The files of one decision, as docs/act.md describes them; empty: none.
 struct DecisionFiles {
-  std::string depth{};   ///< A picture, see ReadDepthPicture().
-  std::string state{};   ///< Either the robot's state, YAML,
-  std::string handle{};  ///< or the mask of a handle that is to be taken hold of, PNG.
-  std::string before{};  ///< A depth picture from before the robot came, which is kept.
-  std::string camera{};  ///< What messages call the camera.
+  std::string depth{};         ///< A picture, see ReadDepthPicture().
+  std::string state{};         ///< Either the robot's state, YAML,
+  std::string handle{};        ///< or the mask of a handle that is to be taken hold of, PNG.
+  std::string before{};        ///< A depth picture from before the robot came, which is kept.
+  std::string camera{};        ///< What messages call the camera.
+  std::string color{};         ///< Colours of `depth`, PNG or JPEG, see AddColors().
+  std::string before_color{};  ///< Colours of `before`.
 };
 
 /// Remembers what is to be remembered; nothing where `before` is empty.

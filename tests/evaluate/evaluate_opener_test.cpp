@@ -289,7 +289,8 @@ TEST_F(EvaluateOpenerTest, APolicyThatReadsColoursIsShownThem) {
         WriteUntrainedPolicy(folder_ / "data", stage, out / stage, colors);
     }
     EvaluationRequest request = RequestFor("held_out");
-    request.policies = {.opener = out / "open", .handler = out / "handle", .grasper = out / "grasp"};
+    request.policies = {
+        .opener = out / "open", .handler = out / "handle", .grasper = out / "grasp"};
     request.config.scene.appearance = appearance;
     std::vector<std::string> ends;
     for (const EvaluatedEpisode& episode : EvaluateOpener(request).report.episodes)

@@ -32,6 +32,9 @@ class FullDisk(ProgramTest):
                              "--out", door), 0)
         collect = ["datagen", "open", "--doors", door, "--episodes", 2, "--seed", 3, "--set", "preview=false"]
         self.assert_ends(run(*collect, "--out", data), 0)
+        doors = [door] + [self.folder / f"again_{i}" for i in range(7)]
+        for link in doors[1:]:
+            link.symlink_to(door)
         for arguments in (
             ["datagen", "open", "--doors", door, "--episodes", 200, "--out", small / "data"],
             ["dataset", "re-observe", data, "--doors", door, "--out", small / "again"],
@@ -39,6 +42,7 @@ class FullDisk(ProgramTest):
             ["dataset", "export", data, "--to", "lerobot", "--points", 4096, "--python", "/usr/bin/python3",
              "--out", small / "lerobot"],
             ["dataset", "merge", small / "merged", data],
+            ["export", *doors, "--format", "urdf", "--out", small / "exported"],
         ):
             result = self.on_small_disk(*arguments)
             self.assert_refused(result, 3)

@@ -221,8 +221,8 @@ TEST(PointEncoder, GivesEachPointItsOwnColour) {
   const CloudGeometry geometry = BuildGeometry({cloud, rgb}, {{}, 0.5F});
   ASSERT_EQ(geometry.rgb.size(), geometry.xyz.size());
   for (std::size_t i = 0; i < geometry.xyz.size(); ++i)
-    ASSERT_EQ(geometry.rgb[i], static_cast<std::uint8_t>(
-                                   std::clamp(100 * geometry.xyz[i] + 100, 0.0F, 255.0F)))
+    ASSERT_EQ(geometry.rgb[i],
+              static_cast<std::uint8_t>(std::clamp(100 * geometry.xyz[i] + 100, 0.0F, 255.0F)))
         << i;
 }
 

@@ -4,14 +4,17 @@
 
 #include <algorithm>
 #include <exception>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/free_space.h"
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
 #include "doorforge/core/record_id.h"
+#include "doorforge/core/temporary_folder.h"
 #include "doorforge/mesh/work_budget.h"
 
 namespace doorforge {
@@ -63,12 +66,48 @@ void Export(const ExportRun& run, const Wanted& wanted, ExportedDoor& exported) 
   }
 }
 
+// What the files of a door take, by writing them where they are deleted again; nothing if it cannot
+// be exported, which its own turn will say.
+std::optional<double> BytesOfDoor(const std::filesystem::path& folder, const Wanted& wanted,
+                                  const ExportSettings& settings) {
+  try {
+    const TemporaryFolder trial;
+    WriteExportedDoor(ReadDoor(folder), wanted.formats, trial.path() / "door", Existing::kRefuse,
+                      settings);
+    return BytesBelow(trial.path());
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+// A few doors, evenly spread, tell what all of them take.
+void RequireSpaceForDoors(std::span<const std::filesystem::path> folders, const ExportRun& run,
+                          const Wanted& wanted) {
+  constexpr std::size_t kTried = 4;
+  constexpr std::size_t kMany = 2 * kTried;  // for fewer, trying takes longer than it is worth
+  constexpr double kSurely = 0.8;            // what is not among the tried may be smaller
+  if (folders.size() < kMany) return;
+  double bytes = 0;
+  int tried = 0;
+  for (std::size_t i = 0; i < kTried; ++i) {
+    const auto& folder = folders[i * folders.size() / kTried];
+    const std::optional<double> one = BytesOfDoor(folder, wanted, run.settings);
+    if (!one) continue;
+    bytes += *one;
+    ++tried;
+  }
+  if (tried == 0) return;
+  const double needed = kSurely * bytes / tried * static_cast<double>(folders.size());
+  RequireSpace(run.out, needed - BytesBelow(run.out), "make room, or choose another --out");
+}
+
 }  // namespace
 
 std::vector<ExportedDoor> ExportDoors(std::span<const std::filesystem::path> folders,
                                       const ExportRun& run) {
   const Wanted wanted = WantedOf(run);
   RequireWritable(run.out);
+  RequireSpaceForDoors(folders, run, wanted);
   std::vector<ExportedDoor> doors;
   for (const std::filesystem::path& folder : folders) doors.push_back({folder.string(), {}, {}});
   Progress progress("exporting", doors.size());

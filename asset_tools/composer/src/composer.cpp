@@ -12,6 +12,7 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
+#include "doorforge/core/temporary_folder.h"
 #include "doorforge/mesh/import_mesh.h"
 #include "doorforge/openable/openable_check.h"
 #include "doorforge/validate/validate_door.h"
@@ -19,7 +20,6 @@
 
 #include "compose_command.h"
 #include "dropped_files.h"
-#include "scratch_folder.h"
 #include "zip_file.h"
 
 namespace doorforge {
@@ -107,7 +107,7 @@ std::string Without(std::string message, const fs::path& folder) {
 
 // The confined process reads; its own folder is no matter of the page.
 ImportedMesh ReadDropped(const std::string& name, const std::string& bytes) {
-  const internal::ScratchFolder scratch;
+  const TemporaryFolder scratch;
   CommitFile(scratch.path() / name, bytes);
   try {
     return ImportMesh(scratch.path() / name, {.max_file_bytes = internal::kMostFileBytes,
@@ -212,7 +212,7 @@ std::string Composer::WithDoor(const std::string& text, const Use& use) const {
   for (const std::string& name : {door.body, door.handle}) {
     if (!files.contains(name)) Find(name);
   }
-  const internal::ScratchFolder scratch;
+  const TemporaryFolder scratch;
   try {
     dropped_->PutInto(scratch.path() / "files", files);
     Made made{.folder = scratch.path() / "door", .request = door, .notes = Json::array()};

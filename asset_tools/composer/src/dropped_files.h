@@ -9,7 +9,7 @@
 #include <mutex>
 #include <string>
 
-#include "scratch_folder.h"
+#include "doorforge/core/temporary_folder.h"
 
 namespace doorforge::internal {
 
@@ -48,7 +48,7 @@ class DroppedFiles {
 
   void Forget();
 
-  ScratchFolder folder_;
+  TemporaryFolder folder_;
   std::mutex mutex_;
   std::map<std::string, Kept> kept_;
   std::list<std::string> turns_;  // the longest unasked first

@@ -39,8 +39,10 @@ struct ExportedDoor {
 /// Exports the door in each folder, in the order given, with progress. Whatever is wrong with one,
 /// the others go on.
 ///
-/// @throws Error(kIo) if `out` cannot be written; Error(kInvalidArgument) if neither a format nor a
-///     profile is named, on an unknown name, and where pictures are wanted and `draw` is empty.
+/// @throws Error(kIo) if `out` cannot be written, or if of eight doors or more the files certainly
+///     do not fit on its disk, by what four of them take; Error(kInvalidArgument) if neither a
+///     format nor a profile is named, on an unknown name, and where pictures are wanted and `draw`
+///     is empty.
 std::vector<ExportedDoor> ExportDoors(std::span<const std::filesystem::path> folders,
                                       const ExportRun& run);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "scratch_folder.h"
+#include "doorforge/core/temporary_folder.h"
 
 #include <cstdlib>
 #include <string>
@@ -8,20 +8,20 @@
 
 #include "doorforge/core/error.h"
 
-namespace doorforge::internal {
+namespace doorforge {
 
 namespace fs = std::filesystem;
 
-ScratchFolder::ScratchFolder() {
-  std::string name = (fs::temp_directory_path() / "doorforge-composer-XXXXXX").string();
+TemporaryFolder::TemporaryFolder() {
+  std::string name = (fs::temp_directory_path() / "doorforge-XXXXXX").string();
   if (::mkdtemp(name.data()) == nullptr)
     throw Error(ErrorCode::kIo, name + ": a folder cannot be made");
   path_ = name;
 }
 
-ScratchFolder::~ScratchFolder() {
+TemporaryFolder::~TemporaryFolder() {
   std::error_code ignored;
   fs::remove_all(path_, ignored);
 }
 
-}  // namespace doorforge::internal
+}  // namespace doorforge

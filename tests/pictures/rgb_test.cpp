@@ -15,6 +15,7 @@
 #include "doorforge/pictures/take_pictures.h"
 #include "doorforge/rollout/base_placement.h"
 #include "doorforge/rollout/run_episode.h"
+#include "doorforge/sensor/picture.h"
 
 #include "../physics/primitive_door.h"
 
@@ -73,6 +74,58 @@ TEST(PictureColors, FewRaysGiveNearlyWhatManyGive) {
   const std::vector<int> many = with(256);
   EXPECT_LT(MeanDifference(with(16), many), 1.0);
   EXPECT_LT(MeanDifference(with(1), many), 4.0);
+}
+
+// A picture of two pixels, red and blue, on the leaf's front: the author's surface lies a few
+// millimetres off the closed mesh, as a repair leaves it.
+VisualMesh RedAndBlueFront(const TriangleMesh& leaf) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& vertex : leaf.vertices) box.extend(vertex);
+  VisualMesh drawn;
+  for (const double z : {box.min().z(), box.max().z()}) {
+    for (const double y : {box.min().y(), box.max().y()}) {
+      drawn.vertices.emplace_back(box.max().x() - 0.003, y, z);
+      drawn.texcoords.emplace_back(y == box.min().y() ? 0.0 : 1.0, z == box.min().z() ? 0.0 : 1.0);
+    }
+  }
+  VisualSurface surface;
+  surface.material.name = "front";
+  surface.material.color_rgba = {1, 1, 1, 1};
+  surface.material.texture = MakeVisualTexture(EncodePng({2, 1, {255, 0, 0, 0, 0, 255}}));
+  surface.triangles = {{0, 1, 2}, {1, 3, 2}};
+  surface.texcoords = surface.triangles;
+  drawn.surfaces = {surface};
+  return drawn;
+}
+
+TEST(PictureColors, ShowTheTexturesThatAuthorsDrew) {
+  ColorSetting setting;
+  DoorGeometry& leaf = setting.door.links[kLeafLink].geometry.at(0);
+  leaf.visual = RedAndBlueFront(leaf.mesh);
+  const auto members = setting.Take(0);
+  const std::vector<int> rgb = PixelsOf(members, "rgb_front.npy");
+  const std::vector<int> label = PixelsOf(members, "label_front.npy");
+  std::map<bool, std::vector<std::size_t>> columns;  // where red, and where blue, is
+  std::size_t body = 0;
+  for (std::size_t i = 0; i < label.size(); ++i) {
+    if (label[i] != static_cast<int>(PointLabel::kBody)) continue;
+    ++body;
+    const int red = rgb[3 * i];
+    const int blue = rgb[3 * i + 2];
+    if (std::max(red, blue) > 3 * std::min(red, blue) && rgb[3 * i + 1] < std::max(red, blue) / 2)
+      columns[red > blue].push_back(i % 96);
+  }
+  // all but what is seen of the edges of the leaf, half of it of each
+  EXPECT_GT(columns[true].size() + columns[false].size(), body * 8 / 10);
+  EXPECT_GT(columns[true].size(), body / 4);
+  EXPECT_GT(columns[false].size(), body / 4);
+  const auto mean = [](const std::vector<std::size_t>& all) {
+    double sum = 0;
+    for (const std::size_t one : all) sum += static_cast<double>(one);
+    return sum / static_cast<double>(all.size());
+  };
+  // who looks at the door has the world's y to the right
+  EXPECT_LT(mean(columns[true]) + 5, mean(columns[false]));
 }
 
 // A void would be of one colour, or black.

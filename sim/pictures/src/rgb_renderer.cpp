@@ -74,6 +74,10 @@ RgbRenderer::RgbRenderer(const PictureScene& scene, const PicturesConfig& config
                           mesh.label == PointLabel::kBody;
     pane_boxes_.push_back(has_pane ? BoundsOf(mesh.mesh) : Eigen::AlignedBox3f());
   }
+  // drawn appearances paint over what authors drew
+  if (scene.scene.appearance == SceneAppearance::kOff) drawn_.emplace(scene.door);
+  if (drawn_ && drawn_->empty()) drawn_.reset();
+  for (const DoorLink& link : scene.door.links) door_meshes_ += link.geometry.size();
   const auto add = [&](const Finish& finish) {
     materials_.push_back({finish, Highlight(finish.exponent)});
   };
@@ -87,6 +91,7 @@ std::vector<std::uint8_t> RgbRenderer::Render(const CameraModel& camera,
   image_.width = surfaces.depth.width;
   image_.height = surfaces.depth.height;
   PlaceMeshes();
+  if (drawn_) drawn_->MoveWith(geometry_);
   FindPoints(camera, surfaces);
   image_.FindSeams();
   light_ = ShareLight(lit_, image_, rounds_);
@@ -160,14 +165,17 @@ SeenPoint RgbRenderer::RoomPoint(const Eigen::Vector3f& origin,
   return point;
 }
 
-LinearColor RgbRenderer::AlbedoOf(const SeenPoint& point) const {
+LinearColor RgbRenderer::AlbedoOf(const SeenPoint& point) {
+  if (drawn_ && point.part < door_meshes_) {
+    if (const auto color = drawn_->ColorAt(point.part, point.position, point.face)) return *color;
+  }
   const Finish& finish = materials_[point.part].finish;
   if (finish.texture == Texture::kPlain) return finish.color;
   return ColorAt(finish, point.part < frames_.size() ? frames_[point.part].InMesh(point.position)
                                                      : point.position);
 }
 
-LinearColor RgbRenderer::Shade(const SeenPoint& point, const LightShares& shares) const {
+LinearColor RgbRenderer::Shade(const SeenPoint& point, const LightShares& shares) {
   const float share = 1 / static_cast<float>(kLampPlaces * rounds_);  // of a place that is in sight
   const auto& [finish, shine] = materials_[point.part];
   const float around = share / static_cast<float>(LightShares::kAroundUnit);
@@ -207,7 +215,7 @@ LinearColor RgbRenderer::Shade(const SeenPoint& point, const LightShares& shares
 
 // What the bare room sends back along a ray, without shadows.
 LinearColor RgbRenderer::RoomLight(const Eigen::Vector3f& origin,
-                                   const Eigen::Vector3f& direction) const {
+                                   const Eigen::Vector3f& direction) {
   const SeenPoint point = RoomPoint(origin, direction);
   LinearColor light = appearance_.ambient;
   for (const Lamp& lamp : lit_.LampsAt(point)) {
@@ -219,7 +227,7 @@ LinearColor RgbRenderer::RoomLight(const Eigen::Vector3f& origin,
   return AlbedoOf(point) * light;
 }
 
-LinearColor RgbRenderer::Behind(const SeenPoint& pane) const {
+LinearColor RgbRenderer::Behind(const SeenPoint& pane) {
   RayPacket packet;
   const Eigen::Vector3f origin = pane.position - kThroughPane * pane.view;
   packet.Set(0, origin, -pane.view, kInfinity);
@@ -281,7 +289,7 @@ class RgbRenderer::MetSurfaces {
 };
 
 // Samples that meet a surface again have the colour that the first had.
-LinearColor RgbRenderer::EdgeColor(const PinholeDirections& directions, int column, int row) const {
+LinearColor RgbRenderer::EdgeColor(const PinholeDirections& directions, int column, int row) {
   const Eigen::Vector3f& origin = directions.origin();
   const int side = std::max(1, static_cast<int>(std::lround(std::sqrt(samples_))));
   const float step = 1 / static_cast<float>(side);
@@ -307,7 +315,7 @@ LinearColor RgbRenderer::EdgeColor(const PinholeDirections& directions, int colu
 }
 
 LinearColor RgbRenderer::SampleColor(const EdgeSample& sample, const Eigen::Vector2i& pixel,
-                                     MetSurfaces& met) const {
+                                     MetSurfaces& met) {
   const auto& [hits, slot, origin, through] = sample;
   const bool hit = (hits.hits >> slot & 1U) != 0;
   const auto mesh = static_cast<std::size_t>(hit ? hits.mesh[slot] : 0);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "doorforge/pictures/take_pictures.h"
@@ -14,6 +15,7 @@
 #include "doorforge/sensor/scene_geometry.h"
 
 #include "appearance.h"
+#include "drawn_surfaces.h"
 #include "light_shares.h"
 #include "picture_room.h"
 #include "seen_point.h"
@@ -87,23 +89,24 @@ class RgbRenderer {
   SeenPoint RoomPoint(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) const;
   bool IsPane(std::size_t mesh, const Eigen::Vector3f& in_mesh) const;
   std::uint16_t PaneMaterial() const { return static_cast<std::uint16_t>(frames_.size()); }
-  LinearColor AlbedoOf(const SeenPoint& point) const;
+  LinearColor AlbedoOf(const SeenPoint& point);
 
   void FindPoints(const CameraModel& camera, const SurfaceImage& surfaces);
-  LinearColor Shade(const SeenPoint& point, const LightShares& shares) const;
-  LinearColor RoomLight(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) const;
-  LinearColor Behind(const SeenPoint& pane) const;
+  LinearColor Shade(const SeenPoint& point, const LightShares& shares);
+  LinearColor RoomLight(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction);
+  LinearColor Behind(const SeenPoint& pane);
   void ShadePixels();
   void SmoothEdges(const CameraModel& camera);
-  LinearColor EdgeColor(const PinholeDirections& directions, int column, int row) const;
-  LinearColor SampleColor(const EdgeSample& sample, const Eigen::Vector2i& pixel,
-                          MetSurfaces& met) const;
+  LinearColor EdgeColor(const PinholeDirections& directions, int column, int row);
+  LinearColor SampleColor(const EdgeSample& sample, const Eigen::Vector2i& pixel, MetSurfaces& met);
   const LinearColor* ColorNear(const SeenPoint& point, int column, int row) const;
 
   SceneGeometry& geometry_;
+  std::optional<DrawnSurfaces> drawn_;  // where their authors' looks are wanted, and there are any
   PictureRoom room_;
   Appearance appearance_;
   LitScene lit_;
+  std::size_t door_meshes_ = 0;                  // the first of all are the door's
   std::vector<Eigen::AlignedBox3f> pane_boxes_;  // by mesh; empty where there is no pane
   std::vector<Material> materials_;              // of meshes, the pane, the parts of the room
   int samples_;

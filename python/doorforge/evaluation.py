@@ -56,7 +56,10 @@ def evaluate(policy: PolicyLike, doors: Union[Path, Iterable[Path]], *, handler:
     """Lets a policy open doors and counts what came of it.
 
     `policy` is called with a dict of the arrays named in `observation` (see Stepper.arrays) at each decision and gives
-    nine numbers: how far the hand goes in the world [m], and the first two rows of world_from_hand. If it has a method
+    nine numbers: how far the hand goes in the world [m], and the first two rows of world_from_hand. Beside those of a
+    stepper there are "image" uint8 (height, width, 3), "depth" float32 (height, width) [m along the optical axis, inf:
+    nothing] of the policies' camera, and "cloud_rgb" uint8 (4096, 3): what `pictures.cameras=[{name: own, at: scene}]`
+    records. If it has a method
     `reset()`, that is called at the beginning of each episode. A name or a folder of a trained policy will do as well,
     and so for `handler`, who turns the handle. `grasper` takes hold: it is called once an episode with one look at the
     closed door, {"cloud": float32 (points, 3) [m, world], "cloud_label": uint8 (points,), 1 on the handle, "approach":

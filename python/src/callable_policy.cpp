@@ -76,15 +76,24 @@ class CallablePolicy : public Policy, public Fallible {
   }
 
   bool UsesPointCloud() const override {
-    const auto& names = called_.settings().names;
-    return std::any_of(names.begin(), names.end(),
-                       [](const std::string& name) { return name.starts_with("cloud"); });
+    return UsesColors() || Reads([](const std::string& name) { return name.starts_with("cloud"); });
+  }
+  bool UsesColors() const override {
+    return Reads([](const std::string& name) {
+      return name == "cloud_rgb" || name == "image" || name == "depth";
+    });
   }
 
   void ForgetFailure() override { called_.ForgetFailure(); }
   std::string Failure() const override { return called_.failure(); }
 
  private:
+  template <class Test>
+  bool Reads(const Test& test) const {
+    const auto& names = called_.settings().names;
+    return std::any_of(names.begin(), names.end(), test);
+  }
+
   Called called_;
 };
 

@@ -201,6 +201,12 @@ py::array_t<double> DoorState(const Observation& observation) {
   return ArrayOf(numbers.data(), {static_cast<py::ssize_t>(numbers.size())});
 }
 
+void RequireColors(const Observation& seen, const char* name) {
+  Require(seen.cloud.picture != nullptr, ErrorCode::kInvalidArgument,
+          std::string("observation: no \"") + name +
+              "\" here; `evaluate` shows pictures, with clouds that a camera sees");
+}
+
 constexpr ObservationRow kObservationRows[] = {
     {"cloud",
      [](const Observation& seen) -> py::object {
@@ -210,6 +216,24 @@ constexpr ObservationRow kObservationRows[] = {
     {"cloud_label",
      [](const Observation& seen) -> py::object {
        return ArrayOf(seen.cloud.label.data(), {static_cast<py::ssize_t>(seen.cloud.label.size())});
+     }},
+    {"cloud_rgb",
+     [](const Observation& seen) -> py::object {
+       RequireColors(seen, "cloud_rgb");
+       return ArrayOf(seen.cloud.rgb.data(),
+                      {static_cast<py::ssize_t>(seen.cloud.rgb.size() / 3), 3});
+     }},
+    {"image",
+     [](const Observation& seen) -> py::object {
+       RequireColors(seen, "image");
+       const CameraPicture& picture = *seen.cloud.picture;
+       return ArrayOf(picture.rgb.data(), {picture.height, picture.width, 3});
+     }},
+    {"depth",
+     [](const Observation& seen) -> py::object {
+       RequireColors(seen, "depth");
+       const CameraPicture& picture = *seen.cloud.picture;
+       return ArrayOf(picture.depth_m.data(), {picture.height, picture.width});
      }},
     {"proprioception",
      [](const Observation& seen) -> py::object {

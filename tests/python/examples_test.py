@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The doorforge authors
 # SPDX-License-Identifier: Apache-2.0
-"""The examples of docs/python.md run, with what Debian has; PYTHONPATH holds the package."""
+"""The examples of docs/python.md run, with what Debian has; PYTHONPATH holds the package.
+
+    examples_test.py BUILD    # the build tree, whose programs collect
+"""
 import pathlib
 import re
 import subprocess
@@ -11,6 +14,7 @@ import unittest
 import doorforge
 
 ROOT = pathlib.Path(__file__).parents[2]
+BUILD = pathlib.Path(sys.argv.pop())
 
 
 class Examples(unittest.TestCase):
@@ -40,6 +44,18 @@ class Examples(unittest.TestCase):
         losses = [float(loss) for loss in re.findall(r"loss (\d+\.\d+)", told)]
         self.assertEqual(len(losses), 6)
         self.assertLess(losses[-1], 0.8 * losses[0])
+
+    def test_a_network_learns_from_pictures_and_is_shown_such(self) -> None:
+        data = str(pathlib.Path(self.scratch.name) / "pictures")
+        subprocess.run([BUILD / "bin/doorforge", "datagen", "open", "--doors", self.door, "--out", data, "--episodes", "2",
+                        "--set", "scene.appearance=full", "--set", "pictures.cameras=[{name: own, at: scene}]",
+                        "--set", "pictures.streams=[rgb, depth]", "--set", "pictures.samples=1"],
+                       capture_output=True, check=True, timeout=600)
+        told = self.run_example("clone_images.py", data, self.door, "--epochs", "3", "--batch", "8")
+        losses = [float(loss) for loss in re.findall(r"loss (\d+\.\d+)", told)]
+        self.assertEqual(len(losses), 3)
+        self.assertLess(losses[-1], losses[0])
+        self.assertNotIn("policy_failed", told)
 
 
 if __name__ == "__main__":

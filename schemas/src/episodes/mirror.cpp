@@ -16,6 +16,7 @@ void ExchangeFingers(Proprioception& proprioception) {
 
 void TurnSign(LabelledCloud& cloud, std::size_t axis) {
   for (std::size_t i = axis; i < cloud.xyz.size(); i += 3) cloud.xyz[i] = -cloud.xyz[i];
+  cloud.picture.reset();
 }
 
 }  // namespace

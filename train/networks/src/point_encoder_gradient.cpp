@@ -346,7 +346,7 @@ class ProjectedGradient {
     AddLayerGradient(kernels_, layer_, {rows_[0].data(), targets, own_}, masked, gradient);
     if (l_ == 0) return;
     Floats own_gradient(static_cast<std::size_t>(targets) * own_);
-    PassBack(kernels_, layer_.BackwardPanels(features_.columns, own), masked, own_gradient.data());
+    PassBack(kernels_, layer_.BackwardPanels(features_.columns, own_), masked, own_gradient.data());
     ScatterToOwn(kernels_, geometry_, l_, {own_gradient.data(), own_, targets, own_}, gradients);
   }
 

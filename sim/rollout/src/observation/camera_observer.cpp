@@ -96,6 +96,9 @@ CameraFrame CameraObserver::Render(const SceneSnapshot& snapshot) {
                               {config_.point_count});
   if (before_ && snapshot.phase == EpisodePhase::kUnlock && !frame.visible.label.empty())
     frame.sampled.cloud = before_->With(frame.visible, snapshot.robot.world_from_tcp.translation());
+  if (colors_)
+    frame.sampled.cloud.picture = std::make_shared<const CameraPicture>(
+        CameraPicture{frame.depth.width, frame.depth.height, frame.depth.rgb, frame.depth.depth_m});
   return frame;
 }
 

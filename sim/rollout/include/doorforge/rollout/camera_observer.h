@@ -51,7 +51,7 @@ class CameraObserver : public Observer {
   void Remember(RememberedView before);
 
   /// From now on the points of clouds have the colours that this source gives, which belongs to the
-  /// same scene.
+  /// same scene, and sampled clouds the picture that they were made of.
   ///
   /// @throws Error(kInvalidArgument) where clouds are whole: a picture does not show all of them.
   void ColorWith(std::unique_ptr<ColorSource> colors);

@@ -211,12 +211,15 @@ void ChangeSteps(const Json& changes, Json& steps, const std::string& where) {
   }
 }
 
-// `like: quick` takes all of that preset but the settings and what is said of its steps
-Json ReadDeclaration(const fs::path& path) {
+// `like: quick` takes all of that preset but the settings and what is said of its steps; that one
+// may be like another.
+Json ReadDeclaration(const fs::path& path, int likes = 0) {
+  constexpr int kMostLikes = 8;
   Json json = ParsePipeline(path);
   if (!json.contains("like")) return json;
   const std::string where = path.string();
-  Json base = ParsePipeline(FileOf(Text(json, "like", where)));
+  if (likes == kMostLikes) Fail(where, "like: the presets are like each other in a circle");
+  Json base = ReadDeclaration(FileOf(Text(json, "like", where)), likes + 1);
   if (json.contains("settings")) {
     if (!json["settings"].is_object()) Fail(where, "settings: expected keys and values");
     for (const auto& [key, value] : json["settings"].items()) {

@@ -193,8 +193,10 @@ TEST(RepairMesh, UnitesPiecesThatOverlapOrOnlyTouch) {
     EXPECT_LT(result.report.output_to_input.max_m, 1e-3);
     // no triangle loses its area, or the mesh its closedness, at the precision of mesh files
     TriangleMesh rounded = result.mesh->mesh();
-    for (Eigen::Vector3d& vertex : rounded.vertices)
-      vertex = vertex.cast<float>().cast<double>().eval();
+    for (Eigen::Vector3d& vertex : rounded.vertices) {  // not by two casts: see RoundedToFloat()
+      for (double& coordinate : vertex)
+        coordinate = static_cast<double>(static_cast<float>(coordinate));
+    }
     EXPECT_TRUE(ClosedMesh::From(rounded));
     EXPECT_EQ(MeasureTopology(rounded).degenerate_triangles, 0);
   }

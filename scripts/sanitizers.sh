@@ -20,6 +20,18 @@ build_and_run() {
   for program in "$@"; do "build/$preset/bin/$program"; done
 }
 
+# In a shell of its own, beside others.
+run_reader() {
+  local target=$1
+  local options=(-runs=2000 -seed=1 -max_len=4096 -malloc_limit_mb=256 -rss_limit_mb=2048 -artifact_prefix="$TMPDIR/$target-")
+  if [ -e "$TMPDIR/seeds/$target.dict" ]; then options+=(-dict="$TMPDIR/seeds/$target.dict"); fi
+  mkdir -p "$TMPDIR/seeds/$target"
+  DOORFORGE_FUZZ_TARGET=$target build/fuzz/bin/fuzz_readers "${options[@]}" "$TMPDIR/seeds/$target" >"$TMPDIR/$target.log" 2>&1 && return
+  tail -60 "$TMPDIR/$target.log"
+  echo "the reader \"$target\" does not hold; docs/design/fuzzing.md"
+  return 255  # xargs begins no other
+}
+
 case ${1:-readers} in
   readers)
     cmake --preset fuzz >/dev/null
@@ -30,16 +42,8 @@ case ${1:-readers} in
     python3 tests/fuzz/seeds.py "$scratch/seeds"
     targets=$(build/fuzz/bin/fuzz_readers 2>/dev/null || true)  # without a target it lists them, and fails
     [ -n "$targets" ]
-    for target in $targets; do
-      options=(-runs=2000 -seed=1 -max_len=4096 -malloc_limit_mb=256 -rss_limit_mb=2048 -artifact_prefix="$scratch/")
-      if [ -e "$scratch/seeds/$target.dict" ]; then options+=(-dict="$scratch/seeds/$target.dict"); fi
-      mkdir -p "$scratch/seeds/$target"
-      if ! DOORFORGE_FUZZ_TARGET=$target build/fuzz/bin/fuzz_readers "${options[@]}" "$scratch/seeds/$target" >"$scratch/log" 2>&1; then
-        tail -60 "$scratch/log"
-        echo "the reader \"$target\" does not hold; docs/design/fuzzing.md"
-        exit 1
-      fi
-    done
+    export -f run_reader
+    xargs -P "$jobs" -I{} bash -c 'run_reader {}' <<<"$targets"
     ;;
   address)
     shift

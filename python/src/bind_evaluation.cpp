@@ -82,7 +82,8 @@ py::dict Evaluate(const py::dict& given) {
   RunLong([&] {
     // refused before hours of work, not after
     std::optional<StagedFolder> staged;
-    if (!out.empty())
+    request.pictures = !out.empty();
+    if (request.pictures)
       staged.emplace(out, kReportFolder, overwrite ? Existing::kReplace : Existing::kRefuse);
     evaluation = EvaluateOpener(request);
     if (staged) WriteReportFolder(evaluation->report, evaluation->pictures, *staged);

@@ -137,6 +137,11 @@ TEST_F(EvaluateOpenerTest, RunsTheNetworksInClosedLoopBesideTheExpert) {
   const Evaluation second = EvaluateOpener(again);
   EXPECT_EQ(ReportToJson(second.report).dump(), ReportToJson(report).dump());
   EXPECT_EQ(ReportPage(second.report, second.pictures), ReportPage(report, evaluation.pictures));
+
+  again.pictures = false;
+  const Evaluation counted = EvaluateOpener(again);
+  EXPECT_EQ(ReportToJson(counted.report).dump(), ReportToJson(report).dump());
+  EXPECT_TRUE(counted.pictures.doors.empty() && counted.pictures.episodes.empty());
 }
 
 TEST_F(EvaluateOpenerTest, DoorsWithSeenPartsAreRefusedByName) {

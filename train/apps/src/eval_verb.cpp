@@ -125,7 +125,8 @@ EvaluationConfig ConfigOf(const Options& options) {
 int Evaluate(Options& options) {
   // refused before hours of work, not after
   std::optional<StagedFolder> staged;
-  if (!options.out.empty()) staged.emplace(options.out, kReportFolder, options.existing);
+  options.request.pictures = !options.out.empty();
+  if (options.request.pictures) staged.emplace(options.out, kReportFolder, options.existing);
   Evaluation evaluation;
   try {
     evaluation = EvaluateOpener(options.request);

@@ -186,11 +186,13 @@ Evaluation EvaluateOpener(const EvaluationRequest& request) {
   if (!factory.IsExpertAlone() && request.config.expert_reference)
     report.reference = RunWithProgress("expert", trials, ExpertPolicies(), hooks);
 
-  evaluation.pictures = TakePictures({trials, report.episodes}, policies, request.threads);
+  if (request.pictures)
+    evaluation.pictures = TakePictures({trials, report.episodes}, policies, request.threads);
   if (request.films)
     evaluation.films = TakeFilms({trials, report.episodes}, policies, request.threads);
   for (const EpisodeFilm& film : evaluation.films)
     evaluation.pictures.filmed.insert(FilmAddress(film.scene));
+  if (!request.pictures) return evaluation;
   for (const fs::path& data : request.data)
     evaluation.pictures.doors.merge(internal::TrainingPreviews(data, kTrainingPreviews));
   return evaluation;

@@ -25,7 +25,9 @@ struct EvaluationRequest {
   /// the doors. May be empty. Of an opener of one's own, nothing else says which doors it has seen.
   std::vector<std::filesystem::path> data;
   bool allow_seen = false;  ///< Doors with trained-on parts are evaluated, and marked as such.
-  bool films = false;       ///< Every failure is filmed, for which it is run once more.
+  /// Doors and episodes are drawn, for a page. What is counted does not depend on it.
+  bool pictures = true;
+  bool films = false;  ///< Every failure is filmed, for which it is run once more.
   EvaluationConfig config;
   int threads = 0;      ///< 0: all processors. Does not change the result.
   std::string command;  ///< Goes into the report.

@@ -106,13 +106,13 @@ py::object Simulate(const std::vector<std::string>& doors, const py::dict& words
   word("grasper", policies.grasper);
   SimulationRun run;
   for (const std::string& door : doors) run.doors.emplace_back(door);
-  run.config = ConfigFrom<SimulateConfig>(given["config"], "config");
+  const auto config = ConfigFrom<PolicySimulateConfig>(given["config"], "config");
   run.seed = given["seed"].cast<std::uint64_t>();
   run.seeds = given["seeds"].cast<int>();
   run.episodes = given["episodes"].cast<int>();
   run.threads = given["threads"].cast<int>();
   run.read_meshes = RobotMeshes();
-  return ToPython(Long([&] { return SimulatedToJson(SimulateDoorsWith(policies, run)); }));
+  return ToPython(Long([&] { return SimulatedToJson(SimulateDoorsWith(policies, config, run)); }));
 }
 
 }  // namespace

@@ -38,8 +38,9 @@ class PolicyEpisodesTest : public testing::Test {
     SimulationRun run;
     run.doors = {folder_};
     run.threads = 1;
-    run.config.scene.physics.max_opening_actions = 4;
-    return SimulateDoorsWith(words, run).at(0).episode.state_sha256;
+    PolicySimulateConfig config;
+    config.scene.physics.max_opening_actions = 4;
+    return SimulateDoorsWith(words, config, run).at(0).episode.state_sha256;
   }
 
   fs::path folder_;
@@ -55,6 +56,21 @@ TEST_F(PolicyEpisodesTest, TheExpertIsSimulatedAsBeforeAndOthersByTheirWords) {
   EXPECT_NE(StateAfter({.opener = kShipped + "opener"}), expert);
   EXPECT_NE(StateAfter({.handler = kShipped + "handler"}), expert);
   EXPECT_NE(StateAfter({.grasper = "random"}), expert);
+}
+
+TEST_F(PolicyEpisodesTest, TrainedPoliciesHaveTheirSettings) {
+  SimulationRun run;
+  run.doors = {folder_};
+  run.threads = 1;
+  PolicySimulateConfig config;
+  config.scene.physics.max_opening_actions = 4;
+  const PolicyWords words{.opener = kShipped + "opener"};
+  const auto state = [&] {
+    return SimulateDoorsWith(words, config, run).at(0).episode.state_sha256;
+  };
+  const std::string told_left = state();
+  config.policy.told.side = SideChoice::kRight;
+  EXPECT_NE(state(), told_left);
 }
 
 TEST_F(PolicyEpisodesTest, WhoLooksOnChangesNothing) {
@@ -82,9 +98,10 @@ TEST_F(PolicyEpisodesTest, ARobotWhoseStateNoPolicyKnowsIsForTheExpert) {
   SimulationRun run;
   run.doors = {folder_};
   run.threads = 1;
-  run.config.scene.physics.base = RobotBase::kYaw;
-  EXPECT_NO_THROW(SimulateDoorsWith({}, run));
-  EXPECT_THROW(SimulateDoorsWith({.opener = kShipped + "opener"}, run), Error);
+  PolicySimulateConfig config;
+  config.scene.physics.base = RobotBase::kYaw;
+  EXPECT_NO_THROW(SimulateDoorsWith({}, config, run));
+  EXPECT_THROW(SimulateDoorsWith({.opener = kShipped + "opener"}, config, run), Error);
 }
 
 TEST_F(PolicyEpisodesTest, TheProgramTakesTheSameWords) {

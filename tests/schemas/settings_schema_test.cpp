@@ -21,7 +21,7 @@
 #include "doorforge/mesh/repair_mesh.h"
 #include "doorforge/physics/load_robot.h"
 #include "doorforge/policy/train_config.h"
-#include "doorforge/rollout/simulate_doors.h"
+#include "doorforge/registry/policy_episodes.h"
 
 namespace doorforge {
 namespace {
@@ -45,7 +45,7 @@ std::vector<std::pair<std::string, Json>> Settings() {
       {"repair", SettingsSchema<RepairConfig>("Settings of `doorforge repair`")},
       {"robot", SettingsSchema<RobotOptions>("NAME.robot.yaml beside a robot's NAME.urdf")},
       {"sight", SettingsSchema<SceneConfig>("Settings of `doorforge sight`")},
-      {"simulate", SettingsSchema<SimulateConfig>("Settings of `doorforge simulate`")},
+      {"simulate", SettingsSchema<PolicySimulateConfig>("Settings of `doorforge simulate`")},
       {"train_grasp", TrainSchema("grasp", NetworkFamily::kGrasp)},
       {"train_motion", TrainSchema("open` and `doorforge train handle", NetworkFamily::kMotion)}};
   for (const auto& [name, stage] :

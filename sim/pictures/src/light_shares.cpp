@@ -11,8 +11,8 @@
 namespace doorforge {
 namespace {
 
-constexpr int kBlock = 4;  // pixels a side that share what they find
-constexpr int kGroup = 8;  // pixels a side of which a quarter looks first
+constexpr int kBlock = 4;            // pixels a side that share what they find
+constexpr int kGroup = kPixelGroup;  // pixels a side of which a quarter looks first
 constexpr std::size_t kPlaceCount = 16;
 constexpr std::size_t kAroundCount =
     8;  // places of the surroundings, which every other pixel looks for
@@ -77,7 +77,7 @@ class LightSampler {
     for (std::size_t round = 0; round < static_cast<std::size_t>(rounds); ++round) {
       for (int top = 0; top < image_.height; top += kGroup) {
         for (int left = 0; left < image_.width; left += kGroup)
-          SampleGroup(left, top, round, shares);
+          if (image_.IsWanted(left, top)) SampleGroup(left, top, round, shares);
       }
     }
   }
@@ -289,6 +289,7 @@ std::vector<LightShares> ShareLight(const LitScene& scene, const PointImage& ima
   for (int row = 0; row < image.height; ++row) {
     const int top = std::clamp(row - 1, 0, std::max(0, image.height - kBlock));
     for (int column = 0; column < image.width; ++column) {
+      if (!image.IsWanted(column, row)) continue;
       const int left = std::clamp(column - 1, 0, std::max(0, image.width - kBlock));
       const std::size_t pixel = image.At(column, row);
       const bool whole =

@@ -87,13 +87,20 @@ RgbRenderer::RgbRenderer(const PictureScene& scene, const PicturesConfig& config
 }
 
 std::vector<std::uint8_t> RgbRenderer::Render(const CameraModel& camera,
-                                              const SurfaceImage& surfaces, std::size_t look) {
+                                              const SurfaceImage& surfaces, std::size_t look,
+                                              PicturePart part) {
   image_.width = surfaces.depth.width;
   image_.height = surfaces.depth.height;
   PlaceMeshes();
   if (drawn_) drawn_->MoveWith(geometry_);
   FindPoints(camera, surfaces);
   image_.FindSeams();
+  image_.wanted.clear();
+  if (part == PicturePart::kSurfaces) {
+    std::vector<std::uint8_t> is_seen(surfaces.mesh.size());
+    for (std::size_t i = 0; i < is_seen.size(); ++i) is_seen[i] = surfaces.mesh[i] < 0 ? 0 : 1;
+    image_.WantAround(is_seen);
+  }
   light_ = ShareLight(lit_, image_, rounds_);
   ShadePixels();
   SmoothEdges(camera);
@@ -247,8 +254,14 @@ LinearColor RgbRenderer::Behind(const SeenPoint& pane) {
 }
 
 void RgbRenderer::ShadePixels() {
-  colors_.resize(image_.points.size());
-  for (std::size_t i = 0; i < colors_.size(); ++i) colors_[i] = Shade(image_.points[i], light_[i]);
+  colors_.assign(image_.points.size(), LinearColor::Zero());
+  for (int row = 0; row < image_.height; ++row) {
+    for (int column = 0; column < image_.width; ++column) {
+      if (!image_.IsWanted(column, row)) continue;
+      const std::size_t i = image_.At(column, row);
+      colors_[i] = Shade(image_.points[i], light_[i]);
+    }
+  }
 }
 
 void RgbRenderer::SmoothEdges(const CameraModel& camera) {
@@ -257,7 +270,7 @@ void RgbRenderer::SmoothEdges(const CameraModel& camera) {
   std::vector<std::pair<std::size_t, LinearColor>> smooth;
   for (int row = 0; row < image_.height; ++row) {
     for (int column = 0; column < image_.width; ++column) {
-      if (image_.IsEdge(column, row))
+      if (image_.IsWanted(column, row) && image_.IsEdge(column, row))
         smooth.emplace_back(image_.At(column, row), EdgeColor(directions, column, row));
     }
   }

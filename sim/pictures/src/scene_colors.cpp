@@ -24,7 +24,8 @@ class RenderedColors : public ColorSource {
 
   std::vector<std::uint8_t> ColorsAt(const SceneSnapshot& snapshot, int look) override {
     const SurfaceImage surfaces = depth_.RenderSurfaces(scene_.camera, LinkPosesOf(snapshot));
-    return rgb_.Render(scene_.camera, surfaces, static_cast<std::size_t>(look));
+    return rgb_.Render(scene_.camera, surfaces, static_cast<std::size_t>(look),
+                       PicturePart::kSurfaces);
   }
 
  private:

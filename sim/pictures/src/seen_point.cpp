@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "seen_point.h"
 
+#include <algorithm>
+
 namespace doorforge {
 namespace {
 
@@ -32,6 +34,23 @@ bool PointImage::IsEdge(int column, int row) const {
   const std::size_t i = At(column, row);
   return seams[i] != 0 || (column > 0 && (seams[i - 1] & kSeamRight) != 0) ||
          (row > 0 && (seams[i - static_cast<std::size_t>(width)] & kSeamBelow) != 0);
+}
+
+void PointImage::WantAround(std::span<const std::uint8_t> is_seen) {
+  const int across = groups_across();
+  const int down = (height + kPixelGroup - 1) / kPixelGroup;
+  wanted.assign(static_cast<std::size_t>(across) * static_cast<std::size_t>(down), 0);
+  for (int row = 0; row < height; ++row) {
+    for (int column = 0; column < width; ++column) {
+      if (is_seen[At(column, row)] == 0) continue;
+      const int x = column / kPixelGroup;
+      const int y = row / kPixelGroup;
+      for (int j = std::max(0, y - 1); j <= std::min(down - 1, y + 1); ++j) {
+        for (int i = std::max(0, x - 1); i <= std::min(across - 1, x + 1); ++i)
+          wanted[static_cast<std::size_t>(j * across + i)] = 1;
+      }
+    }
+  }
 }
 
 }  // namespace doorforge

@@ -33,6 +33,8 @@ inline constexpr float kSameNormal = 0.9F;
 /// They are no farther from each other's plane [m].
 inline constexpr float kSamePlane = 0.03F;
 
+inline constexpr int kPixelGroup = 8;  ///< Pixels a side that look for light together.
+
 /// Points of the pixels of a picture, row by row.
 struct PointImage {
   int width = 0;
@@ -40,11 +42,22 @@ struct PointImage {
   std::vector<SeenPoint> points;
   /// Bit 0: the pixel to the right sees another surface; bit 1: the pixel below does.
   std::vector<std::uint8_t> seams;
+  /// By group of kPixelGroup x kPixelGroup pixels, row by row: whether their colours are asked for;
+  /// empty: all are.
+  std::vector<std::uint8_t> wanted;
 
   std::size_t At(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
            static_cast<std::size_t>(column);
   }
+  int groups_across() const { return (width + kPixelGroup - 1) / kPixelGroup; }
+  bool IsWanted(int column, int row) const {
+    return wanted.empty() || wanted[static_cast<std::size_t>(row / kPixelGroup * groups_across() +
+                                                             column / kPixelGroup)] != 0;
+  }
+  /// From now on those groups alone are asked for that have a pixel for which `is_seen` is not 0,
+  /// and the eight around each: light, edges and blur reach no farther.
+  void WantAround(std::span<const std::uint8_t> is_seen);
   /// Finds the seams between the points.
   void FindSeams();
   /// Whether one of the four neighbours sees another surface.

@@ -57,7 +57,8 @@ class Photographer {
     std::vector<std::uint8_t>& rgb = scene_rgb_[number];
     if (rgb.empty()) {
       const CameraModel& camera = scene_.scene.camera;
-      rgb = rgb_->Render(camera, depth_.RenderSurfaces(camera, LinkPosesOf(look.snapshot)), number);
+      rgb = rgb_->Render(camera, depth_.RenderSurfaces(camera, LinkPosesOf(look.snapshot)), number,
+                         PicturePart::kSurfaces);
     }
     return rgb;
   }
@@ -69,7 +70,7 @@ class Photographer {
         depth.RenderSurfaces(before.scene.camera, LinkPosesOf(before.snapshot));
     return {&before.depth, ViewOf(before.as_calibrated),
             RgbRenderer(empty, config_, depth.scene())
-                .Render(before.scene.camera, surfaces, kLookBefore)};
+                .Render(before.scene.camera, surfaces, kLookBefore, PicturePart::kSurfaces)};
   }
 
   void TakeOne(const PictureCamera& camera, const PictureLook& look, std::size_t number,

@@ -26,6 +26,7 @@ namespace {
 struct Options {
   SimulationRun run;
   PolicyWords policies;
+  PolicySimulateConfig settings;
   ConfigSources config;
   bool json = false;
 };
@@ -53,12 +54,13 @@ Options Parse(int argc, char** argv) {
   AddOverwrite(app, run.overwrite, "replace pictures that are in --film");
   AddThreads(app, run.threads);
   AddPreset(app, options.config.preset);
-  AddConfig(app, options.config.file, "YAML file with the settings of scene, cloud and expert");
+  AddConfig(app, options.config.file,
+            "YAML file with the settings of scene, cloud, expert and policies");
   AddSettings(app, options.config.settings, "a.b=c overrides one setting");
   AddJson(app, options.json);
   ParseVerb(app, argc, argv);
-  run.config = LoadConfig<SimulateConfig>(options.config);
-  if (!robot.empty()) run.config.scene.robot = robot;
+  options.settings = LoadConfig<PolicySimulateConfig>(options.config);
+  if (!robot.empty()) options.settings.scene.robot = robot;
   run.read_meshes = RobotMeshes();
   return options;
 }
@@ -66,13 +68,14 @@ Options Parse(int argc, char** argv) {
 // 0 if all doors were opened.
 int RunSimulateVerb(int argc, char** argv) {
   const Options options = Parse(argc, argv);
-  const std::vector<SimulatedEpisode> episodes = NamingConfig(
-      options.config.Named(), [&] { return SimulateDoorsWith(options.policies, options.run); });
+  const auto episodes = NamingConfig(options.config.Named(), [&] {
+    return SimulateDoorsWith(options.policies, options.settings, options.run);
+  });
   PrintAnswer(options.json, SimulatedToJson(episodes), SimulatedText(episodes));
-  std::size_t closed = 0;
-  for (const SimulatedEpisode& simulated : episodes)
-    closed += simulated.episode.outcome == EpisodeOutcome::kOpened ? 0 : 1;
-  return ExitCodeOfBatch(closed);
+  const auto is_open = [](const SimulatedEpisode& simulated) {
+    return simulated.episode.outcome == EpisodeOutcome::kOpened;
+  };
+  return ExitCodeOfBatch(episodes.size() - std::ranges::count_if(episodes, is_open));
 }
 
 }  // namespace

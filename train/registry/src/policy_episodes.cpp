@@ -51,10 +51,11 @@ Episode PolicyEpisodes::Run(const EpisodePlace& place, Observer* watcher) {
   return RunPolicySet(place, *set, &watched);
 }
 
-std::vector<SimulatedEpisode> SimulateDoorsWith(const PolicyWords& words, SimulationRun run) {
-  PolicySettings settings;
-  settings.opening_expert = run.config.expert;
-  PolicyEpisodes episodes(PolicySetFactory(BuiltInPolicies(), words, settings));
+std::vector<SimulatedEpisode> SimulateDoorsWith(const PolicyWords& words,
+                                                const PolicySimulateConfig& config,
+                                                SimulationRun run) {
+  run.config = config;
+  PolicyEpisodes episodes(PolicySetFactory(BuiltInPolicies(), words, config.Policies()));
   run.run_episode = [&episodes, cloud = run.config.cloud](const Scene& scene, const DoorAsset& door,
                                                           const RobotModel& robot,
                                                           Observer* watcher) {

@@ -31,7 +31,28 @@ class PolicyEpisodes {
   ObjectPool<PolicySet> sets_;
 };
 
-/// SimulateDoors() with policies in the expert's place.
-std::vector<SimulatedEpisode> SimulateDoorsWith(const PolicyWords& words, SimulationRun run);
+/// Settings of `doorforge simulate`: those of scenes and expert, and of trained policies.
+struct PolicySimulateConfig : SimulateConfig {
+  PolicyOptions policy;
+  GraspOptions grasp;
+  int grasps = 1;  ///< So many times the hand may take hold in an episode, 1 to 10.
+
+  PolicySettings Policies() const {
+    return {.network = policy, .network_grasp = grasp, .grasps = grasps, .opening_expert = expert};
+  }
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    SimulateConfig::VisitFields(self, visit);
+    visit("policy", self.policy);
+    visit("grasp", self.grasp);
+    visit("grasps", self.grasps);
+  }
+};
+
+/// SimulateDoors() with policies in the expert's place. `config` stands for that of the run.
+std::vector<SimulatedEpisode> SimulateDoorsWith(const PolicyWords& words,
+                                                const PolicySimulateConfig& config,
+                                                SimulationRun run);
 
 }  // namespace doorforge

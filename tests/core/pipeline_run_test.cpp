@@ -84,6 +84,19 @@ TEST(PipelinePresets, EachIsReadAndTheAblationsLeaveOutWhatTheyAreNamedFor) {
   EXPECT_EQ(command("without_disentangle", "handler").find("train motion "), 0U);
   for (const char* step : {"opener", "handler"})
     EXPECT_NE(command("without_state", step).find("state=none"), std::string::npos) << step;
+  // of a preset that is like one that is like another
+  for (const char* step : {"opener", "handler", "grasper"})
+    EXPECT_NE(command("colours", step).find("colors=true"), std::string::npos) << step;
+  EXPECT_NE(command("colours", "report_retry").find("appearance=full"), std::string::npos);
+}
+
+TEST(PipelinePresets, ThatAreLikeThemselvesAreRefused) {
+  const fs::path file =
+      fs::temp_directory_path() / ("pipeline_circle_" + std::to_string(::getpid()) + ".yaml");
+  CommitFile(file, "schema: doorforge.pipeline\nschema_version: 1\nabout: x\nlike: " +
+                       file.string() + "\n");
+  EXPECT_THROW(ReadPipeline(file.string(), {}), Error);
+  fs::remove(file);
 }
 
 TEST(PipelinePresets, AChangeOfAnArgumentThatThereIsNotIsRefused) {

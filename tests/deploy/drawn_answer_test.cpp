@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -186,14 +187,15 @@ TEST_F(RobotSightTest, APictureThroughALensIsDecidedOnAsThePinholesIs) {
   EXPECT_NEAR(red.middle.y(), 10 + 32 + 2 * pixel.y(), 20);
 }
 
+Picture Plain(const std::array<std::uint8_t, 3>& rgb) {
+  Picture picture{256, 256, {}};
+  for (int i = 0; i < 256 * 256; ++i) picture.rgb.insert(picture.rgb.end(), rgb.begin(), rgb.end());
+  return picture;
+}
+
 TEST_F(RobotSightTest, TheAnswerIsDrawnIntoAPictureInColoursOfTheSameSize) {
   const fs::path picture = folder_ / "on_colours.png";
-  WritePng(folder_ / "blue.png", {256, 256, [] {
-                                    std::vector<std::uint8_t> blue;
-                                    for (int i = 0; i < 256 * 256; ++i)
-                                      blue.insert(blue.end(), {0, 0, 250});
-                                    return blue;
-                                  }()});
+  WritePng(folder_ / "blue.png", Plain({0, 0, 250}));
   const std::string draw = "--least-gain off --picture " + picture.string() + " --color ";
   EXPECT_EQ(Open(folder_ / "opener", Depth(0), draw + (folder_ / "blue.png").string()).code, 0);
   EXPECT_GT(PixelsOf(picture, "0 0 250").count, 4 * 4096) << "what the policy is given";
@@ -202,8 +204,24 @@ TEST_F(RobotSightTest, TheAnswerIsDrawnIntoAPictureInColoursOfTheSameSize) {
       Open(folder_ / "opener", Depth(0), draw + (folder_ / "small.png").string() + " --overwrite");
   EXPECT_EQ(small.code, 2);
   EXPECT_NE(small.text.find("register"), std::string::npos) << small.text;
-  EXPECT_EQ(Open(folder_ / "opener", Depth(0), "--color " + (folder_ / "blue.png").string()).code,
-            2);
+}
+
+TEST_F(RobotSightTest, APolicyThatReadsColoursIsGivenThem) {
+  WriteUntrained(folder_ / "colored", "open", /*colors=*/true);
+  const auto pose = [&](const std::string& color) {
+    const ProgramAnswer answer =
+        Open(folder_ / "colored", Depth(0), "--least-gain off" + color, "2>/dev/null");
+    EXPECT_EQ(answer.code, 0) << answer.text;
+    return nlohmann::json::parse(answer.text).at("world_from_hand").dump();
+  };
+  const ProgramAnswer bare = Open(folder_ / "colored", Depth(0), "--least-gain off");
+  EXPECT_EQ(bare.code, 2);
+  EXPECT_NE(bare.text.find("--color"), std::string::npos) << bare.text;
+  WritePng(folder_ / "blue.png", Plain({0, 0, 250}));
+  WritePng(folder_ / "red.png", Plain({250, 0, 0}));
+  const std::string blue = pose(" --color " + (folder_ / "blue.png").string());
+  EXPECT_EQ(pose(" --color " + (folder_ / "blue.png").string()), blue);
+  EXPECT_NE(pose(" --color " + (folder_ / "red.png").string()), blue);
 }
 
 }  // namespace

@@ -45,12 +45,15 @@ inline StageNetworks UntrainedNetworks(NetworkFamily family = NetworkFamily::kMo
   return InitialNetworks(normalisation, false, 3, family);
 }
 
-inline void WriteUntrained(const std::filesystem::path& folder, const std::string& stage) {
+inline void WriteUntrained(const std::filesystem::path& folder, const std::string& stage,
+                           bool colors = false) {
   PolicyProvenance provenance;
   provenance.stage = stage;
   provenance.dataset_sha256 = std::string(64, 'a');
   provenance.config.family = FamilyOf(stage);
-  WritePolicy(folder, UntrainedNetworks(FamilyOf(stage)), provenance);
+  StageNormalisation normalisation = UntrainedNetworks(FamilyOf(stage)).normalisation;
+  normalisation.view.colors = colors;
+  WritePolicy(folder, InitialNetworks(normalisation, false, 3, FamilyOf(stage)), provenance);
 }
 
 /// The camera of an episode, which keeps every picture that it made.

@@ -297,6 +297,8 @@ TEST_F(EvaluateOpenerTest, APolicyThatReadsColoursIsShownThem) {
     request.policies = {
         .opener = out / "open", .handler = out / "handle", .grasper = out / "grasp"};
     request.config.scene.appearance = appearance;
+    request.config.unlock_switch = SwitchSource::kSimulator;
+    request.pictures = false;
     std::vector<std::string> ends;
     for (const EvaluatedEpisode& episode : EvaluateOpener(request).report.episodes)
       ends.push_back(episode.state_sha256);

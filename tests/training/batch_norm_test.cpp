@@ -30,8 +30,8 @@ namespace {
 class NormalisedEncoder : public ::testing::Test {
  protected:
   NormalisedEncoder() {
-    AddEncoderLayers("encoder.", layout_, EncoderNorm::kBatch);
-    AddEncoderLayers("", reference_layout_, EncoderNorm::kBatch);
+    AddEncoderLayers("encoder.", layout_, {EncoderNorm::kBatch});
+    AddEncoderLayers("", reference_layout_, {EncoderNorm::kBatch});
     AddEncoderLayers("", plain_layout_);
     parameters_ = HeInitialisation(layout_, 3, "");
     Rng rng(3, "test/norm");
@@ -172,7 +172,7 @@ TEST(TrainWithBatchNorm, GivesTheSameBitsForAnyNumberOfThreadsAndAnyInterruption
   const TrainerState whole = TrainStage(train.samples, validation.samples, config, one);
   EXPECT_EQ(whole.step, 3U);
   EXPECT_NE(whole.actor_statistics.mean,
-            InitialStatistics(ActorLayout(config.family, EncoderNorm::kBatch)).mean);
+            InitialStatistics(ActorLayout(config.family, {EncoderNorm::kBatch})).mean);
 
   TrainHooks hooks;
   hooks.threads = 2;

@@ -7,7 +7,7 @@
 #   scripts/sanitizers.sh address TARGET...    # test programs, by name, under address and undefined-behaviour sanitizers
 #   scripts/sanitizers.sh thread TARGET...     # under the thread sanitizer
 # Such as, after work on collection:  scripts/sanitizers.sh thread collect_test dataset_test
-# Leaks are told by the readers' round alone: libtorch and OpenCV keep what they have until the program ends.
+# Leaks are told by the readers' round alone: libtorch keeps what it has until the program ends.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 jobs=$(nproc)

@@ -6,7 +6,7 @@
     scripts/sbom.py build/release/bin > doorforge.spdx.json
 
 Each program is a file with its SHA-256; each Debian package whose shared libraries the dynamic loader
-gives a program is a package with its version. Needs ldd and dpkg-query. The same build on the
+gives a program, or whose static library it contains, is a package with its version. Needs ldd and dpkg-query. The same build on the
 same machine gives the same bytes; SOURCE_DATE_EPOCH is the time that it names (0: 1970).
 """
 import argparse
@@ -18,6 +18,9 @@ import pathlib
 import re
 import subprocess
 import sys
+
+
+CONTAINED = {"doorforge-datagen": ("libhdf5-dev",)}  # what CMake links statically, by Debian's package
 
 
 def answer(*command):
@@ -49,6 +52,13 @@ def packages_of(paths):
     told = answer("dpkg-query", "-W", "-f", "${Package}\t${Version}\t${source:Package}\n", *known)
     by_name = {line.split("\t")[0]: tuple(line.split("\t")) for line in told.splitlines()}
     return {path: by_name[package.split(":")[0]] for path, package in brought.items()}
+
+
+def contained_in(program):
+    """(name, version, source) of the Debian packages whose static libraries a program contains."""
+    names = CONTAINED.get(program.name, ())
+    told = answer("dpkg-query", "-W", "-f", "${Package}\t${Version}\t${source:Package}\n", *names) if names else ""
+    return [tuple(line.split("\t")) for line in told.splitlines()]
 
 
 def programs_in(folder):
@@ -91,6 +101,11 @@ def bill_of(folder):
         for library in sorted({brought[path] for path in found.values()}):
             packages[library] = package_entry(*library)
             relations.append({"spdxElementId": entry["SPDXID"], "relationshipType": "DYNAMIC_LINK",
+                              "relatedSpdxElement": packages[library]["SPDXID"]})
+    for entry, program in zip(files, programs):
+        for library in contained_in(program):
+            packages[library] = package_entry(*library)
+            relations.append({"spdxElementId": entry["SPDXID"], "relationshipType": "STATIC_LINK",
                               "relatedSpdxElement": packages[library]["SPDXID"]})
     version = answer(programs[0], "--version").split()[-1]
     digest = hashlib.sha256(json.dumps([files, sorted(packages)]).encode()).hexdigest()

@@ -19,8 +19,6 @@ SHARED_LIBRARIES = {
     "libembree3.so.3": "libembree3-3",
     "libjpeg.so.62": "libjpeg62-turbo",
     "libpng16.so.16": "libpng16-16",
-    "libopencv_core.so.406": "libopencv-core406",
-    "libopencv_imgproc.so.406": "libopencv-imgproc406",
     "libyaml-cpp.so.0.7": "libyaml-cpp0.7",
     "libcrypto.so.3": "libssl3",
     "libtinyxml2.so.9": "libtinyxml2-9",

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <fstream>
 #include <limits>
+#include <numbers>
+#include <set>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -14,6 +16,7 @@
 
 #include "doorforge/core/error.h"
 
+#include "canvas.h"
 #include "caption_lines.h"
 
 namespace doorforge {
@@ -145,6 +148,66 @@ TEST(ContactSheet, ShowsCaptionsToTheirEnd) {
   EXPECT_EQ(first.height, second.height);
   EXPECT_NE(first.rgb, second.rgb) << "both captions read the same";
   EXPECT_EQ(first.height, sheet("short").height + 2 * 16);
+}
+
+// Letters are as high as they are asked to be and end where their width says; each looks otherwise.
+TEST(Canvas, WritesAllOfAsciiWithinItsWidth) {
+  std::set<std::vector<std::uint8_t>> seen;
+  for (char letter = '!'; letter <= '~'; ++letter) {
+    internal::Canvas canvas(60, 60, {255, 255, 255});
+    canvas.Text(std::string(1, letter), {10, 40}, 18, {0, 0, 0});
+    const Picture picture = canvas.picture();
+    std::array<int, 4> box = {60, 60, -1, -1};  // of what is dark: left, top, right, bottom
+    for (int i = 0; i < 3600; ++i) {
+      if (picture.rgb[3 * static_cast<std::size_t>(i)] > 200) continue;
+      box = {std::min(box[0], i % 60), std::min(box[1], i / 60), std::max(box[2], i % 60),
+             std::max(box[3], i / 60)};
+    }
+    EXPECT_GE(box[0], 8) << letter;
+    EXPECT_LE(box[2], 10 + internal::TextWidth(std::string(1, letter), 18) + 1) << letter;
+    EXPECT_GE(box[1], 40 - 22) << letter;
+    EXPECT_LE(box[3], 40 + 7) << letter;
+    EXPECT_TRUE(seen.insert(picture.rgb).second) << letter << " looks like another";
+  }
+  EXPECT_EQ(internal::TextWidth("", 18), 0);
+}
+
+// The area that a disc, a ring and a line cover, against geometry's.
+TEST(Canvas, CoversAsMuchAsGeometrySays) {
+  const auto covered = [](const internal::Canvas& canvas) {
+    double sum = 0;
+    for (std::size_t i = 0; i < canvas.picture().rgb.size(); i += 3)
+      sum += 1 - canvas.picture().rgb[i] / 255.0;
+    return sum;
+  };
+  internal::Canvas disc(60, 60, {255, 255, 255});
+  disc.Disc({30.3, 29.6}, 12.25, {0, 0, 0});
+  EXPECT_NEAR(covered(disc), std::numbers::pi * 12.25 * 12.25, 2);
+  internal::Canvas ring(60, 60, {255, 255, 255});
+  ring.Ring({30, 30}, 15, 4, {0, 0, 0});
+  EXPECT_NEAR(covered(ring), 2 * std::numbers::pi * 15 * 4, 2);
+  internal::Canvas line(60, 60, {255, 255, 255});
+  line.Line({10.5, 20}, {40.5, 20}, 3, {0, 0, 0});
+  EXPECT_NEAR(covered(line), 30 * 3 + std::numbers::pi * 2.25, 1.5);
+  internal::Canvas beyond(20, 20, {255, 255, 255});
+  beyond.Line({-1e6, 10}, {1e6, 10}, 2, {0, 0, 0});
+  EXPECT_NEAR(covered(beyond), 20 * 2, 0.5);
+}
+
+TEST(Resized, KeepsTheMeanAndEvenColours) {
+  const auto mean = [](const Picture& picture) {
+    double sum = 0;
+    for (const std::uint8_t value : picture.rgb) sum += value;
+    return sum / static_cast<double>(picture.rgb.size());
+  };
+  const Picture picture = Gradient(120, 90);
+  for (const auto [width, height] : {std::pair(40, 30), std::pair(31, 77), std::pair(360, 270)}) {
+    const Picture resized = internal::Resized(picture, width, height);
+    ASSERT_EQ(resized.rgb.size(), static_cast<std::size_t>(3 * width * height));
+    EXPECT_NEAR(mean(resized), mean(picture), 0.6);
+    EXPECT_EQ(resized.rgb[2], 200);
+  }
+  EXPECT_EQ(internal::Resized(picture, 120, 90).rgb, picture.rgb);
 }
 
 TEST(CaptionLines, BreakBehindUnderscoresAndBlanksAndLoseNoLetter) {

@@ -201,12 +201,27 @@ void CountShards(const CollectionPlan& plan, const CollectRequest& request,
   }
 }
 
+// The doors that could have been drawn and were not are in no episode: a few episodes of ten
+// thousand doors are a few doors.
+std::vector<DatasetDoor> DrawnDoors(const CollectionPlan& plan,
+                                    const std::vector<DatasetDoor>& doors) {
+  std::vector<bool> is_drawn(plan.sides.size());
+  for (const PlannedShard& shard : plan.shards)
+    for (const PlannedEpisode& episode : shard.episodes) is_drawn.at(episode.door) = true;
+  std::vector<DatasetDoor> drawn;
+  for (std::size_t i = 0; i < plan.sides.size(); ++i) {
+    if (!is_drawn[i]) continue;
+    drawn.push_back(doors.at(i));
+    drawn.back().split = SplitNameOf(plan.sides[i]);
+  }
+  return drawn;
+}
+
 DatasetProvenance ProvenanceOf(const CollectionPlan& plan, const CollectRequest& request) {
   DatasetProvenance provenance = request.provenance;
   provenance.config_sha256 = Sha256Hex(request.config_text);
   provenance.planned = PlannedParts(plan, request.stage);
-  for (std::size_t i = 0; i < plan.sides.size(); ++i)
-    provenance.doors.at(i).split = SplitNameOf(plan.sides[i]);
+  provenance.doors = DrawnDoors(plan, request.provenance.doors);
   return provenance;
 }
 

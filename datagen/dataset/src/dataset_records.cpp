@@ -17,6 +17,7 @@ namespace doorforge {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 void CompareConfig(const fs::path& path, const std::string& text) {
   const std::string there = ReadFile(path);
@@ -150,7 +151,20 @@ std::string DatasetText(const DatasetRecord& record) {
   return JsonText(DatasetToJson(record), 2) + "\n";
 }
 
+// A door a line: with a number of its shapes a line it would be three times as long.
 std::string ProvenanceText(const DatasetProvenance& provenance) {
+  Json json = ProvenanceToJson(provenance);
+  const Json doors = json["doors"];
+  json.erase("doors");
+  std::string text = JsonText(json, 2);
+  text.resize(text.size() - std::string_view("\n}").size());
+  text += ",\n  \"doors\": [";
+  for (std::size_t i = 0; i < doors.size(); ++i)
+    text += (i > 0 ? ",\n    " : "\n    ") + JsonText(doors[i]);
+  return text + (doors.empty() ? "]\n}\n" : "\n  ]\n}\n");
+}
+
+std::string EarlierProvenanceText(const DatasetProvenance& provenance) {
   return JsonText(ProvenanceToJson(provenance), 2) + "\n";
 }
 

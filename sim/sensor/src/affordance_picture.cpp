@@ -10,12 +10,11 @@
 #include <string>
 
 #include <Eigen/Geometry>
-#include <opencv2/imgproc.hpp>
 
 #include "doorforge/core/error.h"
 #include "doorforge/sensor/scene_picture.h"
 
-#include "picture_mat.h"
+#include "canvas.h"
 #include "pixel_rays.h"
 
 namespace doorforge {
@@ -30,9 +29,9 @@ constexpr double kOpening = 0.04;
 constexpr double kFinger = 0.045;
 constexpr double kWrist = 0.1;
 
-const cv::Scalar kRed(46, 46, 214);  // blue, green, red
-const cv::Scalar kWhite(255, 255, 255);
-const cv::Scalar kInk(60, 60, 60);
+constexpr internal::Color kHandRed = {214, 46, 46};
+constexpr internal::Color kHandOutline = {255, 255, 255};
+constexpr internal::Color kScaleInk = {60, 60, 60};
 
 Eigen::Vector3d PointOf(const AffordanceMap& map, std::size_t i) {
   return Eigen::Vector3f(map.point_xyz[3 * i], map.point_xyz[3 * i + 1], map.point_xyz[3 * i + 2])
@@ -85,51 +84,46 @@ double ValueAt(const AffordanceMap& map, const Eigen::Vector3d& place) {
   return sum / weights;
 }
 
-// 256 colours of viridis, dark to bright.
-cv::Mat Palette() {
-  cv::Mat steps(1, 256, CV_8UC1);
-  for (int i = 0; i < 256; ++i) steps.at<std::uint8_t>(i) = static_cast<std::uint8_t>(i);
-  cv::Mat colors;
-  cv::applyColorMap(steps, colors, cv::COLORMAP_VIRIDIS);
-  return colors;
-}
-
 // Grey and a little paler, so that the colours stand out.
-cv::Mat Greyed(const cv::Mat& shaded) {
-  cv::Mat grey;
-  cv::cvtColor(shaded, grey, cv::COLOR_BGR2GRAY);
-  grey = 0.75 * grey + 64;
-  cv::Mat result;
-  cv::cvtColor(grey, result, cv::COLOR_GRAY2BGR);
-  return result;
+Picture Greyed(Picture picture) {
+  for (std::size_t i = 0; i + 2 < picture.rgb.size(); i += 3) {
+    const double luma =
+        0.299 * picture.rgb[i] + 0.587 * picture.rgb[i + 1] + 0.114 * picture.rgb[i + 2];
+    const auto pale = static_cast<std::uint8_t>(std::lround(0.75 * luma + 64));
+    std::fill_n(picture.rgb.begin() + static_cast<std::ptrdiff_t>(i), 3, pale);
+  }
+  return picture;
 }
 
 // The handle's colours over the grey picture; a pixel is the mean of its samples.
 class Colouring {
  public:
   Colouring(const AffordanceMap& map, const DepthImage& samples, const CameraModel& camera)
-      : map_(map), samples_(samples), rays_(camera), range_(RangeOf(map)), palette_(Palette()) {}
+      : map_(map), samples_(samples), rays_(camera), range_(RangeOf(map)) {}
 
-  void Paint(cv::Mat& picture) const {
-    for (int row = 0; row < picture.rows; ++row) {
-      for (int column = 0; column < picture.cols; ++column)
-        PaintPixel(picture.at<cv::Vec3b>(row, column), column, row);
+  void Paint(Picture& picture) const {
+    std::uint8_t* pixel = picture.rgb.data();
+    for (int row = 0; row < picture.height; ++row) {
+      for (int column = 0; column < picture.width; ++column, pixel += 3)
+        PaintPixel(pixel, column, row);
     }
   }
 
  private:
-  void PaintPixel(cv::Vec3b& pixel, int column, int row) const {
-    cv::Vec3d sum(0, 0, 0);
+  void PaintPixel(std::uint8_t* pixel, int column, int row) const {
+    Eigen::Vector3d sum(0, 0, 0);
     const double light = pixel[0];  // grey: all three are equal
     for (int dy = 0; dy < kSamples; ++dy) {
       for (int dx = 0; dx < kSamples; ++dx)
         sum += ColorOf(kSamples * column + dx, kSamples * row + dy, light);
     }
-    pixel = sum / (kSamples * kSamples);
+    for (int c = 0; c < 3; ++c)
+      pixel[c] =
+          static_cast<std::uint8_t>(std::lround(std::min(sum[c] / (kSamples * kSamples), 255.0)));
   }
 
   // A sample has the map's colour with a trace of the shading, or the grey of what is no handle.
-  cv::Vec3d ColorOf(int column, int row, double light) const {
+  Eigen::Vector3d ColorOf(int column, int row, double light) const {
     const auto i = static_cast<std::size_t>(row) * static_cast<std::size_t>(samples_.width) +
                    static_cast<std::size_t>(column);
     if (samples_.label[i] != static_cast<std::uint8_t>(PointLabel::kHandle))
@@ -139,21 +133,20 @@ class Colouring {
                              rays_.Direction(column + 0.5, row + 0.5).cast<double>();
     const double range = std::max(1e-6, static_cast<double>(range_.high - range_.low));
     const double share = (ValueAt(map_, place) - static_cast<double>(range_.low)) / range;
-    const int index = static_cast<int>(std::lround(255 * std::clamp(share, 0.0, 1.0)));
-    return (0.72 + 0.36 * light / 255) * cv::Vec3d(palette_.at<cv::Vec3b>(index));
+    const internal::Color color = internal::Viridis(share);
+    return (0.72 + 0.36 * light / 255) * Eigen::Vector3d(color[0], color[1], color[2]);
   }
 
   const AffordanceMap& map_;
   const DepthImage& samples_;
   PixelRays rays_;
   Range range_;
-  cv::Mat palette_;
 };
 
 // The hand and the contact, drawn over the picture.
 class HandDrawing {
  public:
-  HandDrawing(cv::Mat& picture, const CameraModel& camera)
+  HandDrawing(internal::Canvas& picture, const CameraModel& camera)
       : picture_(picture),
         camera_from_world_(WorldFromCamera(camera).inverse()),
         intrinsics_(IntrinsicMatrix(camera)) {}
@@ -163,34 +156,42 @@ class HandDrawing {
       return PixelOf(map.world_from_tcp * Eigen::Vector3d(0, y, z));
     };
     for (const bool outline : {true, false}) {
-      const cv::Scalar& color = outline ? kWhite : kRed;
-      const int width = outline ? 5 : 2;
-      cv::line(picture_, at(0, -kWrist), at(0, -kFinger), color, width, cv::LINE_AA);
-      cv::line(picture_, at(-kOpening, -kFinger), at(kOpening, -kFinger), color, width,
-               cv::LINE_AA);
+      color_ = outline ? kHandOutline : kHandRed;
+      width_ = outline ? 5 : 2;
+      Line(at(0, -kWrist), at(0, -kFinger));
+      Line(at(-kOpening, -kFinger), at(kOpening, -kFinger));
       for (const double side : {-1.0, 1.0}) {
-        cv::line(picture_, at(side * kOpening, -kFinger), at(side * kOpening, 0), color, width,
-                 cv::LINE_AA);
-        cv::arrowedLine(picture_, at(side * kOpening, 0), at(side * 0.2 * kOpening, 0), color,
-                        width, cv::LINE_AA, 0, 0.35);
+        Line(at(side * kOpening, -kFinger), at(side * kOpening, 0));
+        Arrow(at(side * kOpening, 0), at(side * 0.2 * kOpening, 0));
       }
     }
-    const cv::Point contact = PixelOf(map.contact_m);
-    cv::circle(picture_, contact, 5, kInk, 4, cv::LINE_AA);
-    cv::circle(picture_, contact, 5, kWhite, 2, cv::LINE_AA);
+    const Eigen::Vector2d contact = PixelOf(map.contact_m);
+    picture_.Ring(contact, 5, 4, kScaleInk);
+    picture_.Ring(contact, 5, 2, kHandOutline);
   }
 
  private:
-  cv::Point PixelOf(const Eigen::Vector3d& place) const {
-    const Eigen::Vector3d in_camera = camera_from_world_ * place;
-    const Eigen::Vector3d pixel = intrinsics_ * in_camera / std::max(in_camera.z(), 1e-3);
-    return {static_cast<int>(std::lround(std::clamp(pixel.x() - 0.5, -1e4, 1e4))),
-            static_cast<int>(std::lround(std::clamp(pixel.y() - 0.5, -1e4, 1e4)))};
+  void Line(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+    picture_.Line(from, to, width_, color_);
   }
 
-  cv::Mat& picture_;
+  void Arrow(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+    Line(from, to);
+    for (const double turn : {-1.0, 1.0})
+      Line(to, to + Eigen::Rotation2Dd(turn * std::numbers::pi / 4) * (0.35 * (from - to)));
+  }
+
+  Eigen::Vector2d PixelOf(const Eigen::Vector3d& place) const {
+    const Eigen::Vector3d in_camera = camera_from_world_ * place;
+    const Eigen::Vector3d pixel = intrinsics_ * in_camera / std::max(in_camera.z(), 1e-3);
+    return pixel.head<2>().cwiseMax(-1e4).cwiseMin(1e4);
+  }
+
+  internal::Canvas& picture_;
   RigidTransform camera_from_world_;
   Eigen::Matrix3d intrinsics_;
+  internal::Color color_{};
+  double width_ = 0;
 };
 
 std::string DegreesText(float angle_rad) {
@@ -199,28 +200,33 @@ std::string DegreesText(float angle_rad) {
 }
 
 // A strip below the picture.
-cv::Mat WithScale(const cv::Mat& picture, Range range) {
+Picture WithScale(const Picture& picture, Range range) {
   constexpr int kStrip = 28;
-  constexpr double kFont = 0.45;
-  cv::Mat result;
-  cv::copyMakeBorder(picture, result, 0, kStrip, 0, 0, cv::BORDER_CONSTANT, kWhite);
+  constexpr double kCapital = 9;
+  internal::Canvas result(picture.width, picture.height + kStrip, kHandOutline);
+  result.Paste(picture, 0, 0);
   const auto width = [](const std::string& text) {
-    return cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kFont, 1, nullptr).width;
+    return static_cast<int>(std::ceil(internal::TextWidth(text, kCapital)));
   };
   const auto write = [&](const std::string& text, int left) {
-    cv::putText(result, text, {left, picture.rows + 19}, cv::FONT_HERSHEY_SIMPLEX, kFont, kInk, 1,
-                cv::LINE_AA);
+    result.Text(text, Eigen::Vector2d(left, picture.height + 19), kCapital, kScaleInk);
   };
   const std::string low = DegreesText(range.low);
   const std::string high = DegreesText(range.high);
   const int left = width(low) + 16;
-  const int right = picture.cols - width(high) - 16;
+  const int right = picture.width - width(high) - 16;
   write(low, 8);
   write(high, right + 8);
-  if (right - left < 8) return result;  // too narrow a picture for a bar
-  cv::Mat bar = result(cv::Rect(left, picture.rows + 8, right - left, 12));
-  cv::resize(Palette(), bar, bar.size(), 0, 0, cv::INTER_LINEAR);
-  return result;
+  if (right - left < 8) return std::move(result).Take();  // too narrow a picture for a bar
+  Picture bar{right - left, 12, {}};
+  for (int row = 0; row < bar.height; ++row) {
+    for (int column = 0; column < bar.width; ++column) {
+      const internal::Color color = internal::Viridis((column + 0.5) / bar.width);
+      bar.rgb.insert(bar.rgb.end(), color.begin(), color.end());
+    }
+  }
+  result.Paste(bar, left, picture.height + 8);
+  return std::move(result).Take();
 }
 
 }  // namespace
@@ -247,10 +253,11 @@ Picture AffordancePicture(DepthCamera& camera, std::span<const RigidTransform> w
   fine.width *= kSamples;
   fine.height *= kSamples;
   const DepthImage samples = camera.Render(fine, world_from_link);
-  cv::Mat picture = Greyed(ToMat(RenderPicture(camera.scene(), view)));
+  Picture picture = Greyed(RenderPicture(camera.scene(), view));
   Colouring(map, samples, fine).Paint(picture);
-  HandDrawing(picture, view).Draw(map);
-  return FromMat(WithScale(picture, RangeOf(map)));
+  internal::Canvas canvas(std::move(picture));
+  HandDrawing(canvas, view).Draw(map);
+  return WithScale(canvas.picture(), RangeOf(map));
 }
 
 }  // namespace doorforge

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include <Eigen/Geometry>
-#include <opencv2/imgproc.hpp>
 
 #include "doorforge/core/error.h"
 
@@ -18,7 +18,7 @@ namespace doorforge {
 namespace {
 
 constexpr float kNoDepth = std::numeric_limits<float>::infinity();
-constexpr float kFar = 1e6F;  // stands for no depth where OpenCV compares
+constexpr float kFar = 1e6F;  // stands for no depth where depths are compared
 
 // Handa, Whelan, McDonald and Davison, "A Benchmark for RGB-D Visual Odometry, 3D Reconstruction
 // and SLAM", ICRA 2014, section III: a Kinect's disparity in eighths of a pixel at 1 m, its spread,
@@ -32,20 +32,35 @@ constexpr double kTimeOfFlightFloorM = 0.0004;
 constexpr double kTimeOfFlightGrowthPerM = 0.0003;
 constexpr double kTimeOfFlightStepM = 0.001;
 
+// What this is of a pixel and its neighbours, one way after the other; those beyond the border do
+// not count.
+template <class Choose>
+std::vector<float> OfNeighbours(const std::vector<float>& depth, int width, Choose&& choose) {
+  const auto across = static_cast<std::size_t>(width);
+  std::vector<float> row(depth);
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    if (i % across > 0) row[i] = choose(row[i], depth[i - 1]);
+    if (i % across + 1 < across) row[i] = choose(row[i], depth[i + 1]);
+  }
+  std::vector<float> all(row);
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    if (i >= across) all[i] = choose(all[i], row[i - across]);
+    if (i + across < depth.size()) all[i] = choose(all[i], row[i + across]);
+  }
+  return all;
+}
+
 struct SensedRange {
-  cv::Mat low;
-  cv::Mat high;
+  std::vector<float> low;
+  std::vector<float> high;
 };
 
 // least and largest depth among 3 x 3 pixels
 SensedRange NeighbourRange(const DepthImage& image) {
-  cv::Mat depth(image.height, image.width, CV_32F);
-  std::transform(image.depth_m.begin(), image.depth_m.end(), depth.begin<float>(),
-                 [](float d) { return std::min(d, kFar); });
-  SensedRange range;
-  cv::erode(depth, range.low, {});
-  cv::dilate(depth, range.high, {});
-  return range;
+  std::vector<float> depth(image.depth_m);
+  for (float& metres : depth) metres = std::min(metres, kFar);
+  return {OfNeighbours(depth, image.width, [](float a, float b) { return std::min(a, b); }),
+          OfNeighbours(depth, image.width, [](float a, float b) { return std::max(a, b); })};
 }
 
 // What chance decides at one pixel, for whatever kind of sensor.
@@ -71,8 +86,8 @@ class NoisySensor {
     draws.down = rng.Normal();
     draws.along = rng.Normal();
     if (std::isinf(At(row, column)) || IsGrazing(row, column)) return kNoDepth;
-    const bool edge = range_.high.at<float>(row, column) - range_.low.at<float>(row, column) >=
-                      config_.edge_step_m;
+    const bool edge =
+        range_.high[PixelAt(row, column)] - range_.low[PixelAt(row, column)] >= config_.edge_step_m;
     if (edge && dropped < config_.edge_dropout) return kNoDepth;
     switch (config_.sensor) {
       case DepthSensor::kStructuredLight:
@@ -131,8 +146,8 @@ class NoisySensor {
 
   // light of both sides of an edge reaches one pixel
   float FlyingDepth(int row, int column, double share) const {
-    const float low = range_.low.at<float>(row, column);
-    const float high = range_.high.at<float>(row, column);
+    const float low = range_.low[PixelAt(row, column)];
+    const float high = range_.high[PixelAt(row, column)];
     if (high >= kFar) return At(row, column);  // nothing comes back from the open side
     const double near_share = std::min(1.0, config_.scale * share);
     const double depth = At(row, column);

@@ -10,15 +10,13 @@
 #include <utility>
 #include <vector>
 
-#include <opencv2/imgproc.hpp>
-
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/schemas/npy.h"
 
+#include "canvas.h"
 #include "caption_lines.h"
 #include "jpeg_pixels.h"
-#include "picture_mat.h"
 #include "png_pixels.h"
 
 namespace doorforge {
@@ -26,8 +24,10 @@ namespace {
 
 constexpr int kCaptionHeight = 26;  // of one line
 constexpr int kLineHeight = 16;
-constexpr double kCaptionScale = 0.45;
+constexpr double kCapitalHeight = 9;
 constexpr int kGap = 10;
+constexpr internal::Color kInk = {60, 60, 60};
+constexpr internal::Color kWhite = {255, 255, 255};
 
 std::string Encode(const internal::PngPixels& pixels) {
   std::string bytes = internal::EncodePngPixels(pixels);
@@ -35,9 +35,12 @@ std::string Encode(const internal::PngPixels& pixels) {
   return bytes;
 }
 
-std::string EncodeGrey(const cv::Mat& mat) {
-  return Encode({mat.data, static_cast<std::size_t>(mat.cols), static_cast<std::size_t>(mat.rows),
-                 1, static_cast<int>(8 * mat.elemSize1())});
+// Numbers of 8 or 16 bits, row by row.
+template <class T>
+std::string EncodeGrey(const std::vector<T>& pixels, int width, int height) {
+  return Encode({reinterpret_cast<const unsigned char*>(pixels.data()),
+                 static_cast<std::size_t>(width), static_cast<std::size_t>(height), 1,
+                 static_cast<int>(8 * sizeof(T))});
 }
 
 void RequirePixels(const Picture& picture) {
@@ -59,25 +62,27 @@ std::pair<float, float> DepthRange(const DepthImage& image, float limit) {
   return {near, far};
 }
 
-// The picture scaled to fit the tile, centred on white.
-cv::Mat FitInto(const Picture& picture, const cv::Size& tile) {
+// Where a tile, or a caption, lies.
+struct Box {
+  int left;
+  int top;
+  int width;
+  int height;
+};
+
+// The picture scaled to fit the tile, in its middle.
+void PasteInto(internal::Canvas& sheet, const Picture& picture, const Box& tile) {
+  RequirePixels(picture);
   const double scale = std::min(static_cast<double>(tile.width) / picture.width,
                                 static_cast<double>(tile.height) / picture.height);
-  const cv::Size size(
-      std::clamp(static_cast<int>(std::lround(picture.width * scale)), 1, tile.width),
-      std::clamp(static_cast<int>(std::lround(picture.height * scale)), 1, tile.height));
-  cv::Mat scaled;
-  cv::resize(ToMat(picture), scaled, size, 0, 0, scale < 1 ? cv::INTER_AREA : cv::INTER_CUBIC);
-  cv::Mat result(tile, CV_8UC3, cv::Scalar(255, 255, 255));
-  const cv::Rect place((tile.width - size.width) / 2, (tile.height - size.height) / 2, size.width,
-                       size.height);
-  scaled.copyTo(result(place));
-  return result;
+  const int width = std::clamp(static_cast<int>(std::lround(picture.width * scale)), 1, tile.width);
+  const int height =
+      std::clamp(static_cast<int>(std::lround(picture.height * scale)), 1, tile.height);
+  sheet.Paste(internal::Resized(picture, width, height), tile.left + (tile.width - width) / 2,
+              tile.top + (tile.height - height) / 2);
 }
 
-int CaptionWidth(const std::string& text) {
-  return cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kCaptionScale, 1, nullptr).width;
-}
+double CaptionWidth(const std::string& text) { return internal::TextWidth(text, kCapitalHeight); }
 
 using Caption = std::vector<std::string>;  // its lines
 
@@ -96,12 +101,11 @@ int CaptionHeight(const std::vector<Caption>& captions) {
   return captions.empty() ? 0 : kCaptionHeight + (static_cast<int>(lines) - 1) * kLineHeight;
 }
 
-void DrawCaption(cv::Mat& sheet, const Caption& caption, const cv::Rect& box) {
-  int baseline = box.y + (kCaptionHeight + 10) / 2;
+void DrawCaption(internal::Canvas& sheet, const Caption& caption, const Box& box) {
+  double baseline = box.top + (kCaptionHeight + 10) / 2;
   for (const std::string& line : caption) {
-    const cv::Point origin(box.x + (box.width - CaptionWidth(line)) / 2, baseline);
-    cv::putText(sheet, line, origin, cv::FONT_HERSHEY_SIMPLEX, kCaptionScale,
-                cv::Scalar(60, 60, 60), 1, cv::LINE_AA);
+    sheet.Text(line, {std::round(box.left + (box.width - CaptionWidth(line)) / 2), baseline},
+               kCapitalHeight, kInk);
     baseline += kLineHeight;
   }
 }
@@ -152,8 +156,15 @@ std::string ListOf(const std::vector<int>& numbers) {
   return list;
 }
 
+struct GreyPixels {
+  int width;
+  int height;
+  std::vector<std::uint16_t> values;
+};
+
 // A grey PNG with one of these numbers of bits a pixel.
-cv::Mat DecodeGrey(std::string_view bytes, const std::string& name, const std::vector<int>& bits) {
+GreyPixels DecodeGrey(std::string_view bytes, const std::string& name,
+                      const std::vector<int>& bits) {
   const PngHeader header = HeaderOf(bytes, name);
   const bool allowed = header.width >= 1 && header.height >= 1 && header.width <= kMostPixels &&
                        header.height <= kMostPixels &&
@@ -164,32 +175,19 @@ cv::Mat DecodeGrey(std::string_view bytes, const std::string& name, const std::v
                     std::to_string(header.height) + " pixels, " + std::to_string(header.bits) +
                     " bits" + (header.color_type == 0 ? "" : ", not grey") + "; expected " +
                     ListOf(bits) + "-bit grey, 1 to 8192 pixels a side");
-  cv::Mat pixels(static_cast<int>(header.height), static_cast<int>(header.width),
-                 header.bits == 16 ? CV_16UC1 : CV_8UC1);
-  const std::size_t row_bytes = pixels.cols * pixels.elemSize();
-  if (!internal::DecodePngPixels(bytes, pixels.data, header.height, row_bytes))
+  GreyPixels grey{static_cast<int>(header.width), static_cast<int>(header.height), {}};
+  grey.values.resize(static_cast<std::size_t>(header.width) * header.height);
+  std::vector<unsigned char> small(header.bits == 16 ? 0 : grey.values.size());
+  auto* const pixels =
+      header.bits == 16 ? reinterpret_cast<unsigned char*>(grey.values.data()) : small.data();
+  const auto sample_bytes = static_cast<std::size_t>(header.bits / 8);
+  if (!internal::DecodePngPixels(bytes, pixels, header.height, header.width * sample_bytes))
     throw Error(ErrorCode::kFormat, name + ": the PNG is damaged");
-  return pixels;
+  std::copy(small.begin(), small.end(), grey.values.begin());
+  return grey;
 }
 
 }  // namespace
-
-cv::Mat ToMat(const Picture& picture) {
-  RequirePixels(picture);
-  const cv::Mat rgb(picture.height, picture.width, CV_8UC3,
-                    const_cast<std::uint8_t*>(picture.rgb.data()));  // only read from
-  cv::Mat bgr;
-  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
-  return bgr;
-}
-
-Picture FromMat(const cv::Mat& bgr) {
-  Picture picture{bgr.cols, bgr.rows, {}};
-  picture.rgb.resize(3 * bgr.total());
-  cv::Mat rgb(bgr.rows, bgr.cols, CV_8UC3, picture.rgb.data());
-  cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
-  return picture;
-}
 
 std::string EncodePng(const Picture& picture) {
   RequirePixels(picture);
@@ -212,21 +210,18 @@ std::string EncodeJpeg(const Picture& picture, int quality) {
 std::string EncodeDepthPng(const DepthImage& image) {
   Require(image.width > 0 && image.height > 0, ErrorCode::kInvalidArgument,
           "depth picture: the image is empty");
-  cv::Mat millimetres(image.height, image.width, CV_16UC1, cv::Scalar(0));
-  auto* pixels = millimetres.ptr<std::uint16_t>();
+  std::vector<std::uint16_t> millimetres(image.depth_m.size());
   for (std::size_t i = 0; i < image.depth_m.size(); ++i) {
     const double rounded = std::round(1000.0 * image.depth_m[i]);
     if (rounded <= std::numeric_limits<std::uint16_t>::max())
-      pixels[i] = static_cast<std::uint16_t>(rounded);
+      millimetres[i] = static_cast<std::uint16_t>(rounded);
   }
-  return EncodeGrey(millimetres);
+  return EncodeGrey(millimetres, image.width, image.height);
 }
 
 DepthImage DecodeDepthPng(std::string_view bytes, double metres_per_unit, const std::string& name) {
-  const cv::Mat units = DecodeGrey(bytes, name, {16});
-  const auto* pixels = units.ptr<std::uint16_t>();
-  return MakeDepthImage(units.cols, units.rows,
-                        InMetres(std::span(pixels, units.total()), metres_per_unit));
+  const GreyPixels units = DecodeGrey(bytes, name, {16});
+  return MakeDepthImage(units.width, units.height, InMetres(units.values, metres_per_unit));
 }
 
 DepthImage DecodeDepthNpy(std::string_view bytes, const DepthUnits& units,
@@ -290,10 +285,9 @@ Picture DecodePicture(std::string_view bytes, const std::string& name) {
 }
 
 PixelMask DecodeMaskPng(std::string_view bytes, const std::string& name) {
-  const cv::Mat set = DecodeGrey(bytes, name, {8, 16}) != 0;
-  PixelMask mask{set.cols, set.rows, {}};
-  for (std::size_t i = 0; i < set.total(); ++i)
-    mask.set.push_back(set.ptr<std::uint8_t>()[i] != 0 ? 1 : 0);
+  const GreyPixels grey = DecodeGrey(bytes, name, {8, 16});
+  PixelMask mask{grey.width, grey.height, {}};
+  for (const std::uint16_t value : grey.values) mask.set.push_back(value != 0 ? 1 : 0);
   return mask;
 }
 
@@ -301,10 +295,9 @@ std::string EncodeMaskPng(const PixelMask& mask) {
   const auto count = static_cast<std::size_t>(mask.width) * static_cast<std::size_t>(mask.height);
   Require(mask.width > 0 && mask.height > 0 && mask.set.size() == count,
           ErrorCode::kInvalidArgument, "mask: empty, or its size and pixels disagree");
-  cv::Mat pixels(mask.height, mask.width, CV_8UC1);
-  for (std::size_t i = 0; i < count; ++i)
-    pixels.ptr<std::uint8_t>()[i] = mask.set[i] != 0 ? 255 : 0;
-  return EncodeGrey(pixels);
+  std::vector<std::uint8_t> pixels(count);
+  for (std::size_t i = 0; i < count; ++i) pixels[i] = mask.set[i] != 0 ? 255 : 0;
+  return EncodeGrey(pixels, mask.width, mask.height);
 }
 
 void WritePng(const std::filesystem::path& path, const Picture& picture) {
@@ -318,18 +311,15 @@ void WriteDepthPng(const std::filesystem::path& path, const DepthImage& image) {
 Picture DepthPreview(const DepthImage& image, double max_depth_m) {
   const auto [near, far] = DepthRange(image, static_cast<float>(max_depth_m));
   const float range = std::max(far - near, 1e-6F);
-  cv::Mat grey(image.height, image.width, CV_8UC1, cv::Scalar(0));
-  cv::Mat unseen(image.height, image.width, CV_8UC1, cv::Scalar(255));
-  for (std::size_t i = 0; i < image.depth_m.size(); ++i) {
-    if (image.depth_m[i] > far) continue;
-    const float nearness = 1 - (image.depth_m[i] - near) / range;
-    grey.ptr<std::uint8_t>()[i] = static_cast<std::uint8_t>(std::lround(255 * nearness));
-    unseen.ptr<std::uint8_t>()[i] = 0;
+  constexpr internal::Color kUnseen = {232, 232, 232};
+  Picture preview{image.width, image.height, {}};
+  preview.rgb.reserve(3 * image.depth_m.size());
+  for (const float depth : image.depth_m) {
+    const auto nearness = static_cast<double>(1 - (depth - near) / range);
+    const internal::Color color = depth > far ? kUnseen : internal::Viridis(nearness);
+    preview.rgb.insert(preview.rgb.end(), color.begin(), color.end());
   }
-  cv::Mat colors;
-  cv::applyColorMap(grey, colors, cv::COLORMAP_VIRIDIS);
-  colors.setTo(cv::Scalar(232, 232, 232), unseen);
-  return FromMat(colors);
+  return preview;
 }
 
 Picture ContactSheet(std::span<const Picture> pictures, std::span<const std::string> captions,
@@ -346,16 +336,16 @@ Picture ContactSheet(std::span<const Picture> pictures, std::span<const std::str
   const std::vector<Caption> lines = Wrapped(captions, config.tile_width);
   const int caption_height = CaptionHeight(lines);
   const int step_y = config.tile_height + kGap + caption_height;
-  cv::Mat sheet(rows * step_y + kGap, columns * step_x + kGap, CV_8UC3, cv::Scalar(255, 255, 255));
+  internal::Canvas sheet(columns * step_x + kGap, rows * step_y + kGap, kWhite);
   for (int i = 0; i < count; ++i) {
-    const cv::Rect tile(kGap + i % columns * step_x, kGap + i / columns * step_y, config.tile_width,
-                        config.tile_height);
-    FitInto(pictures[static_cast<std::size_t>(i)], tile.size()).copyTo(sheet(tile));
+    const Box tile{kGap + i % columns * step_x, kGap + i / columns * step_y, config.tile_width,
+                   config.tile_height};
+    PasteInto(sheet, pictures[static_cast<std::size_t>(i)], tile);
     if (captions.empty()) continue;
     DrawCaption(sheet, lines[static_cast<std::size_t>(i)],
-                cv::Rect(tile.x, tile.y + tile.height, tile.width, caption_height));
+                {tile.left, tile.top + tile.height, tile.width, caption_height});
   }
-  return FromMat(sheet);
+  return std::move(sheet).Take();
 }
 
 }  // namespace doorforge

@@ -53,10 +53,12 @@ struct CollectionTask {
 struct CollectRequest {
   std::filesystem::path folder;  ///< The dataset's.
   std::string stage = "open";
-  std::string config_text;       ///< Content of config.yaml; its SHA-256 goes into every index.
-  DatasetProvenance provenance;  ///< Without config_sha256 and the doors' splits.
-  int threads = 0;               ///< 0: all processors.
-  CollectionTask task;           ///< The whole plan by default.
+  std::string config_text;  ///< Content of config.yaml; its SHA-256 goes into every index.
+  /// Without config_sha256 and the doors' splits; all doors of the plan, in its order. Of these the
+  /// dataset names those of which it has planned episodes.
+  DatasetProvenance provenance;
+  int threads = 0;      ///< 0: all processors.
+  CollectionTask task;  ///< The whole plan by default.
   FileSystem* files = &SystemFiles();
 };
 

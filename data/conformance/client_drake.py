@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The doorforge authors
 # SPDX-License-Identifier: Apache-2.0
-"""Drake: URDF, SDF and MJCF, in discrete steps with the SAP solver, the one that enforces <mimic>."""
+"""Drake: URDF, SDF and MJCF, in discrete steps with the SAP solver, the one that enforces <mimic>. Of MJCF it reads neither tendons
+nor springs of joints, so the loader couples the bolt by what the file's tendon says."""
 import importlib.metadata
 import logging
+import xml.etree.ElementTree
 
 import numpy
 from pydrake.all import AddMultibodyPlantSceneGraph, DiagramBuilder, DiscreteContactApproximation, Parser, Simulator
@@ -10,21 +12,32 @@ from pydrake.all import AddMultibodyPlantSceneGraph, DiagramBuilder, DiscreteCon
 from judge import STEP_S
 
 VERSION = "Drake " + importlib.metadata.version("drake")
-FORMATS = {"urdf": "welded to the world, the handle's spring as a torque", "sdf": "", "mjcf": ""}
+FORMATS = {"urdf": "welded to the world, the handle's spring as a torque", "sdf": "",
+           "mjcf": "AddCouplerConstraint for the tendon, the handle's spring as a torque"}
 logging.getLogger("drake").setLevel(logging.ERROR)
 
 
+def cables(path):
+    """The joints of each fixed tendon, with their coefficients."""
+    for tendon in xml.etree.ElementTree.parse(path).getroot().iter("fixed"):
+        yield {joint.get("joint"): float(joint.get("coef")) for joint in tendon.iter("joint")}
+
+
 class World:
-    def __init__(self, path, spring, weld):
-        self.spring, self.friction, self.applied = spring, 0.0, weld
+    def __init__(self, path, form, spring):
+        self.spring, self.friction, self.applied = spring, 0.0, form != "sdf"
         builder = DiagramBuilder()
         self.plant, _ = AddMultibodyPlantSceneGraph(builder, time_step=STEP_S)
         self.plant.set_discrete_contact_approximation(DiscreteContactApproximation.kSap)
         model, = Parser(self.plant).AddModels(path)
-        if weld:
+        if form == "urdf":
             self.plant.WeldFrames(self.plant.world_frame(), self.plant.GetFrameByName("base", model))
-        self.plant.Finalize()
         self.model = model
+        if form == "mjcf":
+            for cable in cables(path):
+                bolt, handle = cable
+                self.plant.AddCouplerConstraint(self.joint(bolt), self.joint(handle), -cable[handle] / cable[bolt])
+        self.plant.Finalize()
         self.diagram = builder.Build()
         self.simulator = Simulator(self.diagram)
         self.context = self.plant.GetMyMutableContextFromRoot(self.simulator.get_mutable_context())
@@ -60,4 +73,4 @@ class World:
 
 
 def load(path, form, job):
-    return World(path, job["handle_spring_nm_per_rad"], form == "urdf")
+    return World(path, form, job["handle_spring_nm_per_rad"])

@@ -1,17 +1,30 @@
 # SPDX-FileCopyrightText: 2026 The doorforge authors
 # SPDX-License-Identifier: Apache-2.0
-"""MuJoCo: MJCF, and URDF as MuJoCo compiles it."""
+"""MuJoCo: MJCF, and URDF. A frame that is fixed to the world touches its own leaf in MuJoCo, and what <mimic> becomes is as soft
+as the bolt is light, so the loader of a URDF sets both right."""
 import mujoco
 
 from judge import STEP_S
 
 VERSION = "MuJoCo " + mujoco.__version__
-FORMATS = {"mjcf": "", "urdf": ""}
+FORMATS = {"mjcf": "", "urdf": "MjSpec.add_exclude for frame, leaf and handle; a hard equality for <mimic>"}
+STIFF, HARD = [0.005, 1], [0.99, 0.999, 0.0001, 0.5, 2]  # as the MJCF has them
+
+
+def spec_of(path, form):
+    spec = mujoco.MjSpec.from_file(path)
+    if form == "urdf":
+        spec.compiler.fusestatic = False  # the frame stays a body, which an exclusion can name
+        for one, other in (("base", "leaf"), ("base", "handle")):
+            spec.add_exclude(bodyname1=one, bodyname2=other)
+        for equality in spec.equalities:
+            equality.solref, equality.solimp = STIFF, HARD
+    return spec
 
 
 class World:
-    def __init__(self, path):
-        self.model = mujoco.MjModel.from_xml_path(path)
+    def __init__(self, path, form):
+        self.model = spec_of(path, form).compile()
         self.model.opt.timestep = STEP_S
         self.data = mujoco.MjData(self.model)
         names = [self.model.joint(i).name for i in range(self.model.njnt)]
@@ -39,4 +52,4 @@ class World:
 
 
 def load(path, form, job):
-    return World(path)
+    return World(path, form)

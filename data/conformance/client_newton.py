@@ -10,7 +10,8 @@ import warp
 from judge import STEP_S
 
 VERSION = "Newton " + importlib.metadata.version("newton")
-FORMATS = {"usda": "", "urdf": "shapes as hard as steel (default_shape_cfg.ke)", "mjcf": ""}
+FORMATS = {"usda": "rigid_gap = 0, enable_multiccd, a hard equality for the mimic joint", "mjcf": "",
+           "urdf": "rigid_gap = 0, enable_multiccd, harder shapes (default_shape_cfg.ke), a hard equality for <mimic>"}
 warp.config.quiet = True
 warp.set_device("cpu")
 
@@ -19,15 +20,20 @@ class World:
     def __init__(self, path, form, spring):
         builder = newton.ModelBuilder()
         newton.solvers.SolverMuJoCo.register_custom_attributes(builder)
+        if form != "mjcf":
+            builder.rigid_gap = 0.0  # the usual 0.1 m leaves one point a contact, whose normal is that of swollen shapes
         if form == "usda":
             builder.add_usd(path)
         elif form == "urdf":
-            builder.default_shape_cfg.ke, builder.default_shape_cfg.kd = 1e6, 2e3  # 2.5e3 gives way by centimetres
+            builder.default_shape_cfg.ke, builder.default_shape_cfg.kd = 4e4, 4e2  # the usual 2.5e3 gives way by centimetres
             builder.add_urdf(path, floating=False)
         else:
             builder.add_mjcf(path)
         self.model = builder.finalize()
-        self.solver = newton.solvers.SolverMuJoCo(self.model, use_mujoco_cpu=True)
+        more = {} if form == "mjcf" else {"enable_multiccd": True}
+        self.solver = newton.solvers.SolverMuJoCo(self.model, use_mujoco_cpu=True, **more)
+        if form != "mjcf":  # what a mimic becomes is as soft as the bolt is light
+            self.solver.mj_model.eq_solref[:], self.solver.mj_model.eq_solimp[:] = [0.005, 1], [0.99, 0.999, 0.0001, 0.5, 2]
         self.now, self.next = self.model.state(), self.model.state()
         self.control = self.model.control()
         self.names = [label.split("/")[-1] for label in self.model.joint_label]

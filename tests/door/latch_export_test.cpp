@@ -94,6 +94,38 @@ TEST(LatchBodies, TheMortiseHoldsTheBoltWherePiecesOfTheFrameWouldMeetIt) {
   }
 }
 
+// Whether a convex hull holds the point, or misses it by less than `margin`.
+bool Holds(const TriangleMesh& hull, const Eigen::Vector3d& point, double margin) {
+  for (const Eigen::Vector3i& t : hull.triangles) {
+    const auto corner = [&](int k) { return hull.vertices[static_cast<std::size_t>(t[k])]; };
+    const Eigen::Vector3d normal = (corner(1) - corner(0)).cross(corner(2) - corner(0));
+    if (normal.norm() > 1e-12 && normal.normalized().dot(point - corner(0)) > margin) return false;
+  }
+  return true;
+}
+
+// A car's hatch: bolt and strike lie in the middle of the leaf's bounds, far behind the front of
+// both leaf and frame.
+TEST(LatchBodies, ABoltThatPassesItsStrikePassesTheFrameOfAThickLeafToo) {
+  Part body = SmallBody();
+  body.pieces = {MakeSolid("frame", BoxMesh({-0.3, 0.405, 0}, {0.02, 0.45, 1.65}), 8),
+                 MakeSolid("leaf", BoxMesh({-0.3, -0.4, 0}, {0.02, 0.4, 1.6}), 20)};
+  body.joint = {{0.02, -0.4, 1.6}, {0, 0, -1}, 0, 1.5};
+  const DoorAsset door = ComposeDoor(body, SmallLever(), {});
+  const auto latch = internal::LatchBodiesOf(door);
+  ASSERT_TRUE(latch.has_value());
+  for (double hinge = 0; hinge < 0.6; hinge += 0.005) {
+    const RigidTransform base_from_bolt =
+        door.hinge.parent_from_child_at_zero * RotationAbout(door.hinge.axis, hinge) *
+        latch->bolt.leaf_from_bolt * Translation({0, -latch->bolt.throw_m, 0});
+    for (const Eigen::Vector3d& vertex : latch->bolt.bolt_hull.vertices) {
+      for (const internal::FramePiece& piece : latch->frame)
+        EXPECT_FALSE(Holds(piece.hull, base_from_bolt * vertex, 0))
+            << piece.name << " at " << hinge;
+    }
+  }
+}
+
 // Debian's MuJoCo knows no <mimic> and has one point a contact: what holds is bolt and strike
 // alone, at a third of the load that later versions are asked for.
 TEST(ExportedUrdf, ItsBoltHoldsTheDoorInMuJoCo) {

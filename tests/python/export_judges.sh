@@ -7,15 +7,9 @@
 #   tests/python/export_judges.sh BUILD PYTHON [DOORS]
 # BUILD is a build folder with the programs, PYTHON 3.11, which all engines have wheels for; DOORS a folder of composed
 # doors, else three of the catalogue. Prints the table of docs/conformance.md; fails where a door does not load, hold or open.
-set -euo pipefail
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-export PATH="$(cd "$1" && pwd)/bin:$PATH"
-python=$2
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-
-"$python" -m venv "$scratch/venv"
-"$scratch/venv/bin/pip" install -q mujoco pybullet sapien drake newton mujoco-warp newton-usd-schemas usd-core trimesh scipy
+# shellcheck source=tests/python/judge_setup.sh
+. "$(dirname "${BASH_SOURCE[0]}")/judge_setup.sh" "$1" "$2" \
+  mujoco pybullet sapien drake newton mujoco-warp newton-usd-schemas usd-core trimesh scipy
 doors=${3:-$scratch/doors}
 if [ $# -lt 3 ]; then
   doorforge compose --body interior_flush_01 --handle interior_lever_tube_01 --out "$doors/a"
@@ -24,7 +18,7 @@ if [ $# -lt 3 ]; then
 fi
 
 doorforge export "$doors" --format usda,glb --out "$scratch/exported"
-"$scratch/venv/bin/python" "$root/tests/python/usd_judge.py" "$scratch"/exported/*/model.usda
+"$venv/bin/python" "$root/tests/python/usd_judge.py" "$scratch"/exported/*/model.usda
 if command -v npm >/dev/null; then
   (cd "$scratch" && npm install --silent --no-audit --no-fund gltf-validator@2.0.0-dev.3.10)
   for glb in "$scratch"/exported/*/model.glb; do
@@ -39,4 +33,4 @@ if command -v npm >/dev/null; then
 else
   echo "npm is not there; glTF-Validator left out"
 fi
-doorforge conformance "$doors" --python "$scratch/venv/bin/python" --out "$scratch/judged" --format markdown 2>/dev/null
+doorforge conformance "$doors" --python "$venv/bin/python" --out "$scratch/judged" --format markdown 2>/dev/null

@@ -6,16 +6,9 @@
 #   tests/python/foreign_judges.sh BUILD PYTHON
 # BUILD is a build folder with the programs, PYTHON one that usd-core has wheels for. Fails where usd-core refuses
 # more than one in a hundred of what doorforge passes.
-set -euo pipefail
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-build=$(cd "$1" && pwd)
-export PATH="$build/bin:$PATH"
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-
-"$2" -m venv "$scratch/venv"
-"$scratch/venv/bin/pip" install -q usd-core
+# shellcheck source=tests/python/judge_setup.sh
+. "$(dirname "${BASH_SOURCE[0]}")/judge_setup.sh" "$1" "$2" usd-core
 doorforge compose --body interior_flush_01 --handle interior_lever_tube_01 --out "$scratch/doors/a"
 doorforge compose --body safe_box_tall_03 --handle safe_tee_04 --set latch=bolt --out "$scratch/doors/b"
 doorforge export "$scratch/doors" --format usda --out "$scratch/exported"
-"$scratch/venv/bin/python" -B "$root/tests/python/foreign_judge.py" "$build" "$scratch"
+"$venv/bin/python" "$root/tests/python/foreign_judge.py" "$build" "$scratch"

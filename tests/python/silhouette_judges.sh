@@ -8,15 +8,8 @@
 # BUILD is a build folder with the programs, PYTHON 3.11 or later; EPISODES (6) are shared by six doors, one of each category.
 # Where npm is not there, three.js is left out. Fails where silhouettes overlap by 0.98 or less (intersection over union), or a
 # ray finds another link, label or depth.
-set -euo pipefail
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-PATH="$(cd "$1" && pwd)/bin:$PATH"
-export PATH PYTHONDONTWRITEBYTECODE=1
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-
-"$2" -m venv "$scratch/venv"
-"$scratch/venv/bin/pip" install -q mujoco trimesh rtree yourdfpy "websockets<14"
+# shellcheck source=tests/python/judge_setup.sh
+. "$(dirname "${BASH_SOURCE[0]}")/judge_setup.sh" "$1" "$2" mujoco trimesh rtree yourdfpy "websockets<14"
 cd "$scratch"
 doorforge compose --body interior_arched_01 --handle interior_lever_blade_01 --out doors/a
 doorforge compose --body window_arched_01 --handle window_cockspur_05 --out doors/b
@@ -35,5 +28,5 @@ if command -v npm >/dev/null; then
 else
   echo "npm is not there; three.js left out"
 fi
-"$scratch/venv/bin/python" "$root/tests/python/silhouette_judge.py" data exported \
+"$venv/bin/python" "$root/tests/python/silhouette_judge.py" data exported \
   "$root/data/robots/mobile_franka/mobile_franka.urdf" "${modules[@]}" 2> >(grep -v "Geom with duplicate name" >&2)

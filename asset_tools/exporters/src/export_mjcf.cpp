@@ -9,6 +9,7 @@
 
 #include "door_formats.h"
 #include "export_text.h"
+#include "latch_bodies.h"
 
 namespace doorforge {
 namespace {
@@ -22,6 +23,7 @@ using internal::XmlElement;
 // MuJoCo's constraints of the latch: settling time [s] and damping ratio, shares and width [m].
 constexpr const char* kStiff = "0.005 1";
 constexpr const char* kHard = "0.99 0.999 0.0001";
+constexpr const char* kBoltBits = "2";
 
 std::string Quaternion(const Eigen::Matrix3d& rotation) {
   const Eigen::Quaterniond q(rotation);
@@ -32,17 +34,23 @@ std::string MeshName(const DoorGeometry& geometry, int hull) {
   return hull < 0 ? geometry.name : geometry.name + "_" + std::to_string(hull);
 }
 
-// Programs make the hull of the points themselves.
-void AddHullAsset(const char* name, const TriangleMesh& hull, XmlElement& asset) {
-  Eigen::VectorXd numbers(3 * static_cast<Eigen::Index>(hull.vertices.size()));
-  for (std::size_t i = 0; i < hull.vertices.size(); ++i)
-    numbers.segment<3>(3 * static_cast<Eigen::Index>(i)) = hull.vertices[i];
-  XmlElement& mesh = AddElement(asset, "mesh");
-  SetAttribute(mesh, "name", name);
-  SetAttribute(mesh, "vertex", Decimals(numbers));
+/// The latch as MJCF has it. Bolt and strike touch each other alone, by bits, so they stay where
+/// the simulated world has them; Drake reads no bits, so the frame's shapes are those that the
+/// mortise left.
+struct MjcfLatch {
+  Bolt bolt;
+  std::vector<internal::FramePiece> frame;  ///< Without a strike.
+};
+
+std::optional<MjcfLatch> MjcfLatchOf(const DoorAsset& door, const ExportSettings& settings) {
+  if (settings.latch != LatchExport::kBolt) return std::nullopt;
+  auto bodies = internal::LatchBodiesOf(door);
+  if (!bodies) return std::nullopt;
+  bodies->frame.pop_back();
+  return MjcfLatch{BoltOf(door), std::move(bodies->frame)};
 }
 
-void AddAssets(const DoorAsset& door, const std::optional<Bolt>& bolt, XmlElement& root) {
+void AddAssets(const DoorAsset& door, const MjcfLatch* latch, XmlElement& root) {
   XmlElement& asset = AddElement(root, "asset");
   const auto add = [&](const std::string& name, const std::string& file) {
     XmlElement& mesh = AddElement(asset, "mesh");
@@ -50,15 +58,17 @@ void AddAssets(const DoorAsset& door, const std::optional<Bolt>& bolt, XmlElemen
     SetAttribute(mesh, "file", file);
   };
   for (const DoorLink& link : door.links) {
+    const bool cut = latch != nullptr && &link == &door.links[kBaseLink];
     for (const DoorGeometry& geometry : link.geometry) {
       add(MeshName(geometry, -1), VisualMeshPath(geometry));
-      for (std::size_t i = 0; i < geometry.hulls.size(); ++i)
+      for (std::size_t i = 0; i < geometry.hulls.size() && !cut; ++i)
         add(MeshName(geometry, static_cast<int>(i)), CollisionMeshPath(geometry, i));
     }
   }
-  if (!bolt) return;
-  AddHullAsset("bolt", bolt->bolt_hull, asset);
-  AddHullAsset("strike", bolt->strike_hull, asset);
+  if (latch == nullptr) return;
+  for (const internal::FramePiece& piece : latch->frame) add(piece.name, piece.file);
+  add("bolt", internal::kBoltMeshPath);
+  add("strike", internal::kStrikeHullPath);
 }
 
 void AddDefaults(XmlElement& root) {
@@ -86,18 +96,27 @@ void AddInertial(const MassProperties& mass, XmlElement& body) {
   SetAttribute(inertial, "fullinertia", Decimals(full));
 }
 
-void AddGeoms(const DoorLink& link, XmlElement& body) {
+void AddHullGeom(const std::string& mesh, XmlElement& body) {
+  XmlElement& hull = AddElement(body, "geom");
+  SetAttribute(hull, "class", "collision");
+  SetAttribute(hull, "mesh", mesh);
+}
+
+void AddVisualGeoms(const DoorLink& link, XmlElement& body) {
   for (const DoorGeometry& geometry : link.geometry) {
     XmlElement& visual = AddElement(body, "geom");
     SetAttribute(visual, "class", "visual");
     SetAttribute(visual, "name", geometry.name + "_visual");
     SetAttribute(visual, "mesh", MeshName(geometry, -1));
     SetAttribute(visual, "rgba", Decimals(geometry.color_rgba));
-    for (std::size_t i = 0; i < geometry.hulls.size(); ++i) {
-      XmlElement& hull = AddElement(body, "geom");
-      SetAttribute(hull, "class", "collision");
-      SetAttribute(hull, "mesh", MeshName(geometry, static_cast<int>(i)));
-    }
+  }
+}
+
+void AddGeoms(const DoorLink& link, XmlElement& body) {
+  AddVisualGeoms(link, body);
+  for (const DoorGeometry& geometry : link.geometry) {
+    for (std::size_t i = 0; i < geometry.hulls.size(); ++i)
+      AddHullGeom(MeshName(geometry, static_cast<int>(i)), body);
   }
 }
 
@@ -123,16 +142,20 @@ XmlElement& AddBody(const DoorLink& link, const RigidTransform& parent_from_link
   return body;
 }
 
-// Touches only what a contact pair names.
-void AddLatchGeom(const char* name, const RigidTransform& body_from_geom, XmlElement& body) {
+// Touches only the other of the two, which has the same bit.
+void AddLatchGeom(const char* name, const RigidTransform& body_from_geom, double friction,
+                  XmlElement& body) {
   XmlElement& geom = AddElement(body, "geom");
   SetAttribute(geom, "class", "collision");
   SetAttribute(geom, "name", name);
   SetAttribute(geom, "mesh", name);
   SetAttribute(geom, "pos", Decimals(body_from_geom.translation()));
   SetAttribute(geom, "quat", Quaternion(body_from_geom.linear()));
-  SetAttribute(geom, "contype", "0");
-  SetAttribute(geom, "conaffinity", "0");
+  SetAttribute(geom, "contype", kBoltBits);
+  SetAttribute(geom, "conaffinity", kBoltBits);
+  SetAttribute(geom, "friction", Decimals(Eigen::Vector3d(friction, 0.005, 0.0001)));
+  SetAttribute(geom, "solref", kStiff);
+  SetAttribute(geom, "solimp", kHard);
 }
 
 void AddBoltBody(const Bolt& bolt, XmlElement& leaf) {
@@ -153,28 +176,25 @@ void AddBoltBody(const Bolt& bolt, XmlElement& leaf) {
   SetAttribute(joint, "damping", Decimal(bolt.damping_n_s_m));
   SetAttribute(joint, "stiffness", Decimal(bolt.stiffness_n_per_m));
   SetAttribute(joint, "springref", Decimal(bolt.preload_n / bolt.stiffness_n_per_m));
-  AddLatchGeom("bolt", RigidTransform::Identity(), body);
+  AddLatchGeom("bolt", RigidTransform::Identity(), bolt.friction, body);
 }
 
-void AddContacts(const DoorAsset& door, const std::optional<Bolt>& bolt, XmlElement& root) {
+void AddContacts(const DoorAsset& door, bool with_bolt, XmlElement& root) {
   XmlElement& contact = AddElement(root, "contact");
+  const auto exclude = [&](const std::string& one, const std::string& other) {
+    XmlElement& element = AddElement(contact, "exclude");
+    SetAttribute(element, "body1", one);
+    SetAttribute(element, "body2", other);
+  };
   // neighbours overlap at hinge and rose
-  for (const auto& [a, b] :
-       {std::pair{kBaseLink, kLeafLink}, {kLeafLink, kHandleLink}, {kBaseLink, kHandleLink}}) {
-    XmlElement& exclude = AddElement(contact, "exclude");
-    SetAttribute(exclude, "body1", door.links[a].name);
-    SetAttribute(exclude, "body2", door.links[b].name);
-  }
-  if (!bolt) return;
-  XmlElement& pair = AddElement(contact, "pair");
-  const double friction = bolt->friction;
-  SetAttribute(pair, "geom1", "bolt");
-  SetAttribute(pair, "geom2", "strike");
-  Eigen::VectorXd frictions(5);
-  frictions << friction, friction, 0.005, 0.0001, 0.0001;
-  SetAttribute(pair, "friction", Decimals(frictions));
-  SetAttribute(pair, "solref", kStiff);
-  SetAttribute(pair, "solimp", kHard);
+  const auto& links = door.links;
+  exclude(links[kBaseLink].name, links[kLeafLink].name);
+  exclude(links[kLeafLink].name, links[kHandleLink].name);
+  exclude(links[kBaseLink].name, links[kHandleLink].name);
+  if (!with_bolt) return;
+  // for readers without bits
+  exclude(links[kLeafLink].name, "bolt");
+  exclude(links[kHandleLink].name, "bolt");
 }
 
 // A cable: the handle pulls the bolt back, and nothing pushes the handle.
@@ -242,14 +262,16 @@ std::string ToMjcf(const DoorAsset& door, const ExportSettings& settings) {
   SetAttribute(compiler, "inertiafromgeom", "false");
   AddLatchWords(door, root);
   AddDefaults(root);
-  std::optional<Bolt> bolt;
-  if (settings.latch == LatchExport::kBolt && door.latch.type != LatchType::kNone &&
-      internal::Turns(door.handle_joint))
-    bolt = BoltOf(door);
-  AddAssets(door, bolt, root);
+  const std::optional<MjcfLatch> latch = MjcfLatchOf(door, settings);
+  AddAssets(door, latch ? &*latch : nullptr, root);
   XmlElement& base =
       AddBody(door.links[kBaseLink], RigidTransform::Identity(), AddElement(root, "worldbody"));
-  AddGeoms(door.links[kBaseLink], base);
+  if (latch) {
+    AddVisualGeoms(door.links[kBaseLink], base);
+    for (const internal::FramePiece& piece : latch->frame) AddHullGeom(piece.name, base);
+  } else {
+    AddGeoms(door.links[kBaseLink], base);
+  }
   XmlElement& leaf = AddBody(door.links[kLeafLink], door.hinge.parent_from_child_at_zero, base);
   AddJoint(door.hinge, door.latch.hinge_spring_nm_per_rad, leaf);
   AddGeoms(door.links[kLeafLink], leaf);
@@ -258,11 +280,11 @@ std::string ToMjcf(const DoorAsset& door, const ExportSettings& settings) {
   AddJoint(door.handle_joint, door.latch.handle_spring_nm_per_rad, handle);
   AddGeoms(door.links[kHandleLink], handle);
   AddGraspSite(door, handle);
-  AddContacts(door, bolt, root);
-  if (bolt) {
-    AddBoltBody(*bolt, leaf);
-    AddLatchGeom("strike", bolt->base_from_strike, base);
-    AddCoupling(*bolt, root);
+  AddContacts(door, latch.has_value(), root);
+  if (latch) {
+    AddBoltBody(latch->bolt, leaf);
+    AddLatchGeom("strike", latch->bolt.base_from_strike, latch->bolt.friction, base);
+    AddCoupling(latch->bolt, root);
   }
   return internal::Printed(root);
 }

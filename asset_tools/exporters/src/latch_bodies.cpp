@@ -33,15 +33,21 @@ constexpr double kMoreClearance = 0.001;   // [m]
 constexpr double kLeafClearance = 0.0005;  // [m] between strike and leaf as it passes
 constexpr double kPassed = 0.3;            // [rad] the leaf has left the strike behind
 
-// How much further out than beside the edge at rest the strike must stand, so that the leaf passes
-// it as it opens. The leaf is taken for its bounds.
-double StrikeOffset(const Bolt& bolt, const DoorAsset& door) {
-  const RigidTransform strike_from_base = bolt.base_from_strike.inverse();
+// The leaf's bounds in the frame of the bolt.
+Eigen::AlignedBox3d LeafAround(const Bolt& bolt, const DoorAsset& door) {
   Eigen::AlignedBox3d leaf;
   for (const DoorGeometry& geometry : door.links[kLeafLink].geometry) {
     if (geometry.label != PointLabel::kHandle)
       leaf.extend(Bounds(geometry.mesh, bolt.leaf_from_bolt.inverse()));
   }
+  return leaf;
+}
+
+// How much further out than beside the edge at rest the strike must stand, so that the leaf passes
+// it as it opens. The leaf is taken for its bounds.
+double StrikeOffset(const Bolt& bolt, const DoorAsset& door) {
+  const RigidTransform strike_from_base = bolt.base_from_strike.inverse();
+  const Eigen::AlignedBox3d leaf = LeafAround(bolt, door);
   const Eigen::Vector3d lip = bolt.strike_hull.vertices[2];  // where its far side begins
   double offset = 0;
   constexpr int kSteps = 60;
@@ -85,8 +91,11 @@ PlacedBox MortiseOf(const Bolt& bolt, const DoorAsset& door) {
       Eigen::Vector3d(mortise.bounds.min() - Eigen::Vector3d(0, bolt.travel_m, 0)));
   mortise.bounds.extend(
       Bounds(bolt.strike_hull, mortise.frame_from_box.inverse() * bolt.base_from_strike));
-  // what stands out in front of the strike would meet a bolt that passes it
-  mortise.bounds.extend(Eigen::Vector3d(mortise.bounds.max() + Eigen::Vector3d(kInFront, 0, 0)));
+  // what stands out in front of the strike would meet a bolt that passes it, and the frame of a
+  // leaf that is thick reaches to the leaf's front
+  const double front =
+      std::max(mortise.bounds.max().x() + kInFront, LeafAround(bolt, door).max().x());
+  mortise.bounds.extend(Eigen::Vector3d(front, mortise.bounds.max().y(), mortise.bounds.max().z()));
   const Eigen::Vector3d around = Eigen::Vector3d::Constant(kAround);
   return {mortise.frame_from_box, {mortise.bounds.min() - around, mortise.bounds.max() + around}};
 }
@@ -134,6 +143,7 @@ std::optional<LatchBodies> LatchBodiesOf(const DoorAsset& door) {
 
 void WriteLatchMeshes(const LatchBodies& latch, const std::filesystem::path& folder) {
   CommitFile(folder / kBoltMeshPath, ToObj(latch.bolt.bolt_hull));
+  CommitFile(folder / kStrikeHullPath, ToObj(latch.bolt.strike_hull));
   for (const FramePiece& piece : latch.frame) {
     if (piece.file.starts_with("meshes/latch/")) CommitFile(folder / piece.file, ToObj(piece.hull));
   }

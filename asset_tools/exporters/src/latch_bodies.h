@@ -33,11 +33,14 @@ struct LatchBodies {
 
 inline constexpr const char* kBoltMeshPath = "meshes/latch/bolt.obj";
 inline constexpr const char* kStrikeMeshPath = "meshes/latch/strike.obj";
+/// The strike in its own frame, for formats that place it themselves.
+inline constexpr const char* kStrikeHullPath = "meshes/latch/strike_hull.obj";
 
 /// Nothing for a door without a latch, or whose handle does not turn. Throws as BoltOf().
 std::optional<LatchBodies> LatchBodiesOf(const DoorAsset& door);
 
-/// Writes meshes/latch: bolt, strike and what the mortise left of the shapes that it cuts.
+/// Writes meshes/latch: bolt, strike, its hull and what the mortise left of the shapes that it
+/// cuts.
 void WriteLatchMeshes(const LatchBodies& latch, const std::filesystem::path& folder);
 
 /// What joins the bolt to the leaf: position 0 thrown, negative drawn back.

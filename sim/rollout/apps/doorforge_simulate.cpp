@@ -54,8 +54,7 @@ Options Parse(int argc, char** argv) {
   AddOverwrite(app, run.overwrite, "replace pictures that are in --film");
   AddThreads(app, run.threads);
   AddPreset(app, options.config.preset);
-  AddConfig(app, options.config.file,
-            "YAML file with the settings of scene, cloud, expert and policies");
+  AddConfig(app, options.config.file, "YAML file with settings");
   AddSettings(app, options.config.settings, "a.b=c overrides one setting");
   AddJson(app, options.json);
   ParseVerb(app, argc, argv);
@@ -72,10 +71,7 @@ int RunSimulateVerb(int argc, char** argv) {
     return SimulateDoorsWith(options.policies, options.settings, options.run);
   });
   PrintAnswer(options.json, SimulatedToJson(episodes), SimulatedText(episodes));
-  const auto is_open = [](const SimulatedEpisode& simulated) {
-    return simulated.episode.outcome == EpisodeOutcome::kOpened;
-  };
-  return ExitCodeOfBatch(episodes.size() - std::ranges::count_if(episodes, is_open));
+  return ExitCodeOfBatch(FailedAmong(episodes));
 }
 
 }  // namespace

@@ -180,4 +180,11 @@ std::string SimulatedText(std::span<const SimulatedEpisode> episodes) {
   return text;
 }
 
+std::size_t FailedAmong(std::span<const SimulatedEpisode> episodes) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(episodes, [](const SimulatedEpisode& simulated) {
+        return simulated.episode.outcome != EpisodeOutcome::kOpened;
+      }));
+}
+
 }  // namespace doorforge

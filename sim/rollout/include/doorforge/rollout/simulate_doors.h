@@ -89,4 +89,7 @@ nlohmann::ordered_json SimulatedToJson(std::span<const SimulatedEpisode> episode
 /// Says it for people: a line an episode with its outcome, then one a group of TallyOutcomes().
 std::string SimulatedText(std::span<const SimulatedEpisode> episodes);
 
+/// How many of them did not open the door.
+std::size_t FailedAmong(std::span<const SimulatedEpisode> episodes);
+
 }  // namespace doorforge

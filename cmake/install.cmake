@@ -79,13 +79,28 @@ function(doorforge_install_files)
   install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT elsewhere)
 endfunction()
 
+# Seconds since 1970 that stand for "now" in packages, so that the same sources make the same bytes: SOURCE_DATE_EPOCH
+# (https://reproducible-builds.org/specs/source-date-epoch), else the commit's date, else a day of the release's year.
+function(doorforge_source_date result)
+  set(date "$ENV{SOURCE_DATE_EPOCH}")
+  if(NOT date)
+    execute_process(COMMAND git log -1 --format=%ct WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
+                    OUTPUT_VARIABLE date OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE ignored)
+  endif()
+  if(NOT date MATCHES "^[0-9]+$")
+    set(date 1767225600)  # 2026-01-01
+  endif()
+  set(${result} ${date} PARENT_SCOPE)
+endfunction()
+
 # What Debian wants of each package beside its files.
 function(doorforge_install_debian_documents)
+  set(ENV{SOURCE_DATE_EPOCH} ${DOORFORGE_SOURCE_DATE})  # the next line goes by it
   string(TIMESTAMP DOORFORGE_DATE "%a, %d %b %Y %H:%M:%S +0000" UTC)
   set(folder ${CMAKE_BINARY_DIR}/debian)
   configure_file(cmake/package/changelog.in ${folder}/changelog @ONLY)
-  file(ARCHIVE_CREATE OUTPUT ${folder}/changelog.gz PATHS ${folder}/changelog FORMAT raw COMPRESSION GZip
-       COMPRESSION_LEVEL 9)
+  # CMake's own archives hold the time at which they were made
+  execute_process(COMMAND gzip -9nc ${folder}/changelog OUTPUT_FILE ${folder}/changelog.gz COMMAND_ERROR_IS_FATAL ANY)
   install(FILES ${folder}/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/doorforge
           COMPONENT debian EXCLUDE_FROM_ALL)
   install(FILES ${folder}/changelog.gz cmake/package/copyright
@@ -109,8 +124,12 @@ function(doorforge_development_packages result)
 endfunction()
 
 # cpack -G DEB, in the build folder: doorforge_*.deb, which users install, and libdoorforge-dev_*.deb.
+# The same sources make the same bytes under the same umask (scripts/compare_packages.sh): times are the sources'.
 function(doorforge_package)
+  doorforge_source_date(DOORFORGE_SOURCE_DATE)
   doorforge_install_debian_documents()
+  configure_file(cmake/package/source_date.cmake.in ${CMAKE_BINARY_DIR}/debian/source_date.cmake @ONLY)
+  set(CPACK_PROJECT_CONFIG_FILE ${CMAKE_BINARY_DIR}/debian/source_date.cmake)
   set(CPACK_PACKAGE_NAME doorforge)
   set(CPACK_PACKAGE_VENDOR "The doorforge authors")
   set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Door assets and door-opening data for robot learning")

@@ -36,13 +36,6 @@ fs::path FolderOf(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-void SyncFolder(const fs::path& folder) {
-  const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY);
-  if (fd < 0) ThrowOfCommit(folder, "cannot be opened");
-  ::fsync(fd);
-  ::close(fd);
-}
-
 void CreateFolder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -127,6 +120,15 @@ bool IsUntouchedForADay(const fs::path& path) {
   return !error && fs::file_time_type::clock::now() - written > std::chrono::hours(24);
 }
 
+// For what is in the way of nothing.
+void RemoveQuietly(FileSystem& files, const fs::path& path) {
+  try {
+    files.Remove(path);
+  } catch (...) {
+    return;
+  }
+}
+
 // Removes a temporary unless its writer may still live.
 void RemoveIfStale(FileSystem& files, const fs::path& path, const std::string& run) {
   if (run != ThisRun() && !IsUntouchedForADay(path)) return;
@@ -136,13 +138,13 @@ void RemoveIfStale(FileSystem& files, const fs::path& path, const std::string& r
   if (fs::is_directory(fs::symlink_status(path, ignored)))
     fs::remove_all(path, ignored);
   else
-    files.Remove(path);
+    RemoveQuietly(files, path);
   ::close(lock);
 }
 
 // Once for each folder in the life of a process: a program that stages ten thousand folders in one
 // does not look through it ten thousand times.
-void RemoveStaleBeside(const fs::path& path) {
+void RemoveStaleBeside(FileSystem& files, const fs::path& path) {
   static std::mutex mutex;
   static std::set<std::string> seen;
   const fs::path folder = FolderOf(path);
@@ -154,7 +156,7 @@ void RemoveStaleBeside(const fs::path& path) {
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     const std::optional<std::string> run = WriterOf(entry->path().filename().string());
-    if (run) RemoveIfStale(SystemFiles(), entry->path(), *run);
+    if (run) RemoveIfStale(files, entry->path(), *run);
   }
 }
 
@@ -204,15 +206,6 @@ void RefuseExisting(const fs::path& path) {
   if (fs::exists(fs::symlink_status(path))) ThrowExists(path);
 }
 
-// For what is in the way of nothing.
-void RemoveQuietly(FileSystem& files, const fs::path& path) {
-  try {
-    files.Remove(path);
-  } catch (...) {
-    return;
-  }
-}
-
 void RenameToNew(const fs::path& from, const fs::path& to) {
   if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return;
   if (errno == EEXIST) RefuseExisting(to);
@@ -248,6 +241,7 @@ void CommitFile(FileSystem& files, const fs::path& path, std::string_view conten
                 Existing existing) {
   files.CreateFolder(FolderOf(path));
   if (existing == Existing::kRefuse) RefuseExisting(path);
+  RemoveStaleBeside(files, path);
   const auto [temporary, file] = CreateOwnedFile(files, path);
   try {
     WriteAll(files, file, content, temporary);
@@ -321,7 +315,7 @@ StagedFolder::StagedFolder(fs::path target, const FolderKind& kind, Existing exi
     RefuseExisting(target_);
   else if (fs::exists(fs::symlink_status(target_)))
     RequireKind(target_, kind_);
-  RemoveStaleBeside(target_);
+  RemoveStaleBeside(SystemFiles(), target_);
   const OwnedTemporary owned = CreateOwnedFolder(target_);
   staging_ = owned.path;
   lock_ = owned.file;
@@ -335,28 +329,30 @@ StagedFolder::~StagedFolder() {
 
 void StagedFolder::Commit() {
   for (const auto& entry : fs::recursive_directory_iterator(staging_)) {
-    if (entry.is_directory()) SyncFolder(entry.path());
+    if (entry.is_directory()) SystemFiles().SyncFolder(entry.path());
   }
-  SyncFolder(staging_);
+  SystemFiles().SyncFolder(staging_);
   if (existing_ == Existing::kReplace && fs::exists(fs::symlink_status(target_)))
     Replace();
   else
     RenameToNew(staging_, target_);
   committed_ = true;
-  SyncFolder(FolderOf(target_));
+  SystemFiles().SyncFolder(FolderOf(target_));
 }
 
 // A folder cannot be renamed onto a full one: the two are swapped, then the old content is dropped.
 void StagedFolder::Replace() {
   RequireKind(target_, kind_);  // once more: much may have happened since the beginning
   Swap(staging_, target_);
-  fs::remove_all(staging_);
+  // what was replaced is in the way of nobody, and the next writer removes what is left of it
+  std::error_code ignored;
+  fs::remove_all(staging_, ignored);
 }
 
 StagedBatch::StagedBatch(fs::path folder, const FolderKind& kind)
     : folder_(std::move(folder)), kind_(kind) {
   CreateFolder(folder_);
-  RemoveStaleBeside(folder_ / "batch");
+  RemoveStaleBeside(SystemFiles(), folder_ / "batch");
   const OwnedTemporary owned = CreateOwnedFolder(folder_ / "batch");
   staging_ = owned.path;
   lock_ = owned.file;
@@ -378,22 +374,24 @@ void StagedBatch::Commit() {
   }
   for (const fs::path& name : names) {
     if (::rename((staging_ / name).c_str(), (folder_ / name).c_str()) == 0) continue;
-    Swap(staging_ / name, folder_ / name);  // the batch drops the old content
+    // a full folder is in the place: the batch drops the old content
+    if (errno != ENOTEMPTY && errno != EEXIST)
+      ThrowOfCommit(folder_ / name, "cannot be put in place");
+    Swap(staging_ / name, folder_ / name);
   }
-  SyncFolder(folder_);
+  SystemFiles().SyncFolder(folder_);
 }
 
 void WriteStaged(const fs::path& path, std::string_view content) {
   CreateFolder(FolderOf(path));
-  const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (fd < 0) ThrowOfCommit(path, "cannot be created");
+  const int file = SystemFiles().Create(path);
   try {
-    WriteAll(SystemFiles(), fd, content, path);
+    WriteAll(SystemFiles(), file, content, path);
   } catch (...) {
-    ::close(fd);
+    ::close(file);
     throw;
   }
-  ::close(fd);
+  ::close(file);
 }
 
 }  // namespace doorforge

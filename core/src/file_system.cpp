@@ -26,16 +26,27 @@ namespace fs = std::filesystem;
   throw Error(ErrorCode::kIo, message);
 }
 
+// What a signal interrupted has not been done, and is done again.
+template <class Call>
+int Uninterrupted(Call&& call) {
+  while (true) {
+    const int result = call();
+    if (result >= 0 || errno != EINTR) return result;
+  }
+}
+
 class OperatingSystemFiles : public FileSystem {
  public:
   int Create(const fs::path& path) override {
-    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+    const int file = Uninterrupted(
+        [&] { return ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644); });
     if (file < 0) ThrowIo(path, "cannot be created");
     return file;
   }
 
   int OpenToAppend(const fs::path& path) override {
-    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+    const int file = Uninterrupted(
+        [&] { return ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644); });
     if (file < 0) ThrowIo(path, "cannot be opened for writing");
     return file;
   }
@@ -50,17 +61,18 @@ class OperatingSystemFiles : public FileSystem {
   }
 
   void Truncate(int file, std::uint64_t size, const fs::path& path) override {
-    if (::ftruncate(file, static_cast<off_t>(size)) != 0) ThrowIo(path, "cannot be cut");
+    if (Uninterrupted([&] { return ::ftruncate(file, static_cast<off_t>(size)); }) != 0)
+      ThrowIo(path, "cannot be cut");
   }
 
   void Sync(int file, const fs::path& path) override {
-    if (::fsync(file) != 0) ThrowIo(path, "fsync failed");
+    if (Uninterrupted([&] { return ::fsync(file); }) != 0) ThrowIo(path, "fsync failed");
   }
 
   void SyncFolder(const fs::path& folder) override {
     const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (file < 0) ThrowIo(folder, "cannot be opened");
-    const int error = ::fsync(file) != 0 ? errno : 0;
+    const int error = Uninterrupted([&] { return ::fsync(file); }) != 0 ? errno : 0;
     ::close(file);
     // some network file systems know no such thing as a folder's fsync
     if (error != 0 && error != EINVAL && error != ENOTSUP) ThrowIo(folder, "fsync failed", error);

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The doorforge authors
 # SPDX-License-Identifier: Apache-2.0
 """The Debian package that users install: what it says of itself, and what is in it: package_test.py BINARY_DIR CPACK"""
+import hashlib
 import pathlib
 import re
 import subprocess
@@ -13,9 +14,17 @@ BINARY_DIR = pathlib.Path(sys.argv.pop(1)).resolve()
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 
 
-
 def answer(*command: object) -> str:
     return subprocess.run([str(word) for word in command], check=True, capture_output=True, text=True).stdout
+
+
+def pack(folder: pathlib.Path) -> pathlib.Path:
+    """The package of programs, made there."""
+    subprocess.run([CPACK, "-G", "DEB", "--config", BINARY_DIR / "CPackConfig.cmake", "-B", folder,
+                    "-D", "CPACK_COMPONENTS_ALL=programs;debian", "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=gzip"],
+                   check=True, capture_output=True, cwd=BINARY_DIR, umask=0o022)
+    [package] = folder.glob("doorforge_*.deb")
+    return package
 
 
 class Package(unittest.TestCase):
@@ -24,12 +33,15 @@ class Package(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.top = pathlib.Path(folder.name)
-        subprocess.run([CPACK, "-G", "DEB", "--config", BINARY_DIR / "CPackConfig.cmake", "-B", cls.top,
-                        "-D", "CPACK_COMPONENTS_ALL=programs;debian", "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=gzip"],
-                       check=True, capture_output=True, cwd=BINARY_DIR)
-        [cls.package] = cls.top.glob("doorforge_*.deb")
+        cls.package = pack(cls.top)
         cls.root = cls.top / "root"
         answer("dpkg-deb", "-x", cls.package, cls.root)
+
+    def test_packed_later_elsewhere_it_has_the_same_bytes(self):
+        again = self.top / "elsewhere/again"
+        again.mkdir(parents=True)
+        self.assertEqual(hashlib.sha256(pack(again).read_bytes()).hexdigest(),
+                         hashlib.sha256(self.package.read_bytes()).hexdigest(), "scripts/compare_packages.sh says what differs")
 
     def field(self, name: str) -> str:
         return answer("dpkg-deb", "-f", self.package, name).strip()

@@ -21,7 +21,8 @@ enum class Existing {
 };
 
 /// Writes `content` so that the path holds either nothing new or all of it, even after a crash:
-/// temporary name in the same folder, fsync, rename, fsync of the folder. Creates the folder.
+/// temporary name in the same folder, fsync, rename, fsync of the folder. Creates the folder; the
+/// first one in a folder removes what killed writers left there, as a StagedFolder does.
 void CommitFile(const std::filesystem::path& path, std::string_view content,
                 Existing existing = Existing::kReplace);
 /// Does so through `files`.

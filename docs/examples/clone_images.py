@@ -3,7 +3,7 @@
 """Behaviour cloning from RGB-D pictures in PyTorch, evaluated in closed loop under appearances that were never seen.
 
     doorforge datagen open --doors full:train doors --out data --episodes 2000 --set scene.appearance=full \\
-        --set pictures.cameras='[{name: own, at: scene}]' --set pictures.streams='[rgb, depth]' --set pictures.samples=1
+        --set pictures.cameras='[{name: own, at: scene}]' --set pictures.streams='[rgb, depth32]' --set pictures.samples=1
     python3 docs/examples/clone_images.py data full:test doors --epochs 8
 
 DATA holds pictures of the policies' own camera, which `evaluate` shows as "image" and "depth".
@@ -73,7 +73,7 @@ def train(data: Decisions, epochs: int, batch: int) -> ImageClone:
     while sampler.epoch < epochs:
         losses = []
         for sample in DataLoader(data, batch_sampler=sampler):
-            seen = pictures(sample["rgb_own"], sample["depth_own"].float() / 1000)
+            seen = pictures(sample["rgb_own"], sample["depth32_own"])
             error = (policy(seen, sample["proprio"]) - sample["action"]) / policy.action_scale
             loss = error.abs().mean()
             optimizer.zero_grad()
@@ -97,7 +97,7 @@ def main() -> None:
     parser.add_argument("--per-category", type=int, default=0, help="doors; 0: all")
     parser.add_argument("--weights", default="", help="file to keep them in, and to take them from if it is there")
     options = parser.parse_args()
-    data = Decisions(options.data, names=("rgb_own", "depth_own", "proprio", "action"))
+    data = Decisions(options.data, names=("rgb_own", "depth32_own", "proprio", "action"))
     try:
         policy = ImageClone(data)
         policy.load_state_dict(torch.load(options.weights))

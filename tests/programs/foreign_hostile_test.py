@@ -142,6 +142,7 @@ class ForeignHostile(ProgramTest):
         named = {
             "model.urdf": (samples.URDF, "meshes/box.obj"), "model.xml": (samples.MJCF, "meshes/box.obj"),
             "model.sdf": (samples.SDF, "meshes/box.stl"), "model.gltf": (json.dumps(gltf), "box.bin"),
+            "deep.gltf": (json.dumps(gltf).replace('"box.bin"', '"./meshes/../box.bin"'), "box.bin"),
             "included.xml": (samples.MJCF.replace("<compiler", '<include file="more.xml"/><compiler', 1), "more.xml"),
             "layer.usda": (samples.USDA.replace("(\n    defaultPrim", "(\n    subLayers = [@more.usda@]\n    defaultPrim", 1), "more.usda"),
             "box.obj": (picture, "box.mtl"),
@@ -164,10 +165,27 @@ class ForeignHostile(ProgramTest):
                     refused = result.returncode in ((0, 1, 3) if optional else (1, 3))
                     if not refused or file not in said or seconds > MOST_SECONDS:
                         problems.append(f"{verb[0]} {file} names {place}: {result.returncode}, {seconds:.1f} s, {said[-300:]}")
+                    if "longer than the time" in said:
+                        problems.append(f"{verb[0]} {file} names {place}: waits until its limit")
                     if "root:x:0" in said:
                         problems.append(f"{verb[0]} {file} names {place}: shows the other file")
                 shutil.rmtree(folder)
         self.assertEqual(problems, [], "\n" + "\n".join(problems))
+
+    def test_a_mesh_of_an_object_may_name_what_is_no_file(self):
+        gltf, _ = samples.gltf_gate()
+        gltf["buffers"][0]["uri"] = "box.bin"
+        for place in ("pipe", "device", "terminal"):
+            folder = self.folder / f"of_{place}"
+            path = place_object(folder, "model.urdf", samples.URDF.replace("meshes/box.obj", "meshes/box.gltf"))
+            (folder / "meshes/box.gltf").write_text(json.dumps(gltf))
+            PLACES[place](folder / "meshes/box.bin")
+            for verb in (["validate", path], ["import", path, "--out", folder / "parts"]):
+                with self.subTest(place=place, verb=verb[0]):
+                    result, _ = self.run_limited(*verb)
+                    self.assert_ends(result, 1, 3)
+                    self.assertNotIn("longer than the time", result.stdout + result.stderr)
+                    self.assertIn("box.gltf", result.stdout + result.stderr)
 
     def test_files_may_vanish_while_they_are_read(self):
         folder = self.folder / "moving"

@@ -49,7 +49,7 @@ class Examples(unittest.TestCase):
         data = str(pathlib.Path(self.scratch.name) / "pictures")
         subprocess.run([BUILD / "bin/doorforge", "datagen", "open", "--doors", self.door, "--out", data, "--episodes", "2",
                         "--set", "scene.appearance=full", "--set", "pictures.cameras=[{name: own, at: scene}]",
-                        "--set", "pictures.streams=[rgb, depth]", "--set", "pictures.samples=1"],
+                        "--set", "pictures.streams=[rgb, depth32]", "--set", "pictures.samples=1"],
                        capture_output=True, check=True, timeout=600)
         told = self.run_example("clone_images.py", data, self.door, "--epochs", "3", "--batch", "8")
         losses = [float(loss) for loss in re.findall(r"loss (\d+\.\d+)", told)]

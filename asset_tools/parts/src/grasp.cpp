@@ -124,9 +124,7 @@ GraspFit FitAt(const Cut& cut, const Eigen::Vector3d& at, const GripperShape& gr
   fit.off_center_m = (low + high) / 2 - at.y();
   fit.contact = ContactShare(*pads, low, high, gripper);
   fit.fingers_free = FingersFree(cut, at, gripper);
-  fit.holds =
-      fit.fingers_free && fit.contact >= kMinContact && fit.tip_clearance_m >= kMinTipClearance;
-  return fit;
+  return WithTipClearance(fit, fit.tip_clearance_m);
 }
 
 struct Candidate {
@@ -204,6 +202,12 @@ RefinedGrasp Finish(const Cut& cut, const Candidate& best, double turned_rad,
 GraspFit MeasureGrasp(const TriangleMesh& grip, const TriangleMesh& handle,
                       const RigidTransform& part_from_grasp, const GripperShape& gripper) {
   return FitAt(MakeCut(grip, handle, part_from_grasp), Eigen::Vector3d::Zero(), gripper);
+}
+
+GraspFit WithTipClearance(GraspFit fit, double tip_clearance_m) {
+  fit.tip_clearance_m = tip_clearance_m;
+  fit.holds = fit.fingers_free && fit.contact >= kMinContact && tip_clearance_m >= kMinTipClearance;
+  return fit;
 }
 
 RefinedGrasp RefineGrasp(const TriangleMesh& grip, const TriangleMesh& handle,

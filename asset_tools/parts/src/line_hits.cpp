@@ -64,39 +64,63 @@ std::size_t CellIndex(int row, int column, int columns) {
 }  // namespace
 
 LinesAlongX::LinesAlongX(const TriangleMesh& mesh)
-    : cells_(static_cast<std::size_t>(kCells) * kCells) {
+    : first_of_(static_cast<std::size_t>(kCells) * kCells + 1, 0) {
+  triangles_.reserve(mesh.triangles.size());
+  boxes_.reserve(mesh.triangles.size());
   for (const Eigen::Vector3i& triangle : mesh.triangles) {
     triangles_.push_back(CornersOf(mesh, triangle));
-    for (const Eigen::Vector3d& corner : triangles_.back()) bounds_.extend(corner.tail<2>().eval());
+    boxes_.emplace_back();
+    for (const Eigen::Vector3d& corner : triangles_.back())
+      boxes_.back().extend(corner.tail<2>().eval());
+    bounds_.extend(boxes_.back());
   }
+  for (int axis = 0; axis < 2; ++axis)
+    cells_per_m_[axis] = kCells / std::max(bounds_.sizes()[axis], 1e-9);
   std::size_t entries = 0;
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
-    Eigen::AlignedBox2d box;
-    for (const Eigen::Vector3d& corner : triangles_[i]) box.extend(corner.tail<2>().eval());
-    for (int row = CellOf(box.min().x(), 0); row <= CellOf(box.max().x(), 0); ++row) {
-      for (int column = CellOf(box.min().y(), 1); column <= CellOf(box.max().y(), 1); ++column) {
-        cells_[CellIndex(row, column, kCells)].push_back(static_cast<int>(i));
-        ++entries;
-      }
+    const Cover cover = CoverOf(i);
+    for (int row = cover.first_row; row <= cover.last_row; ++row) {
+      for (int column = cover.first_column; column <= cover.last_column; ++column)
+        ++first_of_[CellIndex(row, column, kCells) + 1];
+      entries += static_cast<std::size_t>(cover.last_column - cover.first_column + 1);
     }
     if (entries > kMaxEntries)
       throw Error(ErrorCode::kFormat, "the triangles of a leaf cover " + std::to_string(entries) +
                                           " cells of its outline, allowed " +
                                           std::to_string(kMaxEntries) + "; simplify its mesh");
   }
+  for (std::size_t cell = 1; cell < first_of_.size(); ++cell)
+    first_of_[cell] += first_of_[cell - 1];
+  over_.resize(entries);
+  std::vector<std::uint32_t> next(first_of_.begin(), first_of_.end() - 1);
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    const Cover cover = CoverOf(i);
+    for (int row = cover.first_row; row <= cover.last_row; ++row) {
+      for (int column = cover.first_column; column <= cover.last_column; ++column)
+        over_[next[CellIndex(row, column, kCells)]++] = static_cast<int>(i);
+    }
+  }
 }
 
 int LinesAlongX::CellOf(double coordinate, int axis) const {
-  const double size = std::max(bounds_.sizes()[axis], 1e-9);
-  const double at = (coordinate - bounds_.min()[axis]) / size * kCells;
+  const double at = (coordinate - bounds_.min()[axis]) * cells_per_m_[axis];
   return std::clamp(static_cast<int>(at), 0, kCells - 1);
+}
+
+LinesAlongX::Cover LinesAlongX::CoverOf(std::size_t triangle) const {
+  const Eigen::AlignedBox2d& box = boxes_[triangle];
+  return {CellOf(box.min().x(), 0), CellOf(box.max().x(), 0), CellOf(box.min().y(), 1),
+          CellOf(box.max().y(), 1)};
 }
 
 std::optional<LineHits> LinesAlongX::At(const Eigen::Vector2d& at) const {
   if (triangles_.empty() || !bounds_.contains(at)) return std::nullopt;
   std::optional<LineHits> hits;
-  for (const int i : cells_[CellIndex(CellOf(at.x(), 0), CellOf(at.y(), 1), kCells)])
-    AddHit(MeetsTriangle(triangles_[static_cast<std::size_t>(i)], 0, at), hits);
+  const std::size_t cell = CellIndex(CellOf(at.x(), 0), CellOf(at.y(), 1), kCells);
+  for (std::uint32_t k = first_of_[cell]; k < first_of_[cell + 1]; ++k) {
+    const auto i = static_cast<std::size_t>(over_[k]);
+    if (boxes_[i].contains(at)) AddHit(MeetsTriangle(triangles_[i], 0, at), hits);
+  }
   return hits;
 }
 

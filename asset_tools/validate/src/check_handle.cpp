@@ -107,20 +107,18 @@ std::optional<LineHits> BetweenFingers(const TriangleMesh& grip_in_grasp) {
 /// A grasp in a frame whose plane x = 0 is the leaf's surface at the mount.
 struct CheckedGrasp {
   std::string where;
-  TriangleMesh grip;
-  TriangleMesh handle;
+  const TriangleMesh& grip_in_grasp;
   RigidTransform frame_from_grasp;
   double leaf_x;  ///< The leaf's surface behind the grasp; -infinity where there is none.
 };
 
 // One fault, one finding: what is asked last makes sense only where the rest holds.
-Findings CheckGrasp(const CheckedGrasp& checked) {
+Findings CheckGrasp(const CheckedGrasp& checked, const GraspMeasure& measure) {
   const GripperShape gripper;
   const Eigen::Vector3d approach = checked.frame_from_grasp.linear().col(2);
   if (-approach.x() < LimitOf("HND005"))
     return {Found("HND005", checked.where, Number(-approach.x()))};
-  const auto material =
-      BetweenFingers(Transformed(checked.grip, checked.frame_from_grasp.inverse()));
+  const auto material = BetweenFingers(checked.grip_in_grasp);
   if (!material || material->first > gripper.opening_m / 2 ||
       material->last < -gripper.opening_m / 2)
     return {Found("HND004", checked.where, "nothing between the fingers")};
@@ -128,7 +126,7 @@ Findings CheckGrasp(const CheckedGrasp& checked) {
   const double tips = checked.frame_from_grasp.translation().x() + gripper.tip_m * approach.x();
   if (tips - checked.leaf_x < LimitOf("HND006"))
     findings.push_back(Found("HND006", checked.where, Number(tips - checked.leaf_x) + " m"));
-  const GraspFit fit = MeasureGrasp(checked.grip, checked.handle, checked.frame_from_grasp);
+  const GraspFit fit = WithTipClearance(measure(), tips);
   // what lies beyond the fingers, such as the far side of a wheel, is not between them
   const double width = fit.width_m > 0 ? fit.width_m : material->last - material->first;
   if (width > LimitOf("HND007"))
@@ -142,7 +140,7 @@ Findings CheckGrasp(const CheckedGrasp& checked) {
 
 }  // namespace
 
-Findings CheckHandle(const DoorAsset& door, const LeafLines& leaf) {
+Findings CheckHandle(const DoorAsset& door, const LeafLines& leaf, const GraspMeasure& fit) {
   const MountedHandle mounted = Mounted(door, leaf);
   if (leaf.bounds.isEmpty() || mounted.grip.triangles.empty()) return {};
   Findings findings;
@@ -163,11 +161,11 @@ Findings CheckHandle(const DoorAsset& door, const LeafLines& leaf) {
   if (buried > LimitOf("HND001") || protrusion < LimitOf("HND002")) return findings;
   const RigidTransform frame_from_leaf = Translation({-surface, 0, 0});
   const auto behind = SurfaceAt(mounted.leaf, mounted.leaf_from_grasp.translation());
-  const CheckedGrasp grasp{
-      "door.json: handle_from_grasp", Transformed(mounted.grip, frame_from_leaf),
-      Transformed(mounted.handle, frame_from_leaf), frame_from_leaf * mounted.leaf_from_grasp,
-      behind ? *behind - surface : -std::numeric_limits<double>::infinity()};
-  const Findings more = CheckGrasp(grasp);
+  const TriangleMesh grip_in_grasp = Transformed(mounted.grip, mounted.leaf_from_grasp.inverse());
+  const CheckedGrasp grasp{"door.json: handle_from_grasp", grip_in_grasp,
+                           frame_from_leaf * mounted.leaf_from_grasp,
+                           behind ? *behind - surface : -std::numeric_limits<double>::infinity()};
+  const Findings more = CheckGrasp(grasp, fit);
   findings.insert(findings.end(), more.begin(), more.end());
   return findings;
 }
@@ -178,7 +176,9 @@ Findings CheckPartGrasp(const Part& part) {
   std::vector<TriangleMesh> meshes;
   for (const PartPiece& piece : part.pieces) meshes.push_back(piece.mesh);
   const TriangleMesh handle = Merged(meshes);
-  return CheckGrasp({"part.json: part_from_grasp", grip->mesh, handle, part.part_from_grasp, 0});
+  const TriangleMesh grip_in_grasp = Transformed(grip->mesh, part.part_from_grasp.inverse());
+  return CheckGrasp({"part.json: part_from_grasp", grip_in_grasp, part.part_from_grasp, 0},
+                    [&] { return MeasureGrasp(grip->mesh, handle, part.part_from_grasp); });
 }
 
 }  // namespace doorforge::internal

@@ -73,13 +73,15 @@ double TiltBeyond(const TriangleMesh& mesh, double x) {
 double NearestLine(const LeafLines& leaf, const TriangleMesh& handle) {
   const Eigen::AlignedBox3d bounds = BoundsOf(handle);
   const LinesAlongX lines(handle);
+  const double front = leaf.bounds.isEmpty() ? 0 : leaf.bounds.max().x();
   double gap = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kLinesPerSide; ++i) {
     for (int j = 0; j < kLinesPerSide; ++j) {
       const Eigen::Vector2d at(SampleAt(bounds.min().y(), bounds.max().y(), i),
                                SampleAt(bounds.min().z(), bounds.max().z(), j));
       const auto near = lines.At(at);
-      const auto behind = near ? leaf.lines.At(at) : std::nullopt;
+      if (!near || near->first - front >= gap) continue;  // no leaf is nearer than its bounds
+      const auto behind = leaf.lines.At(at);
       if (behind) gap = std::min(gap, near->first - behind->last);
     }
   }
@@ -93,7 +95,9 @@ double ReachOf(const StandingHandle& standing, double gap) {
   const Eigen::AlignedBox3d bounds = BoundsOf(standing.grip);
   const double whole = bounds.max().x() - BoundsOf(standing.handle).min().x();
   double from_behind = -std::numeric_limits<double>::infinity();
+  const Eigen::AlignedBox3d& leaf = standing.leaf.bounds;
   for (const Eigen::Vector3d& vertex : standing.grip.vertices) {
+    if (leaf.isEmpty() || vertex.x() - leaf.min().x() <= from_behind) continue;
     const auto behind = standing.leaf.lines.At({vertex.y(), vertex.z()});
     if (behind) from_behind = std::max(from_behind, vertex.x() - behind->last);
   }
@@ -129,6 +133,7 @@ double GapToLeaf(const LeafLines& leaf, const TriangleMesh& handle) {
   double gap = NearestLine(leaf, handle);
   // a thin edge may lie between the lines
   for (const Eigen::Vector3d& vertex : handle.vertices) {
+    if (leaf.bounds.isEmpty() || vertex.x() - leaf.bounds.max().x() >= gap) continue;
     const auto behind = leaf.lines.At({vertex.y(), vertex.z()});
     if (behind) gap = std::min(gap, vertex.x() - behind->last);
   }

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "doorforge/parts/grasp.h"
 #include "doorforge/schemas/door_asset.h"
 #include "doorforge/schemas/part.h"
 #include "doorforge/validate/validate_door.h"
@@ -53,9 +55,12 @@ Findings CheckPartJoint(const Part& part);
 Findings CheckUrdf(const DoorAsset& door, const DoorFiles& files,
                    const std::filesystem::path& folder);
 
-/// HND. Both need meshes; what is empty is left out. `leaf` is the leaf's without the handle.
+/// HND. Both need meshes; what is empty is left out. `leaf` is the leaf's without the handle; `fit`
+/// measures the door's grasp and is asked where the rules need it, its tip clearance counts for
+/// nothing.
 struct LeafLines;
-Findings CheckHandle(const DoorAsset& door, const LeafLines& leaf);
+using GraspMeasure = std::function<GraspFit()>;
+Findings CheckHandle(const DoorAsset& door, const LeafLines& leaf, const GraspMeasure& fit);
 Findings CheckPartGrasp(const Part& part);
 
 /// LIC.

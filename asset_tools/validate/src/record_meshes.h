@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "doorforge/core/error.h"
+#include "doorforge/parts/grasp.h"
 #include "doorforge/parts/line_hits.h"
 #include "doorforge/schemas/mesh_file.h"
 
@@ -39,6 +40,7 @@ struct ValidationMemory {
   Memo<MeshOnDisk> files{std::size_t{256}
                          << 20};  ///< It holds meshes of pools and is weighed in bytes.
   Memo<Findings> pieces{std::size_t{1} << 20};   ///< CheckPiece(), weighed in findings.
+  Memo<GraspFit> fits{std::size_t{1} << 16};     ///< MeasureGrasp(), weighed one each.
   Memo<double> volumes{std::size_t{1} << 20};    ///< Signed [m3].
   Memo<LeafLines> leaves{std::size_t{1} << 24};  ///< Weighed in triangles.
 };

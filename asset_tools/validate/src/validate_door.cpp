@@ -3,6 +3,7 @@
 #include "doorforge/validate/validate_door.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 
@@ -14,6 +15,7 @@
 #include "doorforge/core/mesh_transform.h"
 #include "doorforge/core/record_id.h"
 #include "doorforge/mesh/work_budget.h"
+#include "doorforge/schemas/door_with_files.h"
 
 #include "findings.h"
 #include "record_meshes.h"
@@ -85,8 +87,7 @@ class IdCheck {
   Findings findings_;
 };
 
-Findings CheckIds(const fs::path& folder, const std::string& record) {
-  const nlohmann::ordered_json json = ReadJsonFile(folder / record);
+Findings CheckIds(const nlohmann::ordered_json& json, const std::string& record) {
   IdCheck check(record);
   check.Id(json, "id", "");
   for (const char* part : {"body", "handle"}) {
@@ -166,9 +167,10 @@ struct DoorOnDisk {
   std::array<std::vector<PieceOnDisk>, 3> pieces;  ///< They follow DoorAsset::links.
 };
 
-DoorOnDisk ReadDoorOnDisk(const fs::path& folder, RecordMeshes& meshes) {
-  DoorOnDisk on_disk{
-      ReadDoor(folder, meshes.Reader(), meshes.Visuals()), ReadDoorFiles(folder), {}};
+DoorOnDisk ReadDoorOnDisk(const nlohmann::ordered_json& record, const fs::path& folder,
+                          RecordMeshes& meshes) {
+  DoorWithFiles door = ReadDoorWithFiles(record, folder, meshes.Reader(), meshes.Visuals());
+  DoorOnDisk on_disk{std::move(door.door), std::move(door.files), {}};
   ReadPieces read(meshes);
   for (std::size_t i = 0; i < on_disk.pieces.size(); ++i) {
     const DoorLink& link = on_disk.door.links[i];
@@ -212,6 +214,75 @@ std::shared_ptr<const LeafLines> LinesOf(const DoorOnDisk& on_disk, ValidationMe
         for (const TriangleMesh& mesh : leaf) triangles += mesh.triangles.size();
         return triangles;
       });
+}
+
+// To a nanometre, so that doors whose handle is the same share it although their frames are rounded
+// otherwise.
+RigidTransform Rounded(const RigidTransform& transform) {
+  constexpr double kStep = 1e-9;
+  RigidTransform rounded = transform;
+  for (Eigen::Index i = 0; i < rounded.matrix().size(); ++i) {
+    double& number = rounded.matrix().data()[i];
+    number = std::round(number / kStep) * kStep;
+  }
+  return rounded;
+}
+
+/// The handle as its files hold it, placed about the door's grasp, whatever body it is on.
+struct HandleAboutGrasp {
+  struct Piece {
+    SharedMesh mesh;
+    RigidTransform grasp_from_files;
+    bool turns;
+  };
+  std::vector<Piece> pieces;
+
+  std::string Key() const {
+    std::string key;
+    for (const Piece& piece : pieces) {
+      key += piece.turns ? 'g' : 'r';
+      key += piece.mesh->sha256;
+      const auto* numbers = reinterpret_cast<const char*>(piece.grasp_from_files.matrix().data());
+      key.append(numbers, sizeof(double) * 16);
+    }
+    return key;
+  }
+
+  GraspFit Measure() const {
+    std::vector<TriangleMesh> grip;
+    std::vector<TriangleMesh> all;
+    for (const Piece& piece : pieces) {
+      all.push_back(Transformed(piece.mesh->mesh, piece.grasp_from_files));
+      if (piece.turns) grip.push_back(all.back());
+    }
+    return MeasureGrasp(Merged(grip), Merged(all), RigidTransform::Identity());
+  }
+};
+
+HandleAboutGrasp AboutGrasp(const DoorOnDisk& on_disk) {
+  const DoorAsset& door = on_disk.door;
+  const RigidTransform grasp_from_handle = door.handle_from_grasp.inverse();
+  const RigidTransform grasp_from_leaf =
+      grasp_from_handle * door.handle_joint.parent_from_child_at_zero.inverse();
+  HandleAboutGrasp handle;
+  for (const DoorLinkIndex link : {kLeafLink, kHandleLink}) {
+    const bool turns = link == kHandleLink;
+    for (std::size_t i = 0; i < on_disk.pieces[link].size(); ++i) {
+      if (!turns && !on_disk.pieces[link][i].is_handle) continue;
+      const RigidTransform& link_from_files = on_disk.files[link].at(i).link_from_files;
+      handle.pieces.push_back(
+          {on_disk.pieces[link][i].mesh,
+           Rounded((turns ? grasp_from_handle : grasp_from_leaf) * link_from_files), turns});
+    }
+  }
+  return handle;
+}
+
+GraspFit FitOf(const DoorOnDisk& on_disk, ValidationMemory& memory) {
+  const HandleAboutGrasp handle = AboutGrasp(on_disk);
+  return *memory.fits.Get(
+      handle.Key(), [&] { return handle.Measure(); },
+      [](const GraspFit&) { return std::size_t{1}; });
 }
 
 bool Counts(const Finding& finding, ValidationProfile profile) {
@@ -280,8 +351,9 @@ Findings DoorFindings(const fs::path& folder, const OpeningCheck& check, Validat
   RecordMeshes meshes(folder, kRecord, memory);
   std::optional<DoorOnDisk> read;
   try {
-    if (Findings ids = CheckIds(folder, kRecord); !ids.empty()) return ids;
-    read = ReadDoorOnDisk(folder, meshes);
+    const nlohmann::ordered_json record = ReadJsonFile(folder / kRecord);
+    if (Findings ids = CheckIds(record, kRecord); !ids.empty()) return ids;
+    read = ReadDoorOnDisk(record, folder, meshes);
   } catch (const Error& error) {
     return Unreadable(meshes, kRecord, error.what());
   }
@@ -296,7 +368,10 @@ Findings DoorFindings(const fs::path& folder, const OpeningCheck& check, Validat
   add([&] { return CheckMasses(on_disk, memory); });
   add([&] { return internal::CheckMechanics(door); });
   add([&] { return internal::CheckUrdf(door, on_disk.files, folder); });
-  add([&] { return internal::CheckHandle(door, *LinesOf(on_disk, memory)); });
+  add([&] {
+    return internal::CheckHandle(door, *LinesOf(on_disk, memory),
+                                 [&] { return FitOf(on_disk, memory); });
+  });
   add([&] { return internal::CheckLicense(door.license, "door.json: license"); });
   const Findings others = findings;
   add([&] { return CheckOpening(door, others, check); });
@@ -320,7 +395,8 @@ Findings PartFindings(const fs::path& folder, ValidationMemory& memory) {
   RecordMeshes meshes(folder, kRecord, memory);
   std::optional<Part> read;
   try {
-    if (Findings ids = CheckIds(folder, kRecord); !ids.empty()) return ids;
+    const nlohmann::ordered_json record = ReadJsonFile(folder / kRecord);
+    if (Findings ids = CheckIds(record, kRecord); !ids.empty()) return ids;
     read = ReadPart(folder, meshes.Reader(), meshes.Visuals());
   } catch (const Error& error) {
     return Unreadable(meshes, kRecord, error.what());

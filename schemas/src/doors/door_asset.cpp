@@ -12,6 +12,7 @@
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/record_id.h"
+#include "doorforge/schemas/door_with_files.h"
 #include "doorforge/schemas/mesh_file.h"
 #include "doorforge/schemas/mesh_pool.h"
 
@@ -350,11 +351,10 @@ DoorAsset ReadDoor(const std::filesystem::path& folder, const MeshReader& read_m
                                   read_visual ? read_visual : DoorVisualReader(folder, path));
 }
 
-DoorAsset internal::DoorFromRecord(const Json& json, const std::filesystem::path& folder,
-                                   const MeshReader& read_mesh, const VisualReader& read_visual) {
-  const std::string path = (folder / "door.json").string();
-  const Readers readers{read_mesh, read_visual};
-  RequireDoorRecord(json, path);
+namespace {
+
+DoorAsset DoorFrom(const Json& json, const DoorSource& source, const Readers& readers,
+                   const std::string& path) {
   DoorAsset door;
   ReadIdentity(json, path, door);
   door.latch = internal::LatchFromJson(MemberOf(json, "latch", path), path + ".latch");
@@ -362,10 +362,41 @@ DoorAsset internal::DoorFromRecord(const Json& json, const std::filesystem::path
   door.handle_joint = JointFromJson(MemberOf(json, "handle_joint", path), path + ".handle_joint");
   door.handle_from_grasp = TransformFromJson(MemberOf(json, "handle_from_grasp", path), path);
   door.grasp_half_extent_m = Vector3FromJson(MemberOf(json, "grasp_half_extent_m", path), path);
-  const DoorSource source(json, folder, path);
   for (std::size_t i = 0; i < door.links.size(); ++i)
     door.links[i] = LinkFromJson(json["links"][i], source, readers, path + ".links");
   return door;
+}
+
+DoorFiles FilesFrom(const Json& json, const DoorSource& source, const std::string& path) {
+  DoorFiles files;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    for (const Json& geometry : MemberOf(json["links"][i], "geometry", path + ".links")) {
+      const DoorSource::Names names = source.NamesOf(geometry, path + ".links");
+      GeometryFiles named{names.mesh.path, {}, names.link_from_files};
+      for (const auto& hull : names.hulls) named.hulls.push_back(hull.path);
+      named.visual = names.visual;
+      files[i].push_back(std::move(named));
+    }
+  }
+  return files;
+}
+
+}  // namespace
+
+DoorAsset internal::DoorFromRecord(const Json& json, const std::filesystem::path& folder,
+                                   const MeshReader& read_mesh, const VisualReader& read_visual) {
+  const std::string path = (folder / "door.json").string();
+  RequireDoorRecord(json, path);
+  return DoorFrom(json, DoorSource(json, folder, path), {read_mesh, read_visual}, path);
+}
+
+DoorWithFiles ReadDoorWithFiles(const Json& record, const std::filesystem::path& folder,
+                                const MeshReader& read_mesh, const VisualReader& read_visual) {
+  const std::string path = (folder / "door.json").string();
+  RequireDoorRecord(record, path);
+  const DoorSource source(record, folder, path);
+  return {DoorFrom(record, source, {read_mesh, read_visual}, path),
+          FilesFrom(record, source, path)};
 }
 
 DoorFiles OwnFilesOf(const DoorAsset& door) {
@@ -387,18 +418,7 @@ DoorFiles ReadDoorFiles(const std::filesystem::path& folder) {
   const std::string path = (folder / "door.json").string();
   const Json json = ReadJsonFile(path);
   RequireDoorRecord(json, path);
-  const DoorSource source(json, folder, path);
-  DoorFiles files;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    for (const Json& geometry : MemberOf(json["links"][i], "geometry", path + ".links")) {
-      const DoorSource::Names names = source.NamesOf(geometry, path + ".links");
-      GeometryFiles named{names.mesh.path, {}, names.link_from_files};
-      for (const auto& hull : names.hulls) named.hulls.push_back(hull.path);
-      named.visual = names.visual;
-      files[i].push_back(std::move(named));
-    }
-  }
-  return files;
+  return FilesFrom(json, DoorSource(json, folder, path), path);
 }
 
 std::string PooledDoorText(const DoorAsset& door, const DoorFiles& files,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -9,6 +10,7 @@
 #include <Eigen/SVD>
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/scene.h>
@@ -26,24 +28,47 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Opens files below one folder only: a mesh may not point at files elsewhere.
+/// A file's bytes as assimp reads them.
+class FileInMemory {
+ public:
+  explicit FileInMemory(std::string bytes) : bytes_(std::move(bytes)) {}
+
+ protected:
+  std::string bytes_;
+};
+
+class FileStream : private FileInMemory, public Assimp::MemoryIOStream {
+ public:
+  explicit FileStream(std::string bytes)
+      : FileInMemory(std::move(bytes)),
+        MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes_.data()), bytes_.size()) {}
+};
+
+// Opens files below one folder only: a mesh may not point at files elsewhere. Whether a file is
+// there must be asked without opening it, which assimp's own system does: a pipe would keep it
+// waiting. What has become a pipe since, or a device, is refused as it is read.
 class FolderIo : public Assimp::DefaultIOSystem {
  public:
-  FolderIo(const fs::path& mesh, const MeshImportLimits& limits) : files_(mesh, limits) {}
+  FolderIo(const fs::path& mesh, const MeshImportLimits& limits)
+      : files_(mesh, limits), limits_(limits) {}
 
   bool Exists(const char* file) const override {
-    return files_.IsBelow(file) && Assimp::DefaultIOSystem::Exists(file);
+    std::error_code error;
+    return files_.IsBelow(file) && fs::is_regular_file(file, error);
   }
 
-  Assimp::IOStream* Open(const char* file, const char* mode) override {
-    // a pipe would keep it waiting, a device has no end
-    std::error_code error;
-    const bool reads = files_.IsBelow(file) && std::filesystem::is_regular_file(file, error);
-    return reads ? Assimp::DefaultIOSystem::Open(file, mode) : nullptr;
+  Assimp::IOStream* Open(const char* file, const char*) override {
+    if (!Exists(file)) return nullptr;
+    try {
+      return new FileStream(ReadFile(file, limits_.max_file_bytes));  // assimp owns it
+    } catch (const Error&) {
+      return nullptr;
+    }
   }
 
  private:
   NamedFiles files_;
+  MeshImportLimits limits_;
 };
 
 Eigen::Matrix4d MatrixOf(const aiMatrix4x4& m) {

@@ -37,6 +37,9 @@ struct GraspFit {
 GraspFit MeasureGrasp(const TriangleMesh& grip, const TriangleMesh& handle,
                       const RigidTransform& part_from_grasp, const GripperShape& gripper = {});
 
+/// The same grasp where the mount plane lies elsewhere: `holds` follows.
+GraspFit WithTipClearance(GraspFit fit, double tip_clearance_m);
+
 struct RefinedGrasp {
   RigidTransform part_from_grasp;
   /// How far the grasp frame may be off, along each of its axes, and still hold [m].

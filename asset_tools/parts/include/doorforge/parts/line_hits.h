@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -33,11 +34,20 @@ class LinesAlongX {
  private:
   static constexpr int kCells = 48;  // along y and along z
 
+  /// First and last cell of a triangle's bounds along y and along z.
+  struct Cover {
+    int first_row, last_row, first_column, last_column;
+  };
+
   int CellOf(double coordinate, int axis) const;
+  Cover CoverOf(std::size_t triangle) const;
 
   std::vector<std::array<Eigen::Vector3d, 3>> triangles_;
+  std::vector<Eigen::AlignedBox2d> boxes_;  // of each triangle
   Eigen::AlignedBox2d bounds_;
-  std::vector<std::vector<int>> cells_;  // triangles over each cell
+  Eigen::Vector2d cells_per_m_;
+  std::vector<std::uint32_t> first_of_;  // of each cell in over_, and one past the last
+  std::vector<int> over_;                // triangles over each cell, cell by cell
 };
 
 }  // namespace doorforge::internal

@@ -179,7 +179,7 @@ void AddBoltBody(const Bolt& bolt, XmlElement& leaf) {
   AddLatchGeom("bolt", RigidTransform::Identity(), bolt.friction, body);
 }
 
-void AddContacts(const DoorAsset& door, bool with_bolt, XmlElement& root) {
+void AddContacts(const DoorAsset& door, const Bolt* bolt, XmlElement& root) {
   XmlElement& contact = AddElement(root, "contact");
   const auto exclude = [&](const std::string& one, const std::string& other) {
     XmlElement& element = AddElement(contact, "exclude");
@@ -191,10 +191,19 @@ void AddContacts(const DoorAsset& door, bool with_bolt, XmlElement& root) {
   exclude(links[kBaseLink].name, links[kLeafLink].name);
   exclude(links[kLeafLink].name, links[kHandleLink].name);
   exclude(links[kBaseLink].name, links[kHandleLink].name);
-  if (!with_bolt) return;
+  if (bolt == nullptr) return;
   // for readers without bits
   exclude(links[kLeafLink].name, "bolt");
   exclude(links[kHandleLink].name, "bolt");
+  // for readers that look for other contacts with a margin of their own
+  XmlElement& pair = AddElement(contact, "pair");
+  SetAttribute(pair, "geom1", "bolt");
+  SetAttribute(pair, "geom2", "strike");
+  Eigen::VectorXd frictions(5);
+  frictions << bolt->friction, bolt->friction, 0.005, 0.0001, 0.0001;
+  SetAttribute(pair, "friction", Decimals(frictions));
+  SetAttribute(pair, "solref", kStiff);
+  SetAttribute(pair, "solimp", kHard);
 }
 
 // A cable: the handle pulls the bolt back, and nothing pushes the handle.
@@ -280,7 +289,7 @@ std::string ToMjcf(const DoorAsset& door, const ExportSettings& settings) {
   AddJoint(door.handle_joint, door.latch.handle_spring_nm_per_rad, handle);
   AddGeoms(door.links[kHandleLink], handle);
   AddGraspSite(door, handle);
-  AddContacts(door, latch.has_value(), root);
+  AddContacts(door, latch ? &latch->bolt : nullptr, root);
   if (latch) {
     AddBoltBody(latch->bolt, leaf);
     AddLatchGeom("strike", latch->bolt.base_from_strike, latch->bolt.friction, base);

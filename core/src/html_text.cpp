@@ -18,11 +18,35 @@ bool IsName(std::string_view text) {
          text.find_first_not_of("abcdefghijklmnopqrstuvwxyz_0123456789") == std::string_view::npos;
 }
 
+// Bytes of the character that the text begins with; 0: it begins with none (RFC 3629).
+std::size_t CharacterSize(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char first = byte(0);
+  if (first < 0x80) return 1;
+  const std::size_t size = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+  if (first < 0xC2 || first > 0xF4 || text.size() < size) return 0;
+  for (std::size_t i = 1; i < size; ++i)
+    if ((byte(i) & 0xC0) != 0x80) return 0;
+  const unsigned char second = byte(1);
+  const bool overlong = (first == 0xE0 && second < 0xA0) || (first == 0xF0 && second < 0x90);
+  const bool surrogate = first == 0xED && second >= 0xA0;
+  const bool beyond = first == 0xF4 && second >= 0x90;
+  return overlong || surrogate || beyond ? 0 : size;
+}
+
 }  // namespace
 
 std::string Escape(std::string_view text) {
   std::string escaped;
-  for (const char c : text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const char c = text[i];
+    const std::size_t size = CharacterSize(text.substr(i));
+    if (size != 1) {
+      escaped += size == 0 ? std::string_view("\xEF\xBF\xBD") : text.substr(i, size);
+      i += std::max<std::size_t>(size, 1);
+      continue;
+    }
+    ++i;
     switch (c) {
       case '&':
         escaped += "&amp;";

@@ -14,7 +14,8 @@
 
 namespace doorforge::page {
 
-/// Replaces the characters that mean something in HTML text and attributes.
+/// Replaces the characters that mean something in HTML text and attributes, and bytes that are no
+/// UTF-8, such as names of files may have, by U+FFFD.
 std::string Escape(std::string_view text);
 
 /// `pattern` with each "{name}" replaced by its value as it is. Throws Error(kInvalidArgument) if

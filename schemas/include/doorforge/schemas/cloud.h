@@ -26,7 +26,8 @@ struct LabelledCloud {
   std::vector<std::uint8_t> label;  ///< PointLabel values, length N.
   /// Colours of the pixels that the points were made of, sRGB, N x 3; empty: nobody looked at them.
   std::vector<std::uint8_t> rgb{};
-  /// Of which the points were made, where colours were looked at; null otherwise, and in a mirror.
+  /// The picture that the points were made of, where colours were looked at; null otherwise, and
+  /// in a mirror.
   std::shared_ptr<const CameraPicture> picture{};
 };
 

@@ -32,7 +32,7 @@ class FullDisk(ProgramTest):
                              "--out", door), 0)
         collect = ["datagen", "open", "--doors", door, "--episodes", 2, "--seed", 3, "--set", "preview=false"]
         self.assert_ends(run(*collect, "--out", data), 0)
-        doors = [door] + [self.folder / f"again_{i}" for i in range(7)]
+        doors = [door] + [self.folder / f"again_{i}" for i in range(63)]
         for link in doors[1:]:
             link.symlink_to(door)
         for arguments in (

@@ -247,7 +247,7 @@ class RobotSightTest : public testing::Test {
     return folder_ / name;
   }
 
-  // Of the pixels of about this colour in a picture's first columns: how many, and their middle.
+  // How many pixels of about this colour a picture's first columns have, and where their middle is.
   struct ColoredPixels {
     double count = 0;
     Eigen::Vector2d middle = Eigen::Vector2d::Zero();

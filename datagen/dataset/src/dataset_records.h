@@ -57,7 +57,7 @@ std::string SplitText(const DatasetProvenance& provenance, const std::string& sp
 std::string FailuresText(std::span<const ShardIndex> indices);
 std::string DatasetText(const DatasetRecord& record);
 std::string ProvenanceText(const DatasetProvenance& provenance);
-/// The same content as the builds before wrote it, with each number on a line of its own.
+/// Returns the same content as the builds before wrote it, with each number on a line of its own.
 std::string EarlierProvenanceText(const DatasetProvenance& provenance);
 /// README.md as FinishDataset() writes it, and as the builds before did.
 std::set<std::string> ShortCards(const DatasetRecord& record, const DatasetProvenance& provenance);

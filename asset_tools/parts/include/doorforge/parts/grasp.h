@@ -37,7 +37,7 @@ struct GraspFit {
 GraspFit MeasureGrasp(const TriangleMesh& grip, const TriangleMesh& handle,
                       const RigidTransform& part_from_grasp, const GripperShape& gripper = {});
 
-/// The same grasp where the mount plane lies elsewhere: `holds` follows.
+/// Returns the same grasp where the mount plane lies elsewhere: `holds` follows.
 GraspFit WithTipClearance(GraspFit fit, double tip_clearance_m);
 
 struct RefinedGrasp {

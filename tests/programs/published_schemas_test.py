@@ -36,9 +36,8 @@ def at(document: dict, path: tuple) -> object:
 
 
 class PublishedSchemas(ProgramTest):
-    def refused(self, schema: dict, document: dict, why: object) -> None:
-        with self.assertRaises(jsonschema.ValidationError, msg=why):
-            jsonschema.validate(document, schema)
+    def refused(self, validator: jsonschema.Draft202012Validator, document: dict, why: object) -> None:
+        self.assertFalse(validator.is_valid(document), why)
 
     def test_records_fit_and_damaged_ones_do_not(self):
         samples = collect_samples(BINARY_DIR / "bin/doorforge", self.folder)
@@ -59,14 +58,14 @@ class PublishedSchemas(ProgramTest):
             for path in required_places(schema):
                 damaged = copy.deepcopy(document)
                 del at(damaged, path[:-1])[path[-1]]
-                self.refused(schema, damaged, (name, path, "left out"))
+                self.refused(validator, damaged, (name, path, "left out"))
                 kind = at(schema, sum((("properties", key) for key in path), ())).get("type")
                 if kind in WRONG:
                     damaged = copy.deepcopy(document)
                     at(damaged, path[:-1])[path[-1]] = WRONG[kind]
-                    self.refused(schema, damaged, (name, path, WRONG[kind]))
-            self.refused(schema, {**document, "schema": "doorforge.other"}, name)
-            self.refused(schema, {**document, "schema_version": document["schema_version"] + 1000}, name)
+                    self.refused(validator, damaged, (name, path, WRONG[kind]))
+            self.refused(validator, {**document, "schema": "doorforge.other"}, name)
+            self.refused(validator, {**document, "schema_version": document["schema_version"] + 1000}, name)
 
     def test_no_record_of_the_sources_is_without_a_schema(self):
         written = set()
@@ -94,7 +93,7 @@ class PublishedSchemas(ProgramTest):
             schema = json.loads(run("schema", "settings_" + name).stdout)
             key = next(key for key, field in schema["properties"].items() if field.get("type") in WRONG)
             for damaged in ({"no_such_key": 1}, {key: WRONG[schema["properties"][key]["type"]]}):
-                self.refused(schema, damaged, name)
+                self.refused(jsonschema.Draft202012Validator(schema), damaged, name)
                 settings = self.folder / "settings.yaml"
                 settings.write_text(json.dumps(damaged))
                 result = run(*command, "--config", settings)

@@ -72,10 +72,10 @@ def collect(samples: Samples, inputs: pathlib.Path, folder: pathlib.Path) -> Non
 
 def evaluate(samples: Samples, inputs: pathlib.Path, folder: pathlib.Path, doors: list[pathlib.Path]) -> None:
     policies = SOURCE / "data/policies"
-    for name, options in (("a", ("--opener", "expert")), ("b", ("--opener", policies / "opener", "--handler", policies / "handler",
+    for name, options in (("a", ("--opener", "expert", "--films")), ("b", ("--opener", policies / "opener", "--handler", policies / "handler",
                                                                  "--grasper", policies / "grasper", "--allow-seen"))):
         samples.take("eval", *options, "--doors", *doors[2:4], "--seeds", 1, "--set", "scene.physics.max_opening_actions=2",
-                     "--films", "--out", folder / name, "--json")
+                     "--out", folder / name, "--json")
     samples.take("report", folder / "a", folder / "b", "--json")
     samples.take("simulate", "--door", *doors[:2], "--json")
     sight = SOURCE / "data/sight/lever"
@@ -93,7 +93,7 @@ def collect_samples(doorforge: pathlib.Path, folder: pathlib.Path) -> dict[str, 
     samples.take("catalog", "list", "--json")
     for part in (SAFE_BODY, SAFE_HANDLES[0], DOORS[0][1]):
         samples.take("catalog", "show", part, "--json")
-    samples.take("catalog", "build", "--category", "car", "--out", folder / "built", "--json")
+    samples.take("catalog", "build", "--category", "refrigerator", "--out", folder / "built", "--json")
     samples.take("compose", "--all", "--parts", inputs / "parts", "--out", folder / "standalone", "--standalone", "--json")
     samples.take("import", inputs / "foreign/objects", "--category", "safe", "--out", folder / "imported", "--json")
     samples.take("repair", inputs / "meshes/tested_box.obj", folder / "repaired.obj", "--json")

@@ -164,9 +164,10 @@ TrainConfig NormalisedConfig() {
 }
 
 TEST(TrainWithBatchNorm, GivesTheSameBitsForAnyNumberOfThreadsAndAnyInterruption) {
-  const auto train = testing::MakeSyntheticSamples(1, 12);
-  const auto validation = testing::MakeSyntheticSamples(2, 3);
-  const TrainConfig config = NormalisedConfig();
+  const auto train = testing::MakeSyntheticSamples(1, 6);
+  const auto validation = testing::MakeSyntheticSamples(2, 2);
+  TrainConfig config = NormalisedConfig();
+  config.batch_size = 2;
   TrainHooks one;
   one.threads = 1;
   const TrainerState whole = TrainStage(train.samples, validation.samples, config, one);

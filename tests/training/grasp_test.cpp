@@ -177,11 +177,11 @@ TEST(TrainGrasp, GivesTheSameBitsForAnyNumberOfThreadsAndInterruptionsInBothPhas
 }
 
 TEST(TrainGrasp, GivesTheSameBitsWithNormalisedLayersInBothPhases) {
-  const GraspSamples train = MakeGraspSamples(1, 8);
-  const GraspSamples validation = MakeGraspSamples(2, 2);
+  const GraspSamples train = MakeGraspSamples(1, 4);
+  const GraspSamples validation = MakeGraspSamples(2, 1);
   TrainConfig config = GraspConfig();
   config.epochs = 1;
-  config.batch_size = 4;
+  config.batch_size = 2;
   config.near_points = 0;
   config.augment_mirror = true;
   config.encoder_norm = EncoderNorm::kBatch;
@@ -199,9 +199,9 @@ TEST(TrainGrasp, GivesTheSameBitsWithNormalisedLayersInBothPhases) {
 }
 
 TEST(TrainGrasp, PrefersThePointsAndTheTurnsThatOpenDoorsItHasNotSeen) {
-  const GraspSamples train = MakeGraspSamples(3, 64);
+  const GraspSamples train = MakeGraspSamples(3, 48);
   TrainConfig config = GraspConfig();
-  config.epochs = 6;
+  config.epochs = 5;
   config.batch_size = 8;
   config.sampled_points = 2;
   config.learning_rate = 2e-3;
@@ -267,11 +267,11 @@ TEST(TrainGrasp, LearnsFromNearPointsWhichPlacesAndTurnsOpenDoorsItHasNotSeen) {
         AngleByNearPoints(tried.position_delta_m, tried.world_from_hand_rotation);
   }
   TrainConfig config = GraspConfig();
-  config.discriminator_epochs = 60;
+  config.discriminator_epochs = 30;
   config.epochs = 1;
   config.batch_size = 8;
   const TrainerState state = TrainStage(train.samples, {}, config, {});
-  EXPECT_EQ(state.epochs.size(), 61U);
+  EXPECT_EQ(state.epochs.size(), 31U);
   const auto policy = MakeGraspPolicy(state.networks, {.points = 32, .orientations = 32});
   int opened = 0;
   for (std::uint64_t i = 0; i < 8; ++i) {

@@ -33,7 +33,7 @@ const Color kFloorBounce = Color(0.95F, 0.92F, 0.88F) * 0.38F;
 const Color kBackdropTop{0.56F, 0.63F, 0.72F};
 const Color kBackdropBottom{0.88F, 0.89F, 0.90F};
 constexpr float kSunSoftness = 0.03F;  // tangent of half the angle that penumbras span
-constexpr int kSunRays = 2;            // a sample
+constexpr float kGoldenTurn = 2 * kPi * 0.618034F;
 
 Color ToLinear(const Eigen::Vector3d& srgb) {
   Color linear;
@@ -99,6 +99,13 @@ struct Surface {
 using Surfaces = std::array<Surface, kRaysOfPacket>;
 using Directions = std::array<Eigen::Vector3f, kRaysOfPacket>;
 
+// Where a surface's rays to the sky begin to look: across its normal, and how far along the strata.
+struct Hemisphere {
+  Eigen::Vector3f x, y;  // a golden turn farther with every ray
+  float offset = 0;      // in the stratum, [0, 1)
+};
+using Hemispheres = std::array<Hemisphere, kRaysOfPacket>;
+
 // What arrives at each of the surfaces.
 struct Light {
   std::array<Color, kRaysOfPacket> sky;
@@ -136,8 +143,11 @@ class Painter {
     light.sun.fill(0);
     const bool any_lit =
         std::any_of(surfaces.begin(), surfaces.end(), [](const Surface& s) { return s.IsLit(); });
-    for (int k = 0; any_lit && k < config_.sky_rays; ++k) AddSky(surfaces, k, light);
-    for (int k = 0; any_lit && k < kSunRays; ++k) AddSun(surfaces, k, light);
+    if (any_lit) {
+      Hemispheres above = HemispheresOf(surfaces);
+      for (int k = 0; k < config_.sky_rays; ++k) AddSky(surfaces, k, above, light);
+      AddSun(surfaces, light);
+    }
     std::array<Color, 4> pixels;
     pixels.fill(Color::Zero());
     for (std::size_t lane = 0; lane < kRaysOfPacket; ++lane)
@@ -250,18 +260,33 @@ class Painter {
     return {(static_cast<float>(stratum) + a) / 4, b};
   }
 
+  Hemispheres HemispheresOf(const Surfaces& surfaces) const {
+    Hemispheres above;
+    for (std::size_t lane = 0; lane < kRaysOfPacket; ++lane) {
+      if (!surfaces[lane].IsLit()) continue;
+      const auto [offset, turn] = NumbersOf(lane, 7);
+      const auto [x, y] = Across(surfaces[lane].normal);
+      const float c = std::cos(2 * kPi * turn);
+      const float s = std::sin(2 * kPi * turn);
+      above[lane] = {c * x + s * y, c * y - s * x, offset};
+    }
+    return above;
+  }
+
   // One cosine-distributed sky ray from each surface; `k` numbers the strata of the hemisphere.
-  void AddSky(const Surfaces& surfaces, int k, Light& light) {
+  void AddSky(const Surfaces& surfaces, int k, Hemispheres& above, Light& light) {
+    static const float turn_cos = std::cos(kGoldenTurn);
+    static const float turn_sin = std::sin(kGoldenTurn);
     Directions directions;
     for (std::size_t lane = 0; lane < kRaysOfPacket; ++lane) {
       if (!surfaces[lane].IsLit()) continue;
-      const auto [a, b] = NumbersOf(lane, 7);
-      const float step = (static_cast<float>(k) + a) / static_cast<float>(config_.sky_rays);
-      const float radius = std::sqrt(step);
-      const float angle = 2 * kPi * (b + 0.618034F * static_cast<float>(k));
-      const auto [x, y] = Across(surfaces[lane].normal);
-      directions[lane] = radius * std::cos(angle) * x + radius * std::sin(angle) * y +
-                         std::sqrt(1 - step) * surfaces[lane].normal;
+      Hemisphere& turned = above[lane];
+      const float step =
+          (static_cast<float>(k) + turned.offset) / static_cast<float>(config_.sky_rays);
+      directions[lane] = std::sqrt(step) * turned.x + std::sqrt(1 - step) * surfaces[lane].normal;
+      const Eigen::Vector3f x = turn_cos * turned.x + turn_sin * turned.y;
+      turned.y = turn_cos * turned.y - turn_sin * turned.x;
+      turned.x = x;
     }
     const std::array<bool, kRaysOfPacket> free = Unobstructed(surfaces, directions, kSkyReach);
     for (std::size_t lane = 0; lane < kRaysOfPacket; ++lane) {
@@ -272,21 +297,22 @@ class Painter {
     }
   }
 
-  void AddSun(const Surfaces& surfaces, int k, Light& light) {
+  // One ray a sample: four a pixel, on rings of the sun of equal area.
+  void AddSun(const Surfaces& surfaces, Light& light) {
     const auto [x, y] = Across(kSunDirection);
     Directions directions;
     for (std::size_t lane = 0; lane < kRaysOfPacket; ++lane) {
+      if (!surfaces[lane].IsLit()) continue;
       const auto [a, b] = NumbersOf(lane, 13);
-      const float radius =
-          kSunSoftness * std::sqrt((static_cast<float>(k) + a) / static_cast<float>(kSunRays));
-      const float angle = 2 * kPi * (b + 0.5F * static_cast<float>(k));
+      const float radius = kSunSoftness * std::sqrt(a);
+      const float angle = 2 * kPi * b;
       directions[lane] =
           kSunDirection + radius * std::cos(angle) * x + radius * std::sin(angle) * y;
     }
     const std::array<bool, kRaysOfPacket> free =
         Unobstructed(surfaces, directions, std::numeric_limits<float>::infinity());
     for (std::size_t lane = 0; lane < kRaysOfPacket; ++lane)
-      light.sun[lane] += free[lane] ? 1.0F / kSunRays : 0.0F;
+      light.sun[lane] = free[lane] ? 1.0F : 0.0F;
   }
 
   Color Backdrop() const {

@@ -166,15 +166,12 @@ EpisodeStrip DrawEpisode(const DoorAsset& door, const RobotModel& robot,
   SceneGeometry geometry(VisibleMeshesOf(door, robot));
   const CameraModel side = SideView(scene, door, config.tile_px);
   const CameraModel camera = SceneView(scene, config.tile_px);
-  ScenePictureConfig shading;
-  shading.sky_rays = 4;
   for (const Moment& moment : ChooseFrames(recorder.moments, config.frames)) {
     geometry.MoveLinks(LinkPosesOf(moment.snapshot));
     strip.frames.push_back(moment.frame);
-    strip.camera.push_back(RenderPicture(geometry, camera, shading));
-    strip.side.push_back(RenderPicture(geometry, side, shading));
-    strip.handle.push_back(
-        RenderPicture(geometry, HandleView(moment, door, config.tile_px), shading));
+    strip.camera.push_back(RenderPicture(geometry, camera));
+    strip.side.push_back(RenderPicture(geometry, side));
+    strip.handle.push_back(RenderPicture(geometry, HandleView(moment, door, config.tile_px)));
   }
   return strip;
 }

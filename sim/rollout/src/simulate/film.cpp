@@ -41,9 +41,7 @@ void Film::Watch(const SceneSnapshot& snapshot) {
   if (snapshot.phase == EpisodePhase::kOpen && decisions_++ % 2 != 0) return;
   const std::vector<RigidTransform> poses = LinkPosesOf(snapshot);
   scene_.MoveLinks(poses);
-  ScenePictureConfig shading;
-  shading.sky_rays = 4;
-  pictures_.push_back(RenderPicture(scene_, view_, shading));
+  pictures_.push_back(RenderPicture(scene_, view_));
   char caption[64];
   std::snprintf(caption, sizeof caption, "%s %.2f s", std::string(NameOf(snapshot.phase)).c_str(),
                 snapshot.time_s);

@@ -12,7 +12,7 @@ namespace doorforge {
 /// How a picture of the scene is shaded. Lambert surfaces under a sun and an open sky; a pixel is
 /// 2 x 2 samples.
 struct ScenePictureConfig {
-  int sky_rays = 8;       ///< Rays a sample that look for open sky (ambient occlusion), 1..64.
+  int sky_rays = 4;       ///< Rays a sample that look for open sky (ambient occlusion), 1..64.
   bool floor = true;      ///< A matt floor at z = 0 that receives shadows.
   double exposure = 1.0;  ///< Factor on all light, > 0.
 

@@ -21,7 +21,7 @@ def answer(*command: object) -> str:
 def pack(folder: pathlib.Path) -> pathlib.Path:
     """The package of programs, made there."""
     subprocess.run([CPACK, "-G", "DEB", "--config", BINARY_DIR / "CPackConfig.cmake", "-B", folder,
-                    "-D", "CPACK_COMPONENTS_ALL=programs;debian", "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=gzip"],
+                    "-D", "CPACK_COMPONENTS_ALL=programs;debian", "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=zstd"],
                    check=True, capture_output=True, cwd=BINARY_DIR, umask=0o022)
     [package] = folder.glob("doorforge_*.deb")
     return package

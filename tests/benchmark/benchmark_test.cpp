@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -194,9 +195,11 @@ class BenchmarkResultTest : public testing::Test {
         return (door.category == Category::kStorageFurniture) != unseen;
       });
       report.reference.clear();
-      for (EvaluatedEpisode& episode : report.episodes)
-        episode.outcome =
-            opened.contains(episode.category) ? EpisodeOutcome::kOpened : EpisodeOutcome::kGripLost;
+      for (EvaluatedEpisode& episode : report.episodes) {
+        const bool opens = opened.contains(episode.category);
+        episode.outcome = opens ? EpisodeOutcome::kOpened : EpisodeOutcome::kGripLost;
+        episode.peak_hinge_rad = opens ? 0.9 : 0.2;  // 51.6 and 11.5 degrees
+      }
       fs::create_directories(folder_ / part.report);
       WriteJsonFile(folder_ / part.report / "report.json", ReportToJson(report));
     }
@@ -220,6 +223,13 @@ TEST_F(BenchmarkResultTest, TableComparisonAndPageSayTheSame) {
   const auto json = BenchmarkToJson(result);
   EXPECT_EQ(json["rows"][1]["success"]["success"]["storagefurniture"]["mean"], 0.0);
   EXPECT_EQ(json["comparisons"][1]["with"], "gapartnet");
+  // one of two categories opens
+  const std::vector<double>& past = result.rows[1].past_degree;
+  ASSERT_EQ(past.size(), 91U);
+  for (const auto& [degree, share] :
+       std::map<std::size_t, double>{{0, 1}, {11, 1}, {12, 0.5}, {51, 0.5}, {52, 0}, {90, 0}})
+    EXPECT_DOUBLE_EQ(past[degree], share) << degree;
+  EXPECT_EQ(json["rows"][1]["past_degree"].size(), 91U);
   const std::string text = BenchmarkText(result);
   EXPECT_NE(text.find("paper   62"), std::string::npos) << text;
   const std::string page = BenchmarkPage(result);

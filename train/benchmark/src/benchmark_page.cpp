@@ -3,10 +3,12 @@
 #include "doorforge/benchmark/benchmark_page.h"
 
 #include <algorithm>
+#include <array>
 
 #include "doorforge/core/html_text.h"
 #include "doorforge/core/page_style.h"
 #include "doorforge/core/program.h"
+#include "doorforge/core/svg_plot.h"
 #include "doorforge/schemas/names.h"
 
 namespace doorforge {
@@ -95,6 +97,42 @@ std::string ComparisonTable(const BenchmarkResult& result) {
          "resampled, both at a time; how trainings differ is not in the interval.</p>";
 }
 
+// Hue and dashes of a row's line: either alone tells neighbours apart.
+std::string LineStyle(std::size_t row, std::size_t rows) {
+  constexpr std::array<const char*, 3> kDashes = {"none", "8 4", "2 4"};
+  return "stroke:hsl(" + std::to_string(360 * row / rows) +
+         " 65% 50%);stroke-dasharray:" + kDashes[row % kDashes.size()];
+}
+
+std::string AngleFigure(const BenchmarkResult& result) {
+  page::SvgPlot plot;
+  plot.x_range = {0, 90};
+  std::vector<page::PlotTick> shares;
+  for (const int share : {0, 25, 50, 75, 100})
+    shares.emplace_back(share / 100.0, std::to_string(share) + " %");
+  std::vector<page::PlotTick> degrees;
+  for (int degree = 0; degree <= 90; degree += 15)
+    degrees.emplace_back(degree, std::to_string(degree) + "\u00b0");
+  std::string svg = HorizontalGrid(plot, shares) + VerticalTicks(plot, degrees) +
+                    AxisTitles(plot, "hinge's angle", "episodes that passed it");
+  std::string legend;
+  for (std::size_t i = 0; i < result.rows.size(); ++i) {
+    const std::string style = " style=\"" + LineStyle(i, result.rows.size()) + "\"";
+    page::PlotPoints points;
+    for (const double share : result.rows[i].past_degree)
+      points.emplace_back(static_cast<double>(points.size()), share);
+    svg += "<g" + style + ">" + Line(plot, points, "") + "</g>";
+    legend +=
+        R"(<span><svg viewBox="0 0 34 12" aria-hidden="true"><path class="line" d="M1 6H33")" +
+        style + "/></svg>" + Escape(result.rows[i].row.title) + "</span>\n";
+  }
+  return "<h2>How far doors came open</h2>\n" +
+         SvgElement(plot, "Share of episodes whose hinge passed an angle, by row", svg) +
+         "\n<div class=\"legend\">" + legend +
+         "</div>\n<p>Mean of the categories. An episode ends where it has succeeded, beyond 45 "
+         "degrees unless a row says otherwise.</p>";
+}
+
 std::string BudgetTable(const BenchmarkResult& result) {
   std::string rows;
   for (const BenchmarkRowResult& row : result.rows) {
@@ -137,6 +175,7 @@ std::string BenchmarkPage(const BenchmarkResult& result) {
 <main>
 {table}
 {comparisons}
+{angles}
 {budgets}
 </main>
 <footer>Made by doorforge {version}. The same numbers for programs: benchmark.json beside this page.</footer>
@@ -151,6 +190,7 @@ std::string BenchmarkPage(const BenchmarkResult& result) {
                {"paper", papers ? kPaperNote : ""},
                {"table", SuccessTable(result)},
                {"comparisons", ComparisonTable(result)},
+               {"angles", AngleFigure(result)},
                {"budgets", BudgetTable(result)},
                {"version", Escape(CodeVersion())}});
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdio>
 #include <map>
+#include <numbers>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -45,6 +46,24 @@ double ShareOpened(const std::vector<EvaluationReport>& reports, std::size_t epi
   for (const EvaluationReport& report : reports)
     opened += report.episodes[episode].outcome == EpisodeOutcome::kOpened ? 1 : 0;
   return opened / static_cast<double>(reports.size());
+}
+
+std::vector<double> PastDegrees(const std::vector<EvaluationReport>& reports) {
+  constexpr int kLastDegree = 90;
+  std::map<Category, std::vector<double>> peaks_deg;
+  for (const EvaluationReport& report : reports) {
+    for (const EvaluatedEpisode& episode : report.episodes)
+      peaks_deg[episode.category].push_back(episode.peak_hinge_rad * 180 / std::numbers::pi);
+  }
+  std::vector<double> shares(kLastDegree + 1, 0.0);
+  for (int degree = 0; degree <= kLastDegree; ++degree) {
+    for (const auto& [category, peaks] : peaks_deg) {
+      const auto past = std::ranges::count_if(peaks, [&](double peak) { return peak > degree; });
+      shares[static_cast<std::size_t>(degree)] +=
+          static_cast<double>(past) / static_cast<double>(peaks.size() * peaks_deg.size());
+    }
+  }
+  return shares;
 }
 
 // Doors that a row composed itself have other names, and the same bodies and handles.
@@ -117,7 +136,7 @@ BenchmarkResult ReadBenchmarkResult(const Benchmark& benchmark, const BenchmarkP
   std::vector<std::vector<EvaluationReport>> reports;
   for (std::size_t i = 0; i < benchmark.rows.size(); ++i) {
     std::vector<const BenchmarkPart*> parts;
-    BenchmarkRowResult row{benchmark.rows[i], {}, 0, {}};
+    BenchmarkRowResult row{benchmark.rows[i], {}, 0, {}, {}};
     for (const BenchmarkPart& part : plan.parts) {
       if (part.row != i) continue;
       parts.push_back(&part);
@@ -126,6 +145,7 @@ BenchmarkResult ReadBenchmarkResult(const Benchmark& benchmark, const BenchmarkP
     }
     reports.push_back(ReportsOf(parts, out));
     row.summary = SummariseTrainings(reports.back());
+    row.past_degree = PastDegrees(reports.back());
     result.rows.push_back(std::move(row));
   }
   for (std::size_t i = 0; i + 1 < reports.size(); ++i)
@@ -156,7 +176,8 @@ nlohmann::ordered_json BenchmarkToJson(const BenchmarkResult& result) {
                     {"paper", row.row.paper},
                     {"success", TrainingsToJson(row.summary)},
                     {"train_core_minutes", row.train_minutes},
-                    {"reports", row.reports}});
+                    {"reports", row.reports},
+                    {"past_degree", row.past_degree}});
   nlohmann::ordered_json comparisons = nlohmann::ordered_json::array();
   for (const BenchmarkComparison& row : result.comparisons)
     comparisons.push_back({{"row", result.rows[row.second].row.name},

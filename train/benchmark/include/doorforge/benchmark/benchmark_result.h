@@ -20,6 +20,9 @@ struct BenchmarkRowResult {
   TrainingsSummary summary;          ///< Over its trainings.
   double train_minutes = 0;          ///< Core minutes expected of one of its trainings.
   std::vector<std::string> reports;  ///< Folders, below the benchmark's.
+  /// Share of episodes of all trainings whose hinge passed 0, 1, ... 90 degrees, the mean of the
+  /// categories that occur.
+  std::vector<double> past_degree;
 };
 
 /// Whether two rows differ, on the same bodies, handles and seeds.
@@ -46,8 +49,8 @@ BenchmarkResult ReadBenchmarkResult(const Benchmark& benchmark, const BenchmarkP
 /// The paper's table beside ours, and the comparisons, for a terminal.
 std::string BenchmarkText(const BenchmarkResult& result);
 /// {"schema": "doorforge.benchmark", "rows": [{"name", "title", "paper", "success": as
-/// `doorforge report --json`, "train_core_minutes", "reports"}], "comparisons": [{"row", "with",
-/// "mean", "low", "high", "significant"}]}.
+/// `doorforge report --json`, "train_core_minutes", "reports", "past_degree"}], "comparisons":
+/// [{"row", "with", "mean", "low", "high", "significant"}]}.
 nlohmann::ordered_json BenchmarkToJson(const BenchmarkResult& result);
 
 }  // namespace doorforge

@@ -16,6 +16,7 @@ ENVIRONMENT = (
     ("DOORFORGE_DATA", "Folder of the catalogue, the robots, the splits and the pipelines, in place of "
      "share/doorforge beside the programs."),
     ("DOORFORGE_READ_MESH", "Path of doorforge-read-mesh, in place of the one beside the programs."),
+    ("DOORFORGE_READ_MODEL", "Path of doorforge-read-model, in place of the one beside the programs."),
     ("DOORFORGE_SECOND_OPINION", "Path of doorforge-second-opinion, in place of the one beside the programs."),
     ("DOORFORGE_MUJOCO", "Path of MuJoCo's library, in place of the system's, for validate."),
     ("PATH", "Only programs of one's own that link the libraries look here, for an installed doorforge."))

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "files/confine.h"
+#include "doorforge/mesh/confine.h"
 
 #include <array>
 #include <cstdio>

@@ -12,6 +12,7 @@ import subprocess
 import threading
 import time
 import unittest
+import unittest.mock
 
 import foreign_bombs
 import foreign_samples as samples
@@ -186,6 +187,42 @@ class ForeignHostile(ProgramTest):
                     self.assert_ends(result, 1, 3)
                     self.assertNotIn("longer than the time", result.stdout + result.stderr)
                     self.assertIn("box.gltf", result.stdout + result.stderr)
+
+    def test_objects_are_read_in_a_process_of_their_own(self):
+        gltf, _ = samples.gltf_gate()
+        objects = {"model.urdf": samples.URDF, "model.xml": samples.MJCF, "model.sdf": samples.SDF, "model.usda": samples.USDA,
+                   "model.gltf": json.dumps(gltf)}
+        # what the reading program does in place of an answer, and what is said of the file
+        ends = {"crash": ("kill -SEGV $$", "crashed on it"), "nothing": ("exit 3", "exit code 3"), "forged": ("head -c 4000 /dev/zero >&3", "no")}
+        for end, (does, said) in ends.items():
+            reader = self.folder / end
+            reader.write_text(f"#!/bin/sh\n{does}\n")
+            reader.chmod(0o755)
+            for file, content in objects.items():
+                path = place_object(self.folder / f"{end}_{file}", file, content)
+                with self.subTest(end=end, file=file), unittest.mock.patch.dict(os.environ, DOORFORGE_READ_MODEL=str(reader)):
+                    result = run("validate", path, "--ask", "none")
+                    self.assert_ends(result, 1)
+                    self.assertIn("FIL012", result.stdout)
+                    self.assertIn(said, result.stdout)
+                    if file == "model.gltf":  # it is imported as a mesh, by another program
+                        continue
+                    result = run("import", path, "--out", path.parent / "parts")
+                    self.assert_ends(result, 3)
+                    self.assertIn(file, result.stderr)
+                    self.assertIn(said, result.stderr)
+
+    def test_what_compose_wrote_needs_no_reader(self):
+        door = self.folder / "door"
+        self.assert_ends(run("compose", "--body", "interior_flush_01", "--handle", "interior_lever_tube_01", "--out", door), 0)
+        with unittest.mock.patch.dict(os.environ, DOORFORGE_READ_MODEL="/bin/false"):
+            self.assert_ends(run("validate", door), 0)
+            urdf = door / "model.urdf"
+            urdf.write_text(urdf.read_text().replace("<link", "<!-- of others --><link", 1))
+            result = run("validate", door)
+        self.assert_ends(result, 1)
+        self.assertIn("URD001", result.stdout)
+        self.assert_ends(run("validate", door), 0)
 
     def test_files_may_vanish_while_they_are_read(self):
         folder = self.folder / "moving"

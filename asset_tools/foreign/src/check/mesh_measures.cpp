@@ -14,7 +14,7 @@
 #include "doorforge/mesh/import_mesh.h"
 #include "doorforge/mesh/work_budget.h"
 
-#include "read/glb_file.h"
+#include "apart/glb_apart.h"
 #include "read/raw_mesh.h"
 
 namespace doorforge::foreign {
@@ -136,13 +136,13 @@ TriangleMesh TrianglesOf(const fs::path& file, const fs::path& root,
     for (ImportedPiece& piece : mesh.other_sides) mesh.pieces.push_back(std::move(piece));
     return MergedPieces(mesh);
   }
+  if (ending == ".glb") return GlbTrianglesApart(file);
   const std::string bytes = ReadFile(file, kMostMeshBytes);
   if (bytes.empty()) throw RawMeshFault(0, "the file is empty");
   if (ending == ".obj") return ReadRawObj(bytes, file.string(), files);
   if (ending == ".stl") return ReadRawStl(bytes);
   if (ending == ".ply") return ReadRawPly(bytes);
-  if (ending == ".off") return ReadRawOff(bytes);
-  return GlbTriangles(bytes);
+  return ReadRawOff(bytes);
 }
 
 std::shared_ptr<const MeshMeasure> MeshMemory::Measure(const fs::path& file, const fs::path& root) {

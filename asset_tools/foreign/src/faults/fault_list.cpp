@@ -10,7 +10,6 @@
 #include "doorforge/foreign/foreign_rules.h"
 
 namespace doorforge::foreign {
-namespace {
 
 // Who wrote the file may have put characters into its names that a terminal obeys.
 std::string Printable(const std::string& text) {
@@ -21,8 +20,6 @@ std::string Printable(const std::string& text) {
   }
   return shown;
 }
-
-}  // namespace
 
 std::string Digits(double value) {
   char digits[32];
@@ -72,6 +69,28 @@ std::vector<Finding> FaultList::Sorted() const {
       sorted[i].measured += " (and " + std::to_string(more) + " more of this rule)";
   }
   return sorted;
+}
+
+bool FaultList::Restore() {
+  std::map<std::string_view, const ValidationRule*> rules;
+  for (const ValidationRule& rule : AllRules()) rules.emplace(rule.code, &rule);
+  for (const auto& [code, count] : counts_) {
+    if (!rules.contains(code)) return false;
+  }
+  for (Finding& finding : findings_) {
+    const auto found = rules.find(finding.code);
+    if (found == rules.end() || !counts_.contains(finding.code)) return false;
+    const ValidationRule& rule = *found->second;
+    finding.severity = rule.severity;
+    finding.allowed = AllowedText(rule);
+    finding.fix = rule.fix;
+    finding.where = Printable(finding.where);
+    finding.measured = Printable(finding.measured);
+    finding.place.element = Printable(finding.place.element);
+    finding.place.unit = Printable(finding.place.unit);
+    if (rule.allowed.find("{}") != std::string_view::npos) finding.place.limit = rule.limit;
+  }
+  return true;
 }
 
 bool FaultList::HasError() const {

@@ -41,10 +41,22 @@ class FaultList {
   bool Has(std::string_view code) const;
   bool Says(std::string_view words) const;  ///< Whether a finding says them of what it measured.
 
+  /// For a list that another process sent, which is not trusted: what its rules say is put in
+  /// place, and its texts are made fit for a terminal. False where a finding is of no rule.
+  bool Restore();
+
+  template <class Message>
+  friend void Exchange(Message& message, FaultList& faults) {
+    message(faults.findings_, faults.counts_);
+  }
+
  private:
   std::vector<Finding> findings_;
   std::map<std::string, int, std::less<>> counts_;  // by code, of all
 };
+
+/// At most 300 bytes of a text, without what a terminal obeys.
+std::string Printable(const std::string& text);
 
 /// Six significant digits.
 std::string Digits(double value);

@@ -40,24 +40,29 @@ SecondOpinion AskProgram(const std::string& program, const std::filesystem::path
         file.string(), std::to_string(::getpid())};
     if (const char* library = std::getenv("DOORFORGE_MUJOCO")) arguments.emplace_back(library);
     const ChildAnswer answer = AskChild(std::move(arguments), {60, 1ULL << 20U});
-    // "ok", "no" or "absent", the program's name with its version, and its words, a line each
-    const std::size_t first = answer.message.find('\n');
-    const std::size_t second = answer.message.find('\n', first + 1);
-    if (first == std::string::npos || second == std::string::npos) {
-      opinion.opinion = Opinion::kRefuses;
-      opinion.words = WIFSIGNALED(answer.status) ? std::string("it crashed on the file (") +
-                                                       ::strsignal(WTERMSIG(answer.status)) + ")"
-                                                 : "it ended without an answer";
-      return opinion;
-    }
-    const std::string verdict = answer.message.substr(0, first);
-    opinion.program = answer.message.substr(first + 1, second - first - 1);
-    opinion.words = OneLine(answer.message.substr(second + 1));
-    if (verdict == "ok") opinion.opinion = Opinion::kTakes;
-    if (verdict == "no") opinion.opinion = Opinion::kRefuses;
+    return OpinionIn(program, answer.message, answer.status);
   } catch (const Error& error) {
     opinion.words = error.what();
   }
+  return opinion;
+}
+
+SecondOpinion OpinionIn(const std::string& program, const std::string& answer, int status) {
+  SecondOpinion opinion{Opinion::kNotAsked, program, {}};
+  const std::size_t first = answer.find('\n');
+  const std::size_t second = answer.find('\n', first + 1);
+  if (first == std::string::npos || second == std::string::npos) {
+    opinion.opinion = Opinion::kRefuses;
+    opinion.words = WIFSIGNALED(status) ? std::string("it crashed on the file (") +
+                                              ::strsignal(WTERMSIG(status)) + ")"
+                                        : "it ended without an answer";
+    return opinion;
+  }
+  const std::string verdict = answer.substr(0, first);
+  opinion.program = answer.substr(first + 1, second - first - 1);
+  opinion.words = OneLine(answer.substr(second + 1));
+  if (verdict == "ok") opinion.opinion = Opinion::kTakes;
+  if (verdict == "no") opinion.opinion = Opinion::kRefuses;
   return opinion;
 }
 

@@ -16,8 +16,12 @@ struct SecondOpinion {
   std::string words;    ///< Why it refuses, or why it was not asked.
 };
 
-/// Asks "urdfdom", "sdformat" or "mujoco" in a confined process. Throws nothing: what goes wrong is
-/// kNotAsked, and a crash of the program kRefuses.
+/// Asks "sdformat" or "mujoco" in a confined process. Throws nothing: what goes wrong is kNotAsked,
+/// and a crash of the program kRefuses.
 SecondOpinion AskProgram(const std::string& program, const std::filesystem::path& file);
+
+/// What a process answered, which ended with that status: "ok", "no" or "absent", the program's
+/// name with its version, and its words, a line each.
+SecondOpinion OpinionIn(const std::string& program, const std::string& answer, int status);
 
 }  // namespace doorforge::foreign

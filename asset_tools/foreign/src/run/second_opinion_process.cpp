@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "doorforge/foreign/second_opinion_process.h"
-
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -12,14 +10,8 @@
 #include <dlfcn.h>
 #include <unistd.h>
 
-#include "doorforge/core/committed_file.h"
 #include "doorforge/core/confined_child.h"
-
-#ifdef DOORFORGE_WITH_URDFDOM
-#include <console_bridge/console.h>
-#include <urdf_model/model.h>
-#include <urdf_parser/urdf_parser.h>
-#endif
+#include "doorforge/foreign/answer_parent.h"
 
 #ifdef DOORFORGE_WITH_SDFORMAT
 #include <sdf/sdf.hh>
@@ -31,34 +23,6 @@ namespace {
 std::string Answer(const char* verdict, const std::string& program, const std::string& words) {
   return std::string(verdict) + '\n' + program + '\n' + words;
 }
-
-#ifdef DOORFORGE_WITH_URDFDOM
-/// Keeps what the library would print.
-class KeptLog : public console_bridge::OutputHandler {
- public:
-  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
-    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) errors_ += text + '\n';
-  }
-  const std::string& errors() const { return errors_; }
-
- private:
-  std::string errors_;
-};
-
-std::string OpinionOfUrdfdom(const std::string& file) {
-  KeptLog log;
-  console_bridge::useOutputHandler(&log);
-  const auto model = urdf::parseURDF(ReadFile(file, 16ULL << 20U));
-  const std::string errors = log.errors();
-  console_bridge::restorePreviousOutputHandler();
-  const std::string name = std::string("urdfdom ") + DOORFORGE_WITH_URDFDOM;
-  return model ? Answer("ok", name, "") : Answer("no", name, errors.empty() ? "no model" : errors);
-}
-#else
-std::string OpinionOfUrdfdom(const std::string&) {
-  return Answer("absent", "urdfdom", "this build is without it");
-}
-#endif
 
 #ifdef DOORFORGE_WITH_SDFORMAT
 std::string OpinionOfSdformat(const std::string& file) {
@@ -123,7 +87,7 @@ void* OpenMujoco(const char* named) {
 
 }  // namespace
 
-int GiveOpinion(std::span<char* const> arguments) {
+int AnswerParent(std::span<char* const> arguments) {
   if (arguments.size() < 4) {
     std::fprintf(stderr, "doorforge-second-opinion is started by the other doorforge programs\n");
     return 2;
@@ -135,10 +99,8 @@ int GiveOpinion(std::span<char* const> arguments) {
   ConfineProcess({.seconds = 30, .parent = std::atoi(arguments[3]), .threads = mujoco});
   std::string answer;
   try {
-    if (program == "sdformat")
+    if (!mujoco)
       answer = OpinionOfSdformat(arguments[2]);
-    else if (!mujoco)
-      answer = OpinionOfUrdfdom(arguments[2]);
     else if (library == nullptr)
       answer = Answer("absent", "MuJoCo", "it is not installed");
     else

@@ -3,11 +3,9 @@
 #include "doorforge/foreign/validate_foreign.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <set>
 
-#include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/read_beginning.h"
 #include "doorforge/foreign/foreign_rules.h"
@@ -17,10 +15,9 @@
 #include "check/check_hinge.h"
 #include "check/check_profile.h"
 #include "check/checks.h"
-#include "read/glb_file.h"
 #include "read/raw_mesh.h"
-#include "read/readers.h"
 #include "run/read_object.h"
+#include "run/read_text_apart.h"
 #include "run/second_opinion.h"
 
 namespace doorforge {
@@ -52,17 +49,14 @@ class FileCheck {
     const std::string ending = LowerEndingOf(file_);
     if (const std::string problem = FileProblem(); !problem.empty()) {
       faults_.Add("FIL001", Whole(), problem);
-    } else if (ending == ".glb" || ending == ".gltf") {
-      Gltf();
     } else if (IsMesh(ending)) {
       Mesh();
-    } else if (ending == ".usda" || ending == ".usd" || ending == ".usdc" || ending == ".usdz") {
-      Usd();
     } else if (ending == ".xacro") {
       kind_ = ValidatedKind::kUrdf;
       faults_.Add("FIL010", Whole(), "a xacro file");
-    } else if (IsXml(ending)) {
-      Xml(ending);
+    } else if (IsText(ending)) {
+      kind_ = KindByEnding(ending);
+      Text();
     } else {
       faults_.Add("FIL011", Whole(), "the ending \"" + ending + '"');
     }
@@ -74,12 +68,6 @@ class FileCheck {
                                                   ".dae", ".fbx", ".3ds"};
     return endings.contains(ending);
   }
-  static bool IsXml(const std::string& ending) {
-    static const std::set<std::string> endings = {".urdf", ".sdf",   ".xml",
-                                                  ".mjcf", ".world", ".model"};
-    return endings.contains(ending);
-  }
-
   ValidationReport Report() {
     ValidationReport report;
     report.folder = file_;
@@ -115,52 +103,21 @@ class FileCheck {
   }
   MeshFiles Files() const { return {Places(), memory_}; }
 
-  void Xml(const std::string& ending) {
-    kind_ = ending == ".urdf"   ? ValidatedKind::kUrdf
-            : ending == ".mjcf" ? ValidatedKind::kMjcf
-            : ending == ".sdf"  ? ValidatedKind::kSdf
-                                : ValidatedKind::kUnknown;
-    const auto text = ForeignText(file_, faults_);
-    if (!text) return;
-    const auto document = ForeignXml(*text, name_, faults_);
-    if (!document) return Ask();
-    const XmlElement& root = *document->root;
-    if (root.name == "mujocoinclude") {
-      kind_ = ValidatedKind::kMjcf;
-      return notes_.push_back("a fragment, which is judged with the files that include it");
+  void Text() {
+    TextReadApart apart = ReadTextApart(file_, Places(), Asks("urdfdom"));
+    faults_ = std::move(apart.faults);
+    notes_ = std::move(apart.read.notes);
+    urdfdom_ = std::move(apart.urdfdom);
+    kind_ = apart.read.kind;
+    const bool judges = apart.read.after == AfterText::kJudge;
+    if (kind_ == ValidatedKind::kGltf) {
+      if (judges) Gltf(std::move(apart.read.mesh));
+      AskAssimp();
+    } else if (judges) {
+      Judge(std::move(apart.read.object));
+    } else if (apart.read.after == AfterText::kAsk) {
+      Ask();
     }
-    const std::array<std::pair<const char*, ValidatedKind>, 3> kinds = {
-        {{"robot", ValidatedKind::kUrdf},
-         {"mujoco", ValidatedKind::kMjcf},
-         {"sdf", ValidatedKind::kSdf}}};
-    const auto known = std::find_if(kinds.begin(), kinds.end(),
-                                    [&](const auto& one) { return root.name == one.first; });
-    const bool other =
-        known != kinds.end() && kind_ != ValidatedKind::kUnknown && kind_ != known->second;
-    if (known == kinds.end() || other)
-      return faults_.Add("FIL005", PlaceOf(name_, root), "the root element is <" + root.name + ">");
-    kind_ = known->second;
-    if (kind_ == ValidatedKind::kUrdf) Judge(ReadForeignUrdf(*document, name_, faults_));
-    if (kind_ == ValidatedKind::kMjcf) Judge(ReadForeignMjcf(*document, name_, root_, faults_));
-    if (kind_ == ValidatedKind::kSdf) Judge(ReadForeignSdf(*document, name_, faults_));
-  }
-
-  void Usd() {
-    kind_ = ValidatedKind::kUsda;
-    const std::string begin = ReadBeginning(file_, 8);
-    const std::string_view magic = begin;
-    if (magic == "PXR-USDC" || magic.starts_with("PK")) {
-      kind_ = ValidatedKind::kUnknown;
-      const bool crate = magic == "PXR-USDC";
-      return faults_.Add("FIL011", Whole(), crate ? "binary USD (crate)" : "a package (usdz)");
-    }
-    const auto text = ForeignText(file_, faults_);
-    if (!text) return;
-    if (!text->starts_with("#usda"))
-      return faults_.Add("FIL005", Whole(), "the file does not begin with #usda");
-    ArticulatedObject object = ReadForeignUsda(*text, name_, faults_);
-    if (!faults_.HasError() || !(faults_.Has("FIL002") || faults_.Has("FIL003")))
-      Judge(std::move(object));
   }
 
   void Judge(ArticulatedObject read) {
@@ -211,8 +168,8 @@ class FileCheck {
   void Ask() {
     if (IsBeyondLimits()) return notes_.push_back("no other program was asked about it");
     if (kind_ == ValidatedKind::kUrdf) {
-      if (Asks("urdfdom"))
-        Say(AskProgram("urdfdom", file_), "EXT001");
+      if (urdfdom_)
+        Say(*urdfdom_, "EXT001");
       else
         notes_.push_back("urdfdom was not asked");
     }
@@ -248,26 +205,9 @@ class FileCheck {
     Say(opinion, "EXT003");
   }
 
-  void Gltf() {
-    kind_ = ValidatedKind::kGltf;
-    const MeshFiles files = Files();
-    const BufferReader buffers = [&](const ForeignFileName& name) -> std::optional<std::string> {
-      const auto path = files.Find(name, faults_);
-      if (!path) return std::nullopt;
-      return ReadFile(*path, 512ULL << 20U);
-    };
-    try {
-      const std::string bytes = ReadFile(file_, 512ULL << 20U);
-      TriangleMesh mesh = CheckGltf(bytes, name_, buffers, faults_);
-      if (!faults_.HasError() && !mesh.triangles.empty()) {
-        const MeshMeasure measure = MeasureTriangles(mesh);
-        CheckScale(measure);
-      }
-      Keep(std::move(mesh), true);
-    } catch (const Error& error) {
-      faults_.Add("FIL001", Whole(), error.what());
-    }
-    AskAssimp();
+  void Gltf(TriangleMesh mesh) {
+    if (!faults_.HasError() && !mesh.triangles.empty()) CheckScale(MeasureTriangles(mesh));
+    Keep(std::move(mesh), true);
   }
 
   void Mesh() {
@@ -321,6 +261,7 @@ class FileCheck {
   std::vector<std::string> notes_;
   FaultList faults_;
   ArticulatedObject object_;
+  std::optional<SecondOpinion> urdfdom_;
 };
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/mesh_transform.h"
 #include "doorforge/parts/mechanism.h"
+#include "doorforge/parts/read_model.h"
 #include "doorforge/schemas/urdf.h"
 
 #include "formats/two_joint_chain.h"
@@ -264,7 +265,7 @@ UniDoorManipObject ReadUniDoorManip(const fs::path& folder, const std::string& c
       throw Error(ErrorCode::kMissing, folder.string() + ": incomplete, missing " + file);
   }
   const std::string where = (folder / "mobility.urdf").string();
-  const UrdfModel model = ReadUrdf(folder / "mobility.urdf");
+  const UrdfModel model = ReadUrdfApart(folder / "mobility.urdf");
   const TwoJointChain chain = FindTwoJointChain(model, where);
 
   UniDoorManipObject object;

@@ -7,6 +7,7 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/inside_folder.h"
 #include "doorforge/core/mesh_transform.h"
+#include "doorforge/parts/read_model.h"
 
 #include "import_format.h"
 #include "source_mesh.h"
@@ -120,7 +121,7 @@ std::vector<ForeignObject> ReadAkb48(const fs::path& folder, const ReadConfig& c
     return FileInside(folder, WithoutScheme(file), where);
   };
   object.frame_may_miss = config.allow_missing == "frame";
-  const UrdfModel raw = ReadUrdf(folder / kUrdfName);
+  const UrdfModel raw = ReadUrdfApart(folder / kUrdfName);
   // readers of the data set disagree on one sign; the meshes decide
   HingedObject negated = object;
   object.model = InObjectFrame(raw, 1, object.where);

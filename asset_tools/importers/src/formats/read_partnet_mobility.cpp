@@ -12,6 +12,7 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/inside_folder.h"
 #include "doorforge/core/json_file.h"
+#include "doorforge/parts/read_model.h"
 
 #include "import_format.h"
 #include "subtask.h"
@@ -167,7 +168,7 @@ HingedObject ReadPartNetFiles(const fs::path& folder, const PartNetFiles& files,
   object.where = (folder / files.urdf).string();
   object.source = files.source + " " + folder_name;
   object.license = "LicenseRef-PartNet-Mobility";
-  object.model = ReadUrdf(folder / files.urdf);
+  object.model = ReadUrdfApart(folder / files.urdf);
   object.upright_from_base = UprightFromBase();
   const std::vector<LinkSemantics> semantics = ReadSemantics(folder / files.semantics);
   for (const LinkSemantics& link : semantics) object.words[link.link] = link.word;

@@ -11,11 +11,9 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/inside_folder.h"
 #include "doorforge/core/read_beginning.h"
+#include "doorforge/parts/read_model.h"
 #include "doorforge/schemas/door_words.h"
 #include "doorforge/schemas/glb.h"
-#include "doorforge/schemas/mjcf.h"
-#include "doorforge/schemas/sdf.h"
-#include "doorforge/schemas/usda.h"
 
 #include "guessed_category.h"
 #include "import_format.h"
@@ -42,13 +40,11 @@ struct ModelKind {
   const char* called;  ///< Messages call it so.
   const char* extension;
   bool (*holds)(const fs::path& file);  ///< Null: the extension tells enough.
-  UrdfModel (*read)(const fs::path& file, std::vector<UrdfFault>& faults);
+  ModelFormat format;
 };
 
-constexpr ModelKind kUrdf{
-    "urdf", "URDF", ".urdf", nullptr,
-    [](const fs::path& file, std::vector<UrdfFault>& faults) { return ReadUrdf(file, faults); }};
-constexpr ModelKind kSdf{"sdf", "SDF", ".sdf", nullptr, ReadSdf};
+constexpr ModelKind kUrdf{"urdf", "URDF", ".urdf", nullptr, ModelFormat::kUrdf};
+constexpr ModelKind kSdf{"sdf", "SDF", ".sdf", nullptr, ModelFormat::kSdf};
 // Whether the file begins as one of this kind does, comments aside.
 bool HoldsRoot(const fs::path& path, const char* root) {
   constexpr std::uint64_t kLooked = 4096;
@@ -57,9 +53,9 @@ bool HoldsRoot(const fs::path& path, const char* root) {
 
 constexpr ModelKind kMjcf{"mjcf", "MJCF", ".xml",
                           [](const fs::path& file) { return HoldsRoot(file, "<mujoco"); },
-                          ReadMjcf};
-constexpr ModelKind kUsda{"usda", "USD", ".usda", nullptr, ReadUsda};
-constexpr ModelKind kGlb{"glb", "glTF", ".glb", HasLinks, ReadGlb};
+                          ModelFormat::kMjcf};
+constexpr ModelKind kUsda{"usda", "USD", ".usda", nullptr, ModelFormat::kUsda};
+constexpr ModelKind kGlb{"glb", "glTF", ".glb", HasLinks, ModelFormat::kGlb};
 
 bool IsFileOf(const ModelKind& kind, const fs::path& path) {
   std::error_code error;
@@ -250,7 +246,7 @@ std::vector<ForeignObject> ReadModelObject(const ModelKind& kind, const fs::path
   object.source = std::string(kind.called) + " " + urdf.filename().string();
   object.license = config.mesh.license;
   std::vector<UrdfFault> faults;
-  object.model = kind.read(urdf, faults);
+  object.model = ReadModelApart(urdf, kind.format, faults);
   std::vector<std::string> notes;
   const std::optional<Category> category = CategoryOf(object.model, name, config, notes);
   object.category = category.value_or(Category::kInterior);

@@ -11,8 +11,8 @@
 
 #include "doorforge/core/confined_child.h"
 #include "doorforge/core/error.h"
+#include "doorforge/mesh/confine.h"
 
-#include "files/confine.h"
 #include "files/mesh_message.h"
 #include "files/mesh_readers.h"
 

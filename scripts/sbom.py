@@ -20,7 +20,7 @@ import subprocess
 import sys
 
 
-CONTAINED = {"doorforge-datagen": ("libhdf5-dev",)}  # what CMake links statically, by Debian's package
+CONTAINED = {"doorforge-datagen": ("libhdf5-dev", "libaec-dev")}  # what CMake links statically, by Debian's package
 
 
 def answer(*command):

@@ -250,6 +250,16 @@ def write_begun_shard(data: pathlib.Path, begun: pathlib.Path) -> None:
     index_path.unlink()
 
 
+def write_small_catalogue(data: pathlib.Path) -> None:
+    """The data of programs (DOORFORGE_DATA) with a catalogue of a body and a handle."""
+    shutil.copytree(SOURCE / "data/families", data / "families")
+    for name in (SAFE_BODY, SAFE_HANDLES[0]):
+        recipe = next((SOURCE / "data/catalog").rglob(f"{name}.yaml"))
+        target = data / "catalog" / recipe.relative_to(SOURCE / "data/catalog")
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(recipe, target)
+
+
 def make_inputs(doorforge: pathlib.Path, folder: pathlib.Path) -> None:
 
     def run(*arguments: object) -> None:
@@ -283,14 +293,7 @@ def make_inputs(doorforge: pathlib.Path, folder: pathlib.Path) -> None:
     shutil.copytree(folder / "parts", folder / "pool/parts")
     run("compose", "--all", "--parts", folder / "parts", "--out", folder / "pool/tested_doors")
 
-    catalogue = folder / "catalogue/tested_data"
-    shutil.copytree(SOURCE / "data/families", catalogue / "families")
-    for name in (SAFE_BODY, SAFE_HANDLES[0]):
-        recipe = next((SOURCE / "data/catalog").rglob(f"{name}.yaml"))
-        target = catalogue / "catalog" / recipe.relative_to(SOURCE / "data/catalog")
-        target.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy(recipe, target)
-
+    write_small_catalogue(folder / "catalogue/tested_data")
     shutil.copytree(SOURCE / "data/policies/pipeline", folder / "pipeline/tested_run/pipeline")
     shutil.copytree(SOURCE / "data/robots/mobile_franka", folder / "robots/tested_robot")
     write_meshes(folder / "meshes")

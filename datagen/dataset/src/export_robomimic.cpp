@@ -11,9 +11,6 @@
 #include <string_view>
 #include <vector>
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include "doorforge/core/error.h"
 #include "doorforge/core/file_system.h"
 #include "doorforge/core/folder_lock.h"
@@ -137,25 +134,25 @@ class PartialFile {
   fs::path path() const { return folder_ / target_.filename(); }
 
   void Commit(Existing existing) {
-    SyncFile(path());
     FileSystem& files = SystemFiles();
+    const int file = files.OpenToAppend(path());
+    try {
+      files.Sync(file, path());
+    } catch (...) {
+      files.Close(file);
+      throw;
+    }
+    files.Close(file);
     if (existing == Existing::kReplace) {
       files.Rename(path(), target_);
     } else if (!files.RenameToNew(path(), target_)) {
       throw Error(ErrorCode::kInvalidArgument,
                   target_.string() + ": appeared meanwhile; pass --overwrite to replace it");
     }
-    SyncFile(target_.has_parent_path() ? target_.parent_path() : fs::path("."));
+    files.SyncFolder(target_.has_parent_path() ? target_.parent_path() : fs::path("."));
   }
 
  private:
-  static void SyncFile(const fs::path& path) {
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    const bool synced = file >= 0 && ::fsync(file) == 0;
-    if (file >= 0) ::close(file);
-    Require(synced, ErrorCode::kIo, path.string() + ": fsync failed");
-  }
-
   fs::path target_;
   fs::path folder_;
   std::optional<FolderLock> lock_;

@@ -3,7 +3,9 @@
 #include "hdf5_file.h"
 
 #include <algorithm>
-#include <optional>
+#include <cstdlib>
+#include <string_view>
+#include <system_error>
 
 #include <hdf5.h>
 
@@ -44,24 +46,55 @@ Hdf5Handle TextType(std::size_t length) {
   return {id, H5Tclose};
 }
 
-// HDF5 prints its own stack of errors otherwise.
-void Silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+// Whether a function of HDF5 has failed in this thread since a writer began, and the system's
+// reason. What was written is often handed to the system when a handle is closed, of whose failure
+// nobody else would hear.
+struct Failure {
+  bool is_there = false;
+  int error = 0;  // 0: none was given
+};
+thread_local Failure first_failure;
+
+// The library tells the system's reason in the words of its description alone.
+herr_t KeepReason(unsigned, const H5E_error2_t* entry, void*) {
+  constexpr std::string_view kBefore = "errno = ";
+  const std::string_view told = entry->desc == nullptr ? "" : entry->desc;
+  const std::size_t at = told.find(kBefore);
+  if (at != std::string_view::npos && first_failure.error == 0)
+    first_failure.error = std::atoi(told.data() + at + kBefore.size());
+  return 0;
+}
+
+herr_t NoteFailure(hid_t stack, void*) {
+  first_failure.is_there = true;
+  H5Ewalk2(stack, H5E_WALK_UPWARD, KeepReason, nullptr);
+  return 0;
+}
+
+// Instead of the library's own stack of errors on standard error. Everything is closed by its
+// handle: what the library does when the program ends may end it by a signal after a failure.
+void NoteFailures() {
+  H5dont_atexit();
+  first_failure = {};
+  H5Eset_auto2(H5E_DEFAULT, NoteFailure, nullptr);
+}
 
 }  // namespace
 
 Hdf5Writer::Hdf5Writer(const std::filesystem::path& path)
     : name_(path.string()),
-      links_((Silence(), LinkSettings()), H5Pclose),
+      links_((NoteFailures(), LinkSettings()), H5Pclose),
       storage_(StorageSettings(), H5Pclose),
       file_(H5Fcreate(name_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose) {
   Checked(file_.id(), "cannot be created");
 }
 
 std::int64_t Hdf5Writer::Checked(std::int64_t id, const std::string& what) const {
-  if (id < 0)
-    throw Error(ErrorCode::kIo,
-                name_ + ": " + what + "; is the disk full or the folder read-only?");
-  return id;
+  if (id >= 0 && !first_failure.is_there) return id;
+  const int error = first_failure.error;
+  const std::string reason = error == 0 ? "" : ": " + std::generic_category().message(error);
+  throw Error(ErrorCode::kIo,
+              name_ + ": " + what + reason + "; is the disk full or the folder read-only?");
 }
 
 void Hdf5Writer::Write(const std::string& path, std::int64_t type,
@@ -147,7 +180,8 @@ void Hdf5Writer::SetAttribute(const std::string& object, const std::string& name
 
 void Hdf5Writer::Close() {
   Checked(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "cannot be written out");
-  Hdf5Handle closing = std::move(file_);
+  { const Hdf5Handle closing = std::move(file_); }
+  Checked(0, "cannot be closed");
 }
 
 }  // namespace doorforge::internal

@@ -51,7 +51,8 @@ class Hdf5Writer {
   void SetAttribute(const std::string& object, const std::string& name,
                     std::span<const double> values);
 
-  /// Writes everything out; the file is closed.
+  /// Writes everything out; the file is closed. Throws if anything since the beginning was not
+  /// written, as what the library kept back until a handle was closed.
   void Close();
 
  private:

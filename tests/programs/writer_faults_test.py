@@ -258,7 +258,8 @@ class Faults(ProgramTest):
         parts = self.folder / "parts"
         self.use_small_catalogue()
         self.make("catalog", "build", "--out", parts)
-        self.sweep(Writer(["compose", "--all", "-j", 1, "--parts", parts, "--out", self.root / "doors"], runs=3, codes=(1, 3), partial=("pool.json", "door_index.json")))
+        self.sweep(Writer(["compose", "--all", "-j", 1, "--parts", parts, "--out", self.root / "doors"], runs=3, codes=(1, 3),
+                          partial=("pool.json", "door_index.json")))
 
     def test_catalog(self):
         self.use_small_catalogue()
@@ -279,11 +280,12 @@ class Faults(ProgramTest):
                           again=(), runs=1))  # the report holds its command
 
     def test_simulate_film(self):
-        self.sweep(Writer(["simulate", "--door", self.door, "--seeds", 1, "--set", "scene.physics.max_opening_actions=4", "--film", self.root / "film"],
-                          runs=1, done=1))  # it opens no door within so few actions
+        self.sweep(Writer(["simulate", "--door", self.door, "--seeds", 1, "--set", "scene.physics.max_opening_actions=4", "--film",
+                           self.root / "film"], runs=1, done=1))  # it opens no door within so few actions
 
     def test_datagen(self):
-        self.sweep(Writer(["datagen", "open", "--doors", self.door, *COLLECT, "-j", 1, "--out", self.root / "data"], again=(), runs=3, partial=("*",)))
+        self.sweep(Writer(["datagen", "open", "--doors", self.door, *COLLECT, "-j", 1, "--out", self.root / "data"], again=(),
+                          runs=3, partial=("*",)))
 
     def test_card(self):
         begun = self.folder / "begun"

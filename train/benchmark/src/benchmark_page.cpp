@@ -70,7 +70,7 @@ std::string DifferenceBar(const ClusteredDifference& difference) {
       R"(<svg class="bar" viewBox="0 0 308 24" role="img" aria-label="{mean} points, interval {low} to {high}">)"
       R"(<title>{mean} points, 95 % interval {low} to {high}</title>)"
       R"(<path class="track" d="M154 2v20" stroke="currentColor"/>)"
-      R"(<path class="whisker" d="M{left} 12H{right}M{left} 8v8M{right} 8v8"/><circle class="mark" cx="{dot}" cy="12" r="4"/></svg>)",
+      R"(<path class="whisker" stroke="currentColor" d="M{left} 12H{right}M{left} 8v8M{right} 8v8"/><circle class="mark" cx="{dot}" cy="12" r="4"/></svg>)",
       {{"mean", Fixed(-100 * difference.mean, 1)},
        {"low", Fixed(-100 * difference.high, 1)},
        {"high", Fixed(-100 * difference.low, 1)},
@@ -166,7 +166,7 @@ std::string BenchmarkPage(const BenchmarkResult& result) {
 <meta name="viewport" content="width=device-width, initial-scale=1"/>
 <meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'"/>
 <title>doorforge benchmark: {name}</title>
-<style>{style}</style>
+<style>{style}h2 { margin-top: 40px; }</style>
 </head>
 <body>
 <header><h1>Benchmark &#8220;{name}&#8221;</h1>

@@ -145,7 +145,7 @@ class MessageReader {
     std::memcpy(data, rest_.data(), count);
     rest_.remove_prefix(count);
   }
-  // Of elements that take so many bytes at least.
+  // Reads how many elements follow, and refuses more than the rest can hold at `bytes` for each.
   std::size_t Count(std::size_t bytes) {
     std::uint64_t count = 0;
     Get(&count, sizeof count);

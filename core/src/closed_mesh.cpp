@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <numeric>
 #include <span>
 #include <string>
@@ -76,8 +77,14 @@ std::vector<Side> SortedSides(const TriangleMesh& mesh) {
       sides.push_back({{std::min(a, b), std::max(a, b)}, static_cast<int>(i), k, a < b});
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.edge, a.triangle) < std::tie(b.edge, b.triangle);
+  const auto edge_of = [](const Side& side) {
+    return static_cast<std::uint64_t>(side.edge[0]) << 32 |
+           static_cast<std::uint32_t>(side.edge[1]);
+  };
+  std::sort(sides.begin(), sides.end(), [&](const Side& a, const Side& b) {
+    const std::uint64_t edge_a = edge_of(a);
+    const std::uint64_t edge_b = edge_of(b);
+    return edge_a != edge_b ? edge_a < edge_b : a.triangle < b.triangle;
   });
   return sides;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "repair/exact_orientation.h"
 
+#include <array>
 #include <random>
 #include <vector>
 
@@ -17,6 +18,9 @@ using Vector = ExactKernel::Vector_3;
 using Orientation =
     CGAL::TriangulationProjectionTraitsCartesianFunctors::Projected_orientation_with_normal_3<
         CGAL::Projection_traits_base_3<ExactKernel>>;
+
+using SideOfCircle = CGAL::TriangulationProjectionTraitsCartesianFunctors::
+    Projected_side_of_oriented_circle_with_normal_3<CGAL::Projection_traits_base_3<ExactKernel>>;
 
 /// Fractions with small and with large denominators, some of them shared.
 class Fractions {
@@ -71,6 +75,57 @@ TEST(ExactOrientation, IsZeroOnALineAndTellsTheLeastStepFromIt) {
     const mpq_class least("1/170141183460469231731687303715884105728");
     const Point beside = on + least * CGAL::cross_product(normal, way);
     EXPECT_EQ(static_cast<int>(Orientation(normal)(p, q, beside)), SignOf(p, q, beside, normal));
+  }
+}
+
+// The same with fractions all along: the points, seen against the normal, on a paraboloid.
+int SideOfCircleOf(const std::array<Point, 4>& points, const Vector& normal) {
+  std::array<Vector, 3> way;
+  std::array<mpq_class, 3> height;
+  for (std::size_t i = 0; i < 3; ++i) {
+    way[i] = points[i] - points[3];
+    height[i] = CGAL::cross_product(way[i], normal).squared_length();
+  }
+  return sgn(CGAL::determinant(way[0].x(), way[0].y(), way[0].z(), height[0], way[2].x(),
+                               way[2].y(), way[2].z(), height[2], way[1].x(), way[1].y(),
+                               way[1].z(), height[1], normal.x(), normal.y(), normal.z(),
+                               mpq_class(0)));
+}
+
+TEST(ExactSideOfCircle, HasTheSignOfTheDeterminant) {
+  Fractions fractions;
+  int signs[3] = {};
+  for (int i = 0; i < 4000; ++i) {
+    const Vector normal(fractions.Next(), fractions.Next(), fractions.Next());
+    std::array<Point, 4> points;
+    for (Point& point : points) point = fractions.NextPoint();
+    const int sign = SideOfCircleOf(points, normal);
+    const SideOfCircle side(normal);
+    ASSERT_EQ(static_cast<int>(side(points[0], points[1], points[2], points[3])), sign) << i;
+    ++signs[sign + 1];
+  }
+  EXPECT_GT(signs[0], 1000);
+  EXPECT_GT(signs[2], 1000);
+}
+
+// Points in the plane z = 0 at whole-numbered angles of the circle of 25 about a centre, counter-
+// clockwise seen from above; moved along the normal, which changes nothing.
+TEST(ExactSideOfCircle, IsZeroOnItAndTellsTheLeastStepFromIt) {
+  Fractions fractions;
+  const mpq_class least("1/170141183460469231731687303715884105728");
+  const SideOfCircle side(Vector(0, 0, mpq_class("3/7")));
+  for (int i = 0; i < 500; ++i) {
+    const mpq_class x = fractions.Next();
+    const mpq_class y = fractions.Next();
+    const auto at = [&](int dx, int dy) { return Point(x + dx, y + dy, fractions.Next()); };
+    const Point p = at(5, 0);
+    const Point q = at(3, 4);
+    const Point r = at(-4, 3);
+    const Point on = at(0, -5);
+    EXPECT_EQ(side(p, q, r, on), CGAL::ON_ORIENTED_BOUNDARY);
+    const Vector inwards(0, least, 0);
+    EXPECT_EQ(side(p, q, r, on + inwards), CGAL::ON_POSITIVE_SIDE);
+    EXPECT_EQ(side(p, q, r, on - inwards), CGAL::ON_NEGATIVE_SIDE);
   }
 }
 

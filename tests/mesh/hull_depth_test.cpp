@@ -105,5 +105,55 @@ TEST(MeasuredDistances, AreOffByHalfACellsDiagonalAtMost) {
   }
 }
 
+TEST(MeasuredDistances, NoPointOutsideTheFarCellsIsFar) {
+  constexpr double kCell = 0.013;
+  const ClosedMesh posts = Posts();
+  const DistanceGrid solid(posts, kCell);
+  const TriangleTree tree(posts.mesh());
+  MeasuredDistances distances(solid, tree);
+  Rng rng(9, "far");
+  for (const double above_m : {0.5, 2.0, 6.0, 12.0}) {
+    int left_out = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const Eigen::Vector3d point = Drawn(rng, {1.0, 0.6, 0.7});
+      const Eigen::Vector3i cell = solid.grid().CellAt(point);
+      if (distances.FarCells(above_m * kCell).AnyBetween(cell, cell)) continue;
+      const bool in_air = solid.DistanceAt(cell.x(), cell.y(), cell.z()) > 0;
+      EXPECT_TRUE(!in_air || distances.At(point) <= above_m * kCell);
+      left_out += in_air;
+    }
+    // beyond two cells and a half diagonal it leaves out what is near
+    EXPECT_EQ(left_out > 0, above_m > 3) << above_m;
+  }
+}
+
+TEST(MarkedCells, AreFoundInAnyBox) {
+  const Eigen::Vector3i size(7, 5, 9);
+  Rng rng(4, "marked");
+  std::vector<char> marked;
+  for (int i = 0; i < size.prod(); ++i) marked.push_back(rng.Uniform(0, 1) < 0.02);
+  const MarkedCells cells(size, [&](std::size_t index) { return marked[index] != 0; });
+  const auto any = [&](const Eigen::Vector3i& low, const Eigen::Vector3i& high) {
+    for (int k = low.z(); k <= high.z(); ++k) {
+      for (int j = low.y(); j <= high.y(); ++j) {
+        for (int i = low.x(); i <= high.x(); ++i) {
+          if (marked[static_cast<std::size_t>((k * size.y() + j) * size.x() + i)] != 0) return true;
+        }
+      }
+    }
+    return false;
+  };
+  int found = 0;
+  for (int round = 0; round < 2000; ++round) {
+    const Eigen::Vector3i a = Drawn(rng, size.cast<double>()).cast<int>();
+    const Eigen::Vector3i b = Drawn(rng, size.cast<double>()).cast<int>();
+    const bool is_there = cells.AnyBetween(a.cwiseMin(b), a.cwiseMax(b));
+    EXPECT_EQ(is_there, any(a.cwiseMin(b), a.cwiseMax(b)));
+    found += is_there;
+  }
+  EXPECT_GT(found, 200);
+  EXPECT_LT(found, 1800);
+}
+
 }  // namespace
 }  // namespace doorforge

@@ -20,11 +20,12 @@ constexpr int kNone = -1;
 
 /// A triangle of the growing hull, and the points that are above it and above no triangle before.
 struct HullFace {
-  std::array<int, 3> corners{};
-  std::array<int, 3> beside{};                       // across the edge from each corner to the next
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // as long as twice the area
-  Eigen::Vector3d size = Eigen::Vector3d::Zero();    // for the error of a height, see kSideBound
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // the first corner
   double tolerance = 0;                              // of heights, which are as much too long
+  std::array<int, 3> corners{};
+  std::array<int, 3> beside{};                     // across the edge from each corner to the next
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();  // for the error of a height, see kSideBound
   int first_above = kNone;
   int highest = kNone;
   double most_above = 0;
@@ -136,6 +137,7 @@ class GrowingHull {
   HullFace FaceOf(int a, int b, int c) const {
     HullFace face;
     face.corners = {a, b, c};
+    face.origin = Point(a);
     const Eigen::Vector3d p = Point(b) - Point(a);
     const Eigen::Vector3d q = Point(c) - Point(a);
     face.normal = p.cross(q);
@@ -150,12 +152,14 @@ class GrowingHull {
   // The point goes to the first face from `first` on that it is above of; others are inside.
   void Give(int point, std::size_t first) {
     CheckWork(10);
+    const Eigen::Vector3d place = Point(point);
     for (std::size_t index = first; index < faces_.size(); ++index) {
       HullFace& face = faces_[index];
+      // mostly so, and told without the error
+      if (tolerance_m_ > 0 && face.normal.dot(place - face.origin) <= face.tolerance) continue;
       const Height height = HeightOver(face, point);
       if (height.value <= face.tolerance) {
-        if (tolerance_m_ > 0 || height.value < -height.error || !IsExactlyAbove(face, point))
-          continue;
+        if (height.value < -height.error || !IsExactlyAbove(face, point)) continue;
       } else if (height.value <= height.error &&
                  (tolerance_m_ > 0 || !IsExactlyAbove(face, point))) {
         continue;

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
+#include <numeric>
+#include <span>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -36,12 +39,13 @@ class DeepestCell {
   DeepestCell(const TriangleMesh& hull, const DistanceGrid& solid, const DepthRange& range)
       : hull_(&hull),
         solid_(&solid),
-        faces_(HalfSpacesOf(hull)),
+        faces_(FacesOf(hull)),
+        active_(std::make_unique_for_overwrite<int[]>(
+            faces_.size() * static_cast<std::size_t>(solid.levels() + 1))),
         stop_m_(std::max(range.stop_m, range.above_m)),
         margin_m_(IsThin(hull, solid.grid().cell_m) ? 0.5 * solid.grid().cell_m : 0) {
     deepest_.depth_m = range.above_m;
-    active_.resize(faces_.size());
-    for (std::size_t i = 0; i < active_.size(); ++i) active_[i] = static_cast<int>(i);
+    std::iota(active_.get(), active_.get() + faces_.size(), 0);
     Eigen::AlignedBox3d box;
     for (const Eigen::Vector3d& vertex : hull.vertices) box.extend(vertex);
     first_ = solid.grid().CellAt(box.min());
@@ -59,52 +63,75 @@ class DeepestCell {
     for (block.z() = first_.z() >> level; block.z() <= last_.z() >> level; ++block.z()) {
       for (block.y() = first_.y() >> level; block.y() <= last_.y() >> level; ++block.y()) {
         for (block.x() = first_.x() >> level; block.x() <= last_.x() >> level; ++block.x())
-          Visit(level, block, 0, faces_.size());
+          Visit(level, block, {active_.get(), faces_.size()});
       }
     }
     return deepest_.depth_m > known_m ? deepest_ : Concavity{};
   }
 
  private:
-  // The active faces of the block that this one is part of are those from `begin` to `end`.
-  void Visit(int level, const Eigen::Vector3i& block, std::size_t begin, std::size_t end) {
+  struct Face {
+    HalfSpace half_space;
+    Eigen::Vector3d lengths;  // of its normal's components
+  };
+
+  static std::vector<Face> FacesOf(const TriangleMesh& hull) {
+    std::vector<Face> faces;
+    for (const HalfSpace& face : HalfSpacesOf(hull))
+      faces.push_back({face, face.normal.cwiseAbs()});
+    return faces;
+  }
+
+  // Those of the block that this one is part of are active. Its own are written behind them.
+  void Visit(int level, const Eigen::Vector3i& block, std::span<int> active) {
     if (solid_->LargestInBlock(level, block) <= deepest_.depth_m || deepest_.depth_m > stop_m_)
       return;
     const Eigen::Vector3i low = (block * (1 << level)).cwiseMax(first_);
     const Eigen::Vector3i high =
         (block * (1 << level) + Eigen::Vector3i::Constant((1 << level) - 1)).cwiseMin(last_);
     if ((low.array() > high.array()).any()) return;
-    CheckWork(static_cast<unsigned>(end - begin) + 1);
+    CheckWork(static_cast<unsigned>(active.size()) + 1);
     const Grid& grid = solid_->grid();
     const Eigen::Vector3d between = 0.5 * grid.cell_m * (high - low).cast<double>();
     const Eigen::Vector3d center = grid.CenterOf(low.x(), low.y(), low.z()) + between;
     const Eigen::Vector3d half = between + Eigen::Vector3d::Constant(margin_m_);
-    const std::size_t kept = end;
-    active_.resize(kept);
-    for (std::size_t i = begin; i < end; ++i) {
-      const HalfSpace& face = faces_[static_cast<std::size_t>(active_[i])];
-      const double outside = face.normal.dot(center) - face.offset;
-      const double reach = face.normal.cwiseAbs().dot(half);
-      if (outside > reach) return;
-      if (outside > -reach) active_.push_back(active_[i]);
+    // the face that had the last block outside often has the next
+    if (!faces_.empty() && OutsideOf(parting_, center) > ReachOver(parting_, half)) return;
+    int* const own = active.data() + active.size();
+    std::size_t count = 0;
+    for (const int index : active) {
+      const double outside = OutsideOf(index, center);
+      const double reach = ReachOver(index, half);
+      if (outside > reach) {
+        parting_ = index;
+        return;
+      }
+      if (outside > -reach) own[count++] = index;
     }
     if (low == high) {
       const double depth_m = solid_->DistanceAt(low.x(), low.y(), low.z());
-      if (depth_m > deepest_.depth_m && (margin_m_ == 0 || Touches(center, kept)))
+      if (depth_m > deepest_.depth_m && (margin_m_ == 0 || Touches(center, {own, count})))
         deepest_ = {depth_m, center};
       return;
     }
-    VisitParts(level - 1, block, kept, active_.size());
+    VisitParts(level - 1, block, {own, count});
   }
 
-  // Whether the hull, whose faces through the cell are the active ones from `begin` on, has a point
-  // in the cell: all but those that no face keeps apart from it are known to have none.
-  bool Touches(const Eigen::Vector3d& center, std::size_t begin) const {
-    const bool holds_center = std::all_of(
-        active_.begin() + static_cast<std::ptrdiff_t>(begin), active_.end(), [&](int index) {
-          const HalfSpace& face = faces_[static_cast<std::size_t>(index)];
-          return face.normal.dot(center) <= face.offset;
-        });
+  double OutsideOf(int index, const Eigen::Vector3d& center) const {
+    const HalfSpace& face = faces_[static_cast<std::size_t>(index)].half_space;
+    return face.normal.dot(center) - face.offset;
+  }
+  double ReachOver(int index, const Eigen::Vector3d& half) const {
+    return faces_[static_cast<std::size_t>(index)].lengths.dot(half);
+  }
+
+  // Whether the hull, whose faces through the cell are active, has a point in the cell: all but
+  // those that no face keeps apart from it are known to have none.
+  bool Touches(const Eigen::Vector3d& center, std::span<const int> active) const {
+    const bool holds_center = std::all_of(active.begin(), active.end(), [&](int index) {
+      const HalfSpace& face = faces_[static_cast<std::size_t>(index)].half_space;
+      return face.normal.dot(center) <= face.offset;
+    });
     return holds_center ||
            std::any_of(hull_->triangles.begin(), hull_->triangles.end(),
                        [&](const Eigen::Vector3i& t) { return MeetsCell(t, center); });
@@ -135,7 +162,7 @@ class DeepestCell {
   }
 
   // the one with the deepest cell first
-  void VisitParts(int level, const Eigen::Vector3i& block, std::size_t begin, std::size_t end) {
+  void VisitParts(int level, const Eigen::Vector3i& block, std::span<int> active) {
     const Eigen::Vector3i count = solid_->BlocksAt(level);
     std::array<std::pair<float, Eigen::Vector3i>, 8> parts;
     std::size_t found = 0;
@@ -144,23 +171,23 @@ class DeepestCell {
           2 * block + Eigen::Vector3i(corner & 1, corner >> 1 & 1, corner >> 2);
       if ((part.array() >= count.array()).any()) continue;
       const float largest_m = solid_->LargestInBlock(level, part);
-      if (largest_m > deepest_.depth_m) parts[found++] = {largest_m, part};
+      if (!(largest_m > deepest_.depth_m)) continue;
+      std::size_t place = found++;  // behind those that are no less
+      for (; place > 0 && parts[place - 1].first < largest_m; --place)
+        parts[place] = parts[place - 1];
+      parts[place] = {largest_m, part};
     }
-    std::stable_sort(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(found),
-                     [](const auto& a, const auto& b) { return a.first > b.first; });
-    for (std::size_t i = 0; i < found; ++i) {
-      active_.resize(end);
-      Visit(level, parts[i].second, begin, end);
-    }
+    for (std::size_t i = 0; i < found; ++i) Visit(level, parts[i].second, active);
   }
 
   const TriangleMesh* hull_;
   const DistanceGrid* solid_;
-  std::vector<HalfSpace> faces_;
+  std::vector<Face> faces_;
+  std::unique_ptr<int[]> active_;  // a stack: of each level no more than all faces
+  int parting_ = 0;
   double stop_m_;
   double margin_m_;  // around a cell's centre; 0 where centres alone count
   Concavity deepest_;
-  std::vector<int> active_;       // a stack
   Eigen::Vector3i first_, last_;  // cells of the hull's box
 };
 
@@ -177,9 +204,11 @@ struct Patch {
 // along the surface by no more than the way.
 class DeepestOnSurface {
  public:
-  // `slack_m` is how much deeper than the grid says a point may be.
-  DeepestOnSurface(const DistanceGrid& solid, double above_m, double slack_m)
-      : solid_(&solid), slack_m_(slack_m), worthwhile_m_(above_m) {
+  // `slack_m` is how much deeper than the grid says a point may be; no point of a cell that is not
+  // `far` is deeper than `above_m`.
+  DeepestOnSurface(const DistanceGrid& solid, const MarkedCells& far, double above_m,
+                   double slack_m)
+      : solid_(&solid), far_(&far), slack_m_(slack_m), worthwhile_m_(above_m) {
     deepest_.depth_m = above_m;
   }
 
@@ -239,7 +268,18 @@ class DeepestOnSurface {
     const Eigen::Vector3i cell = solid_->grid().CellAt(patch.center);
     patch.bound_m = std::min(
         bound_m, solid_->DistanceAt(cell.x(), cell.y(), cell.z()) + slack_m_ + patch.reach_m);
+    // much of a hull lies on the solid, where it would be halved down to cells
+    if (patch.bound_m > worthwhile_m_ && !MayBeDeep(patch)) patch.bound_m = 0;
     return patch.bound_m > worthwhile_m_;
+  }
+
+  // False where no cell that the patch has a point in is far.
+  bool MayBeDeep(const Patch& patch) const {
+    constexpr double kRounding = 1e-7;  // cells: of corners and centres of patches
+    const Eigen::Array3d a = patch.corners[0], b = patch.corners[1], c = patch.corners[2];
+    const double margin_m = kRounding * solid_->grid().cell_m;
+    return far_->AnyBetween(solid_->grid().CellAt(a.min(b).min(c) - margin_m),
+                            solid_->grid().CellAt(a.max(b).max(c) + margin_m));
   }
 
   // across the longest side; the half with the higher bound comes first
@@ -258,12 +298,13 @@ class DeepestOnSurface {
     high.corners[next] = middle;
     const bool keeps_low = SetBound(low, bound_m);
     const bool keeps_high = SetBound(high, bound_m);
-    if (low.bound_m > high.bound_m) std::swap(low, high);
-    if (keeps_low && keeps_high) patches_.push_back(low);
-    if (keeps_low || keeps_high) patches_.push_back(high);
+    const bool low_first = low.bound_m > high.bound_m;
+    if (keeps_low && keeps_high) patches_.push_back(low_first ? high : low);
+    if (keeps_low || keeps_high) patches_.push_back(low_first ? low : high);
   }
 
   const DistanceGrid* solid_;
+  const MarkedCells* far_;
   double slack_m_;
   Concavity deepest_;
   double worthwhile_m_;         // what else is of interest is deeper
@@ -284,7 +325,8 @@ Concavity ProtrusionOf(const TriangleMesh& hull, MeasuredDistances& distances,
     const Eigen::Vector3i cell = solid.grid().CellAt(point);
     return solid.DistanceAt(cell.x(), cell.y(), cell.z()) > 0 ? distances.At(point) : 0.0;
   };
-  return DeepestOnSurface(solid, range.above_m, std::sqrt(3.0) * solid.grid().cell_m)
+  return DeepestOnSurface(solid, distances.FarCells(range.above_m), range.above_m,
+                          distances.MostBeyondGrid())
       .Find(hull, step_m, std::max(range.stop_m, range.above_m), depth_at);
 }
 

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "measure/distance_grid.h"
+#include "measure/marked_cells.h"
 #include "measure/triangle_tree.h"
 
 namespace doorforge {
@@ -23,12 +25,23 @@ class MeasuredDistances {
   const DistanceGrid& solid() const { return *solid_; }
   double At(const Eigen::Vector3d& point);
 
+  /// How much more than the grid's distance to a cell that of a point in it may be.
+  double MostBeyondGrid() const;
+  /// The cells in air that may hold a point for which At() is more than `above_m`. Made anew only
+  /// where that changes; valid until then.
+  const MarkedCells& FarCells(double above_m);
+
  private:
   double AtCell(int i, int j, int k);
+  /// What AtCell() is at most where the grid says `grid_m`, and what it is by the cells beside.
+  double MostAtCell(double grid_m) const;
+  double MostBeside(int i, int j, int k) const;
 
   const DistanceGrid* solid_;
   const TriangleTree* surface_;
   std::vector<float> distance_m_;  // negative where it was not asked for
+  std::optional<MarkedCells> far_;
+  double far_above_m_ = 0;
 };
 
 }  // namespace doorforge

@@ -266,10 +266,18 @@ class Repair {
     report_.components_dropped += dropped;
   }
 
+  // Of what its triangles use.
+  static Eigen::AlignedBox3d BoxAround(const TriangleMesh& mesh) {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3i& t : mesh.triangles) {
+      for (const int index : t) box.extend(mesh.vertices[static_cast<std::size_t>(index)]);
+    }
+    return box;
+  }
+
   static bool LiesInside(const TriangleMesh& piece, const TriangleMesh& other) {
     CheckWork(static_cast<unsigned>(20 * (piece.triangles.size() + other.triangles.size())));
-    const Eigen::AlignedBox3d box = MeasureTopology(other).bounds;
-    if (!box.contains(MeasureTopology(piece).bounds)) return false;
+    if (!BoxAround(other).contains(BoxAround(piece))) return false;
     const TriangleTree tree(other);
     const auto is_inside = [&](const Eigen::Vector3d& point) {
       return tree.WindingNumber(point) > 0.5;

@@ -159,9 +159,12 @@ std::optional<TriangleMesh> SimpleUnion(const std::vector<TriangleMesh>& solids,
     const TriangleMesh simple =
         Simplified(*whole, std::numeric_limits<int>::max() / 4, 0.5 * shift_m);
     for (const TriangleMesh& mesh : {simple, *whole}) {
-      if (!ClosedMesh::From(mesh) || SelfIntersects(mesh)) continue;
-      if (SurvivesFiles(mesh)) return mesh;
-      if (!flattened) flattened = mesh;
+      if (!ClosedMesh::From(mesh)) continue;
+      // of two that files would flatten the first is kept
+      const bool survives = SurvivesFiles(mesh);
+      if ((!survives && flattened) || SelfIntersects(mesh)) continue;
+      if (survives) return mesh;
+      flattened = mesh;
     }
     if (flattened && pairs > kFewPairs) break;
   }

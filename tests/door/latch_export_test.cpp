@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <span>
 
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
@@ -61,39 +62,6 @@ TEST(WithoutBox, LeavesAHullAloneThatItDoesNotMeet) {
   EXPECT_EQ(pieces[0].vertices, hull.vertices);
 }
 
-// By sampling: no point of the bolt, thrown or drawn back, lies in a piece of the frame.
-TEST(LatchBodies, TheMortiseHoldsTheBoltWherePiecesOfTheFrameWouldMeetIt) {
-  for (const HingeSide side : {HingeSide::kLeft, HingeSide::kRight}) {
-    for (const Opening opening : {Opening::kPull, Opening::kPush}) {
-      const DoorAsset door = LeverDoor({.hinge_side = side, .opening = opening});
-      const auto latch = internal::LatchBodiesOf(door);
-      ASSERT_TRUE(latch.has_value());
-      EXPECT_GT(latch->frame.size(), 2U);  // something was cut, and the strike
-      for (const double drawn : {0.0, latch->bolt.travel_m}) {
-        const RigidTransform base_from_bolt = door.hinge.parent_from_child_at_zero *
-                                              latch->bolt.leaf_from_bolt *
-                                              Translation({0, -drawn, 0});
-        for (const Eigen::Vector3d& vertex : latch->bolt.bolt_hull.vertices) {
-          const Eigen::Vector3d at = base_from_bolt * vertex;
-          for (std::size_t i = 0; i + 1 < latch->frame.size(); ++i) {
-            double deepest = -1e9;  // above the faces of a convex piece
-            const TriangleMesh& hull = latch->frame[i].hull;
-            for (const Eigen::Vector3i& t : hull.triangles) {
-              const Eigen::Vector3d& a = hull.vertices[static_cast<std::size_t>(t[0])];
-              const Eigen::Vector3d normal =
-                  (hull.vertices[static_cast<std::size_t>(t[1])] - a)
-                      .cross(hull.vertices[static_cast<std::size_t>(t[2])] - a);
-              if (normal.norm() > 1e-12)
-                deepest = std::max(deepest, normal.normalized().dot(at - a));
-            }
-            EXPECT_GT(deepest, 0.002) << latch->frame[i].name;
-          }
-        }
-      }
-    }
-  }
-}
-
 // Whether a convex hull holds the point, or misses it by less than `margin`.
 bool Holds(const TriangleMesh& hull, const Eigen::Vector3d& point, double margin) {
   for (const Eigen::Vector3i& t : hull.triangles) {
@@ -102,6 +70,46 @@ bool Holds(const TriangleMesh& hull, const Eigen::Vector3d& point, double margin
     if (normal.norm() > 1e-12 && normal.normalized().dot(point - corner(0)) > margin) return false;
   }
   return true;
+}
+
+// By sampling: no point of the bolt, thrown or drawn back, lies in one of the frame's pieces.
+void ExpectFree(const Bolt& bolt, const DoorAsset& door,
+                std::span<const internal::FramePiece> frame) {
+  for (const double drawn : {0.0, 0.5, 1.0}) {
+    const RigidTransform base_from_bolt = door.hinge.parent_from_child_at_zero *
+                                          bolt.leaf_from_bolt *
+                                          Translation({0, -drawn * bolt.travel_m, 0});
+    for (const Eigen::Vector3d& vertex : bolt.bolt_hull.vertices) {
+      for (const internal::FramePiece& piece : frame)
+        EXPECT_FALSE(Holds(piece.hull, base_from_bolt * vertex, 0.002)) << piece.name;
+    }
+  }
+}
+
+TEST(LatchBodies, TheMortiseHoldsTheBoltWherePiecesOfTheFrameWouldMeetIt) {
+  for (const HingeSide side : {HingeSide::kLeft, HingeSide::kRight}) {
+    for (const Opening opening : {Opening::kPull, Opening::kPush}) {
+      const DoorAsset door = LeverDoor({.hinge_side = side, .opening = opening});
+      const auto latch = internal::LatchBodiesOf(door);
+      ASSERT_TRUE(latch.has_value());
+      EXPECT_GT(latch->frame.size(), 2U);  // something was cut, and the strike
+      ExpectFree(latch->bolt, door, std::span(latch->frame).first(latch->frame.size() - 1));
+    }
+  }
+}
+
+// A refrigerator's: the frame is a box that goes on behind the leaf's edge, where a bolt that was
+// moved out does not come.
+TEST(LatchBodies, InPlaceTheMortiseReachesAsFarInAsTheBoltIsDrawn) {
+  Part body = SmallBody();
+  body.pieces = {MakeSolid("frame", BoxMesh({-0.6, -0.45, 0}, {-0.03, 0.45, 2.05}), 8),
+                 MakeSolid("leaf", BoxMesh({-0.05, -0.4, 0}, {0, 0.4, 2}), 20)};
+  const DoorAsset door = ComposeDoor(body, SmallLever(), {});
+  const auto latch = internal::LatchBodiesInPlace(door);
+  ASSERT_TRUE(latch.has_value());
+  EXPECT_EQ(latch->bolt.leaf_from_bolt.translation(), BoltOf(door).leaf_from_bolt.translation());
+  EXPECT_GT(latch->frame.size(), 1U);
+  ExpectFree(latch->bolt, door, latch->frame);
 }
 
 // A car's hatch: bolt and strike lie in the middle of the leaf's bounds, far behind the front of

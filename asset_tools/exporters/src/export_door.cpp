@@ -69,8 +69,10 @@ void WriteExportedDoor(const DoorAsset& door, std::span<const DoorFormat> format
                   [](const DoorFormat& format) { return format.names_meshes; })) {
     WriteMeshFiles(door, staged.path());
     if (settings.latch == LatchExport::kBolt) {
-      if (const auto latch = internal::LatchBodiesOf(door))
-        internal::WriteLatchMeshes(*latch, staged.path());
+      for (const auto& latch :
+           {internal::LatchBodiesOf(door), internal::LatchBodiesInPlace(door)}) {
+        if (latch) internal::WriteLatchMeshes(*latch, staged.path());
+      }
     }
   }
   nlohmann::ordered_json names = nlohmann::ordered_json::array();

@@ -37,20 +37,13 @@ std::string MeshName(const DoorGeometry& geometry, int hull) {
 /// The latch as MJCF has it. Bolt and strike touch each other alone, by bits, so they stay where
 /// the simulated world has them; Drake reads no bits, so the frame's shapes are those that the
 /// mortise left.
-struct MjcfLatch {
-  Bolt bolt;
-  std::vector<internal::FramePiece> frame;  ///< Without a strike.
-};
-
-std::optional<MjcfLatch> MjcfLatchOf(const DoorAsset& door, const ExportSettings& settings) {
+std::optional<internal::LatchBodies> MjcfLatchOf(const DoorAsset& door,
+                                                 const ExportSettings& settings) {
   if (settings.latch != LatchExport::kBolt) return std::nullopt;
-  auto bodies = internal::LatchBodiesOf(door);
-  if (!bodies) return std::nullopt;
-  bodies->frame.pop_back();
-  return MjcfLatch{BoltOf(door), std::move(bodies->frame)};
+  return internal::LatchBodiesInPlace(door);
 }
 
-void AddAssets(const DoorAsset& door, const MjcfLatch* latch, XmlElement& root) {
+void AddAssets(const DoorAsset& door, const internal::LatchBodies* latch, XmlElement& root) {
   XmlElement& asset = AddElement(root, "asset");
   const auto add = [&](const std::string& name, const std::string& file) {
     XmlElement& mesh = AddElement(asset, "mesh");
@@ -271,7 +264,7 @@ std::string ToMjcf(const DoorAsset& door, const ExportSettings& settings) {
   SetAttribute(compiler, "inertiafromgeom", "false");
   AddLatchWords(door, root);
   AddDefaults(root);
-  const std::optional<MjcfLatch> latch = MjcfLatchOf(door, settings);
+  const std::optional<internal::LatchBodies> latch = MjcfLatchOf(door, settings);
   AddAssets(door, latch ? &*latch : nullptr, root);
   XmlElement& base =
       AddBody(door.links[kBaseLink], RigidTransform::Identity(), AddElement(root, "worldbody"));

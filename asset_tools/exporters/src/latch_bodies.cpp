@@ -100,7 +100,8 @@ PlacedBox MortiseOf(const Bolt& bolt, const DoorAsset& door) {
   return {mortise.frame_from_box, {mortise.bounds.min() - around, mortise.bounds.max() + around}};
 }
 
-void AddFrame(const DoorAsset& door, LatchBodies& latch) {
+// Files of pieces that were cut begin with `prefix`.
+void AddFrame(const DoorAsset& door, const std::string& prefix, LatchBodies& latch) {
   const PlacedBox mortise = MortiseOf(latch.bolt, door);
   for (const DoorGeometry& geometry : door.links[kBaseLink].geometry) {
     for (std::size_t i = 0; i < geometry.hulls.size(); ++i) {
@@ -112,13 +113,20 @@ void AddFrame(const DoorAsset& door, LatchBodies& latch) {
       }
       for (std::size_t k = 0; k < pieces.size(); ++k) {
         const std::string piece = name + "_" + std::to_string(k);
-        latch.frame.push_back({piece, "meshes/latch/" + piece + ".obj", pieces[k]});
+        latch.frame.push_back({piece, "meshes/latch/" + prefix + piece + ".obj", pieces[k]});
       }
     }
   }
+}
+
+void AddStrike(LatchBodies& latch) {
   TriangleMesh strike = latch.bolt.strike_hull;
   for (Eigen::Vector3d& vertex : strike.vertices) vertex = latch.bolt.base_from_strike * vertex;
   latch.frame.push_back({"strike", kStrikeMeshPath, std::move(strike)});
+}
+
+bool MayLatch(const DoorAsset& door) {
+  return door.latch.type != LatchType::kNone && Turns(door.handle_joint);
 }
 
 // The most that gravity turns the handle with about a level axis.
@@ -133,11 +141,20 @@ double HoldingTorque(const DoorAsset& door) {
 }  // namespace
 
 std::optional<LatchBodies> LatchBodiesOf(const DoorAsset& door) {
-  if (door.latch.type == LatchType::kNone || !Turns(door.handle_joint)) return std::nullopt;
+  if (!MayLatch(door)) return std::nullopt;
   LatchBodies latch;
   latch.bolt = MovedOut(BoltOf(door), door);
   latch.handle_friction_nm = HoldingTorque(door);
-  AddFrame(door, latch);
+  AddFrame(door, "", latch);
+  AddStrike(latch);
+  return latch;
+}
+
+std::optional<LatchBodies> LatchBodiesInPlace(const DoorAsset& door) {
+  if (!MayLatch(door)) return std::nullopt;
+  LatchBodies latch;
+  latch.bolt = BoltOf(door);
+  AddFrame(door, "in_place_", latch);
   return latch;
 }
 

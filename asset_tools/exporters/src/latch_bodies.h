@@ -39,6 +39,11 @@ inline constexpr const char* kStrikeHullPath = "meshes/latch/strike_hull.obj";
 /// Nothing for a door without a latch, or whose handle does not turn. Throws as BoltOf().
 std::optional<LatchBodies> LatchBodiesOf(const DoorAsset& door);
 
+/// Bolt and strike where the simulated world has them, for a format that can name what does not
+/// touch, and the pieces of the frame, without the strike, that the mortise of this bolt leaves: it
+/// begins farther in. For readers that take no account of what is named.
+std::optional<LatchBodies> LatchBodiesInPlace(const DoorAsset& door);
+
 /// Writes meshes/latch: bolt, strike, its hull and what the mortise left of the shapes that it
 /// cuts.
 void WriteLatchMeshes(const LatchBodies& latch, const std::filesystem::path& folder);

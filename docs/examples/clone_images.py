@@ -63,10 +63,10 @@ class ImageClone(torch.nn.Module):
             return self.forward(seen, torch.from_numpy(observation["proprioception"])[None])[0].numpy()
 
 
-def train(data: Decisions, epochs: int, batch: int) -> ImageClone:
-    torch.manual_seed(7)
+def train(data: Decisions, epochs: int, batch: int, seed: int) -> ImageClone:
+    torch.manual_seed(seed)
     policy = ImageClone(data)
-    sampler = ResumableSampler(data, min(batch, len(data)), seed=7)
+    sampler = ResumableSampler(data, min(batch, len(data)), seed=seed)
     steps = epochs * len(sampler)
     optimizer = torch.optim.Adam(policy.parameters(), lr=1e-3)
     schedule = torch.optim.lr_scheduler.OneCycleLR(optimizer, 1e-3, max(steps, 4))
@@ -93,7 +93,8 @@ def main() -> None:
     parser.add_argument("doors", nargs="+", help="folders, with a split such as full:test before them")
     parser.add_argument("--epochs", type=int, default=8)
     parser.add_argument("--batch", type=int, default=32)
-    parser.add_argument("--seeds", type=int, default=1)
+    parser.add_argument("--seed", type=int, default=7, help="of the training")
+    parser.add_argument("--seeds", type=int, default=1, help="scenes a door that it is judged in")
     parser.add_argument("--per-category", type=int, default=0, help="doors; 0: all")
     parser.add_argument("--weights", default="", help="file to keep them in, and to take them from if it is there")
     options = parser.parse_args()
@@ -102,7 +103,7 @@ def main() -> None:
         policy = ImageClone(data)
         policy.load_state_dict(torch.load(options.weights))
     except FileNotFoundError:
-        policy = train(data, options.epochs, options.batch)
+        policy = train(data, options.epochs, options.batch, options.seed)
         if options.weights:
             torch.save(policy.state_dict(), options.weights)
     policy.eval()

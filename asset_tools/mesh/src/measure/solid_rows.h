@@ -26,7 +26,8 @@ struct Grid {
   std::size_t count() const { return IndexOf(0, 0, size.z()); }
   /// The cell that holds the point, or the nearest one.
   Eigen::Vector3i CellAt(const Eigen::Vector3d& point) const {
-    const Eigen::Array3d cell = ((point - origin_m) / cell_m).array().floor();
+    // what is not negative is rounded down as it becomes an integer, which takes less than floor()
+    const Eigen::Array3d cell = ((point - origin_m) / cell_m).array();
     return cell.max(0.0).min((size.array() - 1).cast<double>()).cast<int>();
   }
   Eigen::Vector3d CenterOf(int i, int j, int k) const {

@@ -27,8 +27,8 @@ struct CatalogueEntry : RecipeFile {
   std::string family;                      ///< The parametric family that builds it.
 };
 
-/// All recipes in the order of ListCatalogue(), of which none is read: that takes a hundred times
-/// as long. Throws as ListCatalogue() does, but for what a recipe says.
+/// All recipes in the order of ListCatalogue(), of which none is read: that takes most of its time.
+/// Throws as ListCatalogue() does, but for what a recipe says.
 std::vector<RecipeFile> ListRecipes(const std::filesystem::path& data_folder);
 
 /// The recipe with this id. Throws Error(kMissing) that suggests the nearest id.

@@ -152,9 +152,9 @@ function(doorforge_package)
 
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME doorforge)
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SECTION science)
-  # The libraries are found by dpkg-shlibdeps. libtorch is content with any BLAS, and trains ten times slower with the
-  # one that Debian would take. What else programs call, bash and one another, is always there.
-  set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
+  # The packages of libraries are found when all is packed. libtorch is content with any BLAS, and trains ten times slower
+  # with the one that Debian would take. What else programs call, bash and one another, is always there.
+  set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/package/library_packages.cmake)
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS libopenblas0-openmp)
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "python3, python3-numpy")
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "slurm-client, python3-h5py")

@@ -401,6 +401,24 @@ TEST(Catalogue, RefusesUnknownFamiliesFinishesAndMisplacedRecipes) {
   EXPECT_NE(message.find("did you mean \"polished_brass\""), std::string::npos) << message;
 }
 
+TEST(Catalogue, BuildsAPartBesideARecipeThatIsBroken) {
+  const fs::path data =
+      WithRecipe("beside", "interior/handles/a.yaml", Head("a", "knob_ball") + "  {}\n");
+  CommitFile(data / "catalog/interior/handles/b.yaml", "no recipe: [");
+  EXPECT_EQ(BuildCataloguePart(data, "a").id, "a");
+  MessageOf([&] { ListCatalogue(data); }, ErrorCode::kInvalidConfig);
+}
+
+TEST(Catalogue, ListsTheFilesOfWhatItsRecipesSay) {
+  const std::vector<RecipeFile> files = ListRecipes(DataOfSource());
+  const std::vector<CatalogueEntry> entries = ListCatalogue(DataOfSource());
+  ASSERT_EQ(files.size(), entries.size());
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    EXPECT_EQ(files[i].id, entries[i].id);
+    EXPECT_EQ(ParseYaml(ReadFile(files[i].recipe), "")["id"], files[i].id);
+  }
+}
+
 TEST(Catalogue, SuggestsTheNearestIdForAnUnknownOne) {
   const std::string message = MessageOf(
       [] { BuildCataloguePart(DataOfSource(), "interior_flush_1"); }, ErrorCode::kMissing);

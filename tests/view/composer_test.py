@@ -159,6 +159,10 @@ class ComposerPage(ServedTest):
         self.assertIn(b"413", announced.splitlines()[0])
         self.assertEqual(self.ask("GET", "/")[0], 200)
 
+    def test_the_page_does_not_wait_to_be_compressed(self) -> None:
+        page = self.ask("GET", "/")[1]
+        self.assertEqual(self.ask("GET", "/", Accept_Encoding="gzip, deflate, br, zstd"), (200, page))
+
     def test_two_tabs_at_once(self) -> None:
         def composed(side: str) -> bytes:
             return self.ask("POST", "/download", self.request(hinge_side=side))[1]

@@ -25,6 +25,13 @@ class GalleryPage(PageTest):
         cls.records = [json.loads(path.read_text()) for path in cls.folder.glob("parts/*/part.json")]
         cls.doors = [json.loads(path.read_text()) for path in cls.folder.glob("doors/*/*/door.json")]
 
+    def open_parts(self) -> None:
+        """The gallery of the parts, which is made once: it draws each of them."""
+        page = self.folder / "parts.html"
+        if not page.exists():
+            run("view", self.folder / "parts", "--out", page, "--gallery")
+        self.browser.open(page.as_uri())
+
     def shown(self) -> int:
         return self.browser.js("doorforge.gallery.found.length")
 
@@ -35,7 +42,7 @@ class GalleryPage(PageTest):
         self.browser.js(f"(() => {{ const s = document.getElementById('{field}'); s.value = '{value}'; s.dispatchEvent(new Event('input')); }})()")
 
     def test_filters_find_what_the_records_say(self) -> None:
-        self.open("parts", options=("--gallery",))
+        self.open_parts()
         self.assertEqual(self.shown(), len(self.records))
         for facet in ("role", "mechanism"):
             for value in {record[facet] for record in self.records}:
@@ -53,7 +60,7 @@ class GalleryPage(PageTest):
         self.assertEqual(self.shown(), heights.count(middle))
 
     def test_sizes_are_those_of_the_meshes(self) -> None:
-        self.open("parts", options=("--gallery",))
+        self.open_parts()
         for item in self.browser.js("doorforge.gallery.items.slice(0, 12).map(({ id, size }) => [id, size])"):
             vertices = [[float(word) for word in line.split()[1:]] for path in (self.folder / "parts" / item[0] / "meshes").glob("*.obj")
                         if "_hull_" not in path.name for line in path.read_text().splitlines() if line.startswith("v ")]
@@ -120,7 +127,7 @@ class GalleryPage(PageTest):
         self.assertEqual(last, DOORS)
 
     def test_small_screen(self) -> None:
-        self.open("parts", options=("--gallery",))
+        self.open_parts()
         self.browser.size(390, 844, mobile=True)
         self.assertLessEqual(self.browser.js("document.documentElement.scrollWidth"), 390)
         self.assertGreater(self.browser.js("document.querySelectorAll('.card:not([hidden])').length"), 1)

@@ -45,7 +45,7 @@ bool IsGlob(const std::string& name) { return name.find_first_of("*?[") != std::
 
 PartStore::PartStore(const fs::path& folder) : folder_(folder) {
   if (folder.empty()) {
-    catalogue_ = ListCatalogue(DataFolder());
+    catalogue_ = ListRecipes(DataFolder());
     return;
   }
   if (!fs::is_directory(folder))
@@ -57,7 +57,7 @@ PartStore::PartStore(const fs::path& folder) : folder_(folder) {
 
 std::vector<std::string> PartStore::All() const {
   std::vector<std::string> names;
-  for (const CatalogueEntry& entry : catalogue_) names.push_back(entry.id);
+  for (const RecipeFile& entry : catalogue_) names.push_back(entry.id);
   for (const fs::path& folder : folders_) names.push_back(folder.string());
   return names;
 }
@@ -65,7 +65,7 @@ std::vector<std::string> PartStore::All() const {
 std::vector<std::string> PartStore::Matching(const std::string& wanted, PartRole role) const {
   if (!IsGlob(wanted)) return {wanted};
   std::vector<std::string> names;
-  for (const CatalogueEntry& entry : catalogue_) {
+  for (const RecipeFile& entry : catalogue_) {
     if (entry.role == role && Matches(wanted, entry.id)) names.push_back(entry.id);
   }
   for (const fs::path& folder : folders_) {
@@ -96,7 +96,7 @@ Part PartStore::Load(const std::string& name) const {
                                          ": no part.json there; `doorforge import` and "
                                          "`doorforge catalog build` write parts");
   return catalogue_.empty() ? BuildCataloguePart(DataFolder(), name)
-                            : BuildCataloguePart(FindCatalogueEntry(catalogue_, name));
+                            : BuildCataloguePart(FindRecipe(catalogue_, name));
 }
 
 }  // namespace doorforge

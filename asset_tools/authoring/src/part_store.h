@@ -34,7 +34,7 @@ class PartStore {
 
  private:
   std::filesystem::path folder_;
-  std::vector<CatalogueEntry> catalogue_;
+  std::vector<RecipeFile> catalogue_;
   std::set<std::filesystem::path> folders_;
 };
 

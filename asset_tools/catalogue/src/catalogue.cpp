@@ -71,28 +71,33 @@ std::vector<fs::path> SortedChildren(const fs::path& folder) {
   return children;
 }
 
-CatalogueEntry ReadEntry(const fs::path& path, Category category, PartRole role) {
-  const Recipe recipe = ParseRecipe(ReadFile(path), path);
-  const internal::Family& family = internal::FamilyNamed(recipe.family, path.string());
-  if (family.role != role)
-    ThrowRecipeError(path, "family \"" + recipe.family + "\" builds a " +
-                               std::string(NameOf(family.role)) + ", the folder is for a " +
-                               std::string(NameOf(role)));
-  return {recipe.id, role, category, family.mechanism, recipe.family, path};
+const internal::Family& FamilyOf(const Recipe& recipe, const RecipeFile& file) {
+  const internal::Family& family = internal::FamilyNamed(recipe.family, file.recipe.string());
+  if (family.role != file.role)
+    ThrowRecipeError(file.recipe, "family \"" + recipe.family + "\" builds a " +
+                                      std::string(NameOf(family.role)) + ", the folder is for a " +
+                                      std::string(NameOf(file.role)));
+  return family;
 }
 
-void AddEntries(const fs::path& folder, Category category, PartRole role,
-                std::vector<CatalogueEntry>& entries) {
+CatalogueEntry ReadEntry(const RecipeFile& file) {
+  const Recipe recipe = ParseRecipe(ReadFile(file.recipe), file.recipe);
+  return {file, FamilyOf(recipe, file).mechanism, recipe.family};
+}
+
+void AddRecipes(const fs::path& folder, Category category, PartRole role,
+                std::vector<RecipeFile>& recipes) {
   if (!fs::is_directory(folder)) return;
   for (const fs::path& path : SortedChildren(folder)) {
-    if (path.extension() == ".yaml") entries.push_back(ReadEntry(path, category, role));
+    if (path.extension() == ".yaml")
+      recipes.push_back({path.stem().string(), role, category, path});
   }
 }
 
-void RequireUniqueIds(const std::vector<CatalogueEntry>& entries) {
-  std::vector<std::string> ids(entries.size());
-  std::transform(entries.begin(), entries.end(), ids.begin(),
-                 [](const CatalogueEntry& entry) { return entry.id; });
+void RequireUniqueIds(const std::vector<RecipeFile>& recipes) {
+  std::vector<std::string> ids(recipes.size());
+  std::transform(recipes.begin(), recipes.end(), ids.begin(),
+                 [](const RecipeFile& file) { return file.id; });
   std::sort(ids.begin(), ids.end());
   const auto twice = std::adjacent_find(ids.begin(), ids.end());
   if (twice != ids.end())
@@ -100,12 +105,23 @@ void RequireUniqueIds(const std::vector<CatalogueEntry>& entries) {
                 "the catalogue has two parts with the id \"" + *twice + '"');
 }
 
+template <class Entry>
+Entry FindById(const std::vector<Entry>& entries, std::string_view id) {
+  std::vector<std::string> ids;
+  for (const Entry& entry : entries) {
+    if (entry.id == id) return entry;
+    ids.push_back(entry.id);
+  }
+  throw Error(ErrorCode::kMissing, "the catalogue has no part \"" + std::string(id) +
+                                       "\"; did you mean \"" + NearestName(id, ids) +
+                                       "\"? `doorforge catalog list` shows them all");
+}
+
 // Recipes are named relative to the catalogue, so that a part does not depend on where it was
 // built.
-std::string SourceOf(const CatalogueEntry& entry) {
-  return "catalog/" + std::string(NameOf(entry.category)) + "/" +
-         (entry.role == PartRole::kBody ? "bodies/" : "handles/") +
-         entry.recipe.filename().string();
+std::string SourceOf(const RecipeFile& file) {
+  return "catalog/" + std::string(NameOf(file.category)) + "/" +
+         (file.role == PartRole::kBody ? "bodies/" : "handles/") + file.recipe.filename().string();
 }
 
 bool ReadsBackTheSame(const RigidTransform& pose, const std::string& path) {
@@ -140,51 +156,54 @@ RigidTransform AsFiled(const RigidTransform& pose, const std::string& path) {
 
 }  // namespace
 
-std::vector<CatalogueEntry> ListCatalogue(const fs::path& data_folder) {
+std::vector<RecipeFile> ListRecipes(const fs::path& data_folder) {
   const fs::path catalog = data_folder / "catalog";
   if (!fs::is_directory(catalog))
     throw Error(ErrorCode::kMissing,
                 catalog.string() +
                     ": there is no catalogue; set DOORFORGE_DATA to the folder "
                     "that holds catalog/");
-  std::vector<CatalogueEntry> entries;
+  std::vector<RecipeFile> recipes;
   for (const fs::path& folder : SortedChildren(catalog)) {
     if (!fs::is_directory(folder)) continue;
     const auto category = CategoryNamed(folder.filename().string());
     if (!category) ThrowRecipeError(folder, "not a category");
-    AddEntries(folder / "bodies", *category, PartRole::kBody, entries);
-    AddEntries(folder / "handles", *category, PartRole::kHandle, entries);
+    AddRecipes(folder / "bodies", *category, PartRole::kBody, recipes);
+    AddRecipes(folder / "handles", *category, PartRole::kHandle, recipes);
   }
-  RequireUniqueIds(entries);
-  std::sort(entries.begin(), entries.end(), [](const CatalogueEntry& a, const CatalogueEntry& b) {
+  RequireUniqueIds(recipes);
+  std::sort(recipes.begin(), recipes.end(), [](const RecipeFile& a, const RecipeFile& b) {
     return std::tie(a.category, a.role, a.id) < std::tie(b.category, b.role, b.id);
   });
+  return recipes;
+}
+
+RecipeFile FindRecipe(const std::vector<RecipeFile>& recipes, std::string_view id) {
+  return FindById(recipes, id);
+}
+
+std::vector<CatalogueEntry> ListCatalogue(const fs::path& data_folder) {
+  std::vector<CatalogueEntry> entries;
+  for (const RecipeFile& file : ListRecipes(data_folder)) entries.push_back(ReadEntry(file));
   return entries;
 }
 
 CatalogueEntry FindCatalogueEntry(const std::vector<CatalogueEntry>& catalogue,
                                   std::string_view id) {
-  std::vector<std::string> ids;
-  for (const CatalogueEntry& entry : catalogue) {
-    if (entry.id == id) return entry;
-    ids.push_back(entry.id);
-  }
-  throw Error(ErrorCode::kMissing, "the catalogue has no part \"" + std::string(id) +
-                                       "\"; did you mean \"" + NearestName(id, ids) +
-                                       "\"? `doorforge catalog list` shows them all");
+  return FindById(catalogue, id);
 }
 
-Part BuildCataloguePart(const CatalogueEntry& entry) {
-  const std::string text = ReadFile(entry.recipe);
-  const Recipe recipe = ParseRecipe(text, entry.recipe);
-  const internal::Family& family = internal::FamilyNamed(recipe.family, entry.recipe.string());
-  Part part = family.build(recipe.parameters, entry.recipe.string() + ": parameters");
+Part BuildCataloguePart(const RecipeFile& file) {
+  const std::string text = ReadFile(file.recipe);
+  const Recipe recipe = ParseRecipe(text, file.recipe);
+  const internal::Family& family = FamilyOf(recipe, file);
+  Part part = family.build(recipe.parameters, file.recipe.string() + ": parameters");
   part.id = recipe.id;
   part.role = family.role;
-  part.category = entry.category;
+  part.category = file.category;
   part.mechanism = family.mechanism;
   part.license = recipe.license;
-  part.source = SourceOf(entry);
+  part.source = SourceOf(file);
   part.source_sha256 = Sha256Hex(text);
   part.part_from_grasp = AsFiled(part.part_from_grasp, part.source);
   part.part_from_mount = AsFiled(part.part_from_mount, part.source);
@@ -192,7 +211,7 @@ Part BuildCataloguePart(const CatalogueEntry& entry) {
 }
 
 Part BuildCataloguePart(const fs::path& data_folder, std::string_view id) {
-  return BuildCataloguePart(FindCatalogueEntry(ListCatalogue(data_folder), id));
+  return BuildCataloguePart(FindRecipe(ListRecipes(data_folder), id));
 }
 
 }  // namespace doorforge

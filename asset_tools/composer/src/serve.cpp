@@ -3,6 +3,7 @@
 #include "doorforge/composer/serve.h"
 
 #include <chrono>
+#include <memory>
 #include <thread>
 
 #include <httplib.h>
@@ -19,9 +20,19 @@ namespace {
 constexpr std::uint64_t kMostBytes = std::uint64_t{64} << 10;  // of a request
 constexpr auto kLook = std::chrono::milliseconds(50);          // how often a stop is looked for
 
+// Uncompressed: nothing travels further than this machine, and httplib would compress a page for as
+// long as it takes to make it as small as can be, before its first byte is sent.
+void Give(httplib::Response& response, std::string content, const char* type) {
+  const auto kept = std::make_shared<const std::string>(std::move(content));
+  response.set_content_provider(
+      kept->size(), type, [kept](std::size_t from, std::size_t bytes, httplib::DataSink& sink) {
+        return sink.write(kept->data() + from, bytes);
+      });
+}
+
 void Refuse(httplib::Response& response, int status, const std::string& message) {
   response.status = status;
-  response.set_content(JsonText({{"error", message}}), "application/json");
+  Give(response, JsonText({{"error", message}}), "application/json");
 }
 
 int StatusOf(const Error& error) {
@@ -51,7 +62,7 @@ class Doorkeeper {
 template <class Make>
 void Answer(httplib::Response& response, const char* type, Make&& make) {
   try {
-    response.set_content(make(), type);
+    Give(response, make(), type);
   } catch (const Error& error) {
     Refuse(response, StatusOf(error), error.what());
   } catch (const std::exception& error) {

@@ -8,7 +8,8 @@
 //   S::Vector    a vector of S::kWidth floats with + - * and comparisons
 //   S::Index     a vector of as many 32-bit integers; what a comparison of two vectors gives
 //   S::kTileRows rows of a register tile; a tile is kTileRows x 2 vectors
-//   Load, Store, Broadcast, MultiplyAdd, Any
+//   Load, Store, Broadcast, MultiplyAdd
+//   Bits         of a comparison's Index: bit i is set where lane i is
 // Included by each kernels_*.cpp inside an anonymous namespace, with its own compiler flags.
 
 template <class S>
@@ -319,11 +320,10 @@ struct Loops {
     int count = 0;
     int i = 0;
     for (; i + kWidth <= points.count && count < limit; i += kWidth) {
-      const typename S::Index inside = SquaredDistances(points, i, from) < Vector{} + radius_2;
-      if (!S::Any(inside)) continue;
-      for (int lane = 0; lane < kWidth && count < limit; ++lane) {
-        if (inside[lane] != 0) found[count++] = static_cast<std::uint16_t>(i + lane);
-      }
+      unsigned inside = S::Bits(SquaredDistances(points, i, from) < Vector{} + radius_2);
+      // from one that is inside to the next: which lanes those are no branch can foresee
+      for (; inside != 0 && count < limit; inside &= inside - 1)
+        found[count++] = static_cast<std::uint16_t>(i + __builtin_ctz(inside));
     }
     for (; i < points.count && count < limit; ++i) {
       if (SquaredDistance(points, i, from) < radius_2)

@@ -22,7 +22,9 @@ struct Avx2 {
   static Vector Broadcast(const float* p) { return _mm256_broadcast_ss(p); }
   static Vector MultiplyAdd(Vector a, Vector b, Vector c) { return _mm256_fmadd_ps(a, b, c); }
   static float ScalarMultiplyAdd(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
-  static bool Any(Index mask) { return _mm256_movemask_ps(reinterpret_cast<__m256>(mask)) != 0; }
+  static unsigned Bits(Index mask) {
+    return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask)));
+  }
 };
 
 }  // namespace

@@ -22,9 +22,9 @@ struct Avx512 {
   static Vector Broadcast(const float* p) { return _mm512_set1_ps(*p); }
   static Vector MultiplyAdd(Vector a, Vector b, Vector c) { return _mm512_fmadd_ps(a, b, c); }
   static float ScalarMultiplyAdd(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
-  static bool Any(Index mask) {
-    const __m512i bits = reinterpret_cast<__m512i>(mask);
-    return _mm512_test_epi32_mask(bits, bits) != 0;
+  static unsigned Bits(Index mask) {
+    const __m512i lanes = reinterpret_cast<__m512i>(mask);
+    return _mm512_test_epi32_mask(lanes, lanes);
   }
 };
 

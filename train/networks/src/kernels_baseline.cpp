@@ -20,7 +20,9 @@ struct Baseline {
   static Vector Broadcast(const float* p) { return Vector{} + *p; }
   static Vector MultiplyAdd(Vector a, Vector b, Vector c) { return a * b + c; }
   static float ScalarMultiplyAdd(float a, float b, float c) { return a * b + c; }
-  static bool Any(Index mask) { return (mask[0] | mask[1] | mask[2] | mask[3]) != 0; }
+  static unsigned Bits(Index mask) {
+    return static_cast<unsigned>((mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8));
+  }
 };
 
 }  // namespace

@@ -248,7 +248,7 @@ def write_video(path: pathlib.Path, frames: Iterable[np.ndarray], size: tuple[in
     encoder give the same bytes."""
     av = importlib.import_module("av")
     with av.open(str(path), "w", format="mp4") as container:
-        stream = container.add_stream("libx264", rate=FPS, options={"crf": "18", "g": "2", "bf": "0"})
+        stream = container.add_stream("libx264", rate=FPS, options={"crf": "14", "g": "2", "bf": "0"})
         stream.width, stream.height = size
         stream.pix_fmt = "yuv420p"
         stream.codec_context.thread_count = 1

@@ -38,7 +38,7 @@ class Fractions {
   std::mt19937 random_{7};
 };
 
-// The same with fractions all along.
+// It computes in fractions what the predicate under test computes in integers.
 int SignOf(const Point& p, const Point& q, const Point& r, const Vector& normal) {
   const Vector u = q - p;
   const Vector v = r - p;
@@ -78,7 +78,7 @@ TEST(ExactOrientation, IsZeroOnALineAndTellsTheLeastStepFromIt) {
   }
 }
 
-// The same with fractions all along: the points, seen against the normal, on a paraboloid.
+// It computes in fractions, too: the points are seen against the normal and lifted to a paraboloid.
 int SideOfCircleOf(const std::array<Point, 4>& points, const Vector& normal) {
   std::array<Vector, 3> way;
   std::array<mpq_class, 3> height;

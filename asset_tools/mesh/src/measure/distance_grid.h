@@ -20,7 +20,7 @@ class DistanceGrid {
   const Grid& grid() const { return grid_; }
   float DistanceAt(int i, int j, int k) const { return distance_m_[grid_.IndexOf(i, j, k)]; }
 
-  /// Of all cells, in the order of the grid.
+  /// The distances of all cells lie in the order of the grid.
   const std::vector<float>& distances() const { return distance_m_; }
 
   /// Cubes of 2^level cells along each axis, of which block (i, j, k) begins with cell

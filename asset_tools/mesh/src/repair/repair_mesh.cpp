@@ -266,7 +266,7 @@ class Repair {
     report_.components_dropped += dropped;
   }
 
-  // Of what its triangles use.
+  // Vertices that no triangle uses are left out.
   static Eigen::AlignedBox3d BoxAround(const TriangleMesh& mesh) {
     Eigen::AlignedBox3d box;
     for (const Eigen::Vector3i& t : mesh.triangles) {

@@ -9,7 +9,8 @@
 DATA holds pictures of the policies' own camera, which `evaluate` shows as "image" and "depth".
 """
 import argparse
-from typing import Optional
+import os
+from typing import Any, Optional
 
 import numpy as np
 import torch
@@ -63,13 +64,24 @@ class ImageClone(torch.nn.Module):
             return self.forward(seen, torch.from_numpy(observation["proprioception"])[None])[0].numpy()
 
 
-def train(data: Decisions, epochs: int, batch: int, seed: int) -> ImageClone:
+def keep(path: str, value: Any) -> None:
+    """Whole or not at all: an end in the middle of writing leaves the file of before."""
+    torch.save(value, path + ".new")
+    os.replace(path + ".new", path)
+
+
+def train(data: Decisions, epochs: int, batch: int, seed: int, checkpoint: str) -> ImageClone:
+    """Goes on after the last whole epoch that CHECKPOINT, a file or "", holds."""
     torch.manual_seed(seed)
     policy = ImageClone(data)
     sampler = ResumableSampler(data, min(batch, len(data)), seed=seed)
     steps = epochs * len(sampler)
     optimizer = torch.optim.Adam(policy.parameters(), lr=1e-3)
     schedule = torch.optim.lr_scheduler.OneCycleLR(optimizer, 1e-3, max(steps, 4))
+    parts = {"policy": policy, "optimizer": optimizer, "schedule": schedule, "sampler": sampler}
+    if os.path.exists(checkpoint):
+        for name, state in torch.load(checkpoint).items():
+            parts[name].load_state_dict(state)
     while sampler.epoch < epochs:
         losses = []
         for sample in DataLoader(data, batch_sampler=sampler):
@@ -84,6 +96,8 @@ def train(data: Decisions, epochs: int, batch: int, seed: int) -> ImageClone:
             losses.append(loss.item())
         print(f"epoch {sampler.epoch}: loss {np.mean(losses):.4f}", flush=True)
         sampler.next_epoch()
+        if checkpoint:
+            keep(checkpoint, {name: part.state_dict() for name, part in parts.items()})
     return policy
 
 
@@ -96,16 +110,19 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=7, help="of the training")
     parser.add_argument("--seeds", type=int, default=1, help="scenes a door that it is judged in")
     parser.add_argument("--per-category", type=int, default=0, help="doors; 0: all")
-    parser.add_argument("--weights", default="", help="file to keep them in, and to take them from if it is there")
+    parser.add_argument("--weights", default="", help="file to keep them in, and to take them from if it is there; "
+                        "a training that was stopped goes on from the one beside it")
     options = parser.parse_args()
     data = Decisions(options.data, names=("rgb_own", "depth32_own", "proprio", "action"))
     try:
         policy = ImageClone(data)
         policy.load_state_dict(torch.load(options.weights))
     except FileNotFoundError:
-        policy = train(data, options.epochs, options.batch, options.seed)
+        checkpoint = options.weights and options.weights + ".checkpoint"
+        policy = train(data, options.epochs, options.batch, options.seed, checkpoint)
         if options.weights:
-            torch.save(policy.state_dict(), options.weights)
+            keep(options.weights, policy.state_dict())
+            os.remove(checkpoint)
     policy.eval()
     print(doorforge.evaluate(policy.act, options.doors, observation=["image", "depth", "proprioception"],
                              seeds=options.seeds, per_category=options.per_category, threads=1,

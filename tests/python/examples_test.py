@@ -4,12 +4,16 @@
 
     examples_test.py BUILD    # the build tree, whose programs collect
 """
+import contextlib
+import io
 import pathlib
 import re
 import subprocess
 import sys
 import tempfile
 import unittest
+
+import torch
 
 import doorforge
 
@@ -56,6 +60,30 @@ class Examples(unittest.TestCase):
         self.assertEqual(len(losses), 3)
         self.assertLess(losses[-1], losses[0])
         self.assertNotIn("policy_failed", told)
+        self.goes_on_where_it_was_stopped(data)
+
+    def goes_on_where_it_was_stopped(self, data: str) -> None:
+        """A training that ends after its first epoch, and goes on, has the weights of one that was left alone."""
+        sys.path.insert(0, str(ROOT / "docs" / "examples"))
+        import clone_images  # pylint: disable=import-error,import-outside-toplevel
+        decisions = clone_images.Decisions(data, names=("rgb_own", "depth32_own", "proprio", "action"))
+        checkpoint, keep = str(pathlib.Path(self.scratch.name) / "checkpoint"), clone_images.keep
+
+        def keep_and_end(path: str, value: object) -> None:
+            keep(path, value)
+            raise KeyboardInterrupt
+
+        clone_images.keep = keep_and_end
+        with self.assertRaises(KeyboardInterrupt):
+            clone_images.train(decisions, 2, 8, 7, checkpoint)
+        clone_images.keep = keep
+        told = io.StringIO()
+        with contextlib.redirect_stdout(told):
+            resumed = clone_images.train(decisions, 2, 8, 7, checkpoint).state_dict()
+        self.assertNotIn("epoch 0", told.getvalue())
+        alone = clone_images.train(decisions, 2, 8, 7, "").state_dict()
+        for name, value in alone.items():
+            self.assertTrue(torch.equal(value, resumed[name]), name)
 
 
 if __name__ == "__main__":

@@ -22,6 +22,7 @@
 #include "doorforge/policy/training_curves.h"
 #include "doorforge/schemas/dataset.h"
 #include "doorforge/schemas/episode_arrays.h"
+#include "doorforge/schemas/mirror.h"
 #include "doorforge/training/train_stage.h"
 #include "doorforge/training/trainer_state_file.h"
 
@@ -124,6 +125,64 @@ TEST(StageDataset, SaysOfTheHandlesDecisionsWhichTurnedIt) {
   const fs::path other = EmptyDataset("not_turned");
   WriteDataset(other, "train", 4);
   EXPECT_TRUE(ReadStageDataset({{other}}, "open", 0.25).turned_train.empty());
+}
+
+// Episodes of doors hinged left and right in turn; or the mirror images of the latter, as those of
+// doors hinged left.
+fs::path WriteBothSides(const std::string& name, const std::string& stage, bool are_mirrored) {
+  const fs::path folder = EmptyDataset(name);
+  auto made = testing::MakeSyntheticSamples(5, 4 * kDecisions);
+  ShardWriter writer(folder / stage / "train", {0, stage, "train", "config"});
+  for (std::size_t e = 0; e < 4; ++e) {
+    const bool is_right = e % 2 == 1;
+    Episode episode;
+    episode.outcome = EpisodeOutcome::kOpened;
+    for (std::size_t t = 0; t < kDecisions; ++t) {
+      const TrainingSample& sample = made.samples[e * kDecisions + t];
+      Decision decision;
+      decision.cloud.xyz.assign(sample.cloud.begin(), sample.cloud.end());
+      decision.cloud.label.assign(sample.cloud.size() / 3, 0);
+      decision.proprioception = sample.proprioception;
+      decision.action = sample.action;
+      decision.executed = sample.executed;
+      decision.angle_gain_rad = sample.angle_gain_rad;
+      if (is_right && are_mirrored) {
+        decision.cloud = MirroredSideways(std::move(decision.cloud));
+        decision.proprioception = MirroredSideways(decision.proprioception);
+        decision.action = MirroredSideways(decision.action);
+        decision.executed = MirroredSideways(decision.executed);
+      }
+      episode.decisions.push_back(decision);
+    }
+    nlohmann::ordered_json meta = EpisodeMetaToJson(episode);
+    if (is_right && !are_mirrored) meta["side"] = "right";
+    writer.Add("ep" + std::to_string(100000 + e), kDecisions, EncodeEpisode(episode, meta, ""));
+  }
+  writer.Commit();
+  WriteProvenance(folder);
+  return folder;
+}
+
+TEST(StageDataset, DoorsHingedRightTeachWhatTheirMirrorImagesTeach) {
+  for (const std::string stage : {"open", "handle"}) {
+    const fs::path right = WriteBothSides("hinged_right_" + stage, stage, false);
+    const fs::path mirrored = WriteBothSides("in_the_mirror_" + stage, stage, true);
+    const StageDataset shown = ReadStageDataset({{right}}, stage, 0, {false, true});
+    const StageDataset expected = ReadStageDataset({{mirrored}}, stage, 0, {false, true});
+    TrainConfig config;
+    config.epochs = 1;
+    config.batch_size = 4;
+    config.warmup_steps = 1;
+    const TrainerState learned = TrainStage(shown.train, {}, config, {});
+    EXPECT_EQ(learned.networks.actor, TrainStage(expected.train, {}, config, {}).networks.actor);
+    EXPECT_EQ(learned.networks.critic, TrainStage(expected.train, {}, config, {}).networks.critic);
+    const StageDataset as_they_are = ReadStageDataset({{right}}, stage, 0);
+    EXPECT_NE(learned.networks.actor, TrainStage(as_they_are.train, {}, config, {}).networks.actor);
+    ASSERT_EQ(shown.turned_train.size(), expected.turned_train.size());
+    for (std::size_t i = 0; i < shown.turned_train.size(); ++i)
+      for (std::size_t k = 0; k < 12; ++k)
+        EXPECT_NEAR(shown.turned_train[i].motion[k], expected.turned_train[i].motion[k], 1e-5);
+  }
 }
 
 // One episode with three decisions, the last of which brought the handle to 34 degrees and back,

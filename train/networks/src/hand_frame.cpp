@@ -4,7 +4,16 @@
 
 #include "doorforge/schemas/mirror.h"
 
-namespace doorforge::internal {
+namespace doorforge {
+
+std::span<const float> ShownCloud(const TrainingSample& sample, std::vector<float>& storage) {
+  if (!sample.is_mirrored) return sample.cloud;
+  storage.assign(sample.cloud.begin(), sample.cloud.end());
+  for (std::size_t y = 1; y < storage.size(); y += 3) storage[y] = -storage[y];
+  return storage;
+}
+
+namespace internal {
 
 ActionVector TurnOf(const ActionVector& action, const Eigen::Matrix3d& world_from_hand) {
   Action turn = FromVector(action);
@@ -34,10 +43,17 @@ TrainingSample WithoutCloudMirrored(const TrainingSample& sample) {
   return mirrored;
 }
 
+TrainingSample InMirror(const TrainingSample& sample) {
+  TrainingSample mirrored = WithoutCloudMirrored(sample);
+  mirrored.is_mirrored = !sample.is_mirrored;
+  return mirrored;
+}
+
 TrainingSample AboutContact(const TrainingSample& sample) {
   TrainingSample about = sample;
   for (std::size_t k = 0; k < 3; ++k) about.action[k] -= sample.cloud[k];
   return about;
 }
 
-}  // namespace doorforge::internal
+}  // namespace internal
+}  // namespace doorforge

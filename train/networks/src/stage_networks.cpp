@@ -138,8 +138,10 @@ std::array<float, 3> MeanPoint(std::span<const TrainingSample> samples) {
   std::array<double, 3> sum{};
   double count = 0;
   for (const TrainingSample& sample : samples) {
-    for (std::size_t i = 0; i < sample.cloud.size(); ++i) sum[i % 3] += sample.cloud[i];
-    const std::size_t points = sample.cloud.size() / 3;
+    std::vector<float> mirrored;
+    const std::span<const float> cloud = ShownCloud(sample, mirrored);
+    for (std::size_t i = 0; i < cloud.size(); ++i) sum[i % 3] += cloud[i];
+    const std::size_t points = cloud.size() / 3;
     count += static_cast<double>(points);
   }
   std::array<float, 3> mean{};

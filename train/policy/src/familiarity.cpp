@@ -141,12 +141,13 @@ struct TakenSamples {
   SampleSides sides;
 
   SightNumbers Numbers(std::size_t i) const {
-    const TrainingSample& sample = samples[indices[i]];
-    if (sides == SampleSides::kAsSeen || i % 2 == 0)
-      return SightNumbersOf({sample.cloud, sample.label}, sample.proprioception, family);
-    std::vector<float> mirrored(sample.cloud.begin(), sample.cloud.end());
-    for (std::size_t y = 1; y < mirrored.size(); y += 3) mirrored[y] = -mirrored[y];
-    return SightNumbersOf({mirrored, sample.label}, MirroredSideways(sample.proprioception),
+    TrainingSample sample = samples[indices[i]];
+    if (sides == SampleSides::kMirroredToo && i % 2 == 1) {
+      sample.proprioception = MirroredSideways(sample.proprioception);
+      sample.is_mirrored = !sample.is_mirrored;
+    }
+    std::vector<float> mirrored;
+    return SightNumbersOf({ShownCloud(sample, mirrored), sample.label}, sample.proprioception,
                           family);
   }
 };

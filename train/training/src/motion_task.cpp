@@ -100,7 +100,9 @@ class MotionTask : public StageTask {
     const auto samples = set == SampleSet::kTrain ? input_.train : input_.validation;
     const StageNormalisation& normalisation = input_.networks->normalisation;
     return {samples.size(), 1, bytes, [this, set, samples, &normalisation](std::size_t i) {
-              return GeometryFor(*input_.config, set, {samples[i].cloud, samples[i].rgb},
+              std::vector<float> mirrored;
+              const std::span<const float> cloud = ShownCloud(samples[i], mirrored);
+              return GeometryFor(*input_.config, set, {cloud, samples[i].rgb},
                                  {WindowOf(normalisation, HandOf(samples[i].proprioception)), {0}});
             }};
   }

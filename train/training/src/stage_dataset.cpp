@@ -8,6 +8,7 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/networks/cloud_geometry.h"
+#include "doorforge/networks/hand_frame.h"
 #include "doorforge/networks/stage_networks.h"
 #include "doorforge/schemas/dataset.h"
 #include "doorforge/schemas/episode.h"
@@ -45,10 +46,8 @@ MotionWay WayIn(const nlohmann::ordered_json& meta, const std::string& path) {
 
 // What an episode's clouds are made of, and which way its motion takes; data sets of earlier builds
 // say nothing of it.
-void AddWhatTheRecordSays(const DatasetReader& reader, std::size_t episode,
+void AddWhatTheRecordSays(const nlohmann::ordered_json& meta, const std::string& path,
                           std::span<TrainingSample> samples) {
-  const std::string path = "episode " + reader.entry(episode).key + ": meta.json";
-  const nlohmann::ordered_json meta = reader.Meta(episode);
   for (TrainingSample& sample : samples) {
     if (meta.contains("cloud_within_m"))
       sample.cloud_crop_radius_m =
@@ -97,22 +96,46 @@ bool WentOn(const Episode& episode) {
          episode.simulated_s > episode.decisions.back().time_s + 1.5 * action_s;
 }
 
+HingeSide SideIn(const nlohmann::ordered_json& meta, const std::string& path) {
+  if (!meta.contains("side")) return HingeSide::kLeft;
+  const auto word = ValueOf<std::string>(meta, "side", path);
+  const std::optional<HingeSide> side = HingeSideNamed(word);
+  if (!side) throw Error(ErrorCode::kFormat, path + ".side: unknown word \"" + word + '"');
+  return *side;
+}
+
+bool IsShownMirrored(const nlohmann::ordered_json& meta, const std::string& path,
+                     const SampleOptions& options) {
+  return options.shows_right_mirrored && SideIn(meta, path) == HingeSide::kRight;
+}
+
+// Episodes [begin, end) of a stage's split.
+struct EpisodeRange {
+  const DatasetReader& reader;
+  const std::string& stage;
+  std::size_t begin;
+  std::size_t end;
+};
+
 // When the handle was "handle done": its angle before the next decision, against the scene's; after
 // the last one, whether the episode went on to the opening. What an action was worth does not say
 // it: that is a reward, and may become another one.
-std::vector<TurnedExample> TurnedExamplesOf(const DatasetReader& reader, std::size_t begin,
-                                            std::size_t end) {
+std::vector<TurnedExample> TurnedExamplesOf(const EpisodeRange& range,
+                                            const SampleOptions& options) {
   constexpr double kRounding = 1e-6;  // [rad] of the shards' single precision
+  const DatasetReader& reader = range.reader;
   std::vector<TurnedExample> examples;
-  for (std::size_t i = begin; i < end; ++i) {
+  for (std::size_t i = range.begin; i < range.end; ++i) {
     const EpisodeArrays arrays = reader.Arrays(i);
     const std::string path = "episode " + reader.entry(i).key + ": meta.json";
-    const Episode episode = EpisodeFromMeta(reader.Meta(i), path);
+    const nlohmann::ordered_json meta = reader.Meta(i);
+    const Episode episode = EpisodeFromMeta(meta, path);
     Require(episode.decisions.size() == arrays.decisions, ErrorCode::kFormat,
             path + ".decision_time_s: found " + std::to_string(episode.decisions.size()) +
                 " times, expected those of " + std::to_string(arrays.decisions) + " decisions");
     const double done = episode.scene.latch.handle_done_angle_rad - kRounding;
     const auto executed = arrays.executed.empty() ? arrays.action : arrays.executed;
+    const bool is_mirrored = IsShownMirrored(meta, path, options);
     const auto proprioception = [&](std::size_t t) {
       return RowOf<std::tuple_size_v<Proprioception>>(arrays.proprio, t);
     };
@@ -122,18 +145,11 @@ std::vector<TurnedExample> TurnedExamplesOf(const DatasetReader& reader, std::si
       const bool turned = next < arrays.decisions
                               ? static_cast<double>(arrays.joints[2 * next + 1]) >= done
                               : WentOn(episode);
-      examples.push_back({HandMotionOf(proprioception(0), proprioception(t), action), turned});
+      const HandMotion motion = HandMotionOf(proprioception(0), proprioception(t), action);
+      examples.push_back({is_mirrored ? MirroredSideways(motion) : motion, turned});
     }
   }
   return examples;
-}
-
-HingeSide SideIn(const nlohmann::ordered_json& meta, const std::string& path) {
-  if (!meta.contains("side")) return HingeSide::kLeft;
-  const auto word = ValueOf<std::string>(meta, "side", path);
-  const std::optional<HingeSide> side = HingeSideNamed(word);
-  if (!side) throw Error(ErrorCode::kFormat, path + ".side: unknown word \"" + word + '"');
-  return *side;
 }
 
 // The closed doors of episodes [begin, end), as the camera sees them at the first decision.
@@ -166,16 +182,9 @@ void AddColors(const DatasetReader& reader, std::size_t episode,
     samples[t].rgb = rgb.subspan(t * kCloudFloats, kCloudFloats);
 }
 
-// Episodes [begin, end) of a stage's split.
-struct EpisodeRange {
-  const DatasetReader& reader;
-  const std::string& stage;
-  std::size_t begin;
-  std::size_t end;
-};
-
-std::vector<TrainingSample> SamplesOf(const EpisodeRange& range, bool colors) {
+std::vector<TrainingSample> SamplesOf(const EpisodeRange& range, const SampleOptions& options) {
   const DatasetReader& reader = range.reader;
+  const bool is_grasp = FamilyOf(range.stage) == NetworkFamily::kGrasp;
   std::vector<TrainingSample> samples;
   for (std::size_t i = range.begin; i < range.end; ++i) {
     const EpisodeArrays arrays = reader.Arrays(i);
@@ -186,10 +195,15 @@ std::vector<TrainingSample> SamplesOf(const EpisodeRange& range, bool colors) {
                                           std::to_string(kCloudPoints));
     RequireFinite(arrays, reader.entry(i).key);
     AppendEpisode(arrays, samples);
-    AddWhatTheRecordSays(reader, i, std::span(samples).last(arrays.decisions));
-    if (colors) AddColors(reader, i, std::span(samples).last(arrays.decisions));
-    if (FamilyOf(range.stage) == NetworkFamily::kGrasp)
+    const auto added = std::span(samples).last(arrays.decisions);
+    const std::string path = "episode " + reader.entry(i).key + ": meta.json";
+    const nlohmann::ordered_json meta = reader.Meta(i);
+    AddWhatTheRecordSays(meta, path, added);
+    if (options.colors) AddColors(reader, i, added);
+    if (is_grasp)
       samples.back().approach = ApproachOf(reader, i);
+    else if (IsShownMirrored(meta, path, options))
+      std::ranges::transform(added, added.begin(), internal::InMirror);
   }
   return samples;
 }
@@ -199,11 +213,10 @@ void AppendAll(std::vector<T> from, std::vector<T>& to) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-void AppendEpisodes(const EpisodeRange& range, bool colors, std::vector<TrainingSample>& samples,
-                    std::vector<TurnedExample>& turned) {
-  AppendAll(SamplesOf(range, colors), samples);
-  if (range.stage == NameOf(Stage::kHandle))
-    AppendAll(TurnedExamplesOf(range.reader, range.begin, range.end), turned);
+void AppendEpisodes(const EpisodeRange& range, const SampleOptions& options,
+                    std::vector<TrainingSample>& samples, std::vector<TurnedExample>& turned) {
+  AppendAll(SamplesOf(range, options), samples);
+  if (range.stage == NameOf(Stage::kHandle)) AppendAll(TurnedExamplesOf(range, options), turned);
 }
 
 // Appends a data set's samples.
@@ -216,20 +229,20 @@ void AppendDataset(const fs::path& folder, const std::string& stage, double vali
   if (fs::exists(folder / stage / "val")) {
     dataset.readers.push_back(std::make_unique<DatasetReader>(folder, stage, "val"));
     const DatasetReader& validation = *dataset.readers.back();
-    AppendEpisodes({train, stage, 0, episodes}, dataset.colors, dataset.train,
+    AppendEpisodes({train, stage, 0, episodes}, dataset.options, dataset.train,
                    dataset.turned_train);
     if (opens) AppendAll(SidesOf(train, 0, episodes), dataset.sides);
-    AppendEpisodes({validation, stage, 0, validation.size()}, dataset.colors, dataset.validation,
+    AppendEpisodes({validation, stage, 0, validation.size()}, dataset.options, dataset.validation,
                    dataset.turned_validation);
     return;
   }
   const auto aside = std::min(
       episodes > 0 ? episodes - 1 : 0,
       static_cast<std::size_t>(std::ceil(validation_share * static_cast<double>(episodes))));
-  AppendEpisodes({train, stage, 0, episodes - aside}, dataset.colors, dataset.train,
+  AppendEpisodes({train, stage, 0, episodes - aside}, dataset.options, dataset.train,
                  dataset.turned_train);
   if (opens) AppendAll(SidesOf(train, 0, episodes - aside), dataset.sides);
-  AppendEpisodes({train, stage, episodes - aside, episodes}, dataset.colors, dataset.validation,
+  AppendEpisodes({train, stage, episodes - aside, episodes}, dataset.options, dataset.validation,
                  dataset.turned_validation);
 }
 
@@ -245,10 +258,10 @@ void StageDataset::RequireWhole() const {
 }
 
 StageDataset ReadStageDataset(std::span<const fs::path> folders, std::string_view stage,
-                              double validation_share, bool colors) {
+                              double validation_share, const SampleOptions& options) {
   Require(!folders.empty(), ErrorCode::kInvalidArgument, "no data set to read samples from");
   StageDataset dataset;
-  dataset.colors = colors;
+  dataset.options = options;
   for (const fs::path& folder : folders) {
     dataset.parts = Union(dataset.parts, SeenPartsOfDataset(folder));
     AppendDataset(folder, StageReadOf(folder, stage), validation_share, dataset);

@@ -298,8 +298,10 @@ TrainingOutcome TrainIntoFolder(const TrainingRequest& request) {
     RemoveStaleFiles(SystemFiles(), request.out);
   }
   if (const std::string slow = SlowLinearAlgebra(); !slow.empty()) request.warn(slow);
-  const StageDataset dataset = ReadStageDataset(
-      request.data, request.stage, request.config.validation_share, request.config.colors);
+  const TrainConfig& config = request.config;
+  const StageDataset dataset =
+      ReadStageDataset(request.data, request.stage, config.validation_share,
+                       {config.colors, config.state != StateKind::kJoints});
   return FolderTraining(request, *group, dataset).Run();
 }
 

@@ -22,6 +22,9 @@ TrainingSample WithTurns(const TrainingSample& sample);
 /// not the sample's own.
 TrainingSample WithoutCloudMirrored(const TrainingSample& sample);
 
+/// The same, and ShownCloud() is the mirror image's as well.
+TrainingSample InMirror(const TrainingSample& sample);
+
 /// The sample of a grasp with its contact told from point 0 of its cloud.
 TrainingSample AboutContact(const TrainingSample& sample);
 

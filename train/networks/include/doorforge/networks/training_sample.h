@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "doorforge/schemas/motion_way.h"
 #include "doorforge/schemas/policy.h"
@@ -35,6 +36,12 @@ struct TrainingSample {
   int remembered_finer = 0;
   /// Which way the stage's motion takes at this door; what is seen need not say it.
   MotionWay way = MotionWay::kUsual;
+  /// The sample is of the mirror image of its scene (mirror.h): all of it says so but the cloud,
+  /// which is not owned. ShownCloud() is the mirror image's.
+  bool is_mirrored = false;
 };
+
+/// The points that a network is shown: the sample's cloud, or its mirror image, kept in `storage`.
+std::span<const float> ShownCloud(const TrainingSample& sample, std::vector<float>& storage);
 
 }  // namespace doorforge

@@ -18,6 +18,15 @@ namespace doorforge {
 
 class DatasetReader;
 
+/// What samples are read as.
+struct SampleOptions {
+  bool colors = false;  ///< Samples have the colours of their points as well.
+  /// Decisions of the stages "handle" and "open" at doors hinged right are those of the mirror
+  /// image, which MirroringPolicy shows of such doors. No sense where a network reads the arm's
+  /// joints, since the mirror image of an arm is another arm.
+  bool shows_right_mirrored = false;
+};
+
 /// A stage's samples of one or more data sets. Clouds stay in the shards' memory maps, so the
 /// samples are valid as long as this object.
 struct StageDataset {
@@ -31,7 +40,7 @@ struct StageDataset {
   std::vector<SideExample> sides;
   SeenParts parts;             ///< They are those of the doors of all data sets.
   std::string content_sha256;  ///< StageContentSha256() gives it.
-  bool colors = false;         ///< Whether samples have the colours of their points.
+  SampleOptions options;
   std::vector<std::unique_ptr<DatasetReader>> readers;
 
   StageDataset();
@@ -49,11 +58,11 @@ struct StageDataset {
 /// episodes; none if the share is 0 or there is only one). Several data sets: the samples of the
 /// first, then the second's.
 ///
-/// @param colors Samples have the colours of their points as well.
 /// @throws Error(kMissing or kFormat) as DatasetReader, or if clouds do not hold 4096 points;
 ///     Error(kInvalidArgument) without a folder, or where clouds have no colours that are asked
 ///     for.
 StageDataset ReadStageDataset(std::span<const std::filesystem::path> folders,
-                              std::string_view stage, double validation_share, bool colors = false);
+                              std::string_view stage, double validation_share,
+                              const SampleOptions& options = {});
 
 }  // namespace doorforge

@@ -74,6 +74,29 @@ TEST(Authoring, ADamagedPartIsToldAndTheOtherDoorsAreComposed) {
   EXPECT_EQ(ReadDoor(run.out / composed.doors[0].id).id, composed.doors[0].id);
 }
 
+TEST(Authoring, PartsOfOtherCategoriesAreNeitherPreparedNorToldOf) {
+  const fs::path scratch = Scratch();
+  const std::vector<CatalogueEntry> catalogue = ListCatalogue(kData);
+  std::vector<CatalogueEntry> entries;
+  for (const char* id : {"interior_flush_01", "interior_lever_tube_01", "safe_antique_01"})
+    entries.push_back(FindCatalogueEntry(catalogue, id));
+  BuildParts(entries, scratch / "parts", Existing::kRefuse, 1);
+  std::vector<std::string> notes;
+  ComposeRun run{.out = scratch / "doors", .parts = scratch / "parts"};
+  run.pairs = PairChoice::kAll;
+  run.category = "interior";
+  run.note = [&](const std::string& line) { notes.push_back(line); };
+  ComposeRequest request;
+  request.door.opening = Opening::kPush;  // which no safe is
+  EXPECT_EQ(ComposeManyDoors(run, request).doors.size(), 1U);
+  EXPECT_TRUE(notes.empty()) << notes[0];
+  run.category = "safe";
+  run.out = scratch / "safes";
+  EXPECT_THROW(ComposeManyDoors(run, request), Error);
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes[0].find("safe_antique_01: left out: "), std::string::npos) << notes[0];
+}
+
 TEST(Authoring, OneDoorTakesItsPartsByFolder) {
   const fs::path scratch = Scratch();
   const fs::path parts = PartsFolder(scratch / "parts");

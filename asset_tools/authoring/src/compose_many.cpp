@@ -38,13 +38,14 @@ struct PreparedParts {
   std::vector<PreparedPart> parts;
   std::vector<std::string> names;  ///< Each is as PartStore has it.
   std::vector<fs::path> folders;   ///< Each is empty for a part of the catalogue.
-  std::set<std::string> left_out;  ///< Folder names, or ids, of those that could not be prepared.
+  std::set<std::string> left_out;  ///< Folder names, or ids, of those that were not prepared.
   std::size_t damaged = 0;         ///< So many of those left out were left out by no rule.
 };
 
 /// What came of one part of many.
 struct Preparation {
   std::optional<PreparedPart> part;
+  bool is_wanted = true;  ///< False: it is of another category than the doors that are asked for.
   std::string problem;
   bool damaged = false;
 };
@@ -55,7 +56,9 @@ Preparation Prepare(const PartStore& store, const std::string& name, const Compo
   Preparation prepared;
   try {
     const WorkBudget budget(name, run.max_seconds);
-    prepared.part.emplace(store.Load(name), config);
+    Part part = store.Load(name);
+    prepared.is_wanted = run.category.empty() || NameOf(part.category) == run.category;
+    if (prepared.is_wanted) prepared.part.emplace(std::move(part), config);
   } catch (const Error& error) {
     if (error.code() == ErrorCode::kInvalidConfig) throw;  // nothing of the part
     prepared.problem = error.what();
@@ -79,7 +82,7 @@ PreparedParts PrepareParts(const PartStore& store, const std::vector<std::string
   PreparedParts parts;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!prepared[i].part) {
-      run.note(names[i] + ": left out: " + prepared[i].problem);
+      if (prepared[i].is_wanted) run.note(names[i] + ": left out: " + prepared[i].problem);
       parts.left_out.insert(fs::path(names[i]).filename().string());
       parts.damaged += prepared[i].damaged ? 1 : 0;
       continue;
@@ -223,10 +226,6 @@ ComposedDoors ComposeManyDoors(const ComposeRun& run, const ComposeRequest& requ
   std::vector<PartPair> pairs = run.pairs == PairChoice::kAsImported
                                     ? ImportedPairs(run.parts, prepared)
                                     : MatchingPairs(parts);
-  if (!run.category.empty())
-    std::erase_if(pairs, [&](const PartPair& pair) {
-      return NameOf(parts[pair.body].category()) != run.category;
-    });
   if (pairs.empty())
     throw Error(ErrorCode::kMissing, "compose: no body and handle of one category among the parts");
   SetAuthorPlaces(prepared, pairs);

@@ -98,6 +98,7 @@ class HandStepper::Running {
   void NoteHold();
   void Settle();
   bool IsOver() const;
+  bool HasTouched() const { return log_.StepsWithoutPads(world_.step()) <= world_.step(); }
   Verdict FailureNow() const;
   Verdict OpeningFailure() const;
 
@@ -194,10 +195,9 @@ Verdict HandStepper::Running::OpeningFailure() const {
 // Who never touches the handle has not reached it; who never had both pads on it has missed it.
 Verdict HandStepper::Running::FailureNow() const {
   if (world_.diverged()) return {EpisodeOutcome::kDiverged, Describe(*world_.world().fault())};
-  const bool touched = log_.StepsWithoutPads(world_.step()) <= world_.step();
   const double away_m =
       (now_.state.world_from_tcp.translation() - now_.state.world_from_grasp.translation()).norm();
-  if (!touched && !log_.coasted())
+  if (!HasTouched() && !log_.coasted())
     return {EpisodeOutcome::kNotReached,
             Format("no pad touched the handle, tool %.0f mm from it in the end", 1000 * away_m)};
   if (!held_ && !log_.coasted())
@@ -221,7 +221,7 @@ Episode HandStepper::Running::Summary() const {
   episode.peak_handle_rad = world_.memory().peak_handle_rad;
   episode.simulated_s = world_.state().time_s;
   episode.handle_turned =
-      held_ && (world_.scene().latch.type == LatchType::kNone || world_.state().handle_done);
+      HasTouched() && (world_.scene().latch.type == LatchType::kNone || world_.state().handle_done);
   episode.grasps = held_ ? 1 : 0;
   episode.peak_force_n = log_.peak_force_n();
   episode.peak_net_force_n = log_.peak_net_force_n();

@@ -30,6 +30,7 @@ set(DOORFORGE_ALLOWED_registry core cli schemas physics sensor rollout pictures 
 set(DOORFORGE_ALLOWED_dataset core schemas)
 set(DOORFORGE_ALLOWED_collect core schemas physics sensor rollout pictures networks policy registry dataset)
 set(DOORFORGE_ALLOWED_training core schemas networks policy)
+set(DOORFORGE_ALLOWED_reinforce core schemas physics sensor rollout networks policy training)
 set(DOORFORGE_ALLOWED_report core schemas)
 set(DOORFORGE_ALLOWED_evaluate core schemas physics sensor rollout networks policy registry report)
 set(DOORFORGE_ALLOWED_deploy core schemas physics sensor rollout networks policy)

@@ -36,6 +36,7 @@ constexpr std::array kVerbs = {
     FrontVerb{"datagen", "doorforge-datagen", "collect a stage's dataset shards"},
     FrontVerb{"dataset", "doorforge-datagen", "verify and describe datasets"},
     FrontVerb{"train", "doorforge-train", "train a stage's policy from shards"},
+    FrontVerb{"reinforce", "doorforge-reinforce", "train a flying hand by trying, from states"},
     FrontVerb{"eval", "doorforge-eval", "success of a policy per category, with a report"},
     FrontVerb{"benchmark", "doorforge-eval", "the paper's table: baselines, ablations, ours"},
     FrontVerb{"report", "doorforge-eval", "one table of the reports of several trainings"},

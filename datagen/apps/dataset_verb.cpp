@@ -53,32 +53,15 @@ constexpr const char* kRobotOption =
     "URDF of the dataset's robot, where its config.yaml names a file outside its folder";
 
 struct DatasetVerifyOptions {
-  VerifyRequest request;
-  std::string share;  // to be made again, "1%"; empty: none
-  RegenerateDatasetRequest regenerate;
+  ThoroughVerification request;
   bool json = false;
 };
 
-std::vector<DatasetFinding> VerifyWithProgress(VerifyRequest request) {
-  Progress progress("verify", CountShards(request.folder));
-  request.on_shard = [&] { progress.Advance(); };
-  return VerifyDataset(request);
-}
-
-int Verify(DatasetVerifyOptions& options) {
-  const bool again = !options.share.empty();
-  if (again) options.regenerate.fraction = ParseFraction(options.share);
-  std::vector<DatasetFinding> findings = VerifyWithProgress(options.request);
-  if (again && !AnyFault(findings)) {
-    options.regenerate.folder = options.request.folder;
-    options.regenerate.threads = options.request.threads;
-    const RegenerateResult result = RegenerateDataset(options.regenerate);
-    PrintNote(std::to_string(result.episodes) + " episodes made again, " +
-              std::to_string(result.findings.size()) + " differences");
-    findings.insert(findings.end(), result.findings.begin(), result.findings.end());
-  }
+int Verify(const DatasetVerifyOptions& options) {
+  const auto [findings, note] = VerifyThoroughly(options.request);
+  if (!note.empty()) PrintNote(note);
   PrintAnswer(options.json, FindingsToJson(findings),
-              FindingsText(findings, options.request.folder));
+              FindingsText(findings, options.request.verify.folder));
   return AnyFault(findings) ? 1 : 0;
 }
 
@@ -97,12 +80,13 @@ Subcommand AddVerify(CLI::App& dataset) {
   const auto options = std::make_shared<DatasetVerifyOptions>();
   CLI::App* app = dataset.add_subcommand(
       "verify", "every byte against its checksum or origin, every value against what it may be");
-  app->add_option("folder", options->request.folder, "the dataset's folder")->required();
+  app->add_option("folder", options->request.verify.folder, "the dataset's folder")->required();
   AddJson(*app, options->json);
-  AddThreads(*app, options->request.threads, "threads, 0: all");
-  auto* share = app->add_option("--regenerate", options->share,
+  AddThreads(*app, options->request.verify.threads, "threads, 0: all");
+  auto* share = app->add_option("--regenerate", options->request.share,
                                 "make a share again, such as 1%, and compare every byte");
-  for (CLI::Option* option : AddMadeWithOptions(*app, options->regenerate)) option->needs(share);
+  for (CLI::Option* option : AddMadeWithOptions(*app, options->request.regenerate))
+    option->needs(share);
   share->needs(app->get_option("--doors"));
   app->footer(
       "examples:\n  doorforge dataset verify data/open\n"

@@ -19,6 +19,7 @@ WITH_SETTINGS = {
     "datagen plan": (["WORD", "--doors", "OUT"], "stage is required"),
     "dataset re-observe": (["WORD", "--out", "OUT", "--doors", "OUT"], "folder is required"),
     "train": (["WORD", "--data", "OUT", "--out", "OUT/policy"], "stage is required"),
+    "reinforce": (["--doors", "OUT", "--out", "OUT/ppo", "WORD"], None),
     "eval": (["--opener", "expert", "--doors", "OUT", "WORD"], None),
     "act": (["--camera", "OUT", "WORD"], None),
     "sight": (["--door", "OUT", "--out", "OUT/sight", "WORD"], None),

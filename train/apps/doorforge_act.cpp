@@ -14,7 +14,6 @@
 #include "doorforge/cli/command_line.h"
 #include "doorforge/cli/verb_table.h"
 #include "doorforge/core/config_file.h"
-#include "doorforge/core/error.h"
 #include "doorforge/core/output_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/deploy/act_answer.h"
@@ -95,24 +94,6 @@ void AddAnswers(CLI::App& app, Options& options) {
   AddSettings(app, options.settings, "a.b=c overrides one setting, e.g. cloud.max_depth_m");
 }
 
-// What does not go together, before anything is read.
-void CheckOptions(const Options& options) {
-  const auto require = [](bool condition, const std::string& problem) {
-    Require(condition, ErrorCode::kInvalidArgument, problem + "; see `doorforge act --help`");
-  };
-  const DecisionFiles& files = options.files;
-  const bool one = !files.depth.empty() && files.state.empty() != files.handle.empty();
-  const bool none = files.depth.empty() && files.state.empty() && files.handle.empty();
-  const OnlineControllerSetup& setup = options.setup;
-  require(
-      setup.sees_every_decision ? none : one,
-      "--depth and either --state or --handle-mask, or --stream in place of them, are required");
-  require(!setup.opener.empty() || !setup.handler.empty() || !setup.grasper.empty(),
-          "--opener, --handler or --grasper is required");
-  require(!setup.sees_every_decision || options.picture.empty(),
-          "--picture is of one answer, and --stream gives many; leave one of them out");
-}
-
 OnlineControllerConfig ConfigOf(const Options& options) {
   auto config = LoadConfig<OnlineControllerConfig>(options.config, options.settings);
   if (options.candidates) config.policy.candidates = *options.candidates;
@@ -140,7 +121,7 @@ Options Parse(int argc, char** argv) {
       "      --state data/sight/lever/open/state.yaml --opener data/policies/opener --text\n"
       "  doorforge act --stream --camera camera.yaml --opener run/opener --handler run/handler");
   ParseVerb(app, argc, argv);
-  CheckOptions(options);
+  CheckRequest(options.setup, options.files, options.picture);
   return options;
 }
 

@@ -126,6 +126,25 @@ RegenerateResult RegenerateDataset(const RegenerateDatasetRequest& request) {
                              request.fraction, request.threads});
 }
 
+ThoroughFindings VerifyThoroughly(ThoroughVerification request) {
+  RegenerateDatasetRequest& again = request.regenerate;
+  if (!request.share.empty()) again.fraction = ParseFraction(request.share);
+  ThoroughFindings found;
+  {
+    Progress progress("verify", CountShards(request.verify.folder));
+    request.verify.on_shard = [&] { progress.Advance(); };
+    found.findings = VerifyDataset(request.verify);
+  }
+  if (request.share.empty() || AnyFault(found.findings)) return found;
+  again.folder = request.verify.folder;
+  again.threads = request.verify.threads;
+  const RegenerateResult result = RegenerateDataset(again);
+  found.note = std::to_string(result.episodes) + " episodes made again, " +
+               std::to_string(result.findings.size()) + " differences";
+  found.findings.insert(found.findings.end(), result.findings.begin(), result.findings.end());
+  return found;
+}
+
 std::vector<EpisodeFilm> FilmDataset(const FilmDatasetRequest& request) {
   const auto run = RecordedRun(request.made_with);
   const std::vector<RecordedEpisode> recorded = RecordedOf(request, *run);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/verbs/benchmark_verb.h"
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -13,8 +12,6 @@
 #include "doorforge/benchmark/benchmark_result.h"
 #include "doorforge/cli/answer.h"
 #include "doorforge/cli/command_line.h"
-#include "doorforge/core/committed_file.h"
-#include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/pipeline/pipeline_run.h"
 
@@ -73,11 +70,9 @@ int RunBenchmark(BenchmarkOptions& options) {
   options.run.progress = PrintProgress;
   if (const int code = RunPipeline(plan.pipeline, options.run); code != 0) return code;
   const BenchmarkResult result = ReadBenchmarkResult(benchmark, plan, options.run.out);
-  CommitFile(options.run.out / "benchmark.html", BenchmarkPage(result));
-  WriteJsonFile(options.run.out / "benchmark.json", BenchmarkToJson(result));
-  const auto page = std::filesystem::absolute(options.run.out / "benchmark.html");
+  const std::string page = WriteBenchmark(result, options.run.out).string();
   PrintAnswer(options.run.json, BenchmarkToJson(result),
-              BenchmarkText(result) + "\npage: " + page.lexically_normal().string() + "\n");
+              BenchmarkText(result) + "\npage: " + page + "\n");
   return 0;
 }
 

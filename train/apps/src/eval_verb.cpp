@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/verbs/eval_verb.h"
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,7 +10,6 @@
 
 #include "doorforge/cli/answer.h"
 #include "doorforge/cli/command_line.h"
-#include "doorforge/core/committed_file.h"
 #include "doorforge/core/config_file.h"
 #include "doorforge/core/environment_preset.h"
 #include "doorforge/core/error.h"
@@ -19,13 +17,10 @@
 #include "doorforge/evaluate/evaluation_folder.h"
 #include "doorforge/registry/policy_options.h"
 #include "doorforge/remote/remote_options.h"
-#include "doorforge/report/report_folder.h"
 #include "doorforge/report/report_table.h"
 
 namespace doorforge {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct Options {
   EvaluationRequest request;
@@ -102,7 +97,8 @@ Options Parse(int argc, char** argv, const EvalVerbSetup& setup) {
   ParseVerb(app, argc, argv);
   UseRemotePolicies(options.remote, setup.opener, options.request.registry,
                     options.request.policies);
-  Require(!options.request.policies.opener.empty(), ErrorCode::kInvalidArgument,
+  Require(!options.request.policies.opener.empty() || !options.request.policies.whole.empty(),
+          ErrorCode::kInvalidArgument,
           "--opener is required: " + setup.registry.Choices(Stage::kOpen) + "; see `" +
               setup.program + " --help`");
   return options;
@@ -122,33 +118,19 @@ EvaluationConfig ConfigOf(const Options& options) {
   return config;
 }
 
-int Evaluate(Options& options) {
-  // refused before hours of work, not after
-  std::optional<StagedFolder> staged;
-  options.request.pictures = !options.out.empty();
-  if (options.request.pictures) staged.emplace(options.out, kReportFolder, options.existing);
-  Evaluation evaluation;
+int Evaluate(const Options& options) {
+  EvaluatedFolder done;
   try {
-    evaluation = EvaluateOpener(options.request);
+    done = EvaluateIntoFolder(options.request, options.out, options.existing);
   } catch (const Error&) {
     if (StopRequested() == 0) throw;
     PrintNote("interrupted; nothing was written");
     return 128 + StopRequested();
   }
-  for (const std::string& note : evaluation.notes) PrintProgress("note: " + note + "\n");
-  int code = 0;
-  if (staged) {
-    WriteEvaluation(evaluation, *staged);
-    const fs::path page = fs::absolute(fs::path(options.out) / "report.html").lexically_normal();
-    PrintProgress("report: " + page.string() + "\n");
-  }
-  if (staged && !evaluation.films.empty()) {
-    const auto made = MakeFilmsPage(options.out, options.request.doors.folders);
-    if (!made) PrintNote("films.html: doorforge-assets, which makes it, is not installed");
-    code = made.value_or(1);
-  }
-  PrintAnswer(options.json, ReportToJson(evaluation.report), ReportTable(evaluation.report));
-  return code;
+  for (const std::string& note : done.notes) PrintProgress(note + "\n");
+  const EvaluationReport& report = done.evaluation.report;
+  PrintAnswer(options.json, ReportToJson(report), ReportTable(report));
+  return done.code;
 }
 
 }  // namespace

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 
+#include "doorforge/core/committed_file.h"
 #include "doorforge/core/html_text.h"
+#include "doorforge/core/json_file.h"
 #include "doorforge/core/page_style.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/svg_plot.h"
@@ -193,6 +195,13 @@ std::string BenchmarkPage(const BenchmarkResult& result) {
                {"angles", AngleFigure(result)},
                {"budgets", BudgetTable(result)},
                {"version", Escape(CodeVersion())}});
+}
+
+std::filesystem::path WriteBenchmark(const BenchmarkResult& result,
+                                     const std::filesystem::path& folder) {
+  CommitFile(folder / "benchmark.html", BenchmarkPage(result));
+  WriteJsonFile(folder / "benchmark.json", BenchmarkToJson(result));
+  return std::filesystem::absolute(folder / "benchmark.html").lexically_normal();
 }
 
 }  // namespace doorforge

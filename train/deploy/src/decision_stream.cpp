@@ -43,6 +43,22 @@ Json Refusal(const Error& error) {
 
 }  // namespace
 
+void CheckRequest(const OnlineControllerSetup& setup, const DecisionFiles& files,
+                  const std::string& picture) {
+  const auto require = [](bool condition, const std::string& problem) {
+    Require(condition, ErrorCode::kInvalidArgument, problem + "; see `doorforge act --help`");
+  };
+  const bool one = !files.depth.empty() && files.state.empty() != files.handle.empty();
+  const bool none = files.depth.empty() && files.state.empty() && files.handle.empty();
+  require(
+      setup.sees_every_decision ? none : one,
+      "--depth and either --state or --handle-mask, or --stream in place of them, are required");
+  require(!setup.opener.empty() || !setup.handler.empty() || !setup.grasper.empty(),
+          "--opener, --handler or --grasper is required");
+  require(!setup.sees_every_decision || picture.empty(),
+          "--picture is of one answer, and --stream gives many; leave one of them out");
+}
+
 bool AnswerStream(OnlineController& controller, const DecisionStream& stream) {
   RememberFromFile(controller, stream.files);
   bool held = false;

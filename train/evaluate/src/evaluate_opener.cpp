@@ -14,6 +14,7 @@
 #include "doorforge/evaluate/run_trials.h"
 #include "doorforge/evaluate/take_pictures.h"
 #include "doorforge/physics/load_robot.h"
+#include "doorforge/policy/hand_network.h"
 #include "doorforge/policy/policy_file.h"
 #include "doorforge/policy/stage_policy.h"
 #include "doorforge/registry/run_policy_set.h"
@@ -133,11 +134,27 @@ std::string RecordedAs(const PolicyChoice& choice, Stage stage, bool allow_seen,
   return policy.weights_sha256;
 }
 
+// One that does all of it turned the handle and took hold as well.
+void AddWhole(const fs::path& folder, EvaluationReport& report) {
+  const HandPolicyRecord policy = ReadHandPolicy(folder);
+  report.provenance.policy = (folder / "").parent_path().filename().string();
+  for (std::string ReportProvenance::*actor :
+       {&ReportProvenance::policy_sha256, &ReportProvenance::handler_sha256,
+        &ReportProvenance::grasper_sha256})
+    report.provenance.*actor = policy.weights_sha256;
+  report.trained_on = Union(report.trained_on, policy.provenance.trained_on);
+}
+
 // Fills in what the policies' and the data sets' records say.
 void AddTraining(const EvaluationRequest& request, const PolicySetFactory& factory,
                  EvaluationReport& report) {
-  AddOpener(request, factory.opener(), report);
   const bool seen = request.allow_seen;
+  if (!factory.whole().empty()) {
+    AddWhole(factory.whole(), report);
+    if (!seen) RequireHeldOut(report);
+    return;
+  }
+  AddOpener(request, factory.opener(), report);
   report.provenance.handler_sha256 = RecordedAs(factory.handler(), Stage::kHandle, seen, report);
   report.provenance.grasper_sha256 = RecordedAs(factory.grasper(), Stage::kGrasp, seen, report);
   if (!seen) RequireHeldOut(report);

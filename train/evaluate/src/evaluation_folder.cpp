@@ -30,4 +30,24 @@ std::optional<int> MakeFilmsPage(const fs::path& folder, std::span<const fs::pat
   return std::nullopt;
 }
 
+EvaluatedFolder EvaluateIntoFolder(EvaluationRequest request, const fs::path& out,
+                                   Existing existing) {
+  std::optional<StagedFolder> staged;
+  request.pictures = !out.empty();
+  if (request.pictures) staged.emplace(out, kReportFolder, existing);
+  EvaluatedFolder done;
+  done.evaluation = EvaluateOpener(request);
+  for (const std::string& note : done.evaluation.notes) done.notes.push_back("note: " + note);
+  if (!staged) return done;
+  WriteEvaluation(done.evaluation, *staged);
+  done.notes.push_back("report: " + fs::absolute(out / "report.html").lexically_normal().string());
+  if (done.evaluation.films.empty()) return done;
+  const auto made = MakeFilmsPage(out, request.doors.folders);
+  if (!made)
+    done.notes.emplace_back(
+        "doorforge: films.html: doorforge-assets, which makes it, is not installed");
+  done.code = made.value_or(1);
+  return done;
+}
+
 }  // namespace doorforge

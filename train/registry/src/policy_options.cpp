@@ -24,6 +24,8 @@ void AddPolicyOptions(CLI::App& app, const PolicyRegistry& registry, PolicyWords
           "who turns the handle: " + registry.Choices(Stage::kHandle));
   AddWord(app, "--grasper", words.grasper,
           "who chooses where to take hold: " + registry.Choices(Stage::kGrasp));
+  AddWord(app, "--whole", words.whole,
+          "who does all of it, in the place of these: a folder that `doorforge reinforce` wrote");
 }
 
 void RequireTrainedPolicies(const PolicyWords& words, const std::string& why) {

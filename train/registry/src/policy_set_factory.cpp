@@ -6,18 +6,35 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/policy/belief_grasp.h"
+#include "doorforge/policy/hand_network.h"
 #include "doorforge/policy/policy_file.h"
 #include "doorforge/policy/turning_policy.h"
 
 namespace doorforge {
+namespace {
+
+// Beside one who does everything nobody else acts.
+const PolicyWords& Checked(const PolicyWords& words) {
+  if (words.whole.empty()) return words;
+  static const PolicyWords nobody_else;
+  for (const std::string& word : {words.opener, words.handler, words.grasper})
+    Require(word.empty() || word == kExpertPolicy, ErrorCode::kInvalidArgument,
+            "--whole " + words.whole + ": does everything; leave \"" + word + "\" out, or it");
+  Require(std::filesystem::is_directory(words.whole), ErrorCode::kMissing,
+          "--whole " + words.whole + ": no such folder; `doorforge reinforce` writes one");
+  return nobody_else;
+}
+
+}  // namespace
 
 PolicySetFactory::PolicySetFactory(const PolicyRegistry& registry, const PolicyWords& words,
                                    PolicySettings settings, SwitchSource switch_source)
     : settings_(std::move(settings)),
       switch_source_(switch_source),
-      opener_(registry.Find(Stage::kOpen, words.opener, "--opener")),
-      handler_(registry.Find(Stage::kHandle, words.handler, "--handler")),
-      grasper_(registry.Find(Stage::kGrasp, words.grasper, "--grasper")) {}
+      opener_(registry.Find(Stage::kOpen, Checked(words).opener, "--opener")),
+      handler_(registry.Find(Stage::kHandle, Checked(words).handler, "--handler")),
+      grasper_(registry.Find(Stage::kGrasp, Checked(words).grasper, "--grasper")),
+      whole_(words.whole) {}
 
 PolicySet PolicySetFactory::Make() const {
   PolicySet set;
@@ -27,11 +44,12 @@ PolicySet PolicySetFactory::Make() const {
   AddOpener(set, belief);
   AddHandler(set, belief);
   AddGrasper(set, belief);
+  if (!whole_.empty()) set.whole = std::make_unique<HandNetworkPolicy>(ReadHandPolicy(whole_));
   return set;
 }
 
 bool PolicySetFactory::IsExpertAlone() const {
-  return opener_.IsExpert() && handler_.IsExpert() && grasper_.IsExpert();
+  return whole_.empty() && opener_.IsExpert() && handler_.IsExpert() && grasper_.IsExpert();
 }
 
 bool PolicySetFactory::PredictsSwitch() const {

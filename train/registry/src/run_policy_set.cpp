@@ -9,6 +9,7 @@
 
 #include "doorforge/pictures/scene_colors.h"
 #include "doorforge/rollout/grasp_camera.h"
+#include "doorforge/rollout/hand_stepper.h"
 #include "doorforge/rollout/remembered_view.h"
 #include "doorforge/schemas/fallible.h"
 
@@ -77,6 +78,7 @@ void BeginEpisode(const PolicySet& set, const EpisodePlace& place) {
 }
 
 Episode RunPolicySet(const EpisodePlace& place, const PolicySet& set, Observer* observer) {
+  if (set.whole) return RunHandEpisode(place.scene, place.door, place.robot, *set.whole, observer);
   BeginEpisode(set, place);
   const std::unique_ptr<GraspFromPolicy> grasp = GraspOf(set, place);
   EpisodePolicies roles{.grasp = grasp.get(), .handle = set.handle.get(), .open = set.open.get()};

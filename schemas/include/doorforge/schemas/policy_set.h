@@ -6,6 +6,7 @@
 
 #include "doorforge/schemas/episode_memory.h"
 #include "doorforge/schemas/grasp_policy.h"
+#include "doorforge/schemas/hand_policy.h"
 #include "doorforge/schemas/policy.h"
 #include "doorforge/schemas/stage_switch.h"
 
@@ -22,6 +23,8 @@ struct PolicySet {
   int grasp_resolution_scale = 1;
   int grasps = 1;  ///< So many times the hand may take hold in an episode.
   std::shared_ptr<EpisodeMemory> memory = nullptr;  ///< The policies share it; null: nothing.
+  /// Does all of an episode by itself, from before the handle on; then none of the others acts.
+  std::unique_ptr<HandPolicy> whole = nullptr;
 };
 
 }  // namespace doorforge

@@ -17,13 +17,17 @@ constexpr double kThere = 0.002;   // [m]
 
 EpisodeWorld::EpisodeWorld(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
                            Observer* observer)
+    : EpisodeWorld(scene, door, robot, observer, StartPosition(scene, robot)) {}
+
+EpisodeWorld::EpisodeWorld(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
+                           Observer* observer, const JointVector& start)
     : scene_(scene),
       door_(door),
       robot_(robot),
       observer_(observer),
-      world_(scene, door, robot, StartPosition(scene, robot)),
+      world_(scene, door, robot, start),
       facts_(FactsOf(door)),
-      memory_{HandController(robot, scene.world_from_robot_base, StartPosition(scene, robot))} {
+      memory_{HandController(robot, scene.world_from_robot_base, start)} {
   scene_.robot = {robot.name(), robot.sha256()};
 }
 

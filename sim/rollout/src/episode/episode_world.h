@@ -20,6 +20,9 @@ class EpisodeWorld {
   /// @param observer May be null.
   EpisodeWorld(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
                Observer* observer);
+  /// The robot's joints begin at `start` in the place of StartPosition().
+  EpisodeWorld(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
+               Observer* observer, const JointVector& start);
 
   /// Advances by one step of the physics. Does nothing once the world has a fault.
   void Step(const RobotCommand& command);

@@ -8,6 +8,7 @@
 
 #include "doorforge/collect/stage_policies.h"
 #include "doorforge/dataset/regenerate.h"
+#include "doorforge/dataset/verify_dataset.h"
 #include "doorforge/physics/load_robot.h"
 #include "doorforge/schemas/episode_film.h"
 
@@ -32,6 +33,21 @@ struct RegenerateDatasetRequest {
 ///     dataset was made with, or it is of an early build that noted no plan; as StageRun and
 ///     RegenerateEpisodes().
 RegenerateResult RegenerateDataset(const RegenerateDatasetRequest& request);
+
+/// A check of a dataset, of which a share may be made again where the rest has no fault.
+struct ThoroughVerification {
+  VerifyRequest verify;
+  std::string share = {};  ///< As ParseFraction() takes it, "1%"; empty: none is made again.
+  RegenerateDatasetRequest regenerate = {};  ///< Its folder, threads and fraction are not read.
+};
+
+struct ThoroughFindings {
+  std::vector<DatasetFinding> findings;
+  std::string note;  ///< How much was made again, for people; empty where nothing was.
+};
+
+/// VerifyDataset() with progress, then RegenerateDataset(). Throws as both, and as ParseFraction().
+ThoroughFindings VerifyThoroughly(ThoroughVerification request);
 
 /// What is filmed of a dataset, and what it was made with; `fraction` is not looked at.
 struct FilmDatasetRequest {

@@ -10,6 +10,13 @@
 
 namespace doorforge {
 
+/// Refuses what does not go together, before anything is read.
+///
+/// @param picture File that one answer is to be drawn into; empty: none.
+/// @throws Error(kInvalidArgument) in the words of the options of `doorforge act`.
+void CheckRequest(const OnlineControllerSetup& setup, const DecisionFiles& files,
+                  const std::string& picture);
+
 /// How decisions of a stream are asked for and told.
 struct DecisionStream {
   std::istream& requests;  ///< A line is a request, as docs/act.md has it; empty ones are skipped.

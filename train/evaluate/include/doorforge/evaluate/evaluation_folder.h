@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "doorforge/core/committed_file.h"
 #include "doorforge/evaluate/evaluate_opener.h"
@@ -21,5 +23,19 @@ void WriteEvaluation(const Evaluation& evaluation, StagedFolder& folder);
 /// @param doors Folders that hold the doors of the evaluation.
 std::optional<int> MakeFilmsPage(const std::filesystem::path& folder,
                                  std::span<const std::filesystem::path> doors);
+
+struct EvaluatedFolder {
+  Evaluation evaluation;
+  /// What was written where, and what could not be, a sentence each, for people.
+  std::vector<std::string> notes;
+  int code = 0;  ///< Exit code of the program that made the films' page; 1 where it is missing.
+};
+
+/// Evaluates and writes the folder `out` with pages and pictures; with an empty `out` nothing is
+/// written or drawn. Refuses a folder that is there before hours of work, not after.
+///
+/// @throws Error as StagedFolder, EvaluateOpener() and WriteEvaluation().
+EvaluatedFolder EvaluateIntoFolder(EvaluationRequest request, const std::filesystem::path& out,
+                                   Existing existing);
 
 }  // namespace doorforge

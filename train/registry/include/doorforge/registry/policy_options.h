@@ -12,7 +12,7 @@ class App;
 
 namespace doorforge {
 
-/// Adds --opener, --handler and --grasper, which every verb with policies has.
+/// Adds --opener, --handler, --grasper and --whole, which every verb that plays episodes has.
 ///
 /// @param words Their defaults, and afterwards what was given; must live until the arguments are
 ///     parsed.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
@@ -15,11 +16,12 @@
 namespace doorforge {
 
 /// Who acts at each stage, in the words of the options --opener, --handler and --grasper: the name
-/// of a policy, or the folder of a trained one.
+/// of a policy, or the folder of a trained one; or, in that of --whole, who does all of it.
 struct PolicyWords {
   std::string opener = std::string(kExpertPolicy);
   std::string handler = std::string(kExpertPolicy);
   std::string grasper = std::string(kExpertPolicy);
+  std::string whole = {};  ///< A folder that `doorforge reinforce` wrote; empty: nobody does.
 };
 
 /// Who says that the handle is turned and opening may begin.
@@ -37,7 +39,9 @@ constexpr std::span<const NamedValue<SwitchSource>> ValuesOf(SwitchSource) {
 /// Makes sets of policies, all equal.
 class PolicySetFactory {
  public:
-  /// @throws Error as PolicyRegistry::Find(). What lies in folders is read by Make().
+  /// @throws Error as PolicyRegistry::Find(); Error(kMissing) if words.whole is no folder;
+  ///     Error(kInvalidArgument) where somebody is named beside it. What lies in folders is read by
+  ///     Make().
   PolicySetFactory(const PolicyRegistry& registry, const PolicyWords& words,
                    PolicySettings settings = {},
                    SwitchSource switch_source = SwitchSource::kPolicy);
@@ -52,6 +56,8 @@ class PolicySetFactory {
   const PolicyChoice& opener() const { return opener_; }
   const PolicyChoice& handler() const { return handler_; }
   const PolicyChoice& grasper() const { return grasper_; }
+  /// The folder of who does all of an episode; empty: nobody does.
+  const std::filesystem::path& whole() const { return whole_; }
 
   /// What the policy that turns the handle remembers of the door, by its record or its row. Throws
   /// as ReadPolicy().
@@ -72,6 +78,7 @@ class PolicySetFactory {
   PolicyChoice opener_;
   PolicyChoice handler_;
   PolicyChoice grasper_;
+  std::filesystem::path whole_;
 };
 
 }  // namespace doorforge

@@ -50,8 +50,9 @@ ColorSources PolicyColors(const EpisodePlace& place);
 void BeginEpisode(const PolicySet& set, const EpisodePlace& place);
 
 /// Runs the three stages of an episode with the policies of a set and records the opening, as
-/// RunStages(). Where a policy that is Fallible had no action, the outcome is kDiverged and the
-/// detail is kPolicyFailed with the reason.
+/// RunStages(); where one does all of it, RunHandEpisode(), without decisions in the record. Where
+/// a policy that is Fallible had no action, the outcome is kDiverged and the detail is
+/// kPolicyFailed with the reason.
 ///
 /// @param observer Gives the clouds of those who open and turn; may be null.
 Episode RunPolicySet(const EpisodePlace& place, const PolicySet& set, Observer* observer);

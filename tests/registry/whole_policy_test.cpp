@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+
+// A policy that does all of an episode, among those of the registry.
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "doorforge/core/error.h"
+#include "doorforge/physics/load_robot.h"
+#include "doorforge/physics/scene_sampling.h"
+#include "doorforge/policy/hand_network.h"
+#include "doorforge/registry/policy_episodes.h"
+#include "doorforge/rollout/hand_stepper.h"
+
+#include "../physics/primitive_door.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+
+class WholePolicyTest : public testing::Test {
+ protected:
+  WholePolicyTest()
+      : folder_(fs::temp_directory_path() / ("whole_policy_test_" + std::to_string(::getpid()))) {
+    record_.parameters = MlpInitialisation(record_.shape, 5, "test.", 1);
+    record_.task.max_actions = 6;
+    record_.provenance = {"ppo", "0.0", "{}", 1, {}};
+    WriteHandPolicy(folder_, record_);
+  }
+  ~WholePolicyTest() override { fs::remove_all(folder_); }
+
+  PolicyWords Words() const { return {.whole = folder_.string()}; }
+
+  void ExpectRefused(const PolicyWords& words, ErrorCode code, const std::string& word) const {
+    try {
+      PolicySetFactory(BuiltInPolicies(), words).Make();
+      ADD_FAILURE() << "not refused: " << word;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), code) << error.what();
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+    }
+  }
+
+  fs::path folder_;
+  HandPolicyRecord record_;
+};
+
+TEST_F(WholePolicyTest, PlaysTheEpisodeByItself) {
+  const DoorAsset door = MakePrimitiveDoor({});
+  const RobotModel robot = LoadRobot({}, RobotBase::kFloating);
+  SceneConfig config;
+  config.physics.base = RobotBase::kFloating;
+  const Scene scene = SampleScene(door, 3, 0, config);
+  HandNetworkPolicy policy(record_);
+  const Episode expected = RunHandEpisode(scene, door, robot, policy, nullptr);
+  const PolicySetFactory factory(BuiltInPolicies(), Words());
+  EXPECT_FALSE(factory.IsExpertAlone());
+  EXPECT_FALSE(UsesPointCloud(factory.Make()));
+  PolicyEpisodes episodes(factory);
+  const Episode found = episodes.Run({scene, door, robot}, nullptr);
+  EXPECT_EQ(found.state_sha256, expected.state_sha256);
+  EXPECT_EQ(found.detail, expected.detail);
+}
+
+TEST_F(WholePolicyTest, SaysWhatIsWrong) {
+  ExpectRefused({.whole = (folder_ / "nowhere").string()}, ErrorCode::kMissing, "no such folder");
+  PolicyWords words = Words();
+  words.grasper = "random";
+  ExpectRefused(words, ErrorCode::kInvalidArgument, "leave \"random\" out");
+  ExpectRefused({.opener = folder_.string()}, ErrorCode::kFormat, "of the stage \"whole\"");
+  ExpectRefused({.whole = DOORFORGE_SOURCE_DIR "/data/policies/opener"}, ErrorCode::kFormat,
+                "`doorforge reinforce` makes such");
+  fs::remove(folder_ / "policy.safetensors");
+  ExpectRefused(Words(), ErrorCode::kMissing, "policy.safetensors");
+}
+
+// The hand of an arm does not fly.
+TEST_F(WholePolicyTest, NeedsAHandThatFlies) {
+  const DoorAsset door = MakePrimitiveDoor({});
+  const RobotModel robot = LoadMobileFranka();
+  const Scene scene = SampleScene(door, 3, 0);
+  PolicyEpisodes episodes(PolicySetFactory(BuiltInPolicies(), Words()));
+  try {
+    episodes.Run({scene, door, robot}, nullptr);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kInvalidConfig);
+    EXPECT_NE(std::string(error.what()).find("--preset doorgym"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace doorforge

@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/reinforce/train_ppo.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "doorforge/core/committed_file.h"
+#include "doorforge/core/config_io.h"
+#include "doorforge/core/error.h"
+#include "doorforge/core/folder_lock.h"
+#include "doorforge/core/hash.h"
+#include "doorforge/core/json_file.h"
+#include "doorforge/core/program.h"
+#include "doorforge/core/progress.h"
+#include "doorforge/policy/hand_network.h"
+#include "doorforge/reinforce/ppo_files.h"
+
+namespace doorforge {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string DoorsHash(const std::vector<FoundDoor>& doors) {
+  std::string text;
+  for (const FoundDoor& door : doors) text += door.identity.id + " " + door.identity.sha256 + "\n";
+  return Sha256Hex(text);
+}
+
+SeenParts PartsOf(const std::vector<FoundDoor>& doors) {
+  SeenParts parts;
+  for (const FoundDoor& door : doors)
+    parts = Union(parts, SeenParts{{door.identity.body}, {door.identity.handle}});
+  return parts;
+}
+
+// A folder that holds a training is only touched if the user said how.
+void RequireUnused(const PpoTrainingRequest& request) {
+  if (request.resume || request.overwrite) return;
+  for (const char* file : {"training.safetensors", "policy.safetensors"})
+    Require(!fs::exists(request.out / file), ErrorCode::kInvalidArgument,
+            request.out.string() +
+                ": holds a training already; pass --resume to go on, or "
+                "--overwrite to start anew");
+}
+
+std::string PpoNote(const PpoUpdate& update) {
+  char text[96];
+  std::snprintf(text, sizeof text, "decisions; opened %.0f %%, reward %.1f, kl %.3f",
+                100 * update.success, update.reward, update.kl);
+  return text;
+}
+
+/// A training in its folder.
+class PpoFolder {
+ public:
+  PpoFolder(const PpoTrainingRequest& request, const std::vector<FoundDoor>& doors)
+      : request_(request),
+        task_(DoorTask(doors, request.config)),
+        origin_{JsonText(ToJson(request.config)), DoorsHash(doors)},
+        parts_(PartsOf(doors)) {}
+
+  PpoState Run() {
+    const PpoConfig& config = request_.config.ppo;
+    PpoState state = InitialPpoState(task_, config);
+    if (request_.resume && HasPpoState(request_.out))
+      state = ReadPpoState(request_.out, origin_, std::move(state));
+    CommitFile(request_.out / "config.yaml", JsonText(ToJson(request_.config), 2) + "\n");
+    return TrainWithProgress(std::move(state));
+  }
+
+ private:
+  PpoState TrainWithProgress(PpoState state) {
+    const PpoConfig& config = request_.config.ppo;
+    const std::size_t each =
+        static_cast<std::size_t>(config.steppers) * static_cast<std::size_t>(config.steps);
+    const std::size_t left = static_cast<std::size_t>(PpoUpdatesOf(config)) - state.updates.size();
+    Progress progress("train ppo", left * each);
+    PpoHooks hooks{.threads = request_.threads};
+    hooks.on_update = [&](const PpoState& now) {
+      Write(now);
+      progress.Advance(each, PpoNote(now.updates.back()));
+    };
+    hooks.stop = [start = std::chrono::steady_clock::now(), minutes = request_.minutes] {
+      const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+      return StopRequested() != 0 || (minutes > 0 && elapsed.count() > 60 * minutes);
+    };
+    return TrainPpo(task_, config, std::move(state), hooks);
+  }
+
+  // The state last: who goes on from it finds curves and policy of the same update, or makes them.
+  void Write(const PpoState& state) const {
+    const PpoNetworks& networks = state.networks;
+    WriteHandPolicy(request_.out,
+                    {networks.actor_shape,
+                     networks.actor,
+                     request_.config.task,
+                     {kPpoMethod, CodeVersion(), origin_.config,
+                      static_cast<std::uint64_t>(state.updates.back().decisions), parts_}});
+    WritePpoCurves(request_.out, state);
+    CommitFile(request_.out / "training.html", PpoPage(state, request_.config.ppo, origin_));
+    WritePpoState(request_.out, state, origin_);
+  }
+
+  const PpoTrainingRequest& request_;
+  PpoTask task_;
+  PpoOrigin origin_;
+  SeenParts parts_;
+};
+
+}  // namespace
+
+PpoTrainingOutcome TrainPpoIntoFolder(PpoTrainingRequest request) {
+  if (request.decisions) request.config.ppo.decisions = *request.decisions;
+  if (request.seed) request.config.ppo.seed = *request.seed;
+  CheckPpoConfig(request.config.ppo, "config.ppo");
+  const FolderLock lock(request.out, "doorforge train", Writers::kOne);
+  RequireUnused(request);
+  RemoveStaleFiles(SystemFiles(), request.out);
+  const DoorSet set = FindDoorSet(DoorSelectionOf(request.doors, "train"), request.threads);
+  const PpoState state = PpoFolder(request, set.doors).Run();
+  PpoTrainingOutcome outcome{.notes = set.notes,
+                             .doors = set.doors.size(),
+                             .updates_done = state.updates.size(),
+                             .updates_total = PpoUpdatesOf(request.config.ppo)};
+  if (!state.updates.empty()) outcome.last = state.updates.back();
+  return outcome;
+}
+
+std::string OutcomeText(const PpoTrainingOutcome& outcome, const PpoTrainingRequest& request) {
+  const auto place = [](const fs::path& path) {
+    return fs::absolute(path).lexically_normal().string() + "\n";
+  };
+  std::string text;
+  for (const std::string& note : outcome.notes) text += "note:       " + note + "\n";
+  text += "policy:     " + place(request.out) +
+          "curves:     " + place(request.out / "training.html") +
+          "doors:      " + std::to_string(outcome.doors) + "\n" +
+          "updates:    " + std::to_string(outcome.updates_done) + " of " +
+          std::to_string(outcome.updates_total) + "\n";
+  if (!outcome.finished()) text += "stopped:    --resume goes on\n";
+  if (outcome.updates_done == 0) return text;
+  char last[128];
+  std::snprintf(last, sizeof last,
+                "training:   %.0f decisions; in the last update %.0f %% of %.0f episodes opened, "
+                "with noise\n",
+                outcome.last.decisions, 100 * outcome.last.success, outcome.last.episodes);
+  return text + last;
+}
+
+}  // namespace doorforge

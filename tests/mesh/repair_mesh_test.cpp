@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <numbers>
+#include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -223,6 +226,44 @@ TEST(RepairMesh, UnitesPiecesToTheSameBytesOnAnotherHeap) {
   const RepairResult b = Repaired(crossing);
   EXPECT_EQ(a.mesh->mesh().vertices, b.mesh->mesh().vertices);
   EXPECT_EQ(a.mesh->mesh().triangles, b.mesh->mesh().triangles);
+}
+
+// What is allocated while they are held lies among them, in another order for each seed.
+std::vector<std::vector<char>> ScatteredBlocks(unsigned seed) {
+  std::minstd_rand random(seed);
+  std::vector<std::vector<char>> blocks;
+  for (int i = 0; i < 2000; ++i) blocks.emplace_back(500 + random() % 20000);
+  std::shuffle(blocks.begin(), blocks.end(), random);
+  blocks.resize(1000);
+  return blocks;
+}
+
+// Without its base, that a cap of many triangles fills, of which others are as good.
+TriangleMesh TurnedCone(int sides) {
+  const Eigen::Matrix3d turn = (Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX()) *
+                                Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitY()))
+                                   .toRotationMatrix();
+  TriangleMesh cone{{{0, 0, -30}}, {}};
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2 * std::numbers::pi * i / sides;
+    cone.vertices.push_back(turn * Eigen::Vector3d(25 * std::cos(angle), 25 * std::sin(angle), 0));
+    cone.triangles.emplace_back(i + 1, (i + 1) % sides + 1, 0);
+  }
+  return cone;
+}
+
+TEST(RepairMesh, FillsAHoleWithTheSameTrianglesOnAnotherHeap) {
+  const HoleLimits all = {.max_size_m = 100, .max_cap_distance_m = 100};
+  for (const int sides : {12, 40}) {
+    const TriangleMesh cone = TurnedCone(sides);
+    const ClosedSoup first = CloseSoup(cone, all);
+    ASSERT_EQ(first.holes_filled, 1);
+    ASSERT_EQ(static_cast<int>(first.mesh.triangles.size()), 2 * sides - 2);
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+      const auto held = ScatteredBlocks(seed);
+      ASSERT_EQ(CloseSoup(cone, all).mesh.triangles, first.mesh.triangles) << sides << ' ' << seed;
+    }
+  }
 }
 
 TEST(RepairMesh, DropsAPieceHiddenInsideAnother) {

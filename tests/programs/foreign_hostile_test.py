@@ -138,7 +138,8 @@ class ForeignHostile(ProgramTest):
     def test_what_a_file_names_may_be_no_file(self):
         gltf, binary = samples.gltf_gate()
         gltf["buffers"][0]["uri"] = "box.bin"
-        picture = samples.OBJ.replace("# a box", "mtllib box.mtl\n# a box\nusemtl oak")
+        # of a handle's size: in a box of a metre a grasp is looked for longest
+        picture = samples.OBJ.replace("0.5", "0.05").replace("# a box", "mtllib box.mtl\n# a box\nusemtl oak")
         # the object, and the file that it names
         named = {
             "model.urdf": (samples.URDF, "meshes/box.obj"), "model.xml": (samples.MJCF, "meshes/box.obj"),

@@ -24,6 +24,7 @@
 #include "doorforge/mesh/work_budget.h"
 
 #include "measure/triangle_tree.h"
+#include "repair/hole_kernel.h"
 #include "repair/surface_mesh.h"
 #include "repair/surface_operations.h"
 
@@ -150,7 +151,7 @@ void FillHoles(SurfaceMesh& surface, const HoleLimits& limits, const TriangleTre
     if (!flat && !IsSmall(corners, limits.max_size_m)) continue;
     std::vector<SurfaceMesh::Face_index> faces;
     pmp::triangulate_hole(surface, border, std::back_inserter(faces),
-                          CGAL::parameters::visitor(FillWithinBudget()));
+                          CGAL::parameters::visitor(FillWithinBudget()).geom_traits(HoleKernel()));
     if (!IsFar(surface, faces, tree, limits.max_cap_distance_m)) {
       counts.holes_filled += !faces.empty();
       continue;

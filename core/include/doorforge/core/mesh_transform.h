@@ -15,9 +15,9 @@ namespace doorforge {
 TriangleMesh Transformed(TriangleMesh mesh, const RigidTransform& to_from_mesh);
 
 /// Returns the mesh with its coordinates rounded to floats, as the canonical mesh files hold them.
-/// GCC 12 with optimisation rounds z alone: it takes the conversion of x and y to float and back
-/// for nothing. The catalogue's bytes rest on that, so parts made by another compiler may differ in
-/// the last digits.
+/// GCC 12 with -O2 rounds z alone: it takes the conversion of x and y to float and back for
+/// nothing. With -O3, as in release builds, it does so for the last one to three vertices only. So
+/// the hulls of parts differ between builds.
 TriangleMesh RoundedToFloat(TriangleMesh mesh);
 
 /// Returns the triangles of all meshes as one mesh, in order; no vertices are welded.

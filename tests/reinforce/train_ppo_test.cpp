@@ -96,7 +96,7 @@ TEST_F(TrainPpoTest, LeavesTheSameBytesForAnyNumberOfThreads) {
             std::string::npos);
 }
 
-// As after a kill behind the first update: what lies there is the state of then.
+// A kill behind the first update leaves the state of then in the folder.
 TEST_F(TrainPpoTest, GoesOnWhereAKillLeftIt) {
   TrainPpoIntoFolder(Request("whole"));
   PpoTrainingRequest request = Request("parts");

@@ -32,7 +32,7 @@ std::vector<float> Drawn(std::size_t count, double scale, const std::string& str
 
 // ---- the network --------------------------------------------------------------------------------
 
-// The same in double precision, layer by layer from the flat vector.
+// It computes the same in double precision, layer by layer from the flat vector.
 std::vector<double> ReferenceMlp(const MlpShape& shape, const std::vector<float>& parameters,
                                  const std::vector<float>& input) {
   std::vector<double> x(input.begin(), input.end());

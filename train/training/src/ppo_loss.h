@@ -31,8 +31,8 @@ struct PpoLoss {
   double entropy = 0;
   double kl = 0;
   double clipped = 0;
-  /// Of policy + config.value * value - config.entropy * entropy, by the parameters of actor,
-  /// spread and critic, one after the other.
+  /// The gradient is that of policy + config.value * value - config.entropy * entropy, by the
+  /// parameters of actor, spread and critic, one after the other.
   std::vector<float> gradient;
 };
 

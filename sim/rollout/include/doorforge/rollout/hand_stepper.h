@@ -16,7 +16,8 @@ namespace doorforge {
 
 /// When an episode that a hand plays is over.
 enum class HandEpisodeEnd {
-  /// As episodes of other policies are: open beyond PhysicsConfig::finish_hinge_rad, opened without
+  /// It is judged as episodes of other policies are: open beyond PhysicsConfig::finish_hinge_rad,
+  /// opened without
   /// the grip that EpisodeLimits ask for, or the budget used up.
   kJudged,
   kBudget,  ///< Only with the budget, or where the physics became impossible.

@@ -22,7 +22,7 @@ TrainingSample WithTurns(const TrainingSample& sample);
 /// not the sample's own.
 TrainingSample WithoutCloudMirrored(const TrainingSample& sample);
 
-/// The same, and ShownCloud() is the mirror image's as well.
+/// It does the same, and ShownCloud() gives the mirror image's points as well.
 TrainingSample InMirror(const TrainingSample& sample);
 
 /// The sample of a grasp with its contact told from point 0 of its cloud.

@@ -121,6 +121,26 @@ TEST(BenchmarkPipeline, EveryTrainingHasASeedOfItsOwnAndTheSameDoors) {
   EXPECT_EQ(plan.parts.front().train_seconds < plan.parts.back().train_seconds, true);
 }
 
+TEST(BenchmarkPipeline, APipelineIsToldTheSettingsThatItHas) {
+  const Pipeline joined =
+      PlanBenchmark(ReadBenchmark("quick", {"settings=[decisions=4096, open_episodes=9]"},
+                                  {"doorgym", "ours_given_grasp"}))
+          .pipeline;
+  const auto says = [&](const std::string& step, const std::string& option) {
+    const auto& command = StepNamed(joined, step).command;
+    return *(std::ranges::find(command, option) + 1);
+  };
+  EXPECT_EQ(says("hand", "--decisions"), "4096");
+  EXPECT_EQ(says("open_data", "--episodes"), "9");
+  EXPECT_EQ(Actors(joined, "doorgym_1_test").contains("hand"), true);
+  EXPECT_EQ(std::ranges::count(joined.steps, "compose",
+                               [](const PipelineStep& step) { return step.command.front(); }),
+            3);  // doors of both rows, and those of small and large handles
+  const std::string told = MessageOf(
+      [] { PlanBenchmark(ReadBenchmark("quick", {"settings=[decison=4096]"}, {"doorgym"})); });
+  EXPECT_NE(told.find("decisions"), std::string::npos) << told;
+}
+
 TEST(BenchmarkPipeline, WhoseRowsAreNotTrainedMakesDoorsAlone) {
   const Pipeline joined = PlanBenchmark(ReadBenchmark("quick", {}, {"expert"})).pipeline;
   std::vector<std::string> names;

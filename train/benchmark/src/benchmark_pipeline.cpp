@@ -46,7 +46,12 @@ struct Side {
 class Planner {
  public:
   explicit Planner(const Benchmark& benchmark)
-      : benchmark_(benchmark), joiner_("benchmark " + benchmark.name) {}
+      : benchmark_(benchmark), joiner_("benchmark " + benchmark.name) {
+    for (const std::string& preset : PipelinePresets()) {
+      const nlohmann::ordered_json settings = ReadPipeline(preset, {}).settings;
+      for (const auto& setting : settings.items()) preset_settings_.insert(setting.key());
+    }
+  }
 
   BenchmarkPlan Plan() {
     for (std::size_t row = 0; row < benchmark_.rows.size(); ++row) {
@@ -62,10 +67,12 @@ class Planner {
   void AddTraining(std::size_t index, int training) {
     const BenchmarkRow& row = benchmark_.rows[index];
     const bool trained = !row.pipeline.empty();
-    std::vector<std::string> changes = benchmark_.size.settings;
-    changes.push_back("seed=" +
-                      std::to_string(benchmark_.size.seed + static_cast<std::uint64_t>(training)));
-    if (!trained) changes.clear();
+    std::vector<std::string> changes;
+    if (trained) {
+      changes = SettingsFor(row.pipeline);
+      changes.push_back(
+          "seed=" + std::to_string(benchmark_.size.seed + static_cast<std::uint64_t>(training)));
+    }
     Pipeline pipeline = ReadPipeline(trained ? row.pipeline : kDoorsPipeline, changes);
     const std::string doors =
         row.compose.empty() ? std::string(kDoorsStep) : ComposeAlso(row, pipeline);
@@ -77,6 +84,18 @@ class Planner {
     for (const Side& side : {Side{"test", benchmark_.size.split, kSeenCategories},
                              Side{"unseen", benchmark_.size.unseen_split, kUnseenCategories}})
       AddEvaluation(index, training, side, names);
+  }
+
+  // Those of the size's settings that the pipeline has, and those that no preset has: reading it
+  // with them tells the user.
+  std::vector<std::string> SettingsFor(const std::string& pipeline) const {
+    const nlohmann::ordered_json has = ReadPipeline(pipeline, {}).settings;
+    std::vector<std::string> settings;
+    for (const std::string& change : benchmark_.size.settings) {
+      const std::string key = change.substr(0, change.find('='));
+      if (has.contains(key) || !preset_settings_.contains(key)) settings.push_back(change);
+    }
+    return settings;
   }
 
   std::vector<std::string> WordsOf(const BenchmarkRow& row) const {
@@ -133,6 +152,7 @@ class Planner {
 
   const Benchmark& benchmark_;
   PipelineJoiner joiner_;
+  std::set<std::string> preset_settings_;  // keys that some preset's pipeline has
   std::vector<BenchmarkPart> parts_;
 };
 

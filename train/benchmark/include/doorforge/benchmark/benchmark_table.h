@@ -42,7 +42,8 @@ struct BenchmarkSize {
   int seeds = 3;                       ///< Scenes of each door.
   int trainings = 1;  ///< Each row that is trained has so many; their seeds follow `seed`.
   std::uint64_t seed = 7;
-  std::vector<std::string> settings;  ///< "key=value" of the pipelines that train.
+  /// "key=value" of the pipelines that train; each pipeline is told those that it has.
+  std::vector<std::string> settings;
   /// Arguments of `doorforge eval` of every row, before its own: who is judged, where the rows are
   /// conditions. Empty: each row says it.
   std::vector<std::string> evaluate = {};

@@ -14,7 +14,12 @@ constexpr double kReversedShare = 0.15;  // of handles
 constexpr double kPushedShare = 0.25;    // of doors
 constexpr double kRightFails = 0.05;     // the chance that a right guess leads nowhere
 constexpr double kSlipsUnnoticed =
-    0.5;                              // that a hand stalls nowhere though the handle stands still
+    0.5;  // that a hand stalls nowhere though the handle stands still
+constexpr double kAgainstTheStop = 0.02;  // that a leaf comes though it opens the other way
+// That a leaf comes a little and no farther, where either the arc or the handle's sense is wrong,
+// and where both are: the mirror image of a handle turns the other way.
+constexpr double kWrongArcOrTurn = 0.5;
+constexpr double kWrongArcAndTurn = 0.25;
 constexpr double kLeastDoubt = 0.02;  // about the side, however clear the picture
 
 // Whether the hand does the same with the handle.
@@ -32,7 +37,7 @@ double Share(Choice told, Choice first, Choice given, double share) {
 
 void DoorBelief::Begin(std::optional<LabelledCloud> before) {
   before_ = std::move(before);
-  is_weighed_ = handle_stalled_ = gives_up_ = false;
+  is_weighed_ = handle_stalled_ = leaf_follows_ = gives_up_ = false;
   reached_.reset();
 }
 
@@ -67,8 +72,17 @@ void DoorBelief::Weigh(const Eigen::Vector3f& hand_m) {
   }
 }
 
+// The chance that the leaf comes some way with the present grasp and no farther.
+double DoorBelief::ChanceThatItFollowed(const DoorGuess& truth) const {
+  if (truth == guess_) return kRightFails;
+  if (truth.opening != guess_.opening) return kAgainstTheStop;
+  const bool both_are_wrong = truth.side != guess_.side && truth.turning == guess_.turning;
+  return both_are_wrong ? kWrongArcAndTurn : kWrongArcOrTurn;
+}
+
 // The chance that the present grasp goes as it went, at a door that is as guessed there.
 double DoorBelief::ChanceOfFailure(const DoorGuess& truth) const {
+  if (leaf_follows_) return ChanceThatItFollowed(truth);
   const bool is_handle_to_blame = handle_stalled_ || reached_ == Stage::kHandle;
   if (TurnAlike(truth, guess_)) return is_handle_to_blame || truth == guess_ ? kRightFails : 1;
   return is_handle_to_blame ? 1 : kSlipsUnnoticed;
@@ -78,7 +92,7 @@ void DoorBelief::NextGrasp() {
   if (!reached_) return;
   for (Weighed& one : weighed_) one.weight *= ChanceOfFailure(one.guess);
   reached_.reset();
-  handle_stalled_ = gives_up_ = false;
+  handle_stalled_ = leaf_follows_ = gives_up_ = false;
 }
 
 void DoorBelief::NoteStall(Stage stage) {

@@ -11,6 +11,7 @@ namespace doorforge {
 void MirroringPolicy::Reset() {
   policy_->Reset();
   stall_.Reset();
+  following_.Reset();
   has_begun_ = is_stalled_ = false;
 }
 
@@ -29,15 +30,17 @@ Action MirroringPolicy::Act(const Observation& observation) {
   if (!has_begun_ && role_.belief)
     guess_ = role_.belief->ForStage(role_.stage, HandPositionOf(now));
   has_begun_ = true;
-  LookForStall(now);
+  Feel(now);
   const Action action = IsShownAsItIs() ? policy_->Act(observation, Way())
                                         : AsShown(policy_->Act(AsShown(observation), Way()));
   stall_.Ask(now, action);
   return action;
 }
 
-void MirroringPolicy::LookForStall(const Proprioception& now) {
-  if (is_stalled_ || !role_.belief || !role_.belief->LeavesOpen() || !stall_.Stalls(now)) return;
+void MirroringPolicy::Feel(const Proprioception& now) {
+  if (!role_.belief || !role_.belief->LeavesOpen()) return;
+  if (role_.stage == Stage::kOpen && following_.Follows(now)) role_.belief->NoteLeafFollows();
+  if (is_stalled_ || !stall_.Stalls(now)) return;
   is_stalled_ = true;
   role_.belief->NoteStall(role_.stage);
 }

@@ -176,7 +176,7 @@ std::unique_ptr<Policy> MakePolicy(MotionNetworks learned, const PolicyOptions& 
     belief = std::make_shared<DoorBelief>(options.told, std::nullopt);
   MirroringRole role{learned.stage, learned.KnowsBothWays(), std::move(belief)};
   return std::make_unique<MirroringPolicy>(MakeTwoWay(std::move(learned), options), std::move(role),
-                                           options.stall);
+                                           options.feel);
 }
 
 std::unique_ptr<Policy> LoadPolicy(const fs::path& folder, const PolicyOptions& options,

@@ -25,7 +25,8 @@ Eigen::Vector3f BasePositionOf(const Proprioception& proprioception);
 Eigen::Vector3f HandPositionOf(const Proprioception& proprioception);
 /// Rotation world_from_hand.
 Eigen::Matrix3d HandRotationOf(const Proprioception& proprioception);
-Eigen::Vector2f FingerOpeningsOf(const Proprioception& proprioception);  ///< Left, right [m].
+/// Left, right, normalised: -1 is closed, 1 wide open.
+Eigen::Vector2f FingerOpeningsOf(const Proprioception& proprioception);
 
 /// What the simulator knows and a robot would not; only rule-based experts may read it.
 struct PrivilegedState {

@@ -10,12 +10,6 @@
 #include "text_format.h"
 
 namespace doorforge::internal {
-namespace {
-
-constexpr double kAsGoodAsShutRad = 3 * kDegree;  // what was seen of the door still holds
-
-}  // namespace
-
 void EpisodeCourse::End(std::optional<Verdict> failure) {
   state_.failure = std::move(failure);
   state_.over = true;
@@ -23,8 +17,7 @@ void EpisodeCourse::End(std::optional<Verdict> failure) {
 
 // A grasp that led nowhere is not the end, where another may be tried.
 void EpisodeCourse::Fail(Verdict verdict) {
-  const bool is_shut = world_.state().hinge_rad < kAsGoodAsShutRad;
-  if (state_.grasps >= grasps_ || !is_shut || world_.diverged()) return End(std::move(verdict));
+  if (state_.grasps >= grasps_ || world_.diverged()) return End(std::move(verdict));
   LetGo(world_);
   if (world_.diverged()) return End(std::move(verdict));
   BeginStage(Stage::kGrasp);

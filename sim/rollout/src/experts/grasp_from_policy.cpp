@@ -2,9 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/rollout/grasp_from_policy.h"
 
+#include <numbers>
 #include <utility>
 
 namespace doorforge {
+namespace {
+
+constexpr double kAsGoodAsThereRad = 3 * std::numbers::pi / 180;  // what was seen of it still holds
+
+}  // namespace
 
 GraspFromPolicy::GraspFromPolicy(GraspPolicy& policy, const Scene& scene, const DoorAsset& door,
                                  const RobotModel& robot, VisibleCloud visible)
@@ -27,9 +33,19 @@ std::optional<GraspCommand> GraspFromPolicy::Choose(const SceneSnapshot& snapsho
   return chosen;
 }
 
+void GraspFromPolicy::Look(const SceneSnapshot& snapshot) {
+  const Eigen::Matrix3d leaf = snapshot.door[kLeafLink].linear();
+  const bool holds =
+      seen_ && RotationVector(leaf * leaf_when_seen_.transpose()).norm() < kAsGoodAsThereRad;
+  if (holds) return;
+  seen_ = visible_(snapshot);
+  leaf_when_seen_ = leaf;
+  tried_.clear();
+}
+
 std::optional<GraspAction> GraspFromPolicy::ActionAt(const SceneSnapshot& snapshot) {
   GraspObservation observation;
-  if (!seen_) seen_ = visible_(snapshot);
+  Look(snapshot);
   observation.visible = *seen_;
   observation.tried = tried_;
   observation.approach = -snapshot.door[kHandleLink].linear().col(0);

@@ -21,7 +21,8 @@ namespace doorforge {
 /// frame).
 class GraspFromPolicy : public SnapshotGraspPolicy {
  public:
-  /// Every point that the camera sees at an instant, without the robot; called once an episode.
+  /// Every point that the camera sees at an instant, without the robot; called for the first grasp
+  /// of an episode, and for a further one where the leaf stands otherwise than when it was seen.
   using VisibleCloud = std::function<LabelledCloud(const SceneSnapshot&)>;
 
   /// @param policy Kept by reference.
@@ -32,13 +33,16 @@ class GraspFromPolicy : public SnapshotGraspPolicy {
   /// is the policy's own.
   void RecordWith(const CloudExtent& extent) { recorded_ = extent; }
 
-  /// Called again in an episode, it passes on what was seen at first, since the door is as it was,
-  /// and the grasps that were tried. Throws as the policy.
+  /// Called again in an episode, it passes on what was seen last and the grasps that were tried
+  /// there. A leaf that has turned by more than 3 degrees since is looked at anew, and nothing was
+  /// tried there yet. Throws as the policy.
   std::optional<GraspCommand> Choose(const SceneSnapshot& snapshot) override;
   /// Gives Choose()'s choice as the policy made it, with what it says of it.
   std::optional<GraspAction> ActionAt(const SceneSnapshot& snapshot);
 
  private:
+  void Look(const SceneSnapshot& snapshot);
+
   GraspPolicy& policy_;
   std::uint64_t seed_;
   std::string episode_;
@@ -48,6 +52,7 @@ class GraspFromPolicy : public SnapshotGraspPolicy {
   GripperClearance clearance_;
   VisibleCloud visible_;
   std::optional<LabelledCloud> seen_;
+  Eigen::Matrix3d leaf_when_seen_ = Eigen::Matrix3d::Identity();
   std::vector<TriedGrasp> tried_;
   std::optional<CloudExtent> recorded_;
 };

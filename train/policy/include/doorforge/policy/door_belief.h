@@ -82,6 +82,10 @@ class DoorBelief : public EpisodeMemory {
   /// The hand does not do what the stage's policy asks for. At kHandle the door may have no latch,
   /// so opening is tried next; where that stalls as well, the grasp is given up.
   void NoteStall(Stage stage);
+  /// At kOpen the leaf came with the hand some way. So it is not held by a latch and opens the way
+  /// that was guessed; that the grasp led nowhere is then for the side, or for a handle that went
+  /// back since it turns the other way.
+  void NoteLeafFollows() { leaf_follows_ = true; }
   bool GivesUp() const override { return gives_up_; }
   /// Whether there is something to find out by trying.
   bool LeavesOpen() const { return told_.LeavesOpen(); }
@@ -94,6 +98,7 @@ class DoorBelief : public EpisodeMemory {
   void Weigh(const Eigen::Vector3f& hand_m);
   double ShareOf(const DoorGuess& guess, double left) const;
   double ChanceOfFailure(const DoorGuess& truth) const;
+  double ChanceThatItFollowed(const DoorGuess& truth) const;
   void NextGrasp();
 
   ToldOfDoor told_;
@@ -103,6 +108,7 @@ class DoorBelief : public EpisodeMemory {
   bool is_weighed_ = false;
   std::optional<Stage> reached_;  // of the present grasp, as the following
   bool handle_stalled_ = false;
+  bool leaf_follows_ = false;
   bool gives_up_ = false;
   DoorGuess guess_;
 };

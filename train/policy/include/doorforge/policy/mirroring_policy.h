@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "doorforge/policy/door_belief.h"
+#include "doorforge/policy/following_detector.h"
 #include "doorforge/policy/stall_detector.h"
 #include "doorforge/schemas/episode.h"
 #include "doorforge/schemas/motion_way.h"
@@ -19,6 +20,12 @@ class TwoWayPolicy {
   virtual void Reset() = 0;
   virtual Action Act(const Observation& observation, MotionWay way) = 0;
   virtual bool UsesColors() const { return false; }  ///< As Policy::UsesColors().
+};
+
+/// How hand and fingers tell what is not told.
+struct FeelConfig {
+  StallConfig stall;
+  FollowingConfig following;
 };
 
 /// What one of a set's policies has learned, and who tells it what to take the door for.
@@ -39,11 +46,15 @@ struct MirroringRole {
 class MirroringPolicy : public Policy {
  public:
   /// @param policy Not null.
-  /// @param stall Where the belief leaves something open, it is told of what stalls by it.
-  /// @throws Error as StallDetector().
+  /// @param feel Where the belief leaves something open, it is told of what stalls and of what
+  ///     gives way by these.
+  /// @throws Error as StallDetector() and FollowingDetector().
   MirroringPolicy(std::unique_ptr<TwoWayPolicy> policy, MirroringRole role,
-                  const StallConfig& stall = {})
-      : policy_(std::move(policy)), role_(std::move(role)), stall_(stall) {}
+                  const FeelConfig& feel = {})
+      : policy_(std::move(policy)),
+        role_(std::move(role)),
+        stall_(feel.stall),
+        following_(feel.following) {}
 
   void Reset() override;
   Action Act(const Observation& observation) override;
@@ -62,12 +73,13 @@ class MirroringPolicy : public Policy {
  private:
   MotionWay Way() const;
   bool IsShownAsItIs() const;
-  void LookForStall(const Proprioception& now);
+  void Feel(const Proprioception& now);
 
   std::unique_ptr<TwoWayPolicy> policy_;
   MirroringRole role_;
   DoorGuess guess_;
   StallDetector stall_;
+  FollowingDetector following_;
   bool has_begun_ = false;
   bool is_stalled_ = false;
 };

@@ -22,7 +22,7 @@ struct PolicyOptions {
   /// N(0, I); the critic's highest score is taken (the first of equals).
   int candidates = 1;
   std::uint64_t seed = 1;  ///< The draws begin with it anew at every Reset().
-  StallConfig stall = {};  ///< When what is not told is looked for by trying.
+  FeelConfig feel = {};    ///< How what is not told is found out by trying.
   ToldOfDoor told = {};    ///< With kAuto the next grasp of an episode tries something else.
   /// From this probability on, in (0, 1), a handle policy is believed that the handle is turned.
   double switch_probability = 0.5;
@@ -32,7 +32,8 @@ struct PolicyOptions {
     visit("candidates", self.candidates);
     visit("seed", self.seed);
     visit("side", self.told.side);
-    visit("stall", self.stall);
+    visit("stall", self.feel.stall);
+    visit("following", self.feel.following);
     visit("turning", self.told.turning);
     visit("opening", self.told.opening);
     visit("switch_probability", self.switch_probability);

@@ -44,7 +44,7 @@ std::vector<DoorGuess> GuessesOf(DoorBelief& belief, int grasps) {
 TEST(DoorBelief, WhatIsToldIsNeverDoubted) {
   for (const SideChoice side : {SideChoice::kLeft, SideChoice::kRight}) {
     for (const OpeningChoice opening : {OpeningChoice::kPull, OpeningChoice::kPush}) {
-      DoorBelief belief({side, TurningChoice::kReversed, opening}, std::nullopt);
+      DoorBelief belief({side, TurningChoice::kReversed, opening}, {});
       EXPECT_FALSE(belief.LeavesOpen());
       belief.Begin(std::nullopt);
       const DoorGuess told{side == SideChoice::kLeft ? HingeSide::kLeft : HingeSide::kRight,
@@ -56,7 +56,7 @@ TEST(DoorBelief, WhatIsToldIsNeverDoubted) {
 }
 
 TEST(DoorBelief, BeginsOnTheSideThatThePictureShows) {
-  DoorBelief belief(kNothing, BySignOfTheFirst());
+  DoorBelief belief(kNothing, {.side = BySignOfTheFirst()});
   EXPECT_TRUE(belief.WantsPicture());
   belief.Begin(DoorOnTheSideOf(0.1F));
   EXPECT_EQ(belief.ForStage(Stage::kHandle, kHand).side, HingeSide::kLeft);
@@ -64,11 +64,11 @@ TEST(DoorBelief, BeginsOnTheSideThatThePictureShows) {
   EXPECT_EQ(belief.ForStage(Stage::kHandle, kHand).side, HingeSide::kRight);
   belief.Begin(std::nullopt);
   EXPECT_EQ(belief.ForStage(Stage::kHandle, kHand), kLeftPulled);
-  EXPECT_FALSE(DoorBelief({}, BySignOfTheFirst()).WantsPicture());
+  EXPECT_FALSE(DoorBelief({}, {.side = BySignOfTheFirst()}).WantsPicture());
 }
 
 TEST(DoorBelief, TriesEveryKindOfDoorThatIsLeftOpen) {
-  DoorBelief belief(kNothing, std::nullopt);
+  DoorBelief belief(kNothing, {});
   belief.Begin(std::nullopt);
   // the common kinds again before the rarest of all for the first time
   const std::vector<DoorGuess> guesses = GuessesOf(belief, 16);
@@ -79,7 +79,7 @@ TEST(DoorBelief, TriesEveryKindOfDoorThatIsLeftOpen) {
 }
 
 TEST(DoorBelief, APictureThatIsClearKeepsTheSideAndTriesTheRest) {
-  DoorBelief belief(kNothing, BySignOfTheFirst());
+  DoorBelief belief(kNothing, {.side = BySignOfTheFirst()});
   belief.Begin(DoorOnTheSideOf(-0.1F));
   const std::vector<DoorGuess> guesses = GuessesOf(belief, 4);
   for (const DoorGuess& guess : guesses) EXPECT_EQ(guess.side, HingeSide::kRight);
@@ -90,7 +90,7 @@ TEST(DoorBelief, APictureThatIsClearKeepsTheSideAndTriesTheRest) {
 }
 
 TEST(DoorBelief, AHandleThatStallsIsTurnedTheOtherWayNext) {
-  DoorBelief belief({SideChoice::kLeft, TurningChoice::kAuto, OpeningChoice::kAuto}, std::nullopt);
+  DoorBelief belief({SideChoice::kLeft, TurningChoice::kAuto, OpeningChoice::kAuto}, {});
   belief.Begin(std::nullopt);
   belief.ForStage(Stage::kHandle, kHand);
   belief.NoteStall(Stage::kHandle);
@@ -103,8 +103,39 @@ TEST(DoorBelief, AHandleThatStallsIsTurnedTheOtherWayNext) {
   EXPECT_EQ(next, (DoorGuess{HingeSide::kLeft, MotionWay::kOther, MotionWay::kUsual}));
 }
 
+// The leaf came some way with the hand: no latch holds it, and it is not pushed.
+TEST(DoorBelief, ALeafThatCameAlongIsNotPushedButTurnedTheOtherWayOrHingedElsewhere) {
+  DoorBelief belief(kNothing, {.side = BySignOfTheFirst()});
+  for (const float y : {0.1F, 0.002F}) {
+    belief.Begin(DoorOnTheSideOf(y));
+    belief.ForStage(Stage::kHandle, kHand);
+    belief.ForStage(Stage::kOpen, kHand);
+    belief.NoteLeafFollows();
+    const bool picture_is_clear = y > 0.01F;
+    const DoorGuess next = belief.ForStage(Stage::kHandle, kHand);
+    EXPECT_EQ(next, picture_is_clear
+                        ? (DoorGuess{HingeSide::kLeft, MotionWay::kOther, MotionWay::kUsual})
+                        : (DoorGuess{HingeSide::kRight, MotionWay::kUsual, MotionWay::kUsual}));
+  }
+}
+
+TEST(DoorBelief, WhatIsNothingLikeThePushedDoorsOfTheTrainingIsPulledAsLongAsAnythingElseIsLeft) {
+  const DoorKnowledge knowledge{.pushed = LearnedHeights{1.9, 2.3}};
+  DoorBelief belief(kNothing, knowledge);
+  EXPECT_TRUE(belief.WantsPicture());
+  EXPECT_FALSE(DoorBelief({}, knowledge).WantsPicture());
+  const auto begin_with = [&](float height) {
+    belief.Begin(LabelledCloud{{0, 0, 0, 0, 0, height}, {0, 0}});
+    return GuessesOf(belief, 4);
+  };
+  for (const DoorGuess& guess : begin_with(0.8F)) EXPECT_EQ(guess.opening, MotionWay::kUsual);
+  const std::vector<DoorGuess> tall = begin_with(2.1F);
+  EXPECT_TRUE(std::ranges::any_of(
+      tall, [](const DoorGuess& guess) { return guess.opening == MotionWay::kOther; }));
+}
+
 TEST(DoorBelief, AGraspThatReachedNoStageSaysNothing) {
-  DoorBelief belief(kNothing, std::nullopt);
+  DoorBelief belief(kNothing, {});
   belief.Begin(std::nullopt);
   for (int i = 0; i < 4; ++i) EXPECT_EQ(belief.ForGrasp(kHand), kLeftPulled);
 }
@@ -132,7 +163,7 @@ class BeliefGraspTest : public ::testing::Test {
   }
 
   std::shared_ptr<DoorBelief> belief_ = std::make_shared<DoorBelief>(
-      ToldOfDoor{SideChoice::kLeft, TurningChoice::kUsual, OpeningChoice::kAuto}, std::nullopt);
+      ToldOfDoor{SideChoice::kLeft, TurningChoice::kUsual, OpeningChoice::kAuto}, DoorKnowledge{});
   BeliefGrasp grasps_{std::make_unique<NextPlace>(), belief_};
   GraspObservation seen_;
 };

@@ -22,7 +22,7 @@ constexpr auto kUsual = MotionWay::kUsual;
 constexpr auto kOther = MotionWay::kOther;
 
 std::shared_ptr<DoorBelief> Told(const ToldOfDoor& told) {
-  return std::make_shared<DoorBelief>(told, std::nullopt);
+  return std::make_shared<DoorBelief>(told, DoorKnowledge{});
 }
 
 // Asks for what it sees to one side and above, and says which way it was told to take by x.

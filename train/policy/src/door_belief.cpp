@@ -10,9 +10,10 @@
 namespace doorforge {
 namespace {
 
-constexpr double kReversedShare = 0.15;  // of handles
-constexpr double kPushedShare = 0.25;    // of doors
-constexpr double kRightFails = 0.05;     // the chance that a right guess leads nowhere
+constexpr double kReversedShare = 0.15;       // of handles
+constexpr double kPushedShare = 0.25;         // of doors
+constexpr double kForeignPushedShare = 0.01;  // of those that are nothing like those learned
+constexpr double kRightFails = 0.05;          // the chance that a right guess leads nowhere
 constexpr double kSlipsUnnoticed =
     0.5;  // that a hand stalls nowhere though the handle stands still
 constexpr double kAgainstTheStop = 0.02;  // that a leaf comes though it opens the other way
@@ -27,12 +28,6 @@ bool TurnAlike(const DoorGuess& one, const DoorGuess& other) {
   return one.side == other.side && one.turning == other.turning;
 }
 
-template <class Choice>
-double Share(Choice told, Choice first, Choice given, double share) {
-  if (told == Choice::kAuto) return given == first ? 1 - share : share;
-  return told == given ? 1 : 0;
-}
-
 }  // namespace
 
 void DoorBelief::Begin(std::optional<LabelledCloud> before) {
@@ -41,33 +36,40 @@ void DoorBelief::Begin(std::optional<LabelledCloud> before) {
   reached_.reset();
 }
 
-double DoorBelief::ShareOf(const DoorGuess& guess, double left) const {
-  const bool is_left = guess.side == HingeSide::kLeft;
-  const bool is_usual = guess.turning == MotionWay::kUsual;
-  const bool is_pulled = guess.opening == MotionWay::kUsual;
-  return Share(told_.side, SideChoice::kLeft, is_left ? SideChoice::kLeft : SideChoice::kRight,
-               1 - left) *
-         Share(told_.turning, TurningChoice::kUsual,
-               is_usual ? TurningChoice::kUsual : TurningChoice::kReversed, kReversedShare) *
-         Share(told_.opening, OpeningChoice::kPull,
-               is_pulled ? OpeningChoice::kPull : OpeningChoice::kPush, kPushedShare);
+double DoorBelief::LeftShare(const Eigen::Vector3f& hand_m) const {
+  if (told_.side != SideChoice::kAuto) return told_.side == SideChoice::kLeft ? 1 : 0;
+  if (!knowledge_.side || !IsSeen()) return 0.5;
+  const double log_odds = knowledge_.side->LogOddsOfLeft(SideNumbersOf(before_->xyz, hand_m));
+  return std::clamp(internal::Logistic(log_odds), kLeastDoubt, 1 - kLeastDoubt);
+}
+
+double DoorBelief::PushedShare() const {
+  if (told_.opening != OpeningChoice::kAuto) return told_.opening == OpeningChoice::kPush ? 1 : 0;
+  const bool is_foreign =
+      knowledge_.pushed && IsSeen() && !knowledge_.pushed->Knows(HeightInView(before_->xyz));
+  return is_foreign ? kForeignPushedShare : kPushedShare;
+}
+
+double DoorBelief::ReversedShare() const {
+  if (told_.turning != TurningChoice::kAuto)
+    return told_.turning == TurningChoice::kReversed ? 1 : 0;
+  return kReversedShare;
 }
 
 void DoorBelief::Weigh(const Eigen::Vector3f& hand_m) {
   if (is_weighed_) return;
   is_weighed_ = true;
-  double left = 0.5;
-  if (classifier_ && before_ && !before_->xyz.empty())
-    left = std::clamp(
-        internal::Logistic(classifier_->LogOddsOfLeft(SideNumbersOf(before_->xyz, hand_m))),
-        kLeastDoubt, 1 - kLeastDoubt);
+  const double left = LeftShare(hand_m);
+  const double reversed = ReversedShare();
+  const double pushed = PushedShare();
   auto* next = weighed_.begin();
   for (const HingeSide side : {HingeSide::kLeft, HingeSide::kRight}) {
     for (const MotionWay turning : {MotionWay::kUsual, MotionWay::kOther}) {
-      for (const MotionWay opening : {MotionWay::kUsual, MotionWay::kOther}) {
-        const DoorGuess guess{side, turning, opening};
-        *next++ = {guess, ShareOf(guess, left)};
-      }
+      for (const MotionWay opening : {MotionWay::kUsual, MotionWay::kOther})
+        *next++ = {{side, turning, opening},
+                   (side == HingeSide::kLeft ? left : 1 - left) *
+                       (turning == MotionWay::kOther ? reversed : 1 - reversed) *
+                       (opening == MotionWay::kOther ? pushed : 1 - pushed)};
     }
   }
 }

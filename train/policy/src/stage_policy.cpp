@@ -173,7 +173,7 @@ std::unique_ptr<Policy> MakePolicy(MotionNetworks learned, const PolicyOptions& 
           "left and usual handles alone");
   if (!has_mirror_image) belief.reset();
   if (has_mirror_image && !belief)
-    belief = std::make_shared<DoorBelief>(options.told, std::nullopt);
+    belief = std::make_shared<DoorBelief>(options.told, DoorKnowledge{});
   MirroringRole role{learned.stage, learned.KnowsBothWays(), std::move(belief)};
   return std::make_unique<MirroringPolicy>(MakeTwoWay(std::move(learned), options), std::move(role),
                                            options.feel);
@@ -186,10 +186,11 @@ std::unique_ptr<Policy> LoadPolicy(const fs::path& folder, const PolicyOptions& 
 
 std::shared_ptr<DoorBelief> LoadDoorBelief(const fs::path& opener, const PolicyOptions& options) {
   ToldOfDoor told = options.told;
-  std::optional<SideClassifier> classifier;
+  DoorKnowledge knowledge;
   bool can_push = false;
   if (!opener.empty()) {
-    classifier = ReadSideClassifier(opener);
+    knowledge.side = ReadSideClassifier(opener);
+    knowledge.pushed = ReadHeights(opener / kPushedFolder);
     can_push = ReadMotionNetworks(opener, Stage::kOpen).KnowsBothWays();
   }
   Require(can_push || told.opening != OpeningChoice::kPush || opener.empty(),
@@ -198,7 +199,7 @@ std::shared_ptr<DoorBelief> LoadDoorBelief(const fs::path& opener, const PolicyO
               " has not learned doors that are pushed; it would lie in its folder \"" +
               kPushedFolder + '"');
   if (!can_push && told.opening == OpeningChoice::kAuto) told.opening = OpeningChoice::kPull;
-  return std::make_shared<DoorBelief>(told, std::move(classifier));
+  return std::make_shared<DoorBelief>(told, knowledge);
 }
 
 }  // namespace doorforge

@@ -10,6 +10,7 @@
 #include "doorforge/networks/cloud_geometry.h"
 #include "doorforge/networks/hand_frame.h"
 #include "doorforge/networks/stage_networks.h"
+#include "doorforge/policy/door_height.h"
 #include "doorforge/schemas/dataset.h"
 #include "doorforge/schemas/episode.h"
 #include "doorforge/schemas/stage_content.h"
@@ -152,10 +153,9 @@ std::vector<TurnedExample> TurnedExamplesOf(const EpisodeRange& range,
   return examples;
 }
 
-// The closed doors of episodes [begin, end), as the camera sees them at the first decision.
-std::vector<SideExample> SidesOf(const DatasetReader& reader, std::size_t begin, std::size_t end) {
-  std::vector<SideExample> examples;
-  for (std::size_t i = begin; i < end; ++i) {
+// The closed doors of the first `episodes`, as the camera sees them at the first decision.
+void AppendClosedDoors(const DatasetReader& reader, std::size_t episodes, StageDataset& dataset) {
+  for (std::size_t i = 0; i < episodes; ++i) {
     const EpisodeArrays arrays = reader.Arrays(i);
     const std::string path = "episode " + reader.entry(i).key + ": meta.json";
     std::vector<float> door;
@@ -166,9 +166,10 @@ std::vector<SideExample> SidesOf(const DatasetReader& reader, std::size_t begin,
     }
     if (door.empty()) continue;
     const auto first = RowOf<std::tuple_size_v<Proprioception>>(arrays.proprio, 0);
-    examples.push_back({SideNumbersOf(door, HandPositionOf(first)), SideIn(reader.Meta(i), path)});
+    dataset.sides.push_back(
+        {SideNumbersOf(door, HandPositionOf(first)), SideIn(reader.Meta(i), path)});
+    dataset.heights_m.push_back(HeightInView(door));
   }
-  return examples;
 }
 
 void AddColors(const DatasetReader& reader, std::size_t episode,
@@ -231,7 +232,7 @@ void AppendDataset(const fs::path& folder, const std::string& stage, double vali
     const DatasetReader& validation = *dataset.readers.back();
     AppendEpisodes({train, stage, 0, episodes}, dataset.options, dataset.train,
                    dataset.turned_train);
-    if (opens) AppendAll(SidesOf(train, 0, episodes), dataset.sides);
+    if (opens) AppendClosedDoors(train, episodes, dataset);
     AppendEpisodes({validation, stage, 0, validation.size()}, dataset.options, dataset.validation,
                    dataset.turned_validation);
     return;
@@ -241,7 +242,7 @@ void AppendDataset(const fs::path& folder, const std::string& stage, double vali
       static_cast<std::size_t>(std::ceil(validation_share * static_cast<double>(episodes))));
   AppendEpisodes({train, stage, 0, episodes - aside}, dataset.options, dataset.train,
                  dataset.turned_train);
-  if (opens) AppendAll(SidesOf(train, 0, episodes - aside), dataset.sides);
+  if (opens) AppendClosedDoors(train, episodes - aside, dataset);
   AppendEpisodes({train, stage, episodes - aside, episodes}, dataset.options, dataset.validation,
                  dataset.turned_validation);
 }

@@ -20,6 +20,7 @@
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
+#include "doorforge/policy/door_height.h"
 #include "doorforge/policy/familiarity.h"
 #include "doorforge/policy/policy_file.h"
 #include "doorforge/policy/side_classifier.h"
@@ -72,12 +73,14 @@ struct PolicyOutput {
   std::optional<TurnedClassifier> turned;
   std::optional<Familiarity> familiarity;
   std::optional<SideClassifier> side;
+  std::optional<LearnedHeights> heights;
 };
 
 void WriteBesides(const PolicyOutput& output, const fs::path& folder) {
   WriteTurnedClassifier(folder, output.turned, output.provenance.dataset_sha256);
   WriteFamiliarity(folder, output.familiarity, output.provenance.dataset_sha256);
   WriteSideClassifier(folder, output.side, output.provenance.dataset_sha256);
+  WriteHeights(folder, output.heights, output.provenance.dataset_sha256);
 }
 
 // Where both networks have been validated, what they were at their best: a policy below the last.
@@ -95,7 +98,7 @@ void WriteBest(const PolicyOutput& output, const BestNetworks& best) {
 // Only what WriteBest() writes: whatever else lies there is the user's.
 void RemoveBest(const fs::path& out) {
   for (const char* file : {"policy.json", "policy.safetensors", "turned.safetensors",
-                           "familiar.safetensors", "side.safetensors"})
+                           "familiar.safetensors", "side.safetensors", "heights.safetensors"})
     fs::remove(out / "best" / file);
   if (fs::is_directory(out / "best") && fs::is_empty(out / "best")) fs::remove(out / "best");
 }
@@ -186,10 +189,11 @@ class FolderTraining {
  private:
   // what lies beside the networks is known before they are trained
   void Prepare() {
-    output_ = {request_.out, provenance_, per_epoch_, {}, {}, {}};
+    output_ = {request_.out, provenance_, per_epoch_, {}, {}, {}, {}};
     CommitFile(request_.out / "config.yaml", JsonText(ToJson(request_.config), 2) + "\n");
     output_.turned = FitTurnedClassifier(TurnedExamples());
     output_.side = FitSideClassifier(dataset_.sides);
+    output_.heights = FitHeights(dataset_.heights_m);
     output_.familiarity = FitFamiliarity(
         dataset_.train, dataset_.validation, request_.config.family,
         request_.config.augment_mirror ? SampleSides::kMirroredToo : SampleSides::kAsSeen);

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "doorforge/core/named_enum.h"
+#include "doorforge/policy/door_height.h"
 #include "doorforge/policy/side_classifier.h"
 #include "doorforge/schemas/episode.h"
 #include "doorforge/schemas/episode_memory.h"
@@ -60,18 +61,28 @@ struct ToldOfDoor {
   }
 };
 
+/// What pictures of closed doors have taught.
+struct DoorKnowledge {
+  std::optional<SideClassifier> side = {};    ///< Where hinges are.
+  std::optional<LearnedHeights> pushed = {};  ///< Of doors of which pushing was learned.
+};
+
 /// What the policies of a set believe of an episode's door: a probability for each guess that what
-/// they are told leaves open. It begins with the picture of the closed door for the side and with
-/// how common handles and doors are that go the other way. A grasp goes by one guess from its first
-/// to its last action, the likeliest; one that led nowhere makes all guesses by which the hand
-/// would have done the same unlikelier (Bayes' rule, with the chance that a right guess fails). So
-/// the next grasp goes by another guess, or by the same where there is no other worth a try.
+/// they are told leaves open. It begins with the picture of the closed door for the side, and for
+/// whether it may be pushed at all, and with how common handles and doors are that go the other
+/// way. A grasp goes by one guess from its first to its last action, the likeliest; one that led
+/// nowhere makes all guesses by which the hand would have done the same unlikelier (Bayes' rule,
+/// with the chance that a right guess fails). So the next grasp goes by another guess, or by the
+/// same where there is no other worth a try.
 class DoorBelief : public EpisodeMemory {
  public:
-  DoorBelief(const ToldOfDoor& told, std::optional<SideClassifier> classifier)
-      : told_(told), classifier_(std::move(classifier)) {}
+  DoorBelief(const ToldOfDoor& told, const DoorKnowledge& knowledge)
+      : told_(told), knowledge_(knowledge) {}
 
-  bool WantsPicture() const override { return classifier_ && told_.side == SideChoice::kAuto; }
+  bool WantsPicture() const override {
+    return (knowledge_.side && told_.side == SideChoice::kAuto) ||
+           (knowledge_.pushed && told_.opening == OpeningChoice::kAuto);
+  }
   void Begin(std::optional<LabelledCloud> before) override;
 
   /// For who chooses where to take hold [m]: the guess by which the coming grasp goes.
@@ -96,13 +107,16 @@ class DoorBelief : public EpisodeMemory {
     double weight = 0;
   };
   void Weigh(const Eigen::Vector3f& hand_m);
-  double ShareOf(const DoorGuess& guess, double left) const;
+  double LeftShare(const Eigen::Vector3f& hand_m) const;
+  double PushedShare() const;
+  double ReversedShare() const;
+  bool IsSeen() const { return before_ && !before_->xyz.empty(); }
   double ChanceOfFailure(const DoorGuess& truth) const;
   double ChanceThatItFollowed(const DoorGuess& truth) const;
   void NextGrasp();
 
   ToldOfDoor told_;
-  std::optional<SideClassifier> classifier_;
+  DoorKnowledge knowledge_;
   std::optional<LabelledCloud> before_;
   std::array<Weighed, 8> weighed_;
   bool is_weighed_ = false;

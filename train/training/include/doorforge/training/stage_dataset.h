@@ -38,8 +38,9 @@ struct StageDataset {
   /// The stage "open" has one for each episode that is trained from: the closed door of its first
   /// decision, without the robot's points.
   std::vector<SideExample> sides;
-  SeenParts parts;             ///< They are those of the doors of all data sets.
-  std::string content_sha256;  ///< StageContentSha256() gives it.
+  std::vector<double> heights_m;  ///< Likewise, HeightInView().
+  SeenParts parts;                ///< They are those of the doors of all data sets.
+  std::string content_sha256;     ///< StageContentSha256() gives it.
   SampleOptions options;
   std::vector<std::unique_ptr<DatasetReader>> readers;
 

@@ -10,6 +10,7 @@
 #include "doorforge/core/json_file.h"
 #include "doorforge/physics/load_robot.h"
 #include "doorforge/pipeline/pipeline_graph.h"
+#include "doorforge/policy/door_height.h"
 #include "doorforge/policy/familiarity.h"
 #include "doorforge/policy/policy_file.h"
 #include "doorforge/policy/side_classifier.h"
@@ -34,6 +35,10 @@ void ReadPolicyRecord(std::string_view input) {
 }
 
 void ReadSide(std::string_view input) { ReadSideClassifier(FolderWith("side.safetensors", input)); }
+
+void ReadLearnedHeights(std::string_view input) {
+  ReadHeights(FolderWith("heights.safetensors", input));
+}
 
 void ReadTurned(std::string_view input) {
   ReadTurnedClassifier(FolderWith("turned.safetensors", input), "");
@@ -62,6 +67,7 @@ void ReadRobot(std::string_view input) {
 constexpr std::array kTargets{
     Target{"policy", Shape::kJson, ReadPolicyRecord},
     Target{"side", Shape::kTensors, ReadSide},
+    Target{"heights", Shape::kTensors, ReadLearnedHeights},
     Target{"turned", Shape::kTensors, ReadTurned},
     Target{"familiar", Shape::kTensors, ReadFamiliar},
     Target{"curves", Shape::kJson, ReadCurves},

@@ -127,6 +127,7 @@ def small_policy() -> str:
 MADE["policy"] = [small_policy()]
 MADE["curves"] = [(SOURCE / "data/policies/opener/losses.json").read_text()]
 MADE["side"] = [(SOURCE / "data/policies/opener/side.safetensors").read_bytes()]
+MADE["heights"] = [(SOURCE / "data/policies/opener/pushed/heights.safetensors").read_bytes()]
 MADE["turned"] = [(SOURCE / "data/policies/handler/turned.safetensors").read_bytes()]
 MADE["familiar"] = [tensors({"__metadata__": {"schema_version": "1"},
                              "mean": {"dtype": "F32", "shape": [1], "data_offsets": [0, 4]}}, bytes(4))]

@@ -77,6 +77,70 @@ TEST_F(RunStagesTest, TakesHoldAgainAsOftenAsItMay) {
   }
 }
 
+TEST_F(RunStagesTest, ADoorThatWasLeftAjarIsTakenHoldOfAgain) {
+  const DoorAsset door = MakePrimitiveDoor({});
+  const Scene scene = SampleScene(door, 1, 0);
+  ExpertGrasp expert(scene, door, robot_);
+  for (const int grasps : {1, 2}) {
+    int asked = 0;
+    const auto gives_up = [&asked] { return ++asked == 5; };  // after five actions of opening
+    const Episode episode =
+        Run(door, scene, {.grasp = &expert, .gives_up = gives_up, .grasps = grasps});
+    EXPECT_EQ(episode.outcome, EpisodeOutcome::kOpened) << episode.detail;  // the last goes on
+    EXPECT_EQ(episode.grasps, grasps);
+  }
+}
+
+// A leaf of 20 x 20 points at x = 0, and a handle of 5 in front of it.
+LabelledCloud SmallCloud() {
+  LabelledCloud cloud;
+  const auto add = [&](double x, double y, double z, PointLabel label) {
+    for (const double c : {x, y, z}) cloud.xyz.push_back(static_cast<float>(c));
+    cloud.label.push_back(static_cast<std::uint8_t>(label));
+  };
+  for (int i = 0; i < 20; ++i) {
+    for (int k = 0; k < 20; ++k) add(0, 0.05 * i, 0.5 + 0.05 * k, PointLabel::kBody);
+  }
+  for (int i = 0; i < 5; ++i) add(0.02, 0.4 + 0.02 * i, 1, PointLabel::kHandle);
+  return cloud;
+}
+
+// Remembers what it is shown, and takes hold of the handle's middle.
+class Onlooker : public GraspPolicy {
+ public:
+  std::optional<GraspAction> Choose(const GraspObservation& observation) override {
+    tried_.push_back(observation.tried.size());
+    GraspAction action;
+    action.contact_m = observation.privileged.world_from_handle.translation();
+    return action;
+  }
+  const std::vector<std::size_t>& tried() const { return tried_; }
+
+ private:
+  std::vector<std::size_t> tried_;
+};
+
+TEST_F(RunStagesTest, ALeafThatHasTurnedIsLookedAtAnewAndNothingWasTriedThere) {
+  const DoorAsset door = MakePrimitiveDoor({});
+  const Scene scene = SampleScene(door, 1, 0);
+  Onlooker policy;
+  int looks = 0;
+  GraspFromPolicy chooser(policy, scene, door, robot_, [&looks](const auto&) {
+    ++looks;
+    return SmallCloud();
+  });
+  std::vector<int> looks_then;
+  for (const double hinge_rad : {0.0, 2 * kDegree, 10 * kDegree, 11 * kDegree, 0.0}) {
+    SceneSnapshot snapshot;
+    const auto links = DoorFromLinks(door, hinge_rad, 0);
+    snapshot.door = {links[0], links[1], links[2]};
+    chooser.Choose(snapshot);
+    looks_then.push_back(looks);
+  }
+  EXPECT_EQ(looks_then, (std::vector{1, 1, 2, 2, 3}));
+  EXPECT_EQ(policy.tried(), (std::vector<std::size_t>{0, 1, 0, 1, 0}));
+}
+
 TEST_F(RunStagesTest, TurnsOfTheHandleAddUpToDoneAndTheDoorOpens) {
   for (const Mechanism mechanism : {Mechanism::kLever, Mechanism::kRound}) {
     for (std::uint64_t i = 0; i < 4; ++i) {
@@ -297,20 +361,6 @@ TEST_F(RunStagesTest, RefusesAStageAtWhichNobodyDecides) {
 }
 
 // ---- sampled grasps -----------------------------------------------------------------------------
-
-// A leaf of 20 x 20 points at x = 0, and a handle of 5 in front of it.
-LabelledCloud SmallCloud() {
-  LabelledCloud cloud;
-  const auto add = [&](double x, double y, double z, PointLabel label) {
-    for (const double c : {x, y, z}) cloud.xyz.push_back(static_cast<float>(c));
-    cloud.label.push_back(static_cast<std::uint8_t>(label));
-  };
-  for (int i = 0; i < 20; ++i) {
-    for (int k = 0; k < 20; ++k) add(0, 0.05 * i, 0.5 + 0.05 * k, PointLabel::kBody);
-  }
-  for (int i = 0; i < 5; ++i) add(0.02, 0.4 + 0.02 * i, 1, PointLabel::kHandle);
-  return cloud;
-}
 
 struct Sampled {
   int on_handle = 0;

@@ -126,6 +126,21 @@ TEST(MirroringPolicy, TellsTheBeliefThatTheHandStallsWhereSomethingIsLeftOpen) {
   }
 }
 
+TEST(MirroringPolicy, TellsTheBeliefThatTheLeafComesAlong) {
+  const auto belief = Told({.side = SideChoice::kAuto, .opening = OpeningChoice::kAuto});
+  belief->Begin(std::nullopt);
+  MirroringPolicy policy(std::make_unique<AsksForWhatItSees>(), {Stage::kOpen, false, belief});
+  Observation seen = Seen();
+  policy.Act(seen);
+  const DoorGuess first = policy.guess();
+  for (const int i : {25, 26, 27}) seen.proprioception[static_cast<std::size_t>(i)] += 0.1F;
+  policy.Act(seen);
+  // a door that comes is not pushed; without this the next guess would be that it is
+  const DoorGuess next = belief->ForGrasp(HandPositionOf(seen.proprioception));
+  EXPECT_EQ(next.opening, first.opening);
+  EXPECT_NE(next.side, first.side);
+}
+
 TEST(MirroringPolicy, APolicyOfTheArmsJointsHasNoMirrorImage) {
   const StageNetworks networks = SomeNetworks(StateKind::kJoints);
   EXPECT_NO_THROW(MakePolicy(networks, {}));

@@ -3,9 +3,11 @@
 
 // A policy that does all of an episode, among those of the registry.
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -14,7 +16,9 @@
 #include "doorforge/physics/load_robot.h"
 #include "doorforge/physics/scene_sampling.h"
 #include "doorforge/policy/hand_network.h"
+#include "doorforge/policy/hand_sight.h"
 #include "doorforge/registry/policy_episodes.h"
+#include "doorforge/rollout/camera_observer.h"
 #include "doorforge/rollout/hand_stepper.h"
 
 #include "../physics/primitive_door.h"
@@ -66,6 +70,60 @@ TEST_F(WholePolicyTest, PlaysTheEpisodeByItself) {
   const Episode found = episodes.Run({scene, door, robot}, nullptr);
   EXPECT_EQ(found.state_sha256, expected.state_sha256);
   EXPECT_EQ(found.detail, expected.detail);
+}
+
+// What a policy that looks is shown, and what it then does.
+struct Looks {
+  std::vector<LabelledCloud> clouds;
+  Episode episode;
+};
+
+// An episode by hand: the camera of the scene, sampled as the policy asks.
+Looks EpisodeByHand(const EpisodePlace& place, const SightPolicyRecord& record) {
+  Looks looks;
+  HandSightPolicy policy(record);
+  CameraObserver camera(place.scene, place.door, place.robot, place.cloud);
+  camera.SampleAs({record.look.points, record.look.crop_radius_m});
+  HandStepper stepper(place.door, place.robot, record.task);
+  stepper.Reset(place.scene, &camera);
+  while (!stepper.now().over) {
+    looks.clouds.push_back(stepper.Look());
+    stepper.Step(policy.Act(stepper.now().state, looks.clouds.back()));
+  }
+  looks.episode = stepper.Summary();
+  return looks;
+}
+
+TEST_F(WholePolicyTest, IsShownWhatTheCameraSeesWithTheHandInIt) {
+  SightPolicyRecord student;
+  student.parameters = PointNetInitialisation(student.shape, 5, "test.");
+  student.task.max_actions = 6;
+  student.look.points = 256;
+  student.provenance = {"dagger", "0.0", "{}", 1, {}, "abc"};
+  WriteSightPolicy(folder_, student);
+  const DoorAsset door = MakePrimitiveDoor({});
+  const RobotModel robot = LoadRobot({}, RobotBase::kFloating);
+  SceneConfig config;
+  config.physics.base = RobotBase::kFloating;
+  const Scene scene = SampleScene(door, 3, 0, config);
+  const Looks expected = EpisodeByHand({scene, door, robot}, student);
+  ASSERT_EQ(expected.clouds.size(), 6U);
+  for (const LabelledCloud& cloud : expected.clouds) {
+    EXPECT_EQ(cloud.label.size(), 256U);
+    EXPECT_GT(std::ranges::count(cloud.label, static_cast<std::uint8_t>(PointLabel::kRobot)), 10);
+  }
+  // it strays from the door, which it has before it at first
+  EXPECT_GT(
+      std::ranges::count(expected.clouds[0].label, static_cast<std::uint8_t>(PointLabel::kBody)),
+      10);
+  const PolicySetFactory factory(BuiltInPolicies(), Words());
+  EXPECT_TRUE(UsesPointCloud(factory.Make()));
+  PolicyEpisodes episodes(factory);
+  const Episode found = episodes.Run({scene, door, robot}, nullptr);
+  EXPECT_EQ(found.state_sha256, expected.episode.state_sha256);
+  // without the hand in the picture it sees something else, and does
+  const Episode other = episodes.Run({scene, door, robot, CloudConfig{.robot = false}}, nullptr);
+  EXPECT_NE(found.state_sha256, other.state_sha256);
 }
 
 TEST_F(WholePolicyTest, SaysWhatIsWrong) {

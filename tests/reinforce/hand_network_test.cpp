@@ -119,8 +119,8 @@ TEST_F(HandPolicyFileTest, ComesBackAndActsTheSame) {
   EXPECT_EQ(read.task, record_.task);
   EXPECT_EQ(read.provenance.decisions, 4096U);
   EXPECT_EQ(read.provenance.config, record_.provenance.config);
-  const HandCommand a = HandNetworkPolicy(record_).Act(SomeState());
-  const HandCommand b = HandNetworkPolicy(read).Act(SomeState());
+  const HandCommand a = HandNetworkPolicy(record_).Act(SomeState(), {});
+  const HandCommand b = HandNetworkPolicy(read).Act(SomeState(), {});
   EXPECT_EQ(a.move_m, b.move_m);
   EXPECT_EQ(a.turn_rad, b.turn_rad);
 }

@@ -74,6 +74,16 @@ TEST(ReportPage, APolicyOfTheToolkitIsCalledByItsName) {
       << table;
 }
 
+TEST(ReportPage, SaysWhatAPolicyIsToldBeyondARobot) {
+  EvaluationReport report = ExampleReport();
+  EXPECT_EQ(ReportPage(report, {}).find("privileges"), std::string::npos);
+  EXPECT_EQ(ReportTable(report).find("privileges"), std::string::npos);
+  report.provenance.privileges = {"knows <this>", "and that"};
+  EXPECT_NE(ReportPage(report, {}).find("<dt>privileges</dt><dd>knows &lt;this&gt;; and that</dd>"),
+            std::string::npos);
+  EXPECT_NE(ReportTable(report).find("privileges: knows <this>; and that\n"), std::string::npos);
+}
+
 TEST(ReportPage, ADoorWhoseHandleWasNeverInViewHasACauseWithoutAFilm) {
   EvaluationReport report = ExampleReport();
   for (EvaluatedEpisode& episode : report.episodes) {

@@ -28,6 +28,17 @@ TEST(Report, ReadsBackWhatItWrote) {
   EXPECT_TRUE(std::isnan(again.losses.front().validation.front()));
 }
 
+TEST(Report, KeepsWhatAPolicyIsToldBeyondARobot) {
+  EvaluationReport report = ExampleReport();
+  EXPECT_FALSE(ReportToJson(report).at("provenance").contains("privileges"));
+  report.provenance.privileges = {"knows <this>", "and that"};
+  const auto json = ReportToJson(report);
+  EXPECT_EQ(ReportFromJson(json, "report").provenance.privileges, report.provenance.privileges);
+  auto bad = json;
+  bad["provenance"]["privileges"] = {"text", 3};
+  EXPECT_THROW(ReportFromJson(bad, "report"), Error);
+}
+
 TEST(Report, SuccessInTheFileIsCountedFromItsRows) {
   const auto json = ReportToJson(ExampleReport());
   int opened = 0;

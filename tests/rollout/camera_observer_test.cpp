@@ -78,6 +78,33 @@ TEST(CameraObserver, AWholeCloudHasWhatTheCameraCannotSeeAndTheRobotCanBeLeftOut
   }
 }
 
+// What a hand is to be shown: the points about it alone, as many as it asks for.
+TEST(CameraObserver, SamplesWhatIsNearOnRequest) {
+  const RobotModel robot = LoadMobileFranka();
+  const DoorAsset door = MakePrimitiveDoor({});
+  const Scene scene = SampleScene(door, 1, 0);
+  SceneSnapshot now;
+  now.robot = robot.PoseAt(StartPosition(scene, robot), scene.world_from_robot_base);
+  now.door = DoorFromLinks(door, 0, 0);
+  for (RigidTransform& pose : now.door) pose = scene.world_from_door * pose;
+  CameraObserver camera(scene, door, robot);
+  const LabelledCloud all = camera.Observe(now);
+  camera.SampleAs({200, 0.25});
+  const LabelledCloud near = camera.Observe(now);
+  ASSERT_EQ(near.label.size(), 200U);
+  const auto point = [](const LabelledCloud& cloud, std::size_t i) {
+    return Eigen::Vector3f(cloud.xyz[3 * i], cloud.xyz[3 * i + 1], cloud.xyz[3 * i + 2]);
+  };
+  EXPECT_EQ(point(near, 0), point(all, 0));
+  float farthest = 0;
+  for (std::size_t i = 0; i < 200; ++i)
+    farthest = std::max(farthest, (point(near, i) - point(near, 0)).norm());
+  EXPECT_LE(farthest, 0.25F);
+  EXPECT_GT(farthest, 0.2F);
+  EXPECT_THROW(camera.SampleAs({0, 0.25}), Error);
+  EXPECT_THROW(camera.SampleAs({200, -1}), Error);
+}
+
 TEST(CameraObserver, NoiseIsAFunctionOfTheSceneAndOfTheLook) {
   const RobotModel robot = LoadMobileFranka();
   const DoorAsset door = MakePrimitiveDoor({});

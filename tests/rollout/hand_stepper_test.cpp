@@ -48,7 +48,7 @@ Eigen::Vector3d Clipped(const Eigen::Vector3d& v, double most) {
 // Goes straight to the grasp, closes, turns the handle about its axis and the leaf about its own.
 class Scripted : public HandPolicy {
  public:
-  HandCommand Act(const HandState& state) override {
+  HandCommand Act(const HandState& state, const LabelledCloud& /*cloud*/) override {
     const Eigen::Vector3d way =
         state.world_from_grasp.translation() - state.world_from_tcp.translation();
     const Eigen::Vector3d turn =
@@ -150,7 +150,7 @@ TEST(HandStepper, GoesOnToTheBudgetWhereThatIsAsked) {
   bool opened = false;
   for (; !stepper.now().over; ++actions) {
     const HandState& state = stepper.now().state;
-    stepper.Step(state.hinge_rad > 0.9 ? HandCommand{{}, {}, true} : policy.Act(state));
+    stepper.Step(state.hinge_rad > 0.9 ? HandCommand{{}, {}, true} : policy.Act(state, {}));
     opened = opened || stepper.now().opened;
   }
   EXPECT_TRUE(opened);
@@ -165,6 +165,35 @@ void ExpectRefused(const std::function<void()>& call, ErrorCode code, const std:
     EXPECT_EQ(error.code(), code) << error.what();
     EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
   }
+}
+
+// Looking changes nothing of what happens.
+TEST(HandStepper, LooksOnRequestThroughItsObserver) {
+  class Counting : public Observer {
+   public:
+    LabelledCloud Observe(const SceneSnapshot& /*snapshot*/) override {
+      ++looks;
+      return {{1, 2, 3}, {0}};
+    }
+    int looks = 0;
+  };
+  const DoorAsset door = DoorWith(Mechanism::kNone);
+  const Scene scene = SceneFor(door);
+  HandStepper stepper(door, FlyingHand(), {});
+  EXPECT_THROW(stepper.Look(), Error);
+  stepper.Reset(scene);
+  EXPECT_TRUE(stepper.Look().xyz.empty());  // nobody sees
+  stepper.Step({});
+  const std::string blind = stepper.Summary().state_sha256;
+  Counting observer;
+  stepper.Reset(scene, &observer);
+  EXPECT_EQ(stepper.Look().xyz.size(), 3U);
+  stepper.Step({});
+  EXPECT_EQ(observer.looks, 1);
+  EXPECT_EQ(stepper.Summary().state_sha256, blind);
+  Scripted knows;
+  RunHandEpisode(scene, door, FlyingHand(), knows, &observer);
+  EXPECT_EQ(observer.looks, 1);  // who asks for no look is shown none
 }
 
 TEST(HandStepper, RefusesWhatItCannotPlay) {

@@ -16,4 +16,9 @@ void CheckHandTask(const HandTaskConfig& config, const std::string& path) {
   RequireRange(path, "turn_rad", config.turn_rad, 0.001, 1);
 }
 
+void CheckHandLook(const HandLook& look, const std::string& path) {
+  RequireRange(path, "points", look.points, 16, 16384);
+  RequireRange(path, "crop_radius_m", look.crop_radius_m, 0, 10);
+}
+
 }  // namespace doorforge

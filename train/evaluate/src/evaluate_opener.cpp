@@ -14,7 +14,7 @@
 #include "doorforge/evaluate/run_trials.h"
 #include "doorforge/evaluate/take_pictures.h"
 #include "doorforge/physics/load_robot.h"
-#include "doorforge/policy/hand_network.h"
+#include "doorforge/policy/hand_sight.h"
 #include "doorforge/policy/policy_file.h"
 #include "doorforge/policy/stage_policy.h"
 #include "doorforge/registry/run_policy_set.h"
@@ -53,7 +53,7 @@ TrialPolicies PoliciesOf(const PolicySetFactory& factory, const EvaluationConfig
   return {[&factory] { return factory.Make(); },
           [&config, robot, remembered = factory.Remembered()](
               const Scene& scene, const DoorAsset& door, const PolicySet& set) {
-            return CameraOf({scene, door, *robot, config.cloud}, remembered, UsesColors(set));
+            return CameraOf({scene, door, *robot, config.cloud}, remembered, set);
           }};
 }
 
@@ -136,12 +136,13 @@ std::string RecordedAs(const PolicyChoice& choice, Stage stage, bool allow_seen,
 
 // One that does all of it turned the handle and took hold as well.
 void AddWhole(const fs::path& folder, EvaluationReport& report) {
-  const HandPolicyRecord policy = ReadHandPolicy(folder);
+  const WholePolicy policy = ReadWholePolicy(folder);
   report.provenance.policy = (folder / "").parent_path().filename().string();
   for (std::string ReportProvenance::*actor :
        {&ReportProvenance::policy_sha256, &ReportProvenance::handler_sha256,
         &ReportProvenance::grasper_sha256})
     report.provenance.*actor = policy.weights_sha256;
+  report.provenance.privileges = policy.privileges;
   report.trained_on = Union(report.trained_on, policy.provenance.trained_on);
 }
 

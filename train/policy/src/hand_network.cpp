@@ -90,8 +90,12 @@ HandCommand HandCommandOf(std::span<const float> action, const HandState& state,
 HandNetworkPolicy::HandNetworkPolicy(const HandPolicyRecord& record)
     : task_(record.task), network_(record.shape, record.parameters) {}
 
-HandCommand HandNetworkPolicy::Act(const HandState& state) {
-  return HandCommandOf(network_(HandFeaturesOf(state)), state, task_);
+HandCommand HandNetworkPolicy::Act(const HandState& state, const LabelledCloud& /*cloud*/) {
+  return HandCommandOf(ActionOf(state), state, task_);
+}
+
+std::vector<float> HandNetworkPolicy::ActionOf(const HandState& state) const {
+  return network_(HandFeaturesOf(state));
 }
 
 }  // namespace doorforge

@@ -46,7 +46,7 @@ Episode PolicyEpisodes::Run(const EpisodePlace& place, Observer* watcher) {
           "fingers, and flying hands; others are for the expert alone");
   const auto set = sets_.Take();
   if (!UsesPointCloud(*set)) return RunPolicySet(place, *set, watcher);
-  const auto camera = CameraOf(place, remembered_, UsesColors(*set));
+  const auto camera = CameraOf(place, remembered_, *set);
   WatchedCamera watched(*camera, watcher);
   return RunPolicySet(place, *set, &watched);
 }

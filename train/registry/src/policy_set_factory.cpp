@@ -6,7 +6,7 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/policy/belief_grasp.h"
-#include "doorforge/policy/hand_network.h"
+#include "doorforge/policy/hand_sight.h"
 #include "doorforge/policy/policy_file.h"
 #include "doorforge/policy/turning_policy.h"
 
@@ -44,7 +44,7 @@ PolicySet PolicySetFactory::Make() const {
   AddOpener(set, belief);
   AddHandler(set, belief);
   AddGrasper(set, belief);
-  if (!whole_.empty()) set.whole = std::make_unique<HandNetworkPolicy>(ReadHandPolicy(whole_));
+  if (!whole_.empty()) set.whole = ReadWholePolicy(whole_).policy;
   return set;
 }
 

@@ -65,6 +65,15 @@ std::unique_ptr<CameraObserver> CameraOf(const EpisodePlace& place,
   return camera;
 }
 
+std::unique_ptr<CameraObserver> CameraOf(const EpisodePlace& place,
+                                         const RememberedViewConfig& remembered,
+                                         const PolicySet& set) {
+  auto camera = CameraOf(place, remembered, UsesColors(set));
+  if (const auto look = set.whole ? set.whole->look() : std::nullopt)
+    camera->SampleAs({look->points, look->crop_radius_m});
+  return camera;
+}
+
 ColorSources PolicyColors(const EpisodePlace& place) {
   return SceneColors(place.door, place.robot, kPolicyColorSamples);
 }
@@ -100,7 +109,8 @@ Episode RunPolicySet(const EpisodePlace& place, const PolicySet& set, Observer* 
 bool IsFallible(const PolicySet& set) { return !FallibleOf(set).empty(); }
 
 bool UsesPointCloud(const PolicySet& set) {
-  return (set.open && set.open->UsesPointCloud()) || (set.handle && set.handle->UsesPointCloud());
+  return (set.whole && set.whole->look()) || (set.open && set.open->UsesPointCloud()) ||
+         (set.handle && set.handle->UsesPointCloud());
 }
 
 bool UsesColors(const PolicySet& set) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The program that trains a hand by trying.
+// The program that trains a hand by trying, and one that looks from one that knows.
 
 #include <CLI/CLI.hpp>
 
@@ -10,45 +10,44 @@
 #include "doorforge/cli/verb_table.h"
 #include "doorforge/core/environment_preset.h"
 #include "doorforge/core/program.h"
-#include "doorforge/reinforce/train_ppo.h"
+#include "doorforge/reinforce/train_distil.h"
 
 namespace doorforge {
 namespace {
 
-PpoTrainingRequest Parse(int argc, char** argv, ConfigSources& config) {
-  PpoTrainingRequest request;
-  CLI::App app(
-      "Trains a flying hand by PPO from true states: it reaches, takes hold, turns, pulls.",
-      "doorforge reinforce");
+void Parse(int argc, char** argv, ConfigSources& config, ReinforceRequest& request) {
+  CLI::App app("Trains a flying hand by PPO from true states, or with --teacher one that looks.",
+               "doorforge reinforce");
   app.add_option("--doors", request.doors,
                  "folders of composed doors; with a split such as full:train only its doors")
       ->required();
   app.add_option("--out", request.out, "folder of the policy")->required();
+  app.add_option("--teacher", request.teacher, "a policy of true states, for one that looks");
   app.add_option("--decisions", request.decisions, "of all steppers (config: ppo.decisions)");
+  app.add_option("--rounds", request.rounds, "with --teacher (config: dagger.rounds)");
   app.add_option("--minutes", request.minutes, "stop after the last update within this time")
       ->check(CLI::PositiveNumber);
   AddPreset(app, config.preset);
   AddConfig(app, config.file, "YAML file with settings")->check(CLI::ExistingFile);
   AddSettings(app, config.settings, "a.b=c overrides one setting");
-  app.add_option("--seed", request.seed, "decides every random choice (config: ppo.seed)");
+  app.add_option("--seed", request.seed, "of every random choice (config: ppo.seed, dagger.seed)");
   AddThreads(app, request.threads, "0: all processors; the result does not depend on it");
   app.add_flag("--resume", request.resume, "go on from the state in --out, if there is one");
   AddOverwrite(app, request.overwrite, "start anew where --out holds a training");
   app.footer(
-      "Writes the policy, for --whole of `eval`, training.html (curves, to look at while it runs)\n"
-      "and what --resume reads.\n\nexample:\n  doorforge reinforce --preset doorgym --doors "
-      "run/doors --out run/ppo --decisions 1000000");
+      "Writes the policy, for --whole of `eval`, training.html (curves) and what --resume "
+      "reads.\n\nexample:\n  doorforge reinforce --preset doorgym --doors run/doors --out "
+      "run/ppo --decisions 1000000");
   ParseVerb(app, argc, argv);
-  request.config = LoadConfig<HandTrainingConfig>(config);
-  return request;
 }
 
 int RunReinforceVerb(int argc, char** argv) {
   ConfigSources config;
-  const PpoTrainingRequest request = Parse(argc, argv, config);
-  const auto outcome = NamingConfig(config.Named(), [&] { return TrainPpoIntoFolder(request); });
-  PrintText(OutcomeText(outcome, request));
-  return !outcome.finished() && StopRequested() != 0 ? 128 + StopRequested() : 0;
+  ReinforceRequest request;
+  Parse(argc, argv, config, request);
+  const auto done = NamingConfig(config.Named(), [&] { return Reinforce(request, config); });
+  PrintText(done.text);
+  return !done.finished && StopRequested() != 0 ? 128 + StopRequested() : 0;
 }
 
 }  // namespace

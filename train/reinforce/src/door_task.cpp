@@ -2,40 +2,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/reinforce/door_task.h"
 
-#include <map>
 #include <optional>
-#include <string>
 #include <utility>
 
-#include "doorforge/core/error.h"
-#include "doorforge/core/rng.h"
-#include "doorforge/physics/load_robot.h"
 #include "doorforge/policy/hand_network.h"
-#include "doorforge/rollout/base_placement.h"
+
+#include "drawn_doors.h"
 
 namespace doorforge {
 namespace {
 
-/// What all steppers of a task share; immutable but for the cache, which may be used by several
-/// threads.
+/// What all steppers of a task share.
 struct SharedDoors {
-  SharedDoors(const std::vector<FoundDoor>& doors, const HandTrainingConfig& from)
-      : config(from), robot(LoadRobot({}, from.scene.physics.base)), cache(doors) {
-    std::map<Category, std::vector<std::size_t>> sorted;
-    for (std::size_t i = 0; i < doors.size(); ++i) sorted[doors[i].identity.category].push_back(i);
-    for (auto& [category, of_it] : sorted) by_category.push_back(std::move(of_it));
-  }
-
-  std::size_t Draw(std::uint64_t episode) const {
-    Rng rng(config.ppo.seed, "ppo/door/" + std::to_string(episode));
-    const auto& category = by_category[rng.Index(static_cast<std::uint32_t>(by_category.size()))];
-    return category[rng.Index(static_cast<std::uint32_t>(category.size()))];
-  }
+  SharedDoors(const std::vector<FoundDoor>& found, const HandTrainingConfig& from)
+      : config(from), doors(found, from.scene, from.ppo.seed, "ppo/door") {}
 
   HandTrainingConfig config;
-  RobotModel robot;
-  DoorCache cache;
-  std::vector<std::vector<std::size_t>> by_category;
+  internal::DrawnDoors doors;
 };
 
 std::vector<float> FeaturesOf(const HandInstant& instant) {
@@ -48,13 +31,11 @@ class DoorStepper : public PpoStepper {
   explicit DoorStepper(std::shared_ptr<SharedDoors> shared) : shared_(std::move(shared)) {}
 
   std::vector<float> Reset(std::uint64_t episode) override {
-    const HandTrainingConfig& config = shared_->config;
     stepper_.reset();  // it refers to the door
-    door_ = shared_->cache.Take(shared_->Draw(episode));
-    const Scene scene = PlaceRobotBase(
-        shared_->robot, SampleScene(door_, config.ppo.seed, episode, config.scene), *door_);
-    stepper_.emplace(*door_, shared_->robot, config.task, HandEpisodeEnd::kBudget);
-    return FeaturesOf(stepper_->Reset(scene));
+    drawn_ = shared_->doors.At(episode);
+    stepper_.emplace(*drawn_.door, shared_->doors.robot(), shared_->config.task,
+                     HandEpisodeEnd::kBudget);
+    return FeaturesOf(stepper_->Reset(drawn_.scene));
   }
 
   PpoStep Step(std::span<const float> action) override {
@@ -72,22 +53,18 @@ class DoorStepper : public PpoStepper {
 
  private:
   std::shared_ptr<SharedDoors> shared_;
-  IdentifiedDoor door_;
+  internal::DrawnDoor drawn_;
   std::optional<HandStepper> stepper_;
 };
 
 }  // namespace
 
 PpoTask DoorTask(const std::vector<FoundDoor>& doors, const HandTrainingConfig& config) {
-  Require(!doors.empty(), ErrorCode::kInvalidArgument, "ppo: there are no doors to learn on");
-  Require(config.scene.robot.empty(), ErrorCode::kInvalidConfig,
-          "config.scene.robot: ppo knows the built-in robot's hand, found \"" + config.scene.robot +
-              '"');
   CheckPpoConfig(config.ppo, "config.ppo");
   CheckHandTask(config.task, "config.task");
-  auto shared = std::make_shared<SharedDoors>(doors, config);
-  const IdentifiedDoor first = shared->cache.Take(0);
-  const HandStepper refuses(*first, shared->robot, config.task);  // a robot that does not fly
+  const auto shared = std::make_shared<SharedDoors>(doors, config);
+  const IdentifiedDoor first = shared->doors.First();
+  const HandStepper refuses(*first, shared->doors.robot(), config.task);  // who does not fly
   return {kHandFeatures, kHandActions, [shared] { return std::make_unique<DoorStepper>(shared); }};
 }
 

@@ -12,40 +12,18 @@
 #include "doorforge/core/config_io.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/folder_lock.h"
-#include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
 #include "doorforge/policy/hand_network.h"
 #include "doorforge/reinforce/ppo_files.h"
 
+#include "training_state.h"
+
 namespace doorforge {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string DoorsHash(const std::vector<FoundDoor>& doors) {
-  std::string text;
-  for (const FoundDoor& door : doors) text += door.identity.id + " " + door.identity.sha256 + "\n";
-  return Sha256Hex(text);
-}
-
-SeenParts PartsOf(const std::vector<FoundDoor>& doors) {
-  SeenParts parts;
-  for (const FoundDoor& door : doors)
-    parts = Union(parts, SeenParts{{door.identity.body}, {door.identity.handle}});
-  return parts;
-}
-
-// A folder that holds a training is only touched if the user said how.
-void RequireUnused(const PpoTrainingRequest& request) {
-  if (request.resume || request.overwrite) return;
-  for (const char* file : {"training.safetensors", "policy.safetensors"})
-    Require(!fs::exists(request.out / file), ErrorCode::kInvalidArgument,
-            request.out.string() +
-                ": holds a training already; pass --resume to go on, or "
-                "--overwrite to start anew");
-}
 
 std::string PpoNote(const PpoUpdate& update) {
   char text[96];
@@ -60,8 +38,8 @@ class PpoFolder {
   PpoFolder(const PpoTrainingRequest& request, const std::vector<FoundDoor>& doors)
       : request_(request),
         task_(DoorTask(doors, request.config)),
-        origin_{JsonText(ToJson(request.config)), DoorsHash(doors)},
-        parts_(PartsOf(doors)) {}
+        origin_{JsonText(ToJson(request.config)), internal::HashOfDoors(doors)},
+        parts_(internal::PartsOfDoors(doors)) {}
 
   PpoState Run() {
     const PpoConfig& config = request_.config.ppo;
@@ -118,7 +96,7 @@ PpoTrainingOutcome TrainPpoIntoFolder(PpoTrainingRequest request) {
   if (request.seed) request.config.ppo.seed = *request.seed;
   CheckPpoConfig(request.config.ppo, "config.ppo");
   const FolderLock lock(request.out, "doorforge train", Writers::kOne);
-  RequireUnused(request);
+  internal::RequireUnusedFolder(request.out, request.resume, request.overwrite);
   RemoveStaleFiles(SystemFiles(), request.out);
   const DoorSet set = FindDoorSet(DoorSelectionOf(request.doors, "train"), request.threads);
   const PpoState state = PpoFolder(request, set.doors).Run();
@@ -131,16 +109,9 @@ PpoTrainingOutcome TrainPpoIntoFolder(PpoTrainingRequest request) {
 }
 
 std::string OutcomeText(const PpoTrainingOutcome& outcome, const PpoTrainingRequest& request) {
-  const auto place = [](const fs::path& path) {
-    return fs::absolute(path).lexically_normal().string() + "\n";
-  };
-  std::string text;
-  for (const std::string& note : outcome.notes) text += "note:       " + note + "\n";
-  text += "policy:     " + place(request.out) +
-          "curves:     " + place(request.out / "training.html") +
-          "doors:      " + std::to_string(outcome.doors) + "\n" +
-          "updates:    " + std::to_string(outcome.updates_done) + " of " +
-          std::to_string(outcome.updates_total) + "\n";
+  std::string text = internal::OutcomeHead(outcome.notes, request.out, outcome.doors) +
+                     "updates:    " + std::to_string(outcome.updates_done) + " of " +
+                     std::to_string(outcome.updates_total) + "\n";
   if (!outcome.finished()) text += "stopped:    --resume goes on\n";
   if (outcome.updates_done == 0) return text;
   char last[128];

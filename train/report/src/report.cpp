@@ -150,7 +150,16 @@ Json ProvenanceToJson(const ReportProvenance& provenance) {
                {"config", provenance.config}};
   if (!provenance.handler_sha256.empty()) json["handler_sha256"] = provenance.handler_sha256;
   if (!provenance.grasper_sha256.empty()) json["grasper_sha256"] = provenance.grasper_sha256;
+  if (!provenance.privileges.empty()) json["privileges"] = provenance.privileges;
   return json;
+}
+
+std::vector<std::string> PhrasesFromJson(const Json& json, const std::string& path) {
+  const bool are_phrases = json.is_array() && std::ranges::all_of(json, [](const Json& item) {
+                             return item.is_string();
+                           });
+  if (!are_phrases) throw Error(ErrorCode::kFormat, path + ": expected an array of texts");
+  return json.get<std::vector<std::string>>();
 }
 
 ReportProvenance ProvenanceFromJson(const Json& json, const std::string& path) {
@@ -162,6 +171,8 @@ ReportProvenance ProvenanceFromJson(const Json& json, const std::string& path) {
     provenance.handler_sha256 = ValueOf<std::string>(json, "handler_sha256", path);
   if (json.contains("grasper_sha256"))
     provenance.grasper_sha256 = ValueOf<std::string>(json, "grasper_sha256", path);
+  if (json.contains("privileges"))
+    provenance.privileges = PhrasesFromJson(json["privileges"], path + ".privileges");
   provenance.code_version = ValueOf<std::string>(json, "code_version", path);
   provenance.command = ValueOf<std::string>(json, "command", path);
   provenance.config = MemberOf(json, "config", path);

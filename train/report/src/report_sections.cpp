@@ -247,6 +247,13 @@ std::string Term(const std::string& term, const std::string& value) {
   return value.empty() ? "" : "<dt>" + term + "</dt><dd>" + value + "</dd>";
 }
 
+std::string PrivilegesTerm(const std::vector<std::string>& privileges) {
+  std::string phrases;
+  for (const std::string& privilege : privileges)
+    phrases += (phrases.empty() ? "" : "; ") + Escape(privilege);
+  return phrases.empty() ? phrases : Term("privileges", phrases);
+}
+
 std::string Code(const std::string& text) {
   return text.empty() ? "" : "<code>" + Escape(text) + "</code>";
 }
@@ -491,6 +498,7 @@ std::string ProvenanceSection(const EvaluationReport& report) {
                      Term("grasp policy SHA-256", provenance.grasper_sha256.empty()
                                                       ? std::string("none: the expert takes hold")
                                                       : Code(provenance.grasper_sha256)) +
+                     PrivilegesTerm(provenance.privileges) +
                      Term("configuration SHA-256", Code(Sha256Hex(JsonText(provenance.config)))) +
                      Term("seeds", SeedList(report.episodes))},
        {"config", Escape(JsonText(provenance.config, 2))}});

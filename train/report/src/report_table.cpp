@@ -86,6 +86,13 @@ std::string StagesLine(const ReportProvenance& provenance) {
          "; opening: " + actor(provenance.policy_sha256, provenance.policy.c_str()) + "\n";
 }
 
+std::string PrivilegesLine(const ReportProvenance& provenance) {
+  std::string line;
+  for (const std::string& privilege : provenance.privileges)
+    line += (line.empty() ? "privileges: " : "; ") + privilege;
+  return line.empty() ? line : line + "\n";
+}
+
 }  // namespace
 
 std::string ReportTable(const EvaluationReport& report) {
@@ -95,8 +102,8 @@ std::string ReportTable(const EvaluationReport& report) {
   for (const EpisodeGroup& group : GroupsOf(report.episodes))
     text += Row(LabelOf(group), OfGroup(report.episodes, group), OfGroup(report.reference, group));
   const SuccessSummary all = Summarise(report.episodes);
-  return text + StagesLine(report.provenance) + EffortLine(all) + ForceLine(all) + AngleLine(all) +
-         Causes(report);
+  return text + StagesLine(report.provenance) + PrivilegesLine(report.provenance) +
+         EffortLine(all) + ForceLine(all) + AngleLine(all) + Causes(report);
 }
 
 }  // namespace doorforge

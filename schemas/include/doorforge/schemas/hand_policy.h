@@ -3,11 +3,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 
 #include <Eigen/Core>
 
 #include "doorforge/core/rigid_transform.h"
+#include "doorforge/schemas/cloud.h"
 
 namespace doorforge {
 
@@ -68,12 +70,33 @@ struct HandCommand {
   bool close_fingers = false;
 };
 
+/// What one who looks is given of the points that the camera has of an instant.
+struct HandLook {
+  int points = 512;            ///< Farthest points first; filled up by repeating them.
+  double crop_radius_m = 0.3;  ///< About the visible point nearest to the tool centre; 0: all.
+
+  bool operator==(const HandLook&) const = default;
+
+  template <class Self, class Visitor>
+  static void VisitFields(Self& self, Visitor&& visit) {
+    visit("points", self.points);
+    visit("crop_radius_m", self.crop_radius_m);
+  }
+};
+
+/// Throws Error(kInvalidConfig) as CheckHandTask().
+void CheckHandLook(const HandLook& look, const std::string& path);
+
 /// Does a whole episode: reaches, takes hold, turns and pulls. One instance serves one episode at a
 /// time.
 class HandPolicy {
  public:
   virtual ~HandPolicy() = default;
-  virtual HandCommand Act(const HandState& state) = 0;
+  /// @param cloud What look() asks for, the nearest visible point first; empty where it asks for
+  ///     nothing, or where nothing is in sight.
+  virtual HandCommand Act(const HandState& state, const LabelledCloud& cloud) = 0;
+  /// Nothing: Act() reads no cloud.
+  virtual std::optional<HandLook> look() const { return std::nullopt; }
   /// The task that it was made for.
   virtual const HandTaskConfig& task() const = 0;
 };

@@ -89,6 +89,12 @@ class HandStepper::Running {
     world_.Watch(now_.over ? EpisodePhase::kEnd : EpisodePhase::kOpen);
   }
 
+  LabelledCloud Look() const {
+    Observer* observer = world_.observer();
+    return observer == nullptr ? LabelledCloud{}
+                               : observer->Observe(world_.Snapshot(EpisodePhase::kOpen));
+  }
+
   const HandInstant& now() const { return now_; }
   Episode Summary() const;
 
@@ -266,6 +272,8 @@ const HandInstant& HandStepper::Step(const HandCommand& command) {
   return running.now();
 }
 
+LabelledCloud HandStepper::Look() { return Live().Look(); }
+
 const HandInstant& HandStepper::now() const { return Live().now(); }
 Episode HandStepper::Summary() const { return Live().Summary(); }
 
@@ -273,7 +281,9 @@ Episode RunHandEpisode(const Scene& scene, const DoorAsset& door, const RobotMod
                        HandPolicy& policy, Observer* observer) {
   HandStepper stepper(door, robot, policy.task());
   stepper.Reset(scene, observer);
-  while (!stepper.now().over) stepper.Step(policy.Act(stepper.now().state));
+  const bool looks = policy.look().has_value();
+  while (!stepper.now().over)
+    stepper.Step(policy.Act(stepper.now().state, looks ? stepper.Look() : LabelledCloud{}));
   return stepper.Summary();
 }
 

@@ -66,6 +66,7 @@ CameraObserver::CameraObserver(const Scene& scene, const DoorAsset& door, const 
       camera_as_calibrated_(
           CameraWithCalibrationError(scene.camera, config.noise, Stream("calibration"))),
       config_(config),
+      extent_{config.point_count},
       camera_(sees_robot && config.robot ? VisibleMeshesOf(door, robot)
                                          : WithoutRobot(VisibleMeshesOf(door, robot))) {
   RequireOutside(model_, scene, door);
@@ -83,6 +84,12 @@ void CameraObserver::ColorWith(std::unique_ptr<ColorSource> colors) {
   colors_ = std::move(colors);
 }
 
+void CameraObserver::SampleAs(const CloudExtent& extent) {
+  SampleCloud({}, Eigen::Vector3d::Zero(), extent);  // refuses what it cannot make
+  extent_ = extent;
+  before_.reset();
+}
+
 CameraFrame CameraObserver::Render(const SceneSnapshot& snapshot) {
   const std::vector<RigidTransform> poses = LinkPosesOf(snapshot);
   CameraFrame frame;
@@ -92,8 +99,7 @@ CameraFrame CameraObserver::Render(const SceneSnapshot& snapshot) {
   if (colors_) frame.depth.rgb = colors_->ColorsAt(snapshot, look);
   frame.visible = whole_ ? whole_->At(poses, config_.min_height_m)
                          : CropCloud(frame.depth, camera_as_calibrated_, config_);
-  frame.sampled = SampleCloud(frame.visible, snapshot.robot.world_from_tcp.translation(),
-                              {config_.point_count});
+  frame.sampled = SampleCloud(frame.visible, snapshot.robot.world_from_tcp.translation(), extent_);
   if (before_ && snapshot.phase == EpisodePhase::kUnlock && !frame.visible.label.empty())
     frame.sampled.cloud = before_->With(frame.visible, snapshot.robot.world_from_tcp.translation());
   if (colors_)

@@ -56,6 +56,10 @@ class CameraObserver : public Observer {
   /// @throws Error(kInvalidArgument) where clouds are whole: a picture does not show all of them.
   void ColorWith(std::unique_ptr<ColorSource> colors);
 
+  /// From now on sampled clouds have this extent in the place of CloudConfig::point_count, and
+  /// nothing before is remembered in them. Throws Error(kInvalidArgument) as SampleCloud().
+  void SampleAs(const CloudExtent& extent);
+
   /// The camera where calibration believes it to be: what clouds are unprojected with.
   const CameraModel& as_calibrated() const { return camera_as_calibrated_; }
 
@@ -72,6 +76,7 @@ class CameraObserver : public Observer {
   CameraModel model_;
   CameraModel camera_as_calibrated_;
   CloudConfig config_;
+  CloudExtent extent_;
   DepthCamera camera_;
   std::optional<SurfaceCloud> whole_;
   std::optional<RememberedView> before_;

@@ -50,7 +50,7 @@ class HandStepper {
 
   /// Begins an episode.
   ///
-  /// @param observer Watches; it is never asked for a cloud. May be null.
+  /// @param observer Watches, and is asked for a cloud by Look() alone. May be null.
   /// @throws Error(kInvalidArgument) if the scene is of another door, or its hand cannot get to
   ///     where it is to begin; as DoorWorld and CheckEpisodeLimits().
   const HandInstant& Reset(const Scene& scene, Observer* observer = nullptr);
@@ -58,6 +58,10 @@ class HandStepper {
   /// @throws Error(kInvalidArgument) before Reset(), after the end, and for numbers that are not
   ///     finite.
   const HandInstant& Step(const HandCommand& command);
+
+  /// What the observer sees now; empty without one. Each call is another look, with noise of its
+  /// own where the camera has some.
+  LabelledCloud Look();
 
   const HandInstant& now() const;
   /// The record so far, without decisions. Before the end its outcome is that of an end now.
@@ -75,6 +79,8 @@ class HandStepper {
 };
 
 /// Runs an episode with a policy that does all of it. The record has no decisions.
+///
+/// @param observer Gives the clouds of a policy that looks, see CameraObserver::SampleAs().
 ///
 /// @throws as HandStepper.
 Episode RunHandEpisode(const Scene& scene, const DoorAsset& door, const RobotModel& robot,

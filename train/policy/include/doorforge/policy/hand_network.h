@@ -49,11 +49,12 @@ HandCommand HandCommandOf(std::span<const float> action, const HandState& state,
 
 /// What a policy of the stage kWholeStage was made from.
 struct HandProvenance {
-  std::string method;  ///< "ppo".
+  std::string method;  ///< "ppo" or "dagger".
   std::string code_version;
   std::string config = {};  ///< The training's settings as one JSON text.
   std::uint64_t decisions = 0;
   SeenParts trained_on = {};
+  std::string teacher_sha256 = {};  ///< The teacher's weights; empty: nobody taught it.
 };
 
 /// The record of such a policy's folder.
@@ -69,15 +70,17 @@ struct HandPolicyRecord {
 /// `policy.json` (schema doorforge.policy, stage "whole"). Equal arguments give equal bytes.
 void WriteHandPolicy(const std::filesystem::path& folder, const HandPolicyRecord& record);
 
-/// Throws Error(kMissing), Error(kFormat) on a damaged record, one of another stage, or weights
-/// that do not belong to it.
+/// Throws Error(kMissing), Error(kFormat) on a damaged record, one of another stage or of a policy
+/// that looks, or weights that do not belong to it.
 HandPolicyRecord ReadHandPolicy(const std::filesystem::path& folder);
 
 /// Acts by the mean of such a network, without noise.
 class HandNetworkPolicy : public HandPolicy {
  public:
   explicit HandNetworkPolicy(const HandPolicyRecord& record);
-  HandCommand Act(const HandState& state) override;
+  HandCommand Act(const HandState& state, const LabelledCloud& cloud) override;
+  /// What the network says, of which Act() makes a command.
+  std::vector<float> ActionOf(const HandState& state) const;
   const HandTaskConfig& task() const override { return task_; }
 
  private:

@@ -40,6 +40,12 @@ std::unique_ptr<GraspFromPolicy> GraspOf(const PolicySet& set, const EpisodePlac
 std::unique_ptr<CameraObserver> CameraOf(const EpisodePlace& place,
                                          const RememberedViewConfig& remembered, bool colors);
 
+/// The camera that a set's policies are to be shown: with colours where one reads them, and as
+/// whoever does all of an episode wants to look. Throws as the other CameraOf().
+std::unique_ptr<CameraObserver> CameraOf(const EpisodePlace& place,
+                                         const RememberedViewConfig& remembered,
+                                         const PolicySet& set);
+
 /// What policies that read colours are shown, wherever they act and learn.
 ColorSources PolicyColors(const EpisodePlace& place);
 

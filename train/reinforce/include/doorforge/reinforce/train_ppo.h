@@ -15,18 +15,22 @@ namespace doorforge {
 /// The word for it among the stages of `doorforge train`.
 inline constexpr const char* kPpoMethod = "ppo";
 
-/// A training by trying, from doors to a policy's folder.
-struct PpoTrainingRequest {
+/// What a training of a hand is asked for, whatever it learns from.
+struct HandTrainingRequest {
   /// Words of --doors: folders, and at most one split, of which the training side is the default.
   std::vector<std::string> doors;
   std::filesystem::path out;
-  HandTrainingConfig config;
-  std::optional<std::uint64_t> decisions = {};  ///< In the place of config.ppo.decisions.
-  std::optional<std::uint64_t> seed = {};       ///< In the place of config.ppo.seed.
-  double minutes = 0;      ///< Ends after the last update within this time; 0: never.
+  std::optional<std::uint64_t> seed = {};  ///< In the place of the config's.
+  double minutes = 0;      ///< Ends after the last update or round within this time; 0: never.
   int threads = 0;         ///< 0: all processors; the result does not depend on it.
   bool resume = false;     ///< Goes on from the state in `out`, if there is one.
   bool overwrite = false;  ///< Starts anew where `out` holds a training.
+};
+
+/// A training by trying, from doors to a policy's folder.
+struct PpoTrainingRequest : HandTrainingRequest {
+  HandTrainingConfig config;
+  std::optional<std::uint64_t> decisions = {};  ///< In the place of config.ppo.decisions.
 };
 
 struct PpoTrainingOutcome {

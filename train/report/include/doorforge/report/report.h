@@ -47,6 +47,9 @@ struct ReportProvenance {
   std::string handler_sha256 = {};
   /// Names who chose the grasp in the same way.
   std::string grasper_sha256 = {};
+  /// What the policy is told that a robot would not know, a phrase each; empty where its record
+  /// does not say.
+  std::vector<std::string> privileges = {};
   std::string code_version;  ///< CodeVersion() of the evaluating program.
   std::string command;       ///< The command line.
   nlohmann::ordered_json config = nlohmann::ordered_json::object();  ///< The effective config.

@@ -45,12 +45,15 @@ std::string MessageOf(const std::function<void()>& wrong) {
 }
 
 TEST(BenchmarkTable, EveryRowHasSixFiguresOfThePaperOrNoneAndEverySizeItsRows) {
-  EXPECT_EQ(BenchmarkSizes(), (std::vector<std::string>{"paper", "quick", "robustness"}));
+  EXPECT_EQ(BenchmarkSizes(),
+            (std::vector<std::string>{"paper", "quick", "robustness", "simulators"}));
+  const std::map<std::string, std::string> last = {{"robustness", "plain"},
+                                                   {"simulators", "bullet"}};
   for (const std::string& size : BenchmarkSizes()) {
     const Benchmark benchmark = ReadBenchmark(size, {}, {});
     EXPECT_NE(SizesText().find(" " + benchmark.size.about + "\n"), std::string::npos) << size;
     // what the others are compared with
-    EXPECT_EQ(benchmark.rows.back().name, size == "robustness" ? "plain" : "ours");
+    EXPECT_EQ(benchmark.rows.back().name, last.contains(size) ? last.at(size) : "ours");
     for (const BenchmarkRow& row : benchmark.rows)
       EXPECT_TRUE(row.paper.empty() || row.paper.size() == std::size(kCategories)) << row.name;
   }

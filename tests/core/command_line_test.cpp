@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 
+#include "doorforge/core/environment_preset.h"
 #include "doorforge/core/error.h"
 
 namespace doorforge {
@@ -133,6 +134,19 @@ TEST(CommandLine, AChoiceThatIsNotGivenIsLeftToOthers) {
   EXPECT_FALSE(shape.has_value());
   Parse(app, {"--shape", "flat"});
   EXPECT_EQ(shape, KnobShape::kFlat);
+}
+
+TEST(CommandLine, TheSimulatorIsOneOfTwoWordsAndASettingUnderThoseGiven) {
+  CLI::App app{"", "doorforge try"};
+  ConfigSources sources;
+  AddEnvironment(app, sources);
+  AddSettings(app, sources.settings, "overrides one setting");
+  Parse(app, {"--set", "scene.latch=none", "--simulator", "mujoco"});
+  EXPECT_EQ(sources.simulator, "mujoco");
+  EXPECT_EQ(sources.settings, std::vector<std::string>{"scene.latch=none"});
+  CLI::App other{"", "doorforge try"};
+  AddEnvironment(other, sources);
+  EXPECT_NE(RefusalOf(other, {"--simulator", "mojoco"}).find("mujoco"), std::string::npos);
 }
 
 TEST(CommandLine, OverwriteMeansThatWhatIsThereIsReplaced) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -19,11 +20,13 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-class DoorWorldTest : public testing::Test {
+// What holds of the world holds in every simulator.
+class DoorWorldTest : public testing::TestWithParam<Simulator> {
  protected:
   DoorWorldTest() : robot_(LoadMobileFranka()), door_(MakePrimitiveDoor({})) {
     SceneConfig config;
     config.base_jitter = 0;
+    config.physics.simulator = GetParam();
     scene_ = SampleScene(door_, 1, 0, config);
     hold_.arm_position = robot_.InitialPosition().head<kArmJointCount>();
   }
@@ -46,14 +49,14 @@ class DoorWorldTest : public testing::Test {
   RobotCommand hold_;
 };
 
-TEST_F(DoorWorldTest, ALockedDoorHoldsAgainst100NewtonAtTheHandle) {
+TEST_P(DoorWorldTest, ALockedDoorHoldsAgainst100NewtonAtTheHandle) {
   DoorWorld world = MakeWorld();
   Pull(world, 100, 240);
   EXPECT_TRUE(world.state().locked);
   EXPECT_LT(world.state().hinge_rad, 1 * kDegree);
 }
 
-TEST_F(DoorWorldTest, TheLatchGivesWayWhereItsTorqueIsExceeded) {
+TEST_P(DoorWorldTest, TheLatchGivesWayWhereItsTorqueIsExceeded) {
   // the law is an effort: 150 N m at this reach is the force below, and no more
   const Eigen::Vector3d point =
       door_.handle_joint.parent_from_child_at_zero * door_.handle_from_grasp.translation();
@@ -66,7 +69,7 @@ TEST_F(DoorWorldTest, TheLatchGivesWayWhereItsTorqueIsExceeded) {
   EXPECT_GT(above.state().hinge_rad, 2 * kDegree);
 }
 
-TEST_F(DoorWorldTest, WithTheHandleTurnedTheSamePullOpensIt) {
+TEST_P(DoorWorldTest, WithTheHandleTurnedTheSamePullOpensIt) {
   DoorWorld world = MakeWorld();
   for (int i = 0; i < 240; ++i) {
     world.TurnHandle(5);
@@ -82,7 +85,7 @@ TEST_F(DoorWorldTest, WithTheHandleTurnedTheSamePullOpensIt) {
   EXPECT_GT(world.state().hinge_rad, 5 * kDegree);
 }
 
-TEST_F(DoorWorldTest, AnOpenDoorStopsWhereItsSpringBalancesThePull) {
+TEST_P(DoorWorldTest, AnOpenDoorStopsWhereItsSpringBalancesThePull) {
   scene_.latch.type = LatchType::kNone;
   DoorWorld world = MakeWorld();
   // hinge torque from a force along the leaf's normal: spring * angle in balance
@@ -96,7 +99,7 @@ TEST_F(DoorWorldTest, AnOpenDoorStopsWhereItsSpringBalancesThePull) {
               0.2 * kDegree);
 }
 
-TEST_F(DoorWorldTest, TheHandleSpringsBack) {
+TEST_P(DoorWorldTest, TheHandleSpringsBack) {
   DoorWorld world = MakeWorld();
   for (int i = 0; i < 120; ++i) {
     world.TurnHandle(5);
@@ -110,7 +113,10 @@ TEST_F(DoorWorldTest, TheHandleSpringsBack) {
 }
 
 // Bullet's own limits let it through by one step's acceleration and then threw it back.
-TEST_F(DoorWorldTest, ALeafThatTheLatchPullsShutStopsAtItsFrame) {
+TEST_P(DoorWorldTest, ALeafThatTheLatchPullsShutStopsAtItsFrame) {
+  // MuJoCo's stops are springs: 150 N m on this leaf press them in by this
+  const double within = GetParam() == Simulator::kMujoco ? 3e-5 : 1e-6;
+  const double slow = GetParam() == Simulator::kMujoco ? 1e-3 : 1e-6;
   DoorWorld world = MakeWorld();
   WorldState ajar = world.state();
   for (const double hinge_rad : {1e-12, 1e-6, 1e-3}) {
@@ -118,14 +124,14 @@ TEST_F(DoorWorldTest, ALeafThatTheLatchPullsShutStopsAtItsFrame) {
     world.Place(ajar);
     for (int i = 0; i < 24; ++i) {
       world.Step(hold_);
-      ASSERT_GT(world.state().hinge_rad, -1e-6) << "from " << hinge_rad << ", step " << i;
+      ASSERT_GT(world.state().hinge_rad, -within) << "from " << hinge_rad << ", step " << i;
     }
-    EXPECT_NEAR(world.state().hinge_rad, 0, 1e-6) << "from " << hinge_rad;
-    EXPECT_NEAR(world.state().hinge_rad_s, 0, 1e-6) << "from " << hinge_rad;
+    EXPECT_NEAR(world.state().hinge_rad, 0, within) << "from " << hinge_rad;
+    EXPECT_NEAR(world.state().hinge_rad_s, 0, slow) << "from " << hinge_rad;
   }
 }
 
-TEST_F(DoorWorldTest, TheHandleTurnsAsItsSpringSays) {
+TEST_P(DoorWorldTest, TheHandleTurnsAsItsSpringSays) {
   DoorWorld world = MakeWorld();
   const double torque = 1.2;
   for (int i = 0; i < 480; ++i) {
@@ -136,7 +142,7 @@ TEST_F(DoorWorldTest, TheHandleTurnsAsItsSpringSays) {
               0.3 * kDegree);
 }
 
-TEST_F(DoorWorldTest, TheRobotHoldsStillAndFollowsItsJoints) {
+TEST_P(DoorWorldTest, TheRobotHoldsStillAndFollowsItsJoints) {
   DoorWorld world = MakeWorld();
   for (int i = 0; i < 240; ++i) world.Step(hold_);
   EXPECT_LT((world.state().robot_position - robot_.InitialPosition()).cwiseAbs().maxCoeff(), 1e-3);
@@ -151,7 +157,7 @@ TEST_F(DoorWorldTest, TheRobotHoldsStillAndFollowsItsJoints) {
   EXPECT_FALSE(world.fault());
 }
 
-TEST_F(DoorWorldTest, FingersCloseOnNothingAndOpenAgain) {
+TEST_P(DoorWorldTest, FingersCloseOnNothingAndOpenAgain) {
   DoorWorld world = MakeWorld();
   RobotCommand close = hold_;
   close.close_fingers = true;
@@ -164,7 +170,7 @@ TEST_F(DoorWorldTest, FingersCloseOnNothingAndOpenAgain) {
 }
 
 // Turns a knob by the wrist until the pads slip on it; the largest torque of its spring.
-double LargestKnobTorque(double friction, const RobotModel& robot) {
+double LargestKnobTorque(Simulator simulator, double friction, const RobotModel& robot) {
   PrimitiveDoor shape;
   shape.mechanism = Mechanism::kRound;
   const DoorAsset door = MakePrimitiveDoor(shape);
@@ -172,6 +178,7 @@ double LargestKnobTorque(double friction, const RobotModel& robot) {
   config.base_jitter = 0;
   config.grasp_noise = 0;
   config.physics.finger_friction = friction;
+  config.physics.simulator = simulator;
   const Scene scene = SampleScene(door, 1, 0, config);
   const RigidTransform world_from_tcp =
       scene.world_from_door * DoorFromLinks(door, 0, 0)[kHandleLink] * door.handle_from_grasp;
@@ -195,13 +202,15 @@ double LargestKnobTorque(double friction, const RobotModel& robot) {
   return largest;
 }
 
-TEST_F(DoorWorldTest, PadsTurnAKnobByCoulombFrictionAndNoMore) {
+TEST_P(DoorWorldTest, PadsTurnAKnobByCoulombFrictionAndNoMore) {
   // two pads of 80 N at 28 mm and the hulls' margin of 1 mm; the 48-gon's facets add up to 0.3 N m
   const double force_times_radius = 2 * 80 * 0.029;
+  // MuJoCo's points lie at the very edges of a facet, and a little beyond
+  const double facets = GetParam() == Simulator::kMujoco ? 0.55 : 0.35;
   for (const double friction : {0.02, 0.1, 0.3}) {
-    const double torque = LargestKnobTorque(friction, robot_);
+    const double torque = LargestKnobTorque(GetParam(), friction, robot_);
     EXPECT_GT(torque, 0.9 * friction * force_times_radius) << friction;
-    EXPECT_LT(torque, friction * force_times_radius + 0.35) << friction;
+    EXPECT_LT(torque, friction * force_times_radius + facets) << friction;
   }
 }
 
@@ -217,7 +226,7 @@ std::string HashOfRun(const Scene& scene, const DoorAsset& door, const RobotMode
   return world.StateHash();
 }
 
-TEST_F(DoorWorldTest, TheSameSceneGivesTheSameBitsAlsoInTwoThreads) {
+TEST_P(DoorWorldTest, TheSameSceneGivesTheSameBitsAlsoInTwoThreads) {
   const std::string expected = HashOfRun(scene_, door_, robot_);
   EXPECT_EQ(HashOfRun(scene_, door_, robot_), expected);
   std::array<std::string, 2> hashes;
@@ -232,10 +241,14 @@ TEST_F(DoorWorldTest, TheSameSceneGivesTheSameBitsAlsoInTwoThreads) {
   EXPECT_NE(HashOfRun(other, door_, robot_), expected);
 }
 
-TEST_F(DoorWorldTest, RefusesSettingsThatCannotBeStepped) {
+TEST_P(DoorWorldTest, RefusesSettingsThatCannotBeStepped) {
   scene_.physics.time_step_s = 0;
   EXPECT_THROW(MakeWorld(), Error);
 }
+
+INSTANTIATE_TEST_SUITE_P(Simulators, DoorWorldTest,
+                         testing::Values(Simulator::kBullet, Simulator::kMujoco),
+                         [](const auto& tested) { return std::string(NameOf(tested.param)); });
 
 }  // namespace
 }  // namespace doorforge

@@ -61,6 +61,7 @@ struct DoorKind {
   HingeSide hinge_side;
   Opening opening;
   LatchType latch;
+  Simulator simulator = Simulator::kBullet;
 };
 
 class DoorKinds : public testing::TestWithParam<DoorKind> {};
@@ -75,7 +76,9 @@ TEST_P(DoorKinds, AreOpenedByTheExpert) {
     door.latch.type = GetParam().latch;
     if (GetParam().latch == LatchType::kBolt) door.latch.bolt_throw_m = 0.012;
     OpeningExpert expert;
-    const Scene scene = SampleScene(door, 23, i);
+    SceneConfig config;
+    config.physics.simulator = GetParam().simulator;
+    const Scene scene = SampleScene(door, 23, i, config);
     const Episode episode = RunEpisode(scene, door, robot, expert, nullptr);
     EXPECT_EQ(episode.outcome, EpisodeOutcome::kOpened) << "door " << i << ": " << episode.detail;
     // no door gives way before its handle is turned
@@ -91,7 +94,17 @@ INSTANTIATE_TEST_SUITE_P(
         DoorKind{Mechanism::kRound, HingeSide::kRight, Opening::kPush, LatchType::kEffort},
         DoorKind{Mechanism::kLever, HingeSide::kLeft, Opening::kPull, LatchType::kBolt},
         DoorKind{Mechanism::kRound, HingeSide::kRight, Opening::kPull, LatchType::kBolt},
-        DoorKind{Mechanism::kLever, HingeSide::kRight, Opening::kPush, LatchType::kBolt}));
+        DoorKind{Mechanism::kLever, HingeSide::kRight, Opening::kPush, LatchType::kBolt},
+        DoorKind{Mechanism::kLever, HingeSide::kLeft, Opening::kPull, LatchType::kEffort,
+                 Simulator::kMujoco},
+        DoorKind{Mechanism::kRound, HingeSide::kRight, Opening::kPull, LatchType::kEffort,
+                 Simulator::kMujoco},
+        DoorKind{Mechanism::kLever, HingeSide::kLeft, Opening::kPush, LatchType::kEffort,
+                 Simulator::kMujoco},
+        DoorKind{Mechanism::kLever, HingeSide::kLeft, Opening::kPull, LatchType::kBolt,
+                 Simulator::kMujoco},
+        DoorKind{Mechanism::kRound, HingeSide::kLeft, Opening::kPull, LatchType::kBolt,
+                 Simulator::kMujoco}));
 
 TEST_F(RunEpisodeTest, DecisionsAddUpToTheDoorsAngleASixthOfASecondApart) {
   const DoorAsset door = MakePrimitiveDoor({});
@@ -112,16 +125,20 @@ TEST_F(RunEpisodeTest, DecisionsAddUpToTheDoorsAngleASixthOfASecondApart) {
 
 TEST_F(RunEpisodeTest, EqualScenesGiveEqualHashesAlsoInTwoThreads) {
   const DoorAsset door = MakePrimitiveDoor({});
-  const Scene scene = SampleScene(door, 1, 0);
-  const std::string expected = Run(door, scene).state_sha256;
-  std::array<std::string, 2> hashes;
-  std::thread first([&] { hashes[0] = Run(door, scene).state_sha256; });
-  std::thread second([&] { hashes[1] = Run(door, scene).state_sha256; });
-  first.join();
-  second.join();
-  EXPECT_EQ(hashes[0], expected);
-  EXPECT_EQ(hashes[1], expected);
-  EXPECT_NE(Run(door, SampleScene(door, 1, 1)).state_sha256, expected);
+  for (const Simulator simulator : {Simulator::kBullet, Simulator::kMujoco}) {
+    SceneConfig config;
+    config.physics.simulator = simulator;
+    const Scene scene = SampleScene(door, 1, 0, config);
+    const std::string expected = Run(door, scene).state_sha256;
+    std::array<std::string, 2> hashes;
+    std::thread first([&] { hashes[0] = Run(door, scene).state_sha256; });
+    std::thread second([&] { hashes[1] = Run(door, scene).state_sha256; });
+    first.join();
+    second.join();
+    EXPECT_EQ(hashes[0], expected) << NameOf(simulator);
+    EXPECT_EQ(hashes[1], expected) << NameOf(simulator);
+    EXPECT_NE(Run(door, SampleScene(door, 1, 1, config)).state_sha256, expected);
+  }
 }
 
 TEST_F(RunEpisodeTest, AKnobTooSlipperyToTurnIsAHandleSlipped) {

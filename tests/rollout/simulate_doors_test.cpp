@@ -64,5 +64,17 @@ TEST(EnvironmentPresets, EachIsReadAndTheUsersSettingsGoOverIt) {
   EXPECT_THROW(LoadConfig<SimulateConfig>(ConfigSources{"dorgym", "", {}}), Error);
 }
 
+// The option's word is a setting like others: over a file's, under those of --set, and recorded.
+TEST(EnvironmentPresets, TheSimulatorIsASettingThatIsRecordedWhereItIsNotBullet) {
+  const auto judge = LoadConfig<SimulateConfig>(ConfigSources{"", "", {}, "mujoco"});
+  EXPECT_EQ(judge.scene.physics.simulator, Simulator::kMujoco);
+  EXPECT_EQ(ToJson(judge)["scene"]["physics"]["simulator"], "mujoco");
+  const auto again = LoadConfig<SimulateConfig>(
+      ConfigSources{"", "", {"scene.physics.simulator=bullet"}, "mujoco"});
+  EXPECT_EQ(again.scene.physics.simulator, Simulator::kBullet);
+  EXPECT_FALSE(ToJson(again)["scene"]["physics"].contains("simulator"));
+  EXPECT_THROW(LoadConfig<SimulateConfig>(ConfigSources{"", "", {}, "bulet"}), Error);
+}
+
 }  // namespace
 }  // namespace doorforge

@@ -29,6 +29,7 @@ struct ImagedDoor {
   Mechanism mechanism;
   LatchType latch;
   ArmController controller;
+  Simulator simulator = Simulator::kBullet;
 };
 
 DoorAsset DoorOf(const ImagedDoor& kind, std::uint64_t index) {
@@ -53,6 +54,7 @@ class WorldImageTest : public testing::TestWithParam<ImagedDoor> {
   WorldImageTest() : robot_(LoadMobileFranka()), door_(DoorOf(GetParam(), 1)) {
     SceneConfig config;
     config.physics.controller = GetParam().controller;
+    config.physics.simulator = GetParam().simulator;
     scene_ = SampleScene(door_, 31, 1, config);
     plan_ = PlanGrasp(scene_, door_, robot_);
   }
@@ -143,7 +145,13 @@ INSTANTIATE_TEST_SUITE_P(
         ImagedDoor{"bolt", Mechanism::kLever, LatchType::kBolt, ArmController::kJointMotors},
         ImagedDoor{"torques", Mechanism::kLever, LatchType::kEffort,
                    ArmController::kOperationalSpace},
-        ImagedDoor{"none", Mechanism::kNone, LatchType::kNone, ArmController::kJointMotors}),
+        ImagedDoor{"none", Mechanism::kNone, LatchType::kNone, ArmController::kJointMotors},
+        ImagedDoor{"lever_mujoco", Mechanism::kLever, LatchType::kEffort,
+                   ArmController::kJointMotors, Simulator::kMujoco},
+        ImagedDoor{"bolt_mujoco", Mechanism::kLever, LatchType::kBolt, ArmController::kJointMotors,
+                   Simulator::kMujoco},
+        ImagedDoor{"torques_mujoco", Mechanism::kRound, LatchType::kEffort,
+                   ArmController::kOperationalSpace, Simulator::kMujoco}),
     [](const auto& info) { return info.param.name; });
 
 TEST(WorldImage, IsOfItsOwnWorldAlone) {

@@ -116,6 +116,16 @@ TEST(Scene, TheRecordHasTheLimitsWhereTheyAreNotTheDefaults) {
   EXPECT_THROW(SceneFromJson(bad, "scene"), Error);
 }
 
+TEST(Scene, TheRecordHasTheSimulatorWhereItIsNotBullet) {
+  Scene scene;
+  EXPECT_FALSE(SceneToJson(scene).at("physics").contains("simulator"));
+  EXPECT_EQ(SceneFromJson(SceneToJson(scene), "scene").physics.simulator, Simulator::kBullet);
+  scene.physics.simulator = Simulator::kMujoco;
+  const auto json = SceneToJson(scene);
+  EXPECT_EQ(json.at("physics").at("simulator"), "mujoco");
+  EXPECT_EQ(SceneFromJson(json, "scene").physics.simulator, Simulator::kMujoco);
+}
+
 TEST(EpisodeLimits, EveryFieldIsCheckedAndTheFirstWrongOneNamed) {
   EXPECT_NO_THROW(CheckEpisodeLimits({}, "config.scene.episode"));
   std::size_t fields = 0;

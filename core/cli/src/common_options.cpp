@@ -22,6 +22,15 @@ CLI::Option* AddPreset(CLI::App& app, std::string& preset) {
       "environment to begin with: " + names + "or a .yaml file; --config and --set go over it");
 }
 
+void AddEnvironment(CLI::App& app, ConfigSources& sources) {
+  AddPreset(app, sources.preset);
+  AddChoice(app, "--simulator",
+            "whose physics moves robot and door (config: scene.physics.simulator, bullet)",
+            {{"bullet", "mujoco"}, "", [&sources](const std::string& word) {
+               sources.simulator = word;
+             }});
+}
+
 CLI::Option* AddSettings(CLI::App& app, std::vector<std::string>& settings,
                          const std::string& about) {
   return app.add_option("--set", settings, about + "; repeatable")

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "doorforge/core/error.h"
+#include "doorforge/physics/door_world.h"
 
 namespace doorforge {
 namespace {
@@ -55,6 +56,7 @@ void CheckStageConfig(const StageConfig& config) {
           "config.sampled_grasps: out of 0..1");
   Require(config.learner_decisions >= 1 && config.learner_decisions <= 1000,
           ErrorCode::kInvalidConfig, "config.learner_decisions: out of 1..1000");
+  RequireSimulator(config.scene.physics.simulator);
   Require(config.scene.physics.max_handle_actions >= 1 &&
               config.scene.physics.max_handle_actions <= 1000,
           ErrorCode::kInvalidConfig, "config.scene.physics.max_handle_actions: out of 1..1000");

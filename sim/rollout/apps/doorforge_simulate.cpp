@@ -53,7 +53,7 @@ Options Parse(int argc, char** argv) {
   app.add_option("--film", run.film, "folder for a PNG of each episode");
   AddOverwrite(app, run.overwrite, "replace pictures that are in --film");
   AddThreads(app, run.threads);
-  AddPreset(app, options.config.preset);
+  AddEnvironment(app, options.config);
   AddConfig(app, options.config.file, "YAML file with settings");
   AddSettings(app, options.config.settings, "a.b=c overrides one setting");
   AddJson(app, options.json);

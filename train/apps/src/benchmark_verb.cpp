@@ -35,7 +35,7 @@ BenchmarkOptions ParseBenchmark(int argc, char** argv) {
       "made from\nhas changed; stopped, the same command goes on.",
       "doorforge benchmark");
   app.add_option("size", options.size,
-                 "quick, paper, robustness, or a .yaml file; with `plan` before it: as --dry-run")
+                 "quick, paper, robustness, simulators, a .yaml file; after `plan`: as --dry-run")
       ->required()
       ->expected(1, 2);
   app.add_option("--out", options.run.out, "folder for everything that is made")->required();

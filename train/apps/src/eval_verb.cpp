@@ -66,7 +66,7 @@ void AddOptions(CLI::App& app, Options& options) {
   app.add_option("--episodes-per-door", options.episodes_per_door,
                  "in each seed (config: episodes_per_door, 1)");
   AddThreads(app, options.request.threads, "0: all processors; the result does not depend on it");
-  AddPreset(app, options.config.preset);
+  AddEnvironment(app, options.config);
   AddConfig(app, options.config.file, "YAML file with settings")->check(CLI::ExistingFile);
   AddSettings(app, options.config.settings, "a.b=c overrides one setting");
   app.add_flag("--allow-seen", options.request.allow_seen,

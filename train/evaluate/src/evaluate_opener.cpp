@@ -13,6 +13,7 @@
 #include "doorforge/core/progress.h"
 #include "doorforge/evaluate/run_trials.h"
 #include "doorforge/evaluate/take_pictures.h"
+#include "doorforge/physics/door_world.h"
 #include "doorforge/physics/load_robot.h"
 #include "doorforge/policy/hand_sight.h"
 #include "doorforge/policy/policy_file.h"
@@ -186,6 +187,7 @@ EvaluationReport NewReport(const EvaluationRequest& request, const std::vector<F
 }  // namespace
 
 Evaluation EvaluateOpener(const EvaluationRequest& request) {
+  RequireSimulator(request.config.scene.physics.simulator);
   const PolicySetFactory factory = FactoryOf(request);
   const DoorSet set = FindDoorSet(request.doors, request.threads);
   const std::vector<FoundDoor>& doors = set.doors;

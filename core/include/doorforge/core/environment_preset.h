@@ -25,6 +25,7 @@ struct ConfigSources {
   std::string preset;                 ///< Word for EnvironmentPresetFile(); empty: none.
   std::string file;                   ///< The user's own settings lie there; empty: none.
   std::vector<std::string> settings;  ///< "a.b=c".
+  std::string simulator = {};  ///< Value of scene.physics.simulator; empty: as the others say.
 
   /// The file that NamingConfig() is to name: the last there is.
   std::string Named() const {
@@ -32,13 +33,16 @@ struct ConfigSources {
   }
 };
 
-/// The effective config: defaults <- preset <- file <- settings. Throws as EnvironmentPresetFile()
-/// and as the LoadConfig() of one file.
+/// The effective config: defaults <- preset <- file <- simulator <- settings. Throws as
+/// EnvironmentPresetFile() and as the LoadConfig() of one file.
 template <class T>
 T LoadConfig(const ConfigSources& sources, T defaults = {}) {
   if (!sources.preset.empty())
     defaults = LoadConfig(EnvironmentPresetFile(sources.preset).string(), {}, std::move(defaults));
-  return LoadConfig(sources.file, sources.settings, std::move(defaults));
+  std::vector<std::string> settings = sources.settings;
+  if (!sources.simulator.empty())
+    settings.insert(settings.begin(), "scene.physics.simulator=" + sources.simulator);
+  return LoadConfig(sources.file, settings, std::move(defaults));
 }
 
 }  // namespace doorforge

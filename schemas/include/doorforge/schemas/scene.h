@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <type_traits>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -29,6 +30,15 @@ inline constexpr NamedValue<ArmController> kArmControllers[] = {
 constexpr std::span<const NamedValue<ArmController>> ValuesOf(ArmController) {
   return kArmControllers;
 }
+
+/// Whose physics moves robot and door.
+enum class Simulator {
+  kBullet,  ///< Everything is collected and trained in this one.
+  kMujoco,  ///< A second opinion on policies: same scene, robot, commands and judge.
+};
+inline constexpr NamedValue<Simulator> kSimulators[] = {{Simulator::kBullet, "bullet"},
+                                                        {Simulator::kMujoco, "mujoco"}};
+constexpr std::span<const NamedValue<Simulator>> ValuesOf(Simulator) { return kSimulators; }
 
 /// How door, robot and room look in pictures; nothing else depends on it.
 enum class SceneAppearance {
@@ -87,6 +97,7 @@ struct PhysicsConfig {
   /// What the joint motors can press with at the hand [N], beyond what moving the arm takes; 0: as
   /// much as the joints' efforts give. See DriveLimits.
   double hand_force_n = 0;
+  Simulator simulator = Simulator::kBullet;  ///< Written into files only where it is another.
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -105,6 +116,9 @@ struct PhysicsConfig {
     visit("controller", self.controller);
     visit("operational_space", self.operational_space);
     visit("hand_force_n", self.hand_force_n);
+    // Records from before there was a choice stay as they are. One that is read is not const.
+    if (!std::is_const_v<Self> || self.simulator != Simulator::kBullet)
+      visit("simulator", self.simulator);
   }
 };
 

@@ -4,24 +4,12 @@
 
 #include <BulletDynamics/Featherstone/btMultiBodyGearConstraint.h>
 
+#include "robot/simulated_robot.h"
+
 namespace doorforge::internal {
 namespace {
 
-// Drives as measured to work in docs/design/simulation.md.
-constexpr double kArmPositionGain = 0.2;
-constexpr double kFingerSpeed = 0.1;
-constexpr double kFingerOpenForce = 100;
 constexpr double kGearForce = 200;
-constexpr double kHandFriction = 0.3;
-
-double LeastInertia(const RobotJoint& joint) { return joint.prismatic ? 1e-3 : 1e-2; }
-
-std::vector<MassProperties> SimulatedMasses(const RobotModel& robot) {
-  std::vector<MassProperties> masses;
-  for (const RobotJoint& joint : robot.joints())
-    masses.push_back(WithLeastInertia(joint.mass, LeastInertia(joint)));
-  return masses;
-}
 
 std::vector<BulletLink> LinksOf(const RobotModel& robot, double finger_friction) {
   std::vector<BulletLink> links;
@@ -34,15 +22,14 @@ std::vector<BulletLink> LinksOf(const RobotModel& robot, double finger_friction)
     link.lower = joint.lower;
     link.upper = joint.upper;
     link.mass = joint.mass;
-    link.least_inertia_kg_m2 = LeastInertia(joint);
+    link.least_inertia_kg_m2 = LeastInertiaOf(joint);
     links.push_back(link);
   }
   for (const RobotPiece& piece : robot.hulls()) {
     if (piece.joint >= 0) links[static_cast<std::size_t>(piece.joint)].hulls.push_back(piece.mesh);
   }
-  for (const int finger : {robot.left_finger(), robot.right_finger()})
-    links[static_cast<std::size_t>(finger)].friction = finger_friction;
-  links[static_cast<std::size_t>(robot.arm_count()) - 1].friction = kHandFriction;
+  const std::vector<double> frictions = FrictionsOf(robot, finger_friction);
+  for (std::size_t i = 0; i < links.size(); ++i) links[i].friction = frictions[i];
   return links;
 }
 
@@ -125,7 +112,7 @@ void RobotBody::Command(const RobotCommand& command) {
       motor->setVelocityTarget(-kFingerSpeed, 1);
       motor->setMaxAppliedImpulse(finger_force_n_ * time_step_s_);
     } else {
-      motor->setPositionTarget(robot_.joint(robot_.left_finger()).upper, 0.3);
+      motor->setPositionTarget(robot_.joint(robot_.left_finger()).upper, kFingerOpeningGain);
       motor->setVelocityTarget(0, 1);
       motor->setMaxAppliedImpulse(kFingerOpenForce * time_step_s_);
     }
@@ -146,11 +133,7 @@ JointVector RobotBody::Velocities() const {
 
 std::string RobotBody::NameOf(const btCollisionObject* object) const {
   for (int i = 0; i < robot_.joint_count(); ++i) {
-    if (object != body_.collider(i)) continue;
-    if (i >= robot_.arm_count()) return "finger";
-    if (i == robot_.arm_count() - 1) return "hand";
-    const int link = i - robot_.base_count() + 1;
-    return link < 1 ? "platform" : "link" + std::to_string(link);
+    if (object == body_.collider(i)) return NameOfBody(robot_, i);
   }
   return {};
 }

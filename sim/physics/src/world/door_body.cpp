@@ -7,11 +7,10 @@
 
 #include <LinearMath/btQuickprof.h>
 
+#include "world/door_inertia.h"
+
 namespace doorforge::internal {
 namespace {
-
-constexpr double kLeastLeafInertia = 1e-2;
-constexpr double kLeastHandleInertia = 5e-4;
 
 std::vector<TriangleMesh> HullsOf(const DoorLink& link) {
   std::vector<TriangleMesh> hulls;
@@ -31,13 +30,6 @@ BulletLink DoorBulletLink(const DoorJoint& joint, const DoorLink& link) {
   result.mass = link.mass;
   result.hulls = HullsOf(link);
   return result;
-}
-
-double InertiaAbout(const DoorJoint& joint, const MassProperties& mass, double least) {
-  const Eigen::Vector3d arm =
-      mass.center_of_mass_m - joint.axis * joint.axis.dot(mass.center_of_mass_m);
-  return std::max(joint.axis.dot(mass.inertia_kg_m2 * joint.axis), least) +
-         mass.mass_kg * arm.squaredNorm();
 }
 
 // Viscous torque that one explicit step cannot turn into acceleration.

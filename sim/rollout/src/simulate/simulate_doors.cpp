@@ -16,6 +16,7 @@
 #include "doorforge/core/progress.h"
 #include "doorforge/core/record_id.h"
 #include "doorforge/core/wilson_interval.h"
+#include "doorforge/physics/door_world.h"
 #include "doorforge/rollout/base_placement.h"
 #include "doorforge/rollout/run_episode.h"
 
@@ -115,6 +116,7 @@ std::string NameOf(const SimulatedEpisode& episode) {
 }
 
 std::vector<SimulatedEpisode> SimulateDoors(const SimulationRun& run) {
+  RequireSimulator(run.config.scene.physics.simulator);
   const std::vector<FoundDoor> doors = FindDoorSet({.folders = run.doors}, run.threads).doors;
   DoorCache shelf(doors);
   const RobotModel robot =

@@ -18,6 +18,8 @@ class Option;
 
 namespace doorforge {
 
+struct ConfigSources;  // environment_preset.h
+
 /// Whether an option may be given an empty text.
 enum class EmptyValues {
   kAccept,
@@ -49,6 +51,9 @@ CLI::Option* AddConfig(CLI::App& app, std::string& config, const std::string& ab
 /// Adds `--preset NAME`, the environment that the settings of scene and cloud begin with
 /// (environment_preset.h); the help names those that there are.
 CLI::Option* AddPreset(CLI::App& app, std::string& preset);
+
+/// Adds `--preset NAME` and `--simulator NAME`, for verbs that let policies play.
+void AddEnvironment(CLI::App& app, ConfigSources& sources);
 
 /// Adds `--set KEY=VALUE`, which every verb with settings has. Each takes one setting and leaves
 /// what follows it to the others; several are given as several `--set`.

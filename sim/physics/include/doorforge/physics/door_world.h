@@ -16,6 +16,11 @@
 
 namespace doorforge {
 
+namespace internal {
+struct SavedWorld;
+class WorldEngine;
+}  // namespace internal
+
 struct WorldState {
   JointVector robot_position;
   JointVector robot_velocity;
@@ -60,11 +65,19 @@ class WorldImage {
 
  private:
   friend class DoorWorld;
-  struct Content;
-  std::shared_ptr<const Content> content_;
+  std::shared_ptr<const internal::SavedWorld> content_;
 };
 
-/// The simulated scene: robot, door and latch in a Bullet multibody world, double precision.
+/// Whether this build has the simulator.
+bool HasSimulator(Simulator simulator);
+
+/// Throws Error(kInvalidConfig) that says what to install where this build, or this machine, does
+/// not have the simulator. For programs, before hours of work.
+void RequireSimulator(Simulator simulator);
+
+/// The simulated scene: robot, door and latch in a Bullet multibody world, double precision; or, as
+/// PhysicsConfig::simulator says, in MuJoCo, with the same bodies, drives, latch law and frictions:
+/// docs/design/notes/2026-11-27-second-simulator.md.
 ///
 /// Contacts are Coulomb friction between convex hulls; nothing is ever glued to the gripper. The
 /// latch is the effort law of Latch, or a bolt that meets its strike in contact. Gravity is off for
@@ -77,7 +90,8 @@ class DoorWorld {
   /// The robot starts in `start` (fingers open), the door closed, everything at rest.
   ///
   /// @throws Error(kInvalidArgument) if a setting of the scene's physics is out of range, or if a
-  ///     link of the door has no mass or a hull of fewer than four points; as RequireSimulatable().
+  ///     link of the door has no mass or a hull of fewer than four points; as RequireSimulatable()
+  ///     and RequireSimulator().
   DoorWorld(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
             const JointVector& start);
   ~DoorWorld();
@@ -123,9 +137,7 @@ class DoorWorld {
   std::string StateHash() const;
 
  private:
-  friend class WorldImage;
-  class Runtime;
-  std::unique_ptr<Runtime> runtime_;
+  std::unique_ptr<internal::WorldEngine> engine_;
 };
 
 }  // namespace doorforge

@@ -24,7 +24,7 @@ constexpr double kLatchSkin = 2e-4;
 constexpr double kLeafFriction = 0.5;
 // How the fingers hang together: the pair gives by about 1 mm where one bears 20 N more than the
 // other. Bullet's gear is rigid, and so are its contacts, which share such a load by chance; here
-// contacts are springs, and a handle 0.1 mm beside the middle would have it all on one pad.
+// contacts are springs, and a handle a little beside the middle would have it all on one pad.
 constexpr const char* kFingerCoupling = "0.005 1' solimp='0.9 0.9 0.001'";
 
 std::string Listed(const Eigen::Vector3d& v) {

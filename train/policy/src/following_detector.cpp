@@ -17,8 +17,7 @@ double GapOf(const Proprioception& proprioception) {
 }  // namespace
 
 FollowingDetector::FollowingDetector(const FollowingConfig& config) : config_(config) {
-  Require(config.way_m > 0, ErrorCode::kInvalidConfig,
-          "policy.following.way_m: must be above 0");
+  Require(config.way_m > 0, ErrorCode::kInvalidConfig, "policy.following.way_m: must be above 0");
   Require(config.kept_share >= 0 && config.kept_share <= 1, ErrorCode::kInvalidConfig,
           "policy.following.kept_share: must be 0 to 1");
 }

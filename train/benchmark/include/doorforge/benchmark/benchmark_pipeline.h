@@ -28,7 +28,8 @@ struct BenchmarkPlan {
 /// Joins what trains the rows, see PipelineJoiner, and adds an evaluation of each row, training and
 /// side of the doors, held-out ones first. Every row is judged on the same doors and seeds.
 ///
-/// @throws Error(kInvalidConfig) as ReadPipeline(), if a row names a step that its pipeline does not
+/// @throws Error(kInvalidConfig) as ReadPipeline(), if a row names a step that its pipeline does
+/// not
 ///     have, and on a setting that neither a row's pipeline nor any preset has.
 BenchmarkPlan PlanBenchmark(const Benchmark& benchmark);
 

@@ -29,8 +29,7 @@ struct BenchmarkPlan {
 /// side of the doors, held-out ones first. Every row is judged on the same doors and seeds.
 ///
 /// @throws Error(kInvalidConfig) as ReadPipeline(), if a row names a step that its pipeline does
-/// not
-///     have, and on a setting that neither a row's pipeline nor any preset has.
+///     not have, and on a setting that neither a row's pipeline nor any preset has.
 BenchmarkPlan PlanBenchmark(const Benchmark& benchmark);
 
 /// Judges all rows on the composed doors in these folders, instead of the catalogue's.

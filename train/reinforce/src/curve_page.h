@@ -34,7 +34,7 @@ struct CurvePage {
   std::vector<CurveChart> charts;
 };
 
-/// As PpoPage() says.
+/// Writes the page of which PpoPage() says what it is.
 std::string TextOf(const CurvePage& page, const PpoOrigin& origin);
 
 /// A JSON object a row, on lines of their own, with all columns; `name` is what a row is called.

@@ -13,11 +13,11 @@ namespace {
 using Side = MujocoPiece::Side;
 
 constexpr double kTouches = 0.001;
-// As in row_solver.cpp.
+// The ends of the fading of friction are those of row_solver.cpp.
 constexpr double kFullFrictionDepth = 0.003;
 constexpr double kNoFrictionDepth = 0.006;
 
-// Of the shapes with their skins, as Bullet has it.
+// It is that of the shapes with their skins, as Bullet has it.
 double DistanceOf(const mjContact& contact, Side first) {
   return contact.dist - (first == Side::kLatch ? contact.includemargin : kMujocoSkin);
 }

@@ -48,7 +48,7 @@ std::vector<double> AnglesOf(Simulator simulator, const DoorAsset& door, const R
   return angles;
 }
 
-// It gives the same by the hinge's equation of motion: inertia, damping and spring, in steps of 10 us.
+// It gives the same by the hinge's law of motion: inertia, damping and spring, steps of 10 us.
 std::vector<double> AnglesByLaw(const DoorAsset& door) {
   constexpr int kParts = 400;
   const double dt = 1.0 / 240 / kParts;

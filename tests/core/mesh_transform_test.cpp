@@ -25,17 +25,6 @@ TEST(MeshTransform, AQuarterTurnMovesTheBoxAsOnPaper) {
   EXPECT_TRUE(moved.max().isApprox(Eigen::Vector3d(-1.5, 2, 5), 1e-12)) << moved.max();
 }
 
-TEST(MeshTransform, RoundingMovesNothingByMoreThanAFloatsStep) {
-  const TriangleMesh box = BoxMesh({0.1, -0.7, 1e-3}, {0.3, 0.9, 2.1});
-  const TriangleMesh rounded = RoundedToFloat(box);
-  ASSERT_EQ(rounded.triangles, box.triangles);
-  for (std::size_t i = 0; i < box.vertices.size(); ++i) {
-    const Eigen::Array3d moved = (rounded.vertices[i] - box.vertices[i]).array().abs();
-    EXPECT_TRUE((moved <= box.vertices[i].array().abs() * 0x1p-24).all()) << rounded.vertices[i];
-    EXPECT_EQ(rounded.vertices[i].z(), static_cast<float>(box.vertices[i].z()));
-  }
-}
-
 TEST(MeshTransform, MergedMeshesKeepTheirVolumes) {
   const std::array meshes = {BoxMesh({0, 0, 0}, {1, 1, 1}), TriangleMesh{},
                              BoxMesh({2, 0, 0}, {3, 2, 1})};

@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "doorforge/core/error.h"
+#include "doorforge/core/mesh_transform.h"
 
 #include "repair/surface_operations.h"
 #include "shapes.h"
@@ -195,11 +196,7 @@ TEST(RepairMesh, UnitesPiecesThatOverlapOrOnlyTouch) {
     EXPECT_LT(result.report.visible_input_to_output.max_m, 1e-3);
     EXPECT_LT(result.report.output_to_input.max_m, 1e-3);
     // no triangle loses its area, or the mesh its closedness, at the precision of mesh files
-    TriangleMesh rounded = result.mesh->mesh();
-    for (Eigen::Vector3d& vertex : rounded.vertices) {  // not by two casts: see RoundedToFloat()
-      for (double& coordinate : vertex)
-        coordinate = static_cast<double>(static_cast<float>(coordinate));
-    }
+    const TriangleMesh rounded = RoundedToFloat(result.mesh->mesh());
     EXPECT_TRUE(ClosedMesh::From(rounded));
     EXPECT_EQ(MeasureTopology(rounded).degenerate_triangles, 0);
   }

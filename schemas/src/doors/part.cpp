@@ -6,6 +6,7 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
 #include "doorforge/core/json_file.h"
+#include "doorforge/core/mesh_transform.h"
 #include "doorforge/core/record_id.h"
 #include "doorforge/schemas/mesh_file.h"
 
@@ -103,10 +104,8 @@ Enum Named(std::optional<Enum> (*find)(std::string_view), const Json& json, cons
 ShapeDescriptor ShapeOf(const Part& part) {
   std::vector<TriangleMesh> meshes;
   for (const PartPiece& piece : part.pieces) {
-    meshes.push_back(piece.mesh);
     // as the file holds them, so that a part that is read back has the same numbers
-    for (Eigen::Vector3d& vertex : meshes.back().vertices)
-      vertex = vertex.cast<float>().cast<double>();
+    meshes.push_back(RoundedToFloat(piece.mesh));
   }
   return DescribeShape(meshes);
 }

@@ -6,6 +6,7 @@
 
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
+#include "doorforge/core/mesh_transform.h"
 #include "doorforge/schemas/vertex_reach.h"
 
 #include "models/number_text.h"
@@ -94,8 +95,7 @@ std::string ToObj(const TriangleMesh& mesh) {
 }
 
 TriangleMesh PlacedAsFiled(TriangleMesh mesh, const RigidTransform& a_from_mesh) {
-  for (Eigen::Vector3d& vertex : mesh.vertices)
-    vertex = (a_from_mesh * vertex).cast<float>().cast<double>();
+  for (Eigen::Vector3d& vertex : mesh.vertices) vertex = RoundedToFloat(a_from_mesh * vertex);
   return mesh;
 }
 

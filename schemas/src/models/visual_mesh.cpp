@@ -9,6 +9,7 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
+#include "doorforge/core/mesh_transform.h"
 #include "doorforge/schemas/vertex_reach.h"
 
 #include "models/number_text.h"
@@ -30,7 +31,7 @@ std::string Named(const std::string& sha256, const char* ending) {
 }
 
 // Files hold floats; what is hashed and drawn before writing must be what is read afterwards.
-double AsFiled(double number) { return static_cast<double>(static_cast<float>(number)); }
+double AsFiled(double number) { return RoundedToFloat(number); }
 
 // Other programs end a name at the first blank.
 bool IsWord(const std::string& name) {
@@ -314,8 +315,7 @@ std::string FileNameOf(const VisualTexture& texture) {
 }
 
 VisualMesh PlacedAsFiled(VisualMesh mesh, const RigidTransform& a_from_mesh) {
-  for (Eigen::Vector3d& vertex : mesh.vertices)
-    vertex = (a_from_mesh * vertex).cast<float>().cast<double>();
+  for (Eigen::Vector3d& vertex : mesh.vertices) vertex = RoundedToFloat(a_from_mesh * vertex);
   for (Eigen::Vector2d& texcoord : mesh.texcoords) texcoord = texcoord.unaryExpr(&AsFiled);
   for (VisualSurface& surface : mesh.surfaces)
     surface.material.color_rgba = surface.material.color_rgba.unaryExpr(&AsFiled);

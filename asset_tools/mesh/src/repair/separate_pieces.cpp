@@ -133,14 +133,10 @@ TriangleMesh WithoutCavities(const TriangleMesh& solid) {
   return Merged(shells);
 }
 
-// Whether it stays closed, and each triangle keeps an area, at the precision of mesh files. Number
-// by number: where GCC 12 vectorises, it takes the two conversions of x and y for none.
-bool SurvivesFiles(TriangleMesh mesh) {
-  for (Eigen::Vector3d& vertex : mesh.vertices) {
-    for (double& coordinate : vertex)
-      coordinate = static_cast<double>(static_cast<float>(coordinate));
-  }
-  return ClosedMesh::From(mesh) && MeasureTopology(mesh).degenerate_triangles == 0;
+// Whether it stays closed, and each triangle keeps an area, at the precision of mesh files.
+bool SurvivesFiles(const TriangleMesh& mesh) {
+  const TriangleMesh rounded = RoundedToFloat(mesh);
+  return ClosedMesh::From(rounded) && MeasureTopology(rounded).degenerate_triangles == 0;
 }
 
 // Where faces nearly coincide, a union has slivers, which cross each other by rounding; most vanish

@@ -14,10 +14,14 @@ namespace doorforge {
 /// Returns the mesh in the frame that `to_from_mesh` leads to; the triangles stay as they are.
 TriangleMesh Transformed(TriangleMesh mesh, const RigidTransform& to_from_mesh);
 
-/// Returns the mesh with its coordinates rounded to floats, as the canonical mesh files hold them.
-/// GCC 12 with -O2 rounds z alone: it takes the conversion of x and y to float and back for
-/// nothing. With -O3, as in release builds, it does so for the last one to three vertices only. So
-/// the hulls of parts differ between builds.
+/// Returns the nearest float of the number, of two the even one, as files hold it; every build
+/// returns the same. Two casts in a loop, or Eigen's, do not: GCC 12 may take them for nothing.
+double RoundedToFloat(double number);
+
+/// Returns the point with each coordinate rounded so.
+Eigen::Vector3d RoundedToFloat(const Eigen::Vector3d& point);
+
+/// Returns the mesh with its coordinates rounded so, as the canonical mesh files hold them.
 TriangleMesh RoundedToFloat(TriangleMesh mesh);
 
 /// Returns the triangles of all meshes as one mesh, in order; no vertices are welded.

@@ -16,6 +16,7 @@
 #include "measure/mesh_pieces.h"
 #include "measure/surface_samples.h"
 #include "measure/triangle_tree.h"
+#include "repair/collapse_edges.h"
 #include "repair/separate_pieces.h"
 #include "repair/surface_operations.h"
 
@@ -334,7 +335,7 @@ class Repair {
     const int target = std::min(config_.max_triangles, BudgetOfInput());
     const double free_error_m =
         wrapped ? kFreeErrorShare * config_.offset_fraction * diagonal_m_ : 0;
-    TriangleMesh simple = Simplified(mesh, target, free_error_m);
+    TriangleMesh simple = Reduced(mesh, target, free_error_m);
     if (!IsSimple(simple))
       simple = SimplifiedWithoutCrossings(HalfWay(mesh, target), target, free_error_m);
     // where so few would cross, collapses go on elsewhere at any cost
@@ -354,7 +355,7 @@ class Repair {
   static TriangleMesh HalfWay(const TriangleMesh& mesh, int target) {
     constexpr int kMany = 4;  // times the target
     if (static_cast<int>(mesh.triangles.size()) < kMany * target) return mesh;
-    TriangleMesh between = Simplified(mesh, kMany / 2 * target, 0);
+    TriangleMesh between = Reduced(mesh, kMany / 2 * target, 0);
     return IsSimple(between) ? between : mesh;
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include <CGAL/alpha_wrap_3.h>
@@ -101,6 +102,49 @@ class FoundTriangles {
   std::vector<Node> nodes_;
 };
 
+// The planes of a tetrahedron's faces, to tell beyond doubt that it is apart from a triangle.
+class TetrahedronPlanes {
+ public:
+  explicit TetrahedronPlanes(const Kernel::Tetrahedron_3& shape) {
+    std::array<Eigen::Vector3d, 4> corners;
+    for (int k = 0; k < 4; ++k) corners[static_cast<std::size_t>(k)] = VectorOf(shape.vertex(k));
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Eigen::Vector3d& at = corners[(k + 1) % 4];
+      const Eigen::Vector3d u = corners[(k + 2) % 4] - at;
+      const Eigen::Vector3d v = corners[(k + 3) % 4] - at;
+      Plane plane{u.cross(v), at, kDoubt * std::sqrt(u.squaredNorm() * v.squaredNorm())};
+      const Eigen::Vector3d across = corners[k] - at;
+      const double side = plane.normal.dot(across);
+      if (!(std::abs(side) > plane.doubt * SizeOf(across))) continue;  // flat
+      if (side > 0) plane.normal = -plane.normal;
+      planes_[static_cast<std::size_t>(count_++)] = plane;
+    }
+  }
+
+  // True only if all corners lie beyond one plane; it may be false of a triangle that is apart.
+  bool Part(const std::array<Eigen::Vector3d, 3>& corners) const {
+    return std::any_of(planes_.begin(), planes_.begin() + count_, [&](const Plane& plane) {
+      return std::all_of(corners.begin(), corners.end(), [&](const Eigen::Vector3d& corner) {
+        const Eigen::Vector3d way = corner - plane.at;
+        return plane.normal.dot(way) > plane.doubt * SizeOf(way);
+      });
+    });
+  }
+
+ private:
+  static constexpr double kDoubt = 1e-12;  // of the product of lengths: rounding, a thousand times
+
+  struct Plane {
+    Eigen::Vector3d normal, at;  // of no particular length, outwards
+    double doubt = 0;
+  };
+
+  static double SizeOf(const Eigen::Vector3d& way) { return way.cwiseAbs().sum(); }
+
+  std::array<Plane, 4> planes_;
+  std::ptrdiff_t count_ = 0;
+};
+
 // What a wrap asks of its input, with the answers that CGAL's own function would be given; between
 // two questions a wrap that takes too long can be given up. CGAL 5.5 offers no other place for
 // that.
@@ -139,9 +183,11 @@ class SoupWithinBudget : public wraps::Triangle_soup_oracle<Kernel> {
     const Eigen::AlignedBox3d around(
         Eigen::Vector3d(shape.m_bbox.xmin(), shape.m_bbox.ymin(), shape.m_bbox.zmin()),
         Eigen::Vector3d(shape.m_bbox.xmax(), shape.m_bbox.ymax(), shape.m_bbox.zmax()));
+    const TetrahedronPlanes planes(shape.m_tet);
     return found_.Any([&](const Eigen::AlignedBox3d& box) { return box.intersects(around); },
                       [&](const FoundTriangles::Triangle& t) {
-                        return geom_traits().do_intersect_3_object()(shape, t.exact);
+                        return !planes.Part(t.corners) &&
+                               geom_traits().do_intersect_3_object()(shape, t.exact);
                       });
   }
 

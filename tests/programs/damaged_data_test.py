@@ -237,7 +237,7 @@ class DamagedData(ProgramTest):
             (self.folder / "door.png", ["preview", self.door, "--out", self.folder / "door.png"]),
             (self.folder / "data.png", ["dataset", "info", self.data, "--png", self.folder / "data.png"]),
             (self.folder / "data.html", ["dataset", "info", self.data, "--html", self.folder / "data.html"]),
-            (film, ["simulate", "--door", self.door, "--film", film.parent]),
+            (film, ["simulate", "--door", self.door, "--seeds", 1, "--set", "scene.physics.max_opening_actions=4", "--film", film.parent]),
             (self.folder / "data.hdf5", ["dataset", "export", self.data, "--to", "robomimic", "--out",
                                          self.folder / "data.hdf5"]),
         ):

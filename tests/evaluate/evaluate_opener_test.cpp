@@ -94,6 +94,7 @@ class EvaluateOpenerTest : public testing::Test {
   }
   static void TearDownTestSuite() { fs::remove_all(folder_); }
 
+  // Without pictures, which take most of an evaluation: the tests that look at them ask for them.
   static EvaluationRequest RequestFor(const std::string& doors) {
     EvaluationRequest request;
     request.policies.opener = folder_ / "policy";
@@ -102,6 +103,7 @@ class EvaluateOpenerTest : public testing::Test {
     request.config.seeds = 1;
     request.config.scene.physics.max_opening_actions = 4;
     request.threads = 1;
+    request.pictures = false;
     return request;
   }
 
@@ -120,7 +122,8 @@ class EvaluateOpenerTest : public testing::Test {
 fs::path EvaluateOpenerTest::folder_;
 
 TEST_F(EvaluateOpenerTest, RunsTheNetworksInClosedLoopBesideTheExpert) {
-  const EvaluationRequest request = RequestFor("held_out");
+  EvaluationRequest request = RequestFor("held_out");
+  request.pictures = true;
   const Evaluation evaluation = EvaluateOpener(request);
   const EvaluationReport& report = evaluation.report;
   ASSERT_EQ(report.episodes.size(), 1U);
@@ -253,6 +256,7 @@ TEST_F(EvaluateOpenerTest, ATrainedGrasperTakesHoldAndItsDoorsAreSeenToo) {
   request.config.grasp.orientations = 4;
   const std::string by_rule = EvaluateOpener(request).report.episodes.at(0).state_sha256;
   request.policies.grasper = folder_ / "grasper";
+  request.pictures = true;
   const Evaluation evaluation = EvaluateOpener(request);
   const EvaluationReport& report = evaluation.report;
   EXPECT_NE(report.episodes.at(0).state_sha256, by_rule);
@@ -298,7 +302,6 @@ TEST_F(EvaluateOpenerTest, APolicyThatReadsColoursIsShownThem) {
         .opener = out / "open", .handler = out / "handle", .grasper = out / "grasp"};
     request.config.scene.appearance = appearance;
     request.config.unlock_switch = SwitchSource::kSimulator;
-    request.pictures = false;
     std::vector<std::string> ends;
     for (const EvaluatedEpisode& episode : EvaluateOpener(request).report.episodes)
       ends.push_back(episode.state_sha256);

@@ -36,10 +36,10 @@ std::string RefusalOf(const std::function<void()>& work) {
 }
 
 TEST(WorkBudget, EndsEveryStageThatMayTakeLong) {
-  const TriangleMesh torus = Torus(1, 0.3, 60, 40);
+  const TriangleMesh torus = Torus(1, 0.3, 30, 20);
   const ClosedMesh closed = *ClosedMesh::From(torus);
   TriangleMesh open = torus;
-  open.triangles.resize(open.triangles.size() - 400);
+  open.triangles.resize(open.triangles.size() - 100);
   const TriangleMesh hull = ConvexHull(torus.vertices);
   RigidTransform moved = RigidTransform::Identity();
   moved.translation() << 0.1, 0, 0;

@@ -8,6 +8,7 @@ A run copies one group. The objects' names are words of no message, so that a me
 """
 import io
 import json
+import os
 import pathlib
 import shutil
 import struct
@@ -250,10 +251,10 @@ def write_begun_shard(data: pathlib.Path, begun: pathlib.Path) -> None:
     index_path.unlink()
 
 
-def write_small_catalogue(data: pathlib.Path) -> None:
-    """The data of programs (DOORFORGE_DATA) with a catalogue of a body and a handle."""
+def write_small_catalogue(data: pathlib.Path, parts: tuple = (SAFE_BODY, SAFE_HANDLES[0])) -> None:
+    """The data of programs (DOORFORGE_DATA) with a catalogue of these parts."""
     shutil.copytree(SOURCE / "data/families", data / "families")
-    for name in (SAFE_BODY, SAFE_HANDLES[0]):
+    for name in parts:
         recipe = next((SOURCE / "data/catalog").rglob(f"{name}.yaml"))
         target = data / "catalog" / recipe.relative_to(SOURCE / "data/catalog")
         target.parent.mkdir(parents=True, exist_ok=True)
@@ -262,8 +263,9 @@ def write_small_catalogue(data: pathlib.Path) -> None:
 
 def make_inputs(doorforge: pathlib.Path, folder: pathlib.Path) -> None:
 
-    def run(*arguments: object) -> None:
-        answer = subprocess.run([str(doorforge), *map(str, arguments)], capture_output=True, text=True, timeout=600)
+    def run(*arguments: object, **environment: str) -> None:
+        answer = subprocess.run([str(doorforge), *map(str, arguments)], capture_output=True, text=True, timeout=600,
+                                env=dict(os.environ, **environment))
         if answer.returncode != 0:
             raise SystemExit(f"{arguments}: exit code {answer.returncode}\n{answer.stderr}")
 
@@ -284,10 +286,9 @@ def make_inputs(doorforge: pathlib.Path, folder: pathlib.Path) -> None:
     for name in ("report.html", "films.html"):
         (folder / "report/tested_report" / name).unlink()
 
-    run("catalog", "build", "--category", "safe", "--out", folder / "built")
-    for name in (SAFE_BODY, *SAFE_HANDLES):
-        shutil.copytree(folder / "built" / name, folder / "parts" / name)
-    shutil.rmtree(folder / "built")
+    write_small_catalogue(folder / "three", (SAFE_BODY, *SAFE_HANDLES))
+    run("catalog", "build", "--out", folder / "parts", DOORFORGE_DATA=str(folder / "three"))
+    shutil.rmtree(folder / "three")
     shutil.copytree(folder / "parts" / SAFE_BODY, folder / "part/other_body")
     shutil.copytree(folder / "parts" / SAFE_HANDLES[0], folder / "part/tested_part")
     shutil.copytree(folder / "parts", folder / "pool/parts")

@@ -4,18 +4,22 @@
 // Colours of pictures.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <thread>
 
 #include <gtest/gtest.h>
 
+#include "doorforge/core/error.h"
 #include "doorforge/physics/load_robot.h"
 #include "doorforge/physics/scene_sampling.h"
 #include "doorforge/pictures/take_pictures.h"
 #include "doorforge/rollout/base_placement.h"
 #include "doorforge/rollout/run_episode.h"
 #include "doorforge/sensor/picture.h"
+#include "doorforge/sensor/scene_geometry.h"
 
 #include "../physics/primitive_door.h"
 
@@ -74,6 +78,56 @@ TEST(PictureColors, FewRaysGiveNearlyWhatManyGive) {
   const std::vector<int> many = with(256);
   EXPECT_LT(MeanDifference(with(16), many), 1.0);
   EXPECT_LT(MeanDifference(with(1), many), 4.0);
+}
+
+double LinearOf(int srgb) {
+  const double value = srgb / 255.0;
+  return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+}
+
+// Of each value of the small picture, what the sixteen there average to in one four times as wide,
+// and how far they lie apart, in linear light.
+struct Averaged {
+  double mean = 0;
+  double range = 0;
+};
+std::vector<Averaged> AveragesOf(const std::string& large) {
+  constexpr std::size_t kSide = 4 * 96;
+  const std::size_t begin = large.size() - 3 * kSide * kSide;
+  std::vector<Averaged> averages;
+  for (std::size_t i = 0; i < 3UL * 96 * 96; ++i) {
+    std::array<double, 16> values;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const std::size_t row = 4 * (i / 3 / 96) + k / 4;
+      const std::size_t column = 4 * (i / 3 % 96) + k % 4;
+      values[k] =
+          LinearOf(static_cast<unsigned char>(large[begin + 3 * (row * kSide + column) + i % 3]));
+    }
+    const auto [least, most] = std::ranges::minmax(values);
+    averages.push_back({std::accumulate(values.begin(), values.end(), 0.0) / 16, most - least});
+  }
+  return averages;
+}
+
+// Sixteen rays of a pixel go through the middles of sixteen pixels of a picture four times as wide.
+TEST(PictureColors, OfEdgesAreWhatALargerPictureAveragesTo) {
+  ColorSetting setting;
+  const std::vector<int> sixteen = PixelsOf(setting.Take(), "rgb_front.npy");
+  setting.config.samples = 1;
+  const std::vector<int> one = PixelsOf(setting.Take(), "rgb_front.npy");
+  setting.config.cameras[0].width = setting.config.cameras[0].height = 4 * 96;
+  const std::vector<Averaged> averages = AveragesOf(setting.Take().at("rgb_front.npy"));
+  const auto off = [&](const std::vector<int>& rgb) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < rgb.size(); ++i)
+      count += averages[i].range > 0.2 && std::fabs(LinearOf(rgb[i]) - averages[i].mean) > 0.1;
+    return count;
+  };
+  const auto edges = static_cast<std::size_t>(
+      std::ranges::count_if(averages, [](const Averaged& average) { return average.range > 0.2; }));
+  ASSERT_GT(edges, 300U);
+  EXPECT_LT(off(sixteen), edges / 12);
+  EXPECT_GT(off(one), edges / 3);
 }
 
 // A picture of two pixels, red and blue, on the leaf's front: the author's surface lies a few
@@ -164,6 +218,26 @@ TEST(PictureColors, AppearanceChangesColorsByItsOwnStreamAndNothingElse) {
   setting.scene.episode = 1;
   EXPECT_GT(MeanDifference(PixelsOf(setting.Take(), "rgb_front.npy"), rgb[SceneAppearance::kFull]),
             8);
+}
+
+// AVX-512 is another implementation of the same rays.
+TEST(PictureColors, AreNearlyTheSameWithTheWidestInstructions) {
+  ColorSetting setting;
+  setting.scene.appearance = SceneAppearance::kFull;
+  const auto usual = setting.Take();
+  setting.config.instructions = PictureInstructions::kAvx512;
+  if (!IsSupported(RayIsa::kAvx512)) {
+    EXPECT_THROW(setting.Take(), Error);
+    return;
+  }
+  const auto widest = setting.Take();
+  for (const char* member : {"rgb_front.npy", "label_front.npy"}) {
+    const std::vector<int> a = PixelsOf(usual, member);
+    const std::vector<int> b = PixelsOf(widest, member);
+    std::size_t others = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) others += a[i] != b[i] ? 1 : 0;
+    EXPECT_LE(others, a.size() / 1000) << member;
+  }
 }
 
 TEST(PictureColors, AreTheSameInAnyThread) {

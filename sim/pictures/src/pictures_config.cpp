@@ -13,6 +13,7 @@
 #include "doorforge/core/config_io.h"
 #include "doorforge/core/error.h"
 #include "doorforge/rollout/solid_around.h"
+#include "doorforge/sensor/scene_geometry.h"
 
 #include "picture_room.h"
 
@@ -123,6 +124,9 @@ void CheckPictures(const PicturesConfig& config) {
     Refuse("config.pictures.streams",
            "none, so that the cameras would record nothing; name some, or no cameras");
   RequireRange("config.pictures", "samples", config.samples, 1, 256);
+  if (config.instructions == PictureInstructions::kAvx512 && !IsSupported(RayIsa::kAvx512))
+    Refuse("config.pictures.instructions",
+           "avx512, which this processor does not have; leave it at \"usual\"");
   CheckDepthNoise(config.noise);
 }
 

@@ -7,35 +7,12 @@
 #include <limits>
 
 #include "doorforge/core/rng.h"
-#include "doorforge/sensor/pinhole_view.h"
 #include "doorforge/sensor/ray_packet.h"
 
 #include "develop.h"
+#include "pinhole_directions.h"
 
 namespace doorforge {
-
-// Directions through pixels, whose length along the optical axis is 1.
-class PinholeDirections {
- public:
-  explicit PinholeDirections(const CameraModel& camera) {
-    const PinholeView view = ViewOf(camera);
-    const Eigen::Matrix3d& axes = view.world_from_camera.linear();
-    origin_ = view.world_from_camera.translation().cast<float>();
-    corner_ = (axes * Eigen::Vector3d(-view.cx / view.fx, -view.cy / view.fy, 1)).cast<float>();
-    across_ = (axes.col(0) / view.fx).cast<float>();
-    down_ = (axes.col(1) / view.fy).cast<float>();
-  }
-
-  const Eigen::Vector3f& origin() const { return origin_; }
-  Eigen::Vector3f Through(float u, float v) const { return corner_ + u * across_ + v * down_; }
-
- private:
-  Eigen::Vector3f origin_;
-  Eigen::Vector3f corner_;
-  Eigen::Vector3f across_;
-  Eigen::Vector3f down_;
-};
-
 namespace {
 
 constexpr int kLampPlaces = 16;        // of a lamp, that a block of pixels looks for
@@ -262,116 +239,6 @@ void RgbRenderer::ShadePixels() {
       colors_[i] = Shade(image_.points[i], light_[i]);
     }
   }
-}
-
-void RgbRenderer::SmoothEdges(const CameraModel& camera) {
-  if (samples_ < 2) return;
-  const PinholeDirections directions(camera);
-  std::vector<std::pair<std::size_t, LinearColor>> smooth;
-  for (int row = 0; row < image_.height; ++row) {
-    for (int column = 0; column < image_.width; ++column) {
-      if (image_.IsWanted(column, row) && image_.IsEdge(column, row))
-        smooth.emplace_back(image_.At(column, row), EdgeColor(directions, column, row));
-    }
-  }
-  for (const auto& [pixel, color] : smooth) colors_[pixel] = color;
-}
-
-// The surfaces that an edge pixel's samples met last, and their colours.
-class RgbRenderer::MetSurfaces {
- public:
-  const LinearColor* ColorOf(std::uint32_t surface, std::uint32_t triangle) const {
-    for (const Met& met : met_) {
-      if (met.color != nullptr && met.surface == surface && met.triangle == triangle)
-        return met.color;
-    }
-    return nullptr;
-  }
-  void Keep(std::uint32_t surface, std::uint32_t triangle, const LinearColor* color) {
-    met_[next_++ % met_.size()] = {surface, triangle, color};
-  }
-
- private:
-  struct Met {
-    std::uint32_t surface = 0;
-    std::uint32_t triangle = 0;
-    const LinearColor* color = nullptr;
-  };
-  std::array<Met, 3> met_;
-  std::size_t next_ = 0;
-};
-
-// Samples that meet a surface again have the colour that the first had.
-LinearColor RgbRenderer::EdgeColor(const PinholeDirections& directions, int column, int row) {
-  const Eigen::Vector3f& origin = directions.origin();
-  const int side = std::max(1, static_cast<int>(std::lround(std::sqrt(samples_))));
-  const float step = 1 / static_cast<float>(side);
-  LinearColor sum = LinearColor::Zero();
-  MetSurfaces met;
-  for (int first = 0; first < side * side; first += static_cast<int>(RayPacket::kSize)) {
-    RayPacket packet;
-    std::array<Eigen::Vector3f, RayPacket::kSize> through;
-    const int count = std::min(static_cast<int>(RayPacket::kSize), side * side - first);
-    for (int lane = 0; lane < count; ++lane) {
-      const int i = first + lane;
-      const auto slot = static_cast<std::size_t>(lane);
-      through[slot] = directions.Through(
-          static_cast<float>(column) + step * (static_cast<float>(i % side) + 0.5F),
-          static_cast<float>(row) + step * (static_cast<float>(i / side) + 0.5F));
-      packet.Set(slot, origin, through[slot], kInfinity);
-    }
-    const PacketHits hits = CastRays(geometry_, packet);
-    for (std::size_t slot = 0; slot < static_cast<std::size_t>(count); ++slot)
-      sum += SampleColor({hits, slot, origin, through[slot]}, {column, row}, met);
-  }
-  return sum / static_cast<float>(side * side);
-}
-
-LinearColor RgbRenderer::SampleColor(const EdgeSample& sample, const Eigen::Vector2i& pixel,
-                                     MetSurfaces& met) {
-  const auto& [hits, slot, origin, through] = sample;
-  const bool hit = (hits.hits >> slot & 1U) != 0;
-  const auto mesh = static_cast<std::size_t>(hit ? hits.mesh[slot] : 0);
-  SeenPoint point;
-  std::uint32_t surface = 0;
-  std::uint32_t triangle = 0;
-  if (hit) {
-    surface = static_cast<std::uint32_t>(mesh);
-    triangle = hits.triangle[slot];
-    if (const LinearColor* color = met.ColorOf(surface, triangle)) return *color;
-    point = MeshPoint(mesh, triangle, {hits.u[slot], hits.v[slot]},
-                      origin + hits.distance[slot] * through);
-  } else {
-    // a part of the room has six sides at the most
-    point = RoomPoint(origin, through);
-    surface = point.part;
-    triangle = static_cast<std::uint32_t>(3 + point.normal.dot(Eigen::Vector3f(1, 2, 3)));
-    if (const LinearColor* color = met.ColorOf(surface, triangle)) return *color;
-  }
-  if (point.normal.dot(through) > 0) point.normal = -point.normal;
-  if (const LinearColor* near = ColorNear(point, pixel.x(), pixel.y())) {
-    met.Keep(surface, triangle, near);
-    return *near;
-  }
-  point.view = -through.normalized();
-  return Shade(point, light_[image_.At(pixel.x(), pixel.y())]);
-}
-
-// The colour of the pixel around this one that sees most nearly the same; null: none does.
-const LinearColor* RgbRenderer::ColorNear(const SeenPoint& point, int column, int row) const {
-  const LinearColor* nearest = nullptr;
-  float best = kSameNormal;
-  for (int y = std::max(0, row - 1); y <= std::min(image_.height - 1, row + 1); ++y) {
-    for (int x = std::max(0, column - 1); x <= std::min(image_.width - 1, column + 1); ++x) {
-      const SeenPoint& other = image_.points[image_.At(x, y)];
-      if (other.part != point.part) continue;
-      const float same = other.normal.dot(point.normal);
-      if (same <= best) continue;
-      best = same;
-      nearest = &colors_[image_.At(x, y)];
-    }
-  }
-  return nearest;
 }
 
 }  // namespace doorforge

@@ -30,8 +30,8 @@ enum class PicturePart { kAll, kSurfaces };
 /// Colours what a camera sees: lamps with soft shadows, light from all around that corners keep
 /// out, highlights, mirrors, glass, and the camera's own faults.
 ///
-/// Pixels whose neighbours see something else are what `samples` rays meet; others would meet the
-/// same with each. What reaches a pixel of light is found by ShareLight().
+/// Pixels whose neighbours see something else, and whose corners do, are what `samples` rays meet;
+/// others would meet the same with each. What reaches a pixel of light is found by ShareLight().
 class RgbRenderer {
  public:
   /// `geometry` is rendered from whenever Render() is called, its links where they were last put.
@@ -79,6 +79,8 @@ class RgbRenderer {
       return world_from_mesh.transpose() * (point - origin);
     }
   };
+  static constexpr int kCornerTile = 4;  // corners a side whose rays are cast together
+  static_assert(kCornerTile * kCornerTile == RayPacket::kSize);
   // One of the rays through an edge pixel.
   struct EdgeSample {
     const PacketHits& hits;
@@ -101,7 +103,18 @@ class RgbRenderer {
   LinearColor RoomLight(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction);
   LinearColor Behind(const SeenPoint& pane);
   void ShadePixels();
+  // smooth_edges.cpp
   void SmoothEdges(const CameraModel& camera);
+  bool IsWantedEdge(int column, int row) const;
+  bool HasOneSurface(int column, int row) const;
+  void FindCorners(const PinholeDirections& directions);
+  void FindCornersOfTile(const PinholeDirections& directions, const Eigen::Vector2i& left_top,
+                         const std::vector<std::uint8_t>& is_wanted);
+  SeenPoint PointMet(const EdgeSample& sample) const;
+  std::size_t CornerAt(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width + 1) +
+           static_cast<std::size_t>(x);
+  }
   LinearColor EdgeColor(const PinholeDirections& directions, int column, int row);
   LinearColor SampleColor(const EdgeSample& sample, const Eigen::Vector2i& pixel, MetSurfaces& met);
   const LinearColor* ColorNear(const SeenPoint& point, int column, int row) const;
@@ -122,6 +135,7 @@ class RgbRenderer {
   PointImage image_;
   std::vector<LightShares> light_;
   std::vector<LinearColor> colors_;
+  std::vector<SeenPoint> corners_;  // of pixels, row by row; those alone that an edge pixel has
 };
 
 }  // namespace doorforge

@@ -9,11 +9,19 @@ namespace {
 
 constexpr std::uint8_t kSeamRight = 1;
 constexpr std::uint8_t kSeamBelow = 2;
+constexpr float kCrease = 0.97F;
+
+}  // namespace
+
+bool LooksTheSame(const SeenPoint& a, const SeenPoint& b) {
+  return a.part == b.part && a.normal.dot(b.normal) >= kCrease &&
+         std::fabs((b.position - a.position).dot(a.face)) <= kSamePlane;
+}
+
+namespace {
 
 bool SeesTheSame(const SeenPoint& a, const SeenPoint& b) {
-  constexpr float kCrease = 0.97F;
-  return a.part == b.part && a.face.dot(b.face) >= kCrease && a.normal.dot(b.normal) >= kCrease &&
-         std::fabs((b.position - a.position).dot(a.face)) <= kSamePlane;
+  return LooksTheSame(a, b) && a.face.dot(b.face) >= kCrease;
 }
 
 }  // namespace

@@ -26,6 +26,9 @@ struct SeenPoint {
   std::uint16_t part = 0;  ///< Index of its material.
 };
 
+/// Whether two points, neighbours in a picture, lie on one surface without a crease between them.
+bool LooksTheSame(const SeenPoint& a, const SeenPoint& b);
+
 /// Rays begin so far off a surface [m].
 inline constexpr float kSkin = 5e-4F;
 /// Cosine between normals of neighbours that share what they find of light.

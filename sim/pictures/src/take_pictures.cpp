@@ -21,10 +21,14 @@ namespace {
 
 constexpr std::size_t kLookBefore = 1000000;  // its noise is none of an episode's looks
 
+RayIsa IsaOf(const PicturesConfig& config) {
+  return config.instructions == PictureInstructions::kAvx512 ? RayIsa::kAvx512 : DefaultRayIsa();
+}
+
 class Photographer {
  public:
   Photographer(const PictureScene& scene, const PicturesConfig& config)
-      : scene_(scene), config_(config), depth_(PictureMeshesOf(scene)) {
+      : scene_(scene), config_(config), depth_(PictureMeshesOf(scene), IsaOf(config)) {
     const auto& streams = config.streams;
     shows_rgb_ = std::ranges::find(streams, PictureStream::kRgb) != streams.end();
     if (shows_rgb_ || config.cloud_rgb) rgb_.emplace(scene, config, depth_.scene());
@@ -65,7 +69,7 @@ class Photographer {
 
   ColoredLook LookOfBefore(const RememberedLook& before) const {
     const PictureScene empty{before.scene, scene_.door, scene_.robot, false, before.as_calibrated};
-    DepthCamera depth(PictureMeshesOf(empty));
+    DepthCamera depth(PictureMeshesOf(empty), IsaOf(config_));
     const SurfaceImage surfaces =
         depth.RenderSurfaces(before.scene.camera, LinkPosesOf(before.snapshot));
     return {&before.depth, ViewOf(before.as_calibrated),

@@ -85,7 +85,7 @@ double LinearOf(int srgb) {
   return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
 
-// Of each value of the small picture, what the sixteen there average to in one four times as wide,
+// A value of the small picture has sixteen in one four times as wide; this is what they average to,
 // and how far they lie apart, in linear light.
 struct Averaged {
   double mean = 0;

@@ -104,6 +104,17 @@ TEST(Checkpoint, WhatTheNetworksAreToldComesBackAndIsWhatItWasInEarlierRecords) 
             (NetworkView{ViewFrame::kWorld, StateKind::kJoints, 0, 1, 0}));
 }
 
+TEST(Checkpoint, ColoursOnAnotherScaleAreNotThoseThatThePolicyLearned) {
+  const auto made = testing::MakeSyntheticSamples(1, 3);
+  NetworkView view;
+  view.colors = true;
+  auto json = NormalisationToJson(MeasureNormalisation(made.samples, view));
+  EXPECT_TRUE(NormalisationFromJson(json, "policy.json").view.colors);
+  json.erase("color_scale");  // as in the first policies with colours
+  ExpectError(ErrorCode::kFormat, "policy.json.color_scale",
+              [&] { NormalisationFromJson(json, "policy.json"); });
+}
+
 TEST(Checkpoint, AGraspComesBackAsItWasWrittenAndIsNoOtherStagesPolicy) {
   const fs::path folder = EmptyFolder("grasp");
   const auto made = testing::MakeSyntheticSamples(1, 3);

@@ -116,6 +116,25 @@ TEST(TrainStage, GivesTheSameBitsOfMirrorImagesForAnyInterruption) {
   ExpectEqual(TrainStage(train.samples, validation.samples, config, hooks), whole);
 }
 
+TEST(TrainStage, GivesTheSameBitsOfOtherColorsForAnyInterruption) {
+  auto train = testing::MakeSyntheticSamples(1, 20);
+  std::vector<std::uint8_t> rgb(train.samples.front().cloud.size());
+  for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = static_cast<std::uint8_t>(7 * i % 256);
+  for (TrainingSample& sample : train.samples) sample.rgb = rgb;
+  TrainConfig config = SmallConfig();
+  config.colors = true;
+  const TrainerState whole = TrainStage(train.samples, {}, config, {});
+  TrainHooks hooks;
+  hooks.threads = 3;
+  hooks.geometry_cache_bytes = 0;
+  hooks.stop = [count = 0]() mutable { return ++count == 3; };
+  hooks.resume = TrainStage(train.samples, {}, config, hooks);
+  hooks.stop = nullptr;
+  ExpectEqual(TrainStage(train.samples, {}, config, hooks), whole);
+  config.augment_colors = false;
+  EXPECT_NE(TrainStage(train.samples, {}, config, {}).networks.actor, whole.networks.actor);
+}
+
 // Threads in place of processes.
 class Meeting {
  public:

@@ -169,7 +169,6 @@ void AbstractSet(const PackedEncoder& encoder, const CloudGeometry& geometry, st
 
 using Floats = std::vector<float>;
 
-// A colour enters from -0.5 to 0.5: about as far as positions reach.
 void FillPointRows(const PackedEncoder& encoder, const CloudGeometry& geometry, Floats& rows) {
   const bool reads_colors = encoder.reads_colors();
   Require(!reads_colors || geometry.rgb.size() == geometry.xyz.size(), ErrorCode::kInvalidArgument,
@@ -182,7 +181,7 @@ void FillPointRows(const PackedEncoder& encoder, const CloudGeometry& geometry, 
     std::copy_n(geometry.xyz.data() + i, 3, row + 3);
     if (!reads_colors) continue;
     for (std::size_t k = 0; k < 3; ++k)
-      row[6 + k] = static_cast<float>(geometry.rgb[i + k]) / 255.0F - 0.5F;
+      row[6 + k] = ColorInput(geometry.rgb[i + k]);
   }
 }
 

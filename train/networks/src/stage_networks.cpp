@@ -214,6 +214,12 @@ NetworkView ViewFromJson(const Json& json, const std::string& path) {
     view.remembered_finer = ValueOf<int>(json, "remembered_finer", path);
   if (json.contains("near_points")) view.near_points = ValueOf<int>(json, "near_points", path);
   if (json.contains("colors")) view.colors = ValueOf<bool>(json, "colors", path);
+  Require(!view.colors || (json.contains("color_scale") &&
+                           ValueOf<double>(json, "color_scale", path) == kColorScale),
+          ErrorCode::kFormat,
+          path +
+              ".color_scale: this policy was trained by a build that showed colours to the "
+              "encoders on another scale; train it again");
   return view;
 }
 
@@ -324,8 +330,10 @@ Json NormalisationToJson(const StageNormalisation& normalisation) {
             {"hand_m", NormaliserToJson(normalisation.hand_m)},
             {"base_m", NormaliserToJson(normalisation.base_m)},
             {"score_rad", NormaliserToJson(normalisation.angle_gain_rad)}};
-  if (normalisation.view.colors)
-    json["colors"] = true;  // others are as from before there was a choice
+  if (normalisation.view.colors) {  // others are as from before there was a choice
+    json["colors"] = true;
+    json["color_scale"] = kColorScale;
+  }
   return json;
 }
 

@@ -12,6 +12,7 @@
 #include "doorforge/policy/grasp_rating.h"
 #include "doorforge/policy/orientation_sampling.h"
 
+#include "color_augmentation.h"
 #include "grasp_augmentation.h"
 #include "stage_task.h"
 
@@ -65,6 +66,7 @@ class GraspTask : public StageTask {
     ParallelFor(found.size(), input_.threads, [&](std::size_t i) {
       found[i] = Augmented(found[i], AugmentationOf(batch, batch.indices[i]));
     });
+    Recolor(*input_.config, batch, input_.threads, found);
     return found;
   }
 

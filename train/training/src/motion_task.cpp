@@ -7,6 +7,7 @@
 #include "doorforge/core/rng.h"
 #include "doorforge/networks/hand_frame.h"
 
+#include "color_augmentation.h"
 #include "grasp_augmentation.h"
 #include "sampler.h"
 #include "stage_task.h"
@@ -47,6 +48,7 @@ class MotionTask : public StageTask {
     ParallelFor(found.size(), input_.threads, [&](std::size_t i) {
       if (IsMirrored(batch, batch.indices[i])) found[i] = Augmented(found[i], kSideways);
     });
+    Recolor(*input_.config, batch, input_.threads, found);
     return found;
   }
 

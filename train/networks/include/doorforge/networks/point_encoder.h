@@ -23,6 +23,16 @@ struct PackedEncoder;
 /// Length of the feature that the encoder gives a point.
 inline constexpr int kFeatureSize = 128;
 
+/// How far a colour's channel reaches as an input, from black to white: no farther than the points
+/// of the first ball lie apart. Where it was ten times as far, what a colour says drowned what a
+/// place says.
+inline constexpr double kColorScale = 0.1;
+
+/// A channel of a point's colour as it enters, around 0.
+inline float ColorInput(std::uint8_t channel) {
+  return static_cast<float>(kColorScale) * (static_cast<float>(channel) / 255.0F - 0.5F);
+}
+
 /// PointNet++ for segmentation, single-scale (Qi et al. 2017; UniDoorManip's sizes): four set
 /// abstractions, four feature propagations, one dense layer, all with bias and ReLU. A point's
 /// input feature is its position, and with EncoderKind::colors its colour; the first set

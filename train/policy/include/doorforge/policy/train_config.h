@@ -71,6 +71,9 @@ struct TrainConfig {
   double point_scale = 1;
   /// The encoders read the colours of points, which the data set must have then.
   bool colors = false;
+  /// With `colors`, on every step each cloud is shown in other colours than it had: hues turned,
+  /// contrast lowered, brightness moved at random.
+  bool augment_colors = true;
   /// The critic learns on every n-th step only; 1: on all.
   int critic_interval = 1;
   ScoreLoss score_loss = ScoreLoss::kSquared;
@@ -128,7 +131,10 @@ struct TrainConfig {
     visit("context_m", self.crop_radius_m);
     visit("zoom", self.point_scale);
     // records from before there was a choice stay as they are, byte by byte
-    if (!std::is_const_v<Self> || self.colors) visit("colors", self.colors);
+    if (!std::is_const_v<Self> || self.colors) {
+      visit("colors", self.colors);
+      visit("augment_colors", self.augment_colors);
+    }
     visit("encoder_norm", self.encoder_norm);
     visit("device", self.device);
     visit("validation_share", self.validation_share);

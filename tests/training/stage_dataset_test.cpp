@@ -127,14 +127,24 @@ TEST(StageDataset, SaysOfTheHandlesDecisionsWhichTurnedIt) {
   EXPECT_TRUE(ReadStageDataset({{other}}, "open", 0.25).turned_train.empty());
 }
 
-// Episodes of doors hinged left and right in turn; or the mirror images of the latter, as those of
-// doors hinged left.
-fs::path WriteBothSides(const std::string& name, const std::string& stage, bool are_mirrored) {
+// In which every other episode of a data set is seen.
+enum class Mirror { kSideways, kUpright };
+
+template <class T>
+T InMirror(Mirror mirror, T seen) {
+  return mirror == Mirror::kSideways ? MirroredSideways(std::move(seen))
+                                     : MirroredUpright(std::move(seen));
+}
+
+// Episodes of usual doors and of their mirror images in turn, the record saying so; or all shown as
+// usual ones.
+fs::path WriteBoth(Mirror mirror, const std::string& name, const std::string& stage,
+                   bool are_mirrored) {
   const fs::path folder = EmptyDataset(name);
   auto made = testing::MakeSyntheticSamples(5, 4 * kDecisions);
   ShardWriter writer(folder / stage / "train", {0, stage, "train", "config"});
   for (std::size_t e = 0; e < 4; ++e) {
-    const bool is_right = e % 2 == 1;
+    const bool is_other = e % 2 == 1;
     Episode episode;
     episode.outcome = EpisodeOutcome::kOpened;
     for (std::size_t t = 0; t < kDecisions; ++t) {
@@ -146,16 +156,19 @@ fs::path WriteBothSides(const std::string& name, const std::string& stage, bool 
       decision.action = sample.action;
       decision.executed = sample.executed;
       decision.angle_gain_rad = sample.angle_gain_rad;
-      if (is_right && are_mirrored) {
-        decision.cloud = MirroredSideways(std::move(decision.cloud));
-        decision.proprioception = MirroredSideways(decision.proprioception);
-        decision.action = MirroredSideways(decision.action);
-        decision.executed = MirroredSideways(decision.executed);
+      if (is_other && are_mirrored) {
+        decision.cloud = InMirror(mirror, std::move(decision.cloud));
+        decision.proprioception = InMirror(mirror, decision.proprioception);
+        decision.action = InMirror(mirror, decision.action);
+        decision.executed = InMirror(mirror, decision.executed);
       }
       episode.decisions.push_back(decision);
     }
     nlohmann::ordered_json meta = EpisodeMetaToJson(episode);
-    if (is_right && !are_mirrored) meta["side"] = "right";
+    if (is_other && !are_mirrored) {
+      if (mirror == Mirror::kSideways) meta["side"] = "right";
+      if (mirror == Mirror::kUpright) meta["way"] = "other";
+    }
     writer.Add("ep" + std::to_string(100000 + e), kDecisions, EncodeEpisode(episode, meta, ""));
   }
   writer.Commit();
@@ -163,34 +176,58 @@ fs::path WriteBothSides(const std::string& name, const std::string& stage, bool 
   return folder;
 }
 
-TEST(StageDataset, DoorsHingedRightTeachWhatTheirMirrorImagesTeach) {
-  const fs::path right = WriteBothSides("hinged_right", "open", false);
-  const fs::path mirrored = WriteBothSides("in_the_mirror", "open", true);
-  const auto learned = [](const fs::path& folder, bool shows_right_mirrored) {
-    const StageDataset dataset =
-        ReadStageDataset({{folder}}, "open", 0, {false, shows_right_mirrored});
-    TrainConfig config;
-    config.epochs = 1;
-    config.batch_size = 12;
-    config.warmup_steps = 0;
-    return TrainStage(dataset.train, {}, config, {}).networks.actor;
-  };
-  const std::vector<float> shown = learned(right, true);
-  EXPECT_EQ(shown, learned(mirrored, true));
-  EXPECT_NE(shown, learned(right, false));
+// The actor that one step on all of a data set's samples makes.
+std::vector<float> Learned(const fs::path& folder, const std::string& stage, bool shows_mirrored) {
+  const StageDataset dataset = ReadStageDataset({{folder}}, stage, 0, {false, shows_mirrored});
+  TrainConfig config;
+  config.epochs = 1;
+  config.batch_size = 12;
+  config.warmup_steps = 0;
+  return TrainStage(dataset.train, {}, config, {}).networks.actor;
 }
 
-TEST(StageDataset, HandlesOfDoorsHingedRightAreTurnedAsTheirMirrorImagesAre) {
-  const fs::path right = WriteBothSides("handle_right", "handle", false);
-  const fs::path mirrored = WriteBothSides("handle_in_the_mirror", "handle", true);
-  const auto shown = ReadStageDataset({{right}}, "handle", 0, {false, true}).turned_train;
+TEST(StageDataset, DoorsHingedRightTeachWhatTheirMirrorImagesTeach) {
+  const fs::path right = WriteBoth(Mirror::kSideways, "hinged_right", "open", false);
+  const fs::path mirrored = WriteBoth(Mirror::kSideways, "in_the_mirror", "open", true);
+  const std::vector<float> shown = Learned(right, "open", true);
+  EXPECT_EQ(shown, Learned(mirrored, "open", true));
+  EXPECT_NE(shown, Learned(right, "open", false));
+}
+
+TEST(StageDataset, HandlesThatUnlockTheOtherWayTeachWhatTheirMirrorImagesTeach) {
+  const fs::path reversed = WriteBoth(Mirror::kUpright, "reversed", "handle", false);
+  const fs::path mirrored = WriteBoth(Mirror::kUpright, "upside_down", "handle", true);
+  const std::vector<float> shown = Learned(reversed, "handle", true);
+  EXPECT_EQ(shown, Learned(mirrored, "handle", true));
+  EXPECT_NE(shown, Learned(reversed, "handle", false));
+}
+
+TEST(StageDataset, PushedDoorsAreNotShownUpsideDown) {
+  const fs::path pushed = WriteBoth(Mirror::kUpright, "pushed", "open", false);
+  const StageDataset shown = ReadStageDataset({{pushed}}, "open", 0, {false, true});
+  EXPECT_EQ(shown.train[kDecisions].way, MotionWay::kOther);
+  EXPECT_FALSE(shown.train[kDecisions].is_upside_down);
+}
+
+void ExpectTurnsOfMirrorImages(Mirror mirror, const std::string& name) {
+  const fs::path other = WriteBoth(mirror, "handle_" + name, "handle", false);
+  const fs::path mirrored = WriteBoth(mirror, "handle_as_usual_" + name, "handle", true);
+  const auto shown = ReadStageDataset({{other}}, "handle", 0, {false, true}).turned_train;
   const auto expected = ReadStageDataset({{mirrored}}, "handle", 0).turned_train;
   ASSERT_EQ(shown.size(), expected.size());
   for (std::size_t i = 0; i < shown.size(); ++i)
     for (std::size_t k = 0; k < shown[i].motion.size(); ++k)
       EXPECT_NEAR(shown[i].motion[k], expected[i].motion[k], 1e-5) << i << ' ' << k;
-  const auto as_it_is = ReadStageDataset({{right}}, "handle", 0).turned_train;
-  EXPECT_GT(std::abs(as_it_is[4].motion[10] - shown[4].motion[10]), 1e-3);
+  const auto as_it_is = ReadStageDataset({{other}}, "handle", 0).turned_train;
+  double apart = 0;
+  for (std::size_t k = 0; k < as_it_is[4].motion.size(); ++k)
+    apart += std::abs(as_it_is[4].motion[k] - shown[4].motion[k]);
+  EXPECT_GT(apart, 1e-3);
+}
+
+TEST(StageDataset, HandlesOfOtherDoorsAreTurnedAsTheirMirrorImagesAre) {
+  ExpectTurnsOfMirrorImages(Mirror::kSideways, "right");
+  ExpectTurnsOfMirrorImages(Mirror::kUpright, "reversed");
 }
 
 // One episode with three decisions, the last of which brought the handle to 34 degrees and back,

@@ -6,10 +6,19 @@
 
 namespace doorforge {
 
+namespace {
+
+void TurnSign(std::vector<float>& xyz, std::size_t axis) {
+  for (std::size_t i = axis; i < xyz.size(); i += 3) xyz[i] = -xyz[i];
+}
+
+}  // namespace
+
 std::span<const float> ShownCloud(const TrainingSample& sample, std::vector<float>& storage) {
-  if (!sample.is_mirrored) return sample.cloud;
+  if (!sample.is_mirrored && !sample.is_upside_down) return sample.cloud;
   storage.assign(sample.cloud.begin(), sample.cloud.end());
-  for (std::size_t y = 1; y < storage.size(); y += 3) storage[y] = -storage[y];
+  if (sample.is_mirrored) TurnSign(storage, 1);
+  if (sample.is_upside_down) TurnSign(storage, 2);
   return storage;
 }
 
@@ -46,6 +55,16 @@ TrainingSample WithoutCloudMirrored(const TrainingSample& sample) {
 TrainingSample InMirror(const TrainingSample& sample) {
   TrainingSample mirrored = WithoutCloudMirrored(sample);
   mirrored.is_mirrored = !sample.is_mirrored;
+  return mirrored;
+}
+
+TrainingSample UpsideDown(const TrainingSample& sample) {
+  TrainingSample mirrored = sample;
+  mirrored.proprioception = MirroredUpright(sample.proprioception);
+  mirrored.action = MirroredUpright(sample.action);
+  mirrored.executed = MirroredUpright(sample.executed);
+  mirrored.way = Opposite(sample.way);
+  mirrored.is_upside_down = !sample.is_upside_down;
   return mirrored;
 }
 

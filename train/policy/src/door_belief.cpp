@@ -10,7 +10,7 @@
 namespace doorforge {
 namespace {
 
-constexpr double kReversedShare = 0.15;       // of handles
+constexpr double kReversedShare = 0.3;        // of handles
 constexpr double kPushedShare = 0.25;         // of doors
 constexpr double kForeignPushedShare = 0.01;  // of those that are nothing like those learned
 constexpr double kRightFails = 0.05;          // the chance that a right guess leads nowhere

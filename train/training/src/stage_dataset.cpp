@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <string_view>
 
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
@@ -105,9 +107,17 @@ HingeSide SideIn(const nlohmann::ordered_json& meta, const std::string& path) {
   return *side;
 }
 
-bool IsShownMirrored(const nlohmann::ordered_json& meta, const std::string& path,
-                     const SampleOptions& options) {
-  return options.shows_right_mirrored && SideIn(meta, path) == HingeSide::kRight;
+// What MirroringPolicy shows of an episode's scene.
+struct ShownMirrors {
+  bool sideways = false;
+  bool upside_down = false;
+};
+
+ShownMirrors MirrorsOf(const nlohmann::ordered_json& meta, const std::string& path,
+                       std::string_view stage, const SampleOptions& options) {
+  if (!options.shows_mirrored || FamilyOf(stage) == NetworkFamily::kGrasp) return {};
+  const bool turns = stage == NameOf(Stage::kHandle) && meta.contains("way");
+  return {SideIn(meta, path) == HingeSide::kRight, turns && WayIn(meta, path) == MotionWay::kOther};
 }
 
 // Episodes [begin, end) of a stage's split.
@@ -136,7 +146,7 @@ std::vector<TurnedExample> TurnedExamplesOf(const EpisodeRange& range,
                 " times, expected those of " + std::to_string(arrays.decisions) + " decisions");
     const double done = episode.scene.latch.handle_done_angle_rad - kRounding;
     const auto executed = arrays.executed.empty() ? arrays.action : arrays.executed;
-    const bool is_mirrored = IsShownMirrored(meta, path, options);
+    const ShownMirrors mirrors = MirrorsOf(meta, path, range.stage, options);
     const auto proprioception = [&](std::size_t t) {
       return RowOf<std::tuple_size_v<Proprioception>>(arrays.proprio, t);
     };
@@ -146,8 +156,10 @@ std::vector<TurnedExample> TurnedExamplesOf(const EpisodeRange& range,
       const bool turned = next < arrays.decisions
                               ? static_cast<double>(arrays.joints[2 * next + 1]) >= done
                               : WentOn(episode);
-      const HandMotion motion = HandMotionOf(proprioception(0), proprioception(t), action);
-      examples.push_back({is_mirrored ? MirroredSideways(motion) : motion, turned});
+      HandMotion motion = HandMotionOf(proprioception(0), proprioception(t), action);
+      if (mirrors.sideways) motion = MirroredSideways(motion);
+      if (mirrors.upside_down) motion = MirroredUpright(motion);
+      examples.push_back({motion, turned});
     }
   }
   return examples;
@@ -201,10 +213,10 @@ std::vector<TrainingSample> SamplesOf(const EpisodeRange& range, const SampleOpt
     const nlohmann::ordered_json meta = reader.Meta(i);
     AddWhatTheRecordSays(meta, path, added);
     if (options.colors) AddColors(reader, i, added);
-    if (is_grasp)
-      samples.back().approach = ApproachOf(reader, i);
-    else if (IsShownMirrored(meta, path, options))
-      std::ranges::transform(added, added.begin(), internal::InMirror);
+    if (is_grasp) samples.back().approach = ApproachOf(reader, i);
+    const ShownMirrors mirrors = MirrorsOf(meta, path, range.stage, options);
+    if (mirrors.sideways) std::ranges::transform(added, added.begin(), internal::InMirror);
+    if (mirrors.upside_down) std::ranges::transform(added, added.begin(), internal::UpsideDown);
   }
   return samples;
 }

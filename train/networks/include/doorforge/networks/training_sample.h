@@ -39,6 +39,7 @@ struct TrainingSample {
   /// The sample is of the mirror image of its scene (mirror.h): all of it says so but the cloud,
   /// which is not owned. ShownCloud() is the mirror image's.
   bool is_mirrored = false;
+  bool is_upside_down = false;  ///< Likewise in a level mirror, see MirroredUpright().
 };
 
 /// The points that a network is shown: the sample's cloud, or its mirror image, kept in `storage`.

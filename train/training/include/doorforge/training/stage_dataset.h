@@ -21,10 +21,11 @@ class DatasetReader;
 /// What samples are read as.
 struct SampleOptions {
   bool colors = false;  ///< Samples have the colours of their points as well.
-  /// Decisions of the stages "handle" and "open" at doors hinged right are those of the mirror
-  /// image, which MirroringPolicy shows of such doors. No sense where a network reads the arm's
+  /// Decisions are those of the mirror image that MirroringPolicy shows: at the stages "handle" and
+  /// "open" of doors hinged right; at the stage "handle", in a level mirror, of handles that unlock
+  /// the other way, whose way is the usual one then. No sense where a network reads the arm's
   /// joints, since the mirror image of an arm is another arm.
-  bool shows_right_mirrored = false;
+  bool shows_mirrored = false;
 };
 
 /// A stage's samples of one or more data sets. Clouds stay in the shards' memory maps, so the

@@ -65,5 +65,16 @@ TEST(OpeningExpert, PressesTheHandleUntilTheDoorIsAjarThenLetsItGo) {
   EXPECT_NEAR(press_of(0.3), 0, 1e-6);
 }
 
+TEST(OpeningExpert, DoesNotLetAHandleBackThatWouldLockTheOpenDoor) {
+  OpeningExpert expert;
+  expert.Reset();
+  for (const double hinge_rad : {0.0, 0.1, 0.3, 0.7}) {
+    Observation observation = ObservedDoor(hinge_rad);
+    observation.privileged.door.relatches = true;
+    const Eigen::Vector3d up = expert.Act(observation).world_from_hand_rotation.col(2);
+    EXPECT_NEAR(std::acos(std::clamp(up.z(), -1.0, 1.0)), 0.25, 1e-6) << hinge_rad;
+  }
+}
+
 }  // namespace
 }  // namespace doorforge

@@ -18,6 +18,9 @@ struct DoorFacts {
   HingeSide hinge_side = HingeSide::kLeft;
   /// Around all meshes of the handle, in the handle's frame [m]: x out of the leaf, z up.
   Eigen::AlignedBox3d handle_box;
+  /// An open door, too, is locked where it stands as soon as the handle goes back, see
+  /// LatchProperties::relatch.
+  bool relatches = false;
 };
 DoorFacts FactsOf(const DoorAsset& door);
 

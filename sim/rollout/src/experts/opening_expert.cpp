@@ -43,7 +43,7 @@ Action OpeningExpert::Act(const Observation& observation) {
     handle_target_rad_ = now.handle_rad + config_.press_rad;
     pushes_ = IsPushed(now);
   }
-  if (now.hinge_rad > config_.ajar_rad)
+  if (now.hinge_rad > config_.ajar_rad && !now.door.relatches)
     handle_target_rad_ = std::max(0.0, handle_target_rad_ - config_.relax_rad_per_action);
 
   const double reach = std::max(DistanceToAxis(now.world_from_hand.translation(),

@@ -10,7 +10,8 @@ struct OpeningExpertConfig {
   double step_m = 0.055;         ///< Arc that the hand is led ahead by one action.
   double least_turn_rad = 0.05;  ///< Wide doors get a longer arc, so that 25 actions are enough.
   double first_step_m = 0.02;    ///< The first action goes so far; it grows to step_m over four.
-  /// The handle stays turned, pressed this much beyond its angle, until the door is ajar.
+  /// The handle stays turned, pressed this much beyond its angle, until the door is ajar; to the
+  /// end where it would lock the open door, see DoorFacts::relatches.
   double press_rad = 0.25;
   double ajar_rad = 0.0873;             ///< 5 degrees.
   double relax_rad_per_action = 0.133;  ///< 0.8 rad/s.

@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "doorforge/schemas/door_asset.h"
+#include "doorforge/schemas/door_facts.h"
+
 namespace doorforge {
 namespace {
 
@@ -74,6 +77,16 @@ TEST(OpeningExpert, DoesNotLetAHandleBackThatWouldLockTheOpenDoor) {
     const Eigen::Vector3d up = expert.Act(observation).world_from_hand_rotation.col(2);
     EXPECT_NEAR(std::acos(std::clamp(up.z(), -1.0, 1.0)), 0.25, 1e-6) << hinge_rad;
   }
+}
+
+TEST(DoorFacts, SayWhetherTheLatchLocksAnOpenDoor) {
+  DoorAsset door;
+  door.latch.type = LatchType::kEffort;
+  EXPECT_FALSE(FactsOf(door).relatches);
+  door.latch.relatch = true;
+  EXPECT_TRUE(FactsOf(door).relatches);
+  door.latch.type = LatchType::kBolt;  // catches as the leaf closes, and not before
+  EXPECT_FALSE(FactsOf(door).relatches);
 }
 
 }  // namespace

@@ -180,8 +180,7 @@ void FillPointRows(const PackedEncoder& encoder, const CloudGeometry& geometry, 
     std::copy_n(geometry.xyz.data() + i, 3, row);
     std::copy_n(geometry.xyz.data() + i, 3, row + 3);
     if (!reads_colors) continue;
-    for (std::size_t k = 0; k < 3; ++k)
-      row[6 + k] = ColorInput(geometry.rgb[i + k]);
+    for (std::size_t k = 0; k < 3; ++k) row[6 + k] = ColorInput(geometry.rgb[i + k]);
   }
 }
 

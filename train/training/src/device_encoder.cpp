@@ -65,8 +65,7 @@ void Append(const CloudGeometry& geometry, JoinedGeometry& joined) {
   for (std::size_t l = 0; l < 4; ++l) targets[l] = joined.skip[l].size();
   targets[4] = rows[4];
   joined.xyz.insert(joined.xyz.end(), geometry.xyz.begin(), geometry.xyz.end());
-  for (const std::uint8_t value : geometry.rgb)
-    joined.rgb.push_back(ColorInput(value));
+  for (const std::uint8_t value : geometry.rgb) joined.rgb.push_back(ColorInput(value));
   for (std::size_t l = 0; l < 4; ++l) {
     const CloudGeometry::Level& level = geometry.levels[l];
     const CloudGeometry::Upsampling& upsampling = geometry.upsampling[l];

@@ -25,7 +25,8 @@ TrainingSample WithoutCloudMirrored(const TrainingSample& sample);
 /// It does the same, and ShownCloud() gives the mirror image's points as well.
 TrainingSample InMirror(const TrainingSample& sample);
 
-/// Likewise in a level mirror, in which a handle unlocks the other way, see MirroredUpright().
+/// It does the same in a level mirror, in which a handle unlocks the other way, see
+/// MirroredUpright().
 TrainingSample UpsideDown(const TrainingSample& sample);
 
 /// The sample of a grasp with its contact told from point 0 of its cloud.

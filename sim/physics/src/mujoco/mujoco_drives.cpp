@@ -26,7 +26,7 @@ void MujocoDrives::Command(const RobotCommand& command, const JointVector& posit
   const int arm = robot_.arm_count();
   for (int i = 0; i < arm; ++i) limit_[i] = torques_ ? 0 : robot_.joint(i).effort;
   if (torques_) torque_.head(arm) = torques_->Torques(command, position, velocity);
-  if (drive_limits_) limit_.head(arm) = drive_limits_->At(position);
+  if (drive_limits_) limit_.head(arm) = command.effort_share * drive_limits_->At(position);
   const double finger = command.close_fingers ? scene_.physics.finger_force_n : kFingerOpenForce;
   limit_[robot_.left_finger()] = limit_[robot_.right_finger()] = finger;
 }

@@ -98,7 +98,7 @@ void RobotBody::CommandArm(const RobotCommand& command) {
     arm_motors_[static_cast<std::size_t>(i)]->setPositionTarget(command.arm_position[i],
                                                                 kArmPositionGain);
   if (!drive_limits_) return;
-  const ArmVector limits = drive_limits_->At(Positions());
+  const ArmVector limits = command.effort_share * drive_limits_->At(Positions());
   for (int i = 0; i < robot_.arm_count(); ++i)
     arm_motors_[static_cast<std::size_t>(i)]->setMaxAppliedImpulse(limits[i] * time_step_s_);
 }

@@ -27,15 +27,19 @@ EpisodeWorld::EpisodeWorld(const Scene& scene, const DoorAsset& door, const Robo
       observer_(observer),
       world_(scene, door, robot, start),
       facts_(FactsOf(door)),
-      memory_{HandController(robot, scene.world_from_robot_base, start)} {
+      memory_{HandController(robot, scene.world_from_robot_base, start),
+              ForceGovernor(scene.physics.hand_force_n)} {
   scene_.robot = {robot.name(), robot.sha256()};
 }
 
 void EpisodeWorld::Step(const RobotCommand& command) {
   if (diverged()) return;
-  world_.Step(command);
+  RobotCommand governed = command;
+  governed.effort_share = memory_.governor.share();
+  world_.Step(governed);
   ++memory_.step;
   if (diverged()) return;
+  if (memory_.governor.IsOn()) memory_.governor.Note(world_.Contacts().force_on_door_n.norm());
   memory_.peak_hinge_rad = std::max(memory_.peak_hinge_rad, state().hinge_rad);
   memory_.peak_handle_rad = std::max(memory_.peak_handle_rad, state().handle_rad);
   if (observer_ != nullptr && memory_.step % scene_.physics.steps_per_action == 0 &&

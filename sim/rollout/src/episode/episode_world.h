@@ -10,6 +10,8 @@
 #include "doorforge/schemas/policy.h"
 #include "doorforge/schemas/scene.h"
 
+#include "episode/force_governor.h"
+
 namespace doorforge::internal {
 
 /// A scene at work: the simulated world, what commands the hand in it, and where everything is. It
@@ -44,6 +46,7 @@ class EpisodeWorld {
   /// What changes in the course of the episode, besides the world itself.
   struct Memory {
     HandController controller;
+    ForceGovernor governor;
     long step = 0;
     double peak_hinge_rad = 0;
     double peak_handle_rad = 0;

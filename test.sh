@@ -21,4 +21,4 @@ if [ "$tidy" = yes ]; then
   git ls-files '*.cpp' | grep -v '^tests/\|^benchmarks/' | xargs -r -P "$(nproc)" -n 4 clang-tidy -p build/dev --quiet
 fi
 if [ $# -eq 0 ]; then scripts/sanitizers.sh; fi
-ctest --preset dev --parallel "$(nproc)" "$@"
+ctest --preset dev --parallel "$(nproc)" "$@" || { code=$?; scripts/failed_tests.py build/dev; exit "$code"; }

@@ -14,7 +14,7 @@ import unittest
 
 from programs import BINARY_DIR, ProgramTest, run
 
-PATIENCE = 120
+PATIENCE = 300  # beside a build or other tests everything takes longer
 
 
 def hidden(folder: pathlib.Path) -> list[str]:

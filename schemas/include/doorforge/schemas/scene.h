@@ -94,10 +94,11 @@ struct PhysicsConfig {
   RobotBase base = RobotBase::kSliders;
   ArmController controller = ArmController::kJointMotors;
   OperationalSpaceConfig operational_space = {};
-  /// What the hand may press the door with, beyond the squeeze of its fingers [N]; 0: as much as the
-  /// joints' efforts give. It limits the joint motors, beyond what moving the arm takes (DriveLimits
-  /// in sim/physics), and in episodes they yield while the force that a wrist would feel is greater
-  /// (ForceGovernor in sim/rollout). What an arm has in momentum as it strikes it cannot take back.
+  /// What the hand may press the door with, beyond the squeeze of its fingers [N]; 0: as much as
+  /// the joints' efforts give. It limits the joint motors, beyond what moving the arm takes
+  /// (DriveLimits in sim/physics), and in episodes they yield while the force that a wrist would
+  /// feel is greater (ForceGovernor in sim/rollout). What an arm has in momentum as it strikes it
+  /// cannot take back, so it comes to a handle and leaves it at 7 cm/s at most.
   double hand_force_n = 0;
   Simulator simulator = Simulator::kBullet;  ///< Written into files only where it is another.
 

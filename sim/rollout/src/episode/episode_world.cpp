@@ -12,6 +12,10 @@ namespace {
 
 constexpr double kPatience = 0.4;  // [s] for a hand whose commanded pose has arrived
 constexpr double kThere = 0.002;   // [m]
+// Of a hand whose force is limited: with half the momentum it strikes with half the force.
+// Retreating and approaching at 0.15 m/s, 46 reversed doors of the validation side were struck with
+// 455 N at most, at this speed with 193.
+constexpr double kGentleSpeed = 0.07;  // [m/s]
 
 }  // namespace
 
@@ -64,7 +68,8 @@ bool EpisodeWorld::MoveHand(const RigidTransform& world_from_hand, double speed_
   const double distance =
       (world_from_hand.translation() - controller().CommandedHand().translation()).norm();
   if (!(distance < limits().farthest_move_m)) return false;
-  controller().MoveHandTo(world_from_hand, distance / speed_m_s);
+  const double speed = memory_.governor.IsOn() ? std::min(speed_m_s, kGentleSpeed) : speed_m_s;
+  controller().MoveHandTo(world_from_hand, distance / speed);
   const int patience = StepsIn(kPatience);
   for (int waited = 0; waited < patience && !diverged();) {
     StepHand();

@@ -18,7 +18,7 @@ std::size_t BatchSize(std::size_t samples, const TrainConfig& config) {
   return std::min(samples, static_cast<std::size_t>(config.batch_size));
 }
 
-int PhasesOf(NetworkFamily family) { return family == NetworkFamily::kGrasp ? 2 : 1; }
+int PhasesOf(NetworkFamily family) { return family == NetworkFamily::kMotion ? 1 : 2; }
 
 int EpochsOfPhase(const TrainConfig& config, int phase) {
   const bool judges = config.family == NetworkFamily::kGrasp && phase == 0;

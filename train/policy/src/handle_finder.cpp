@@ -1,0 +1,280 @@
+// SPDX-FileCopyrightText: 2026 The doorforge authors
+// SPDX-License-Identifier: Apache-2.0
+#include "doorforge/policy/handle_finder.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include "doorforge/core/error.h"
+#include "doorforge/core/rng.h"
+#include "doorforge/networks/handle_points.h"
+#include "doorforge/networks/heads.h"
+#include "doorforge/networks/point_encoder.h"
+#include "doorforge/networks/point_operators.h"
+#include "doorforge/policy/policy_file.h"
+#include "doorforge/schemas/stage_content.h"
+
+namespace doorforge {
+namespace {
+
+constexpr float kLikely = 0.3F;      // a point from afar that may be a handle's
+constexpr float kPlaceM = 0.15F;     // what belongs to one place
+constexpr float kOfHandle = 0.5F;    // a point from near by that is a handle's
+constexpr float kAboutHandleM = 0.3F;  // what of the door says which way it faces
+constexpr float kInPlaneM = 0.006F;
+constexpr int kPlanes = 200;
+
+Eigen::Vector3f SeenAt(const std::vector<float>& xyz, std::size_t i) {
+  return {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
+}
+
+float Probability(float logit) { return 1.0F / (1.0F + std::exp(-logit)); }
+
+// Of a handle, of the window's points that were asked for.
+std::vector<float> ProbabilitiesOf(const PointEncoder& encoder, const internal::FinderHead& head,
+                                   const CloudGeometry& geometry) {
+  internal::HeadInputs inputs;
+  inputs.features = encoder.Forward(geometry).features;
+  inputs.size = static_cast<int>(inputs.features.size()) / kFeatureSize;
+  std::vector<float> probabilities = head.Score(inputs);
+  std::ranges::transform(probabilities, probabilities.begin(), Probability);
+  return probabilities;
+}
+
+std::vector<std::uint16_t> AllOf(std::size_t count) {
+  std::vector<std::uint16_t> all(count);
+  std::iota(all.begin(), all.end(), std::uint16_t{0});
+  return all;
+}
+
+// The place with the most that looks like a handle within reach; nothing where nothing does.
+std::optional<Eigen::Vector3f> LikeliestPlace(const std::vector<float>& xyz,
+                                              const std::vector<float>& probability) {
+  std::vector<std::size_t> likely;
+  for (std::size_t i = 0; i < probability.size(); ++i)
+    if (probability[i] > kLikely) likely.push_back(i);
+  if (likely.empty()) likely.push_back(static_cast<std::size_t>(std::distance(
+      probability.begin(), std::ranges::max_element(probability))));
+  float most = 0;
+  Eigen::Vector3f place = Eigen::Vector3f::Zero();
+  for (const std::size_t centre : likely) {
+    float sum = 0;
+    Eigen::Vector3f weighted = Eigen::Vector3f::Zero();
+    for (const std::size_t i : likely) {
+      if ((SeenAt(xyz, i) - SeenAt(xyz, centre)).norm() > kPlaceM) continue;
+      sum += probability[i];
+      weighted += probability[i] * SeenAt(xyz, i);
+    }
+    if (sum <= most) continue;
+    most = sum;
+    place = weighted / sum;
+  }
+  return most > 0 ? std::optional(place) : std::nullopt;
+}
+
+// What visible points within reach of the look take over from those of its points that were read.
+class NearestOf {
+ public:
+  NearestOf(const std::vector<float>& xyz, const std::vector<std::size_t>& read,
+            std::vector<float> probability)
+      : begin_(SeenAt(xyz, 0)), probability_(std::move(probability)) {
+    std::vector<float> chosen;
+    for (const std::size_t i : read)
+      chosen.insert(chosen.end(), xyz.begin() + static_cast<std::ptrdiff_t>(3 * i),
+                    xyz.begin() + static_cast<std::ptrdiff_t>(3 * i + 3));
+    columns_ = ToColumns(chosen, {0, 0, 0});
+  }
+
+  float At(const Eigen::Vector3f& point) const {
+    const NearestThree nearest = ThreeNearest(columns_, {point.x(), point.y(), point.z()});
+    float sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) sum += nearest.weight.at(k) * probability_[nearest.index.at(k)];
+    return sum;
+  }
+  const Eigen::Vector3f& begin() const { return begin_; }
+
+ private:
+  Eigen::Vector3f begin_;
+  std::vector<float> probability_;
+  PointColumns columns_;
+};
+
+Eigen::Vector3d Facing(const Eigen::Vector3d& normal) {
+  return normal.x() > 0 ? Eigen::Vector3d(-normal) : normal;
+}
+
+int CountInPlane(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& normal,
+                 float offset) {
+  int count = 0;
+  for (const Eigen::Vector3f& point : points)
+    count += std::abs(normal.dot(point) - offset) < kInPlaneM ? 1 : 0;
+  return count;
+}
+
+Eigen::Vector3d LeastSquaresNormal(const std::vector<Eigen::Vector3f>& points,
+                                   const Eigen::Vector3f& normal, float offset) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  int count = 0;
+  for (const Eigen::Vector3f& single : points) {
+    if (!(std::abs(normal.dot(single) - offset) < kInPlaneM)) continue;
+    const Eigen::Vector3d point = single.cast<double>();
+    mean += point;
+    squares += point * point.transpose();
+    ++count;
+  }
+  mean /= count;
+  const Eigen::Matrix3d covariance = squares / count - mean * mean.transpose();
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors().col(0);
+}
+
+}  // namespace
+
+Eigen::Vector3d DominantNormal(const std::vector<Eigen::Vector3f>& points) {
+  if (points.size() < 3) return -Eigen::Vector3d::UnitX();
+  Rng rng(1, "finder/planes");
+  const auto draw = [&] { return points[rng.Index(static_cast<std::uint32_t>(points.size()))]; };
+  int most = 0;
+  Eigen::Vector3f best = Eigen::Vector3f::Zero();
+  float best_offset = 0;
+  for (int i = 0; i < kPlanes; ++i) {
+    const Eigen::Vector3f a = draw();
+    const Eigen::Vector3f b = draw();
+    const Eigen::Vector3f c = draw();
+    const Eigen::Vector3f across = (b - a).cross(c - a);
+    if (across.norm() < 1e-6F) continue;
+    const Eigen::Vector3f normal = across.normalized();
+    const int count = CountInPlane(points, normal, normal.dot(a));
+    if (count <= most) continue;
+    most = count;
+    best = normal;
+    best_offset = normal.dot(a);
+  }
+  if (most < 3) return -Eigen::Vector3d::UnitX();
+  return Facing(LeastSquaresNormal(points, best, best_offset));
+}
+
+struct HandleFinder::Networks {
+  explicit Networks(StageNetworks from)
+      : networks(std::move(from)),
+        place_encoder(networks.actor_layout(), "encoder.", networks.actor, BestInstructionSet()),
+        place_head(networks.actor_layout(), networks.actor),
+        mask_encoder(networks.critic_layout(), "encoder.", networks.critic, BestInstructionSet()),
+        mask_head(networks.critic_layout(), networks.critic) {}
+
+  std::optional<Eigen::Vector3f> PlaceIn(const LabelledCloud& cloud) const {
+    const CloudGeometry geometry =
+        BuildGeometry(cloud, internal::PlaceWindow(cloud.xyz), AllOf(cloud.label.size()),
+                      BestInstructionSet());
+    return LikeliestPlace(cloud.xyz, ProbabilitiesOf(place_encoder, place_head, geometry));
+  }
+
+  NearestOf MaskOf(const LabelledCloud& cloud) const {
+    const CloudWindow window = internal::GraspWindow(networks.normalisation, cloud.xyz);
+    std::vector<std::size_t> all(cloud.label.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    const std::vector<std::size_t> inside = internal::PointsInWindow(cloud.xyz, window, all);
+    const std::vector<std::uint16_t> outputs(inside.begin(), inside.end());
+    const CloudGeometry geometry = BuildGeometry(cloud, window, outputs, BestInstructionSet());
+    return {cloud.xyz, inside, ProbabilitiesOf(mask_encoder, mask_head, geometry)};
+  }
+
+  float reach_m() const { return networks.normalisation.view.crop_radius_m; }
+
+  StageNetworks networks;
+  PointEncoder place_encoder;
+  internal::FinderHead place_head;
+  PointEncoder mask_encoder;
+  internal::FinderHead mask_head;
+};
+
+HandleFinder::HandleFinder(StageNetworks networks) {
+  Require(networks.family == NetworkFamily::kFind, ErrorCode::kInvalidArgument,
+          "finder: the networks are those of another stage");
+  networks_ = std::make_unique<const Networks>(std::move(networks));
+}
+
+HandleFinder::~HandleFinder() = default;
+HandleFinder::HandleFinder(HandleFinder&&) noexcept = default;
+HandleFinder& HandleFinder::operator=(HandleFinder&&) noexcept = default;
+
+std::optional<FoundHandle> HandleFinder::Find(const LabelledCloud& visible,
+                                              const SampleAbout& sample) const {
+  if (visible.xyz.empty()) return std::nullopt;
+  const auto place = networks_->PlaceIn(sample(SeenAt(visible.xyz, 0).cast<double>(), 0));
+  if (!place) return std::nullopt;
+  const auto extent_m = static_cast<double>(networks_->networks.normalisation.view.cloud_crop_radius_m);
+  const NearestOf mask = networks_->MaskOf(sample(place->cast<double>(), extent_m));
+  const std::size_t count = visible.xyz.size() / 3;
+  FoundHandle found;
+  found.is_handle.resize(count);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  int of_handle = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3f point = SeenAt(visible.xyz, i);
+    if ((point - mask.begin()).norm() > networks_->reach_m() || mask.At(point) < kOfHandle) continue;
+    found.is_handle[i] = true;
+    sum += point.cast<double>();
+    ++of_handle;
+  }
+  if (of_handle == 0) return std::nullopt;
+  found.middle_m = sum / of_handle;
+  std::vector<Eigen::Vector3f> about;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3f point = SeenAt(visible.xyz, i);
+    if (!found.is_handle[i] && (point - found.middle_m.cast<float>()).norm() < kAboutHandleM)
+      about.push_back(point);
+  }
+  found.approach = DominantNormal(about);
+  return found;
+}
+
+HandleFinder LoadHandleFinder(const std::filesystem::path& folder) {
+  return HandleFinder(ReadPolicy(folder, kFindStage).networks);
+}
+
+namespace {
+
+std::string_view BytesOf(const std::vector<float>& xyz, std::size_t point) {
+  return {reinterpret_cast<const char*>(&xyz[3 * point]), 3 * sizeof(float)};
+}
+
+std::uint8_t LabelOf(bool is_handle) {
+  return static_cast<std::uint8_t>(is_handle ? PointLabel::kHandle : PointLabel::kOther);
+}
+
+}  // namespace
+
+std::optional<GraspAction> FindingGrasp::Choose(const GraspObservation& seen) {
+  const std::optional<FoundHandle> found = finder_.Find(seen.visible, seen.sample);
+  if (!found) return std::nullopt;
+  GraspObservation shown = seen;
+  shown.approach = found->approach;
+  // points are known again by their coordinates, which sampling leaves as they are
+  std::unordered_map<std::string_view, std::uint8_t> label;
+  for (std::size_t i = 0; i < found->is_handle.size(); ++i) {
+    shown.visible.label[i] = LabelOf(found->is_handle[i]);
+    label[BytesOf(seen.visible.xyz, i)] = shown.visible.label[i];
+  }
+  shown.sample = [&](const Eigen::Vector3d& start, double crop_radius_m) {
+    LabelledCloud cloud = seen.sample(start, crop_radius_m);
+    for (std::size_t i = 0; i < cloud.label.size(); ++i) {
+      const auto known = label.find(BytesOf(cloud.xyz, i));
+      cloud.label[i] = known == label.end() ? LabelOf(false) : known->second;
+    }
+    return cloud;
+  };
+  return policy_->Choose(shown);
+}
+
+}  // namespace doorforge

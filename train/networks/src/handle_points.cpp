@@ -74,8 +74,7 @@ CloudWindow PlaceWindow(std::span<const float> xyz) {
   for (std::size_t i = 0; i < xyz.size(); ++i) mean.at(i % 3) += static_cast<double>(xyz[i]);
   CloudWindow window;
   for (std::size_t k = 0; k < 3; ++k)
-    window.centre.at(k) =
-        static_cast<float>(mean.at(k) / (static_cast<double>(xyz.size()) / 3));
+    window.centre.at(k) = static_cast<float>(mean.at(k) / (static_cast<double>(xyz.size()) / 3));
   return window;
 }
 

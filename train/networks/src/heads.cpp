@@ -137,7 +137,8 @@ std::vector<float> FinderHead::Score(const HeadInputs& inputs) const {
   std::vector<float> logits;
   logits.reserve(static_cast<std::size_t>(score.rows));
   for (int row = 0; row < score.rows; ++row)
-    logits.push_back(score.values[static_cast<std::size_t>(row) * static_cast<std::size_t>(score.stride)]);
+    logits.push_back(
+        score.values[static_cast<std::size_t>(row) * static_cast<std::size_t>(score.stride)]);
   return logits;
 }
 

@@ -23,8 +23,8 @@ using internal::Scratch;
 
 namespace {
 
-// The first number of each abstraction counts the position. The first layers of "sa1" and "fp1" have
-// kColors inputs more where colours are read. Features are multiples of the kernels' panels.
+// The first number of each abstraction counts the position. The first layers of "sa1" and "fp1"
+// have kColors inputs more where colours are read. Features are multiples of the kernels' panels.
 struct EncoderSizes {
   std::array<std::array<int, 4>, 4> abstraction;
   std::array<std::vector<int>, 4> propagation;

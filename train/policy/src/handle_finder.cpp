@@ -27,9 +27,9 @@
 namespace doorforge {
 namespace {
 
-constexpr float kLikely = 0.3F;      // a point from afar that may be a handle's
-constexpr float kPlaceM = 0.15F;     // what belongs to one place
-constexpr float kOfHandle = 0.5F;    // a point from near by that is a handle's
+constexpr float kLikely = 0.3F;        // a point from afar that may be a handle's
+constexpr float kPlaceM = 0.15F;       // what belongs to one place
+constexpr float kOfHandle = 0.5F;      // a point from near by that is a handle's
 constexpr float kAboutHandleM = 0.3F;  // what of the door says which way it faces
 constexpr float kInPlaneM = 0.006F;
 constexpr int kPlanes = 200;
@@ -63,8 +63,9 @@ std::optional<Eigen::Vector3f> LikeliestPlace(const std::vector<float>& xyz,
   std::vector<std::size_t> likely;
   for (std::size_t i = 0; i < probability.size(); ++i)
     if (probability[i] > kLikely) likely.push_back(i);
-  if (likely.empty()) likely.push_back(static_cast<std::size_t>(std::distance(
-      probability.begin(), std::ranges::max_element(probability))));
+  if (likely.empty())
+    likely.push_back(static_cast<std::size_t>(
+        std::distance(probability.begin(), std::ranges::max_element(probability))));
   float most = 0;
   Eigen::Vector3f place = Eigen::Vector3f::Zero();
   for (const std::size_t centre : likely) {
@@ -98,7 +99,8 @@ class NearestOf {
   float At(const Eigen::Vector3f& point) const {
     const NearestThree nearest = ThreeNearest(columns_, {point.x(), point.y(), point.z()});
     float sum = 0;
-    for (std::size_t k = 0; k < 3; ++k) sum += nearest.weight.at(k) * probability_[nearest.index.at(k)];
+    for (std::size_t k = 0; k < 3; ++k)
+      sum += nearest.weight.at(k) * probability_[nearest.index.at(k)];
     return sum;
   }
   const Eigen::Vector3f& begin() const { return begin_; }
@@ -173,9 +175,8 @@ struct HandleFinder::Networks {
         mask_head(networks.critic_layout(), networks.critic) {}
 
   std::optional<Eigen::Vector3f> PlaceIn(const LabelledCloud& cloud) const {
-    const CloudGeometry geometry =
-        BuildGeometry(cloud, internal::PlaceWindow(cloud.xyz), AllOf(cloud.label.size()),
-                      BestInstructionSet());
+    const CloudGeometry geometry = BuildGeometry(cloud, internal::PlaceWindow(cloud.xyz),
+                                                 AllOf(cloud.label.size()), BestInstructionSet());
     return LikeliestPlace(cloud.xyz, ProbabilitiesOf(place_encoder, place_head, geometry));
   }
 
@@ -213,7 +214,8 @@ std::optional<FoundHandle> HandleFinder::Find(const LabelledCloud& visible,
   if (visible.xyz.empty()) return std::nullopt;
   const auto place = networks_->PlaceIn(sample(SeenAt(visible.xyz, 0).cast<double>(), 0));
   if (!place) return std::nullopt;
-  const auto extent_m = static_cast<double>(networks_->networks.normalisation.view.cloud_crop_radius_m);
+  const auto extent_m =
+      static_cast<double>(networks_->networks.normalisation.view.cloud_crop_radius_m);
   const NearestOf mask = networks_->MaskOf(sample(place->cast<double>(), extent_m));
   const std::size_t count = visible.xyz.size() / 3;
   FoundHandle found;
@@ -222,7 +224,8 @@ std::optional<FoundHandle> HandleFinder::Find(const LabelledCloud& visible,
   int of_handle = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const Eigen::Vector3f point = SeenAt(visible.xyz, i);
-    if ((point - mask.begin()).norm() > networks_->reach_m() || mask.At(point) < kOfHandle) continue;
+    if ((point - mask.begin()).norm() > networks_->reach_m() || mask.At(point) < kOfHandle)
+      continue;
     found.is_handle[i] = true;
     sum += point.cast<double>();
     ++of_handle;

@@ -61,11 +61,12 @@ class FindTask : public StageTask {
         const int phase = samples[i].cloud_crop_radius_m > 0 ? 0 : kPlacePhase;
         LooksOf(set, phase).push_back(i);
       }
-      Require(samples.empty() || (!LooksOf(set, 0).empty() && !LooksOf(set, kPlacePhase).empty()),
-              ErrorCode::kInvalidArgument,
-              "a finder learns from looks from near by (cloud_within_m above 0 in meta.json) and of "
-              "the whole door (0), and there are only the ones or the others; give --data both data "
-              "sets, and none so small that nothing of it is left for validation");
+      Require(
+          samples.empty() || (!LooksOf(set, 0).empty() && !LooksOf(set, kPlacePhase).empty()),
+          ErrorCode::kInvalidArgument,
+          "a finder learns from looks from near by (cloud_within_m above 0 in meta.json) and of "
+          "the whole door (0), and there are only the ones or the others; give --data both data "
+          "sets, and none so small that nothing of it is left for validation");
     }
   }
 
@@ -129,10 +130,10 @@ class FindTask : public StageTask {
   ShownLook Shown(int phase, const Minibatch& batch, std::size_t index) const {
     const TrainingSample& sample = LookAt(phase, batch.set, index);
     const bool trains = batch.set == SampleSet::kTrain;
-    Rng rng(input_.config->seed, (trains ? "train/look/" + std::to_string(batch.step) : "val/look") +
-                                     "/" + std::to_string(index));
-    ShownLook look =
-        phase == kPlacePhase ? FromAfar(sample, rng) : FromNearBy(sample, rng);
+    Rng rng(input_.config->seed,
+            (trains ? "train/look/" + std::to_string(batch.step) : "val/look") + "/" +
+                std::to_string(index));
+    ShownLook look = phase == kPlacePhase ? FromAfar(sample, rng) : FromNearBy(sample, rng);
     const std::array<float, 3>& approach = sample.approach;
     look.augmentation = Eigen::Matrix3d::Identity();
     if (trains)
@@ -141,7 +142,9 @@ class FindTask : public StageTask {
     return look;
   }
 
-  std::size_t PointsOfLook() const { return static_cast<std::size_t>(input_.config->sampled_points); }
+  std::size_t PointsOfLook() const {
+    return static_cast<std::size_t>(input_.config->sampled_points);
+  }
 
   static ShownLook Begun(const TrainingSample& sample, std::size_t first,
                          std::vector<std::uint8_t>& label) {

@@ -62,8 +62,12 @@ void SumAsTree(std::span<std::span<float>> parts) {
 }
 
 constexpr std::array<std::optional<double> StageLosses::*, 7> kLosses = {
-    &StageLosses::position_m,     &StageLosses::rotation_rad,   &StageLosses::divergence,
-    &StageLosses::angle_gain_rad, &StageLosses::affordance_rad, &StageLosses::place,
+    &StageLosses::position_m,
+    &StageLosses::rotation_rad,
+    &StageLosses::divergence,
+    &StageLosses::angle_gain_rad,
+    &StageLosses::affordance_rad,
+    &StageLosses::place,
     &StageLosses::mask};
 
 // `losses` with those values of `newer` that are known.
@@ -101,8 +105,7 @@ void RequireLikeClouds(std::span<const TrainingSample> samples, NetworkFamily fa
   const float extent_m = ExtentOf(samples, family);
   for (const TrainingSample& sample : samples) {
     const bool of_whole = family == NetworkFamily::kFind && sample.cloud_crop_radius_m == 0;
-    Require(of_whole || sample.cloud_crop_radius_m == extent_m,
-            ErrorCode::kInvalidArgument,
+    Require(of_whole || sample.cloud_crop_radius_m == extent_m, ErrorCode::kInvalidArgument,
             "the data sets' clouds have different extents (cloud_within_m in meta.json); train "
             "from those with the same");
     Require(sample.remembered_finer == samples.front().remembered_finer,

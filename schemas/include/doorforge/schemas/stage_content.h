@@ -13,8 +13,8 @@ namespace doorforge {
 /// paper's ablation without disentangling. It is no stage of an episode or of a data set.
 inline constexpr std::string_view kMotionStage = "motion";
 
-/// The stage of a finder of handles, trained from looks at closed doors, which are data of the stage
-/// "grasp".
+/// The stage of a finder of handles, trained from looks at closed doors, which are data of the
+/// stage "grasp".
 inline constexpr std::string_view kFindStage = "find";
 
 /// Whether a policy that was trained for one stage acts at another: at its own; one of kMotionStage

@@ -33,9 +33,9 @@ struct StageConfig {
   RandomGraspConfig grasp;  ///< How grasps are sampled.
   /// With a learner: it drives 1 to this many decisions, drawn for each episode, then the expert.
   int learner_decisions = 16;
-  GraspCameraConfig grasp_camera;   ///< At "grasp": what the recorded cloud is seen with.
-  /// At "grasp". False: what would be taken hold of is recorded and not tried, and rated 0: looks at
-  /// closed doors, which a finder of handles learns from. Written into files only then.
+  GraspCameraConfig grasp_camera;  ///< At "grasp": what the recorded cloud is seen with.
+  /// At "grasp". False: what would be taken hold of is recorded and not tried, and rated 0: looks
+  /// at closed doors, which a finder of handles learns from. Written into files only then.
   bool tries = true;
   RememberedViewConfig remembered;  ///< At "handle": what the recorded clouds are joined with.
   CloudConfig cloud;

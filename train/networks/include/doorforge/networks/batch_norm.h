@@ -19,8 +19,8 @@ inline constexpr NamedValue<EncoderNorm> kEncoderNorms[] = {{EncoderNorm::kNone,
                                                             {EncoderNorm::kBatch, "batch"}};
 constexpr std::span<const NamedValue<EncoderNorm>> ValuesOf(EncoderNorm) { return kEncoderNorms; }
 
-/// How many features the encoder's layers have. kNarrow: a quarter and less, a tenth of the weights;
-/// enough to tell a handle from a leaf.
+/// How many features the encoder's layers have. kNarrow: a quarter and less, a tenth of the
+/// weights; enough to tell a handle from a leaf.
 enum class EncoderWidth { kFull, kNarrow };
 
 /// Which encoder: what normalises its layers, whether a point's colour is an input beside its

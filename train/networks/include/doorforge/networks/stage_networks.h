@@ -113,8 +113,8 @@ StageNormalisation NormalisationFromJson(const nlohmann::ordered_json& json,
 
 /// Which networks a stage has. Each stage has one that proposes and one that judges: actor and
 /// critic where the hand is moved, affordance and discriminator where a grasp is chosen
-/// (UniDoorManip, Section 4); where a handle is found, one that says where on the door it is and one
-/// that says, seen from near by, which points are its.
+/// (UniDoorManip, Section 4); where a handle is found, one that says where on the door it is and
+/// one that says, seen from near by, which points are its.
 enum class NetworkFamily { kMotion, kGrasp, kFind };
 NetworkFamily FamilyOf(std::string_view stage);
 

@@ -19,7 +19,7 @@ namespace doorforge {
 
 /// Where the handle of a door is, told from what is seen of it.
 struct FoundHandle {
-  std::vector<bool> is_handle;  ///< One for each visible point.
+  std::vector<bool> is_handle;                         ///< One for each visible point.
   Eigen::Vector3d middle_m = Eigen::Vector3d::Zero();  ///< World: the mean of its points.
   /// World, unit: straight into the leaf, the normal of the plane that most of the points about the
   /// handle lie in, away from the robot (its x is not above 0).

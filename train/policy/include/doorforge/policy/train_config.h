@@ -78,8 +78,8 @@ struct TrainConfig {
   /// The critic learns on every n-th step only; 1: on all.
   int critic_interval = 1;
   ScoreLoss score_loss = ScoreLoss::kSquared;
-  /// The affordance learns from so many points of each cloud's handle, a finder from so many of each
-  /// look.
+  /// The affordance learns from so many points of each cloud's handle, a finder from so many of
+  /// each look.
   int sampled_points = 4;
   int sampled_orientations = 50;  ///< Rated by the discriminator at each of them (UniDoorManip).
   int best_orientations = 10;     ///< Whose mean rating is the affordance's target (likewise).

@@ -41,6 +41,8 @@ struct Options {
 /// What was found of a category.
 struct Findings {
   std::vector<double> iou;
+  std::vector<double> precision;
+  std::vector<double> recall;
   std::vector<double> approach_deg;
   int nothing_found = 0;
 };
@@ -61,14 +63,19 @@ bool IsHandle(const LabelledCloud& cloud, std::size_t i) {
   return cloud.label[i] == static_cast<std::uint8_t>(PointLabel::kHandle);
 }
 
-double IntersectionOverUnion(const LabelledCloud& truth, const std::vector<bool>& found) {
+// Of what was found: how much is the handle's, how much of the handle it is, and both in one.
+void Compare(const LabelledCloud& truth, const std::vector<bool>& found, Findings& findings) {
   double both = 0;
-  double any = 0;
+  double in_truth = 0;
+  double in_found = 0;
   for (std::size_t i = 0; i < found.size(); ++i) {
     both += IsHandle(truth, i) && found[i] ? 1 : 0;
-    any += IsHandle(truth, i) || found[i] ? 1 : 0;
+    in_truth += IsHandle(truth, i) ? 1 : 0;
+    in_found += found[i] ? 1 : 0;
   }
-  return both / any;
+  findings.iou.push_back(both / (in_truth + in_found - both));
+  findings.precision.push_back(both / in_found);
+  findings.recall.push_back(both / in_truth);
 }
 
 double Quantile(std::vector<double> values, double share) {
@@ -86,15 +93,17 @@ double Mean(const std::vector<double>& values) {
 
 void Print(const std::string& name, const Findings& findings) {
   const auto low = std::ranges::count_if(findings.iou, [](double iou) { return iou < 0.5; });
-  std::printf("%-18s %6zu %8.3f %8.3f %8.3f %8td %8d %8.2f %8.2f %8.2f\n", name.c_str(),
+  std::printf("%-18s %6zu %8.3f %8.3f %8.3f %8.3f %8.3f %8td %8d %8.2f %8.2f %8.2f\n", name.c_str(),
               findings.iou.size(), Mean(findings.iou), Quantile(findings.iou, 0.5),
-              Quantile(findings.iou, 0.05), low, findings.nothing_found,
-              Quantile(findings.approach_deg, 0.5), Quantile(findings.approach_deg, 0.95),
-              Quantile(findings.approach_deg, 1));
+              Quantile(findings.iou, 0.05), Mean(findings.precision), Mean(findings.recall), low,
+              findings.nothing_found, Quantile(findings.approach_deg, 0.5),
+              Quantile(findings.approach_deg, 0.95), Quantile(findings.approach_deg, 1));
 }
 
 void Add(const Findings& more, Findings& all) {
   all.iou.insert(all.iou.end(), more.iou.begin(), more.iou.end());
+  all.precision.insert(all.precision.end(), more.precision.begin(), more.precision.end());
+  all.recall.insert(all.recall.end(), more.recall.begin(), more.recall.end());
   all.approach_deg.insert(all.approach_deg.end(), more.approach_deg.begin(),
                           more.approach_deg.end());
   all.nothing_found += more.nothing_found;
@@ -127,7 +136,7 @@ void FindIn(const Look& look, const HandleFinder& finder, Findings& findings) {
     findings.iou.push_back(0);
     return;
   }
-  findings.iou.push_back(IntersectionOverUnion(look.visible, found->is_handle));
+  Compare(look.visible, found->is_handle, findings);
   const double cosine = std::clamp(found->approach.dot(look.approach), -1.0, 1.0);
   findings.approach_deg.push_back(std::acos(cosine) * 180 / std::numbers::pi);
 }
@@ -159,8 +168,9 @@ int Run(const Options& options) {
     }
     std::fprintf(stderr, "\r%zu of %zu doors ", d + 1, doors.size());
   }
-  std::printf("\n%-18s %6s %8s %8s %8s %8s %8s %8s %8s %8s\n", "category", "looks", "IoU", "median",
-              "5 %", "below .5", "nothing", "approach", "95 %", "worst");
+  std::printf("\n%-18s %6s %8s %8s %8s %8s %8s %8s %8s %8s %8s %8s\n", "category", "looks", "IoU",
+              "median", "5 %", "found's", "truth's", "below .5", "nothing", "approach", "95 %",
+              "worst");
   Findings all;
   for (const auto& [name, findings] : by_category) {
     Print(name, findings);

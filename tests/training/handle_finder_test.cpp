@@ -20,17 +20,17 @@
 namespace doorforge {
 namespace {
 
-constexpr std::size_t kSeen = 12000;
-constexpr double kNearM = 0.4;
+constexpr std::size_t kSeenOfDoor = 12000;
+constexpr double kNearLookM = 0.4;
 
 // A closed door, turned a little about the vertical.
-struct DoorWorld {
-  explicit DoorWorld(std::uint64_t seed, double yaw_rad = 0)
+struct ClosedDoorWorld {
+  explicit ClosedDoorWorld(std::uint64_t seed, double yaw_rad = 0)
       : rotation(RotationAbout(Eigen::Vector3d::UnitZ(), yaw_rad).linear()) {
     Rng rng(seed, "test/finder_world");
     const double y = rng.Uniform(-0.35, 0.35);
     const double z = rng.Uniform(0.8, 1.2);
-    for (std::size_t i = 0; i < kSeen; ++i) {
+    for (std::size_t i = 0; i < kSeenOfDoor; ++i) {
       const double part = rng.Uniform();
       Eigen::Vector3d point(0, rng.Uniform(-0.5, 0.5), rng.Uniform(0.2, 1.9));
       if (part < 0.03)
@@ -55,10 +55,10 @@ struct DoorWorld {
   // are too few.
   LabelledCloud Sample(const Eigen::Vector3d& start, double crop_radius_m) const {
     std::size_t nearest = 0;
-    for (std::size_t i = 1; i < kSeen; ++i)
+    for (std::size_t i = 1; i < kSeenOfDoor; ++i)
       if ((Point(i) - start).norm() < (Point(nearest) - start).norm()) nearest = i;
     std::vector<std::size_t> chosen = {nearest};
-    for (std::size_t i = 0; i < kSeen && chosen.size() < kCloudPoints; ++i)
+    for (std::size_t i = 0; i < kSeenOfDoor && chosen.size() < kCloudPoints; ++i)
       if (crop_radius_m == 0 || (Point(i) - Point(nearest)).norm() <= crop_radius_m)
         chosen.push_back(i);
     LabelledCloud cloud;
@@ -81,7 +81,7 @@ struct DoorWorld {
   double IntersectionOverUnion(const std::vector<bool>& found) const {
     double both = 0;
     double any = 0;
-    for (std::size_t i = 0; i < kSeen; ++i) {
+    for (std::size_t i = 0; i < kSeenOfDoor; ++i) {
       both += visible.label[i] == 1 && found[i] ? 1 : 0;
       any += visible.label[i] == 1 || found[i] ? 1 : 0;
     }
@@ -92,19 +92,20 @@ struct DoorWorld {
   LabelledCloud visible;
 };
 
-struct Looks {
+struct RecordedLooks {
   std::vector<LabelledCloud> clouds;
   std::vector<TrainingSample> samples;
 };
 
 // Of each door one look from near by and one of all of it, as `datagen grasp` records them.
-Looks MakeLooks(std::uint64_t seed, std::size_t doors, bool near = true, bool whole = true) {
-  Looks looks;
+RecordedLooks MakeRecordedLooks(std::uint64_t seed, std::size_t doors, bool near = true,
+                                bool whole = true) {
+  RecordedLooks looks;
   for (std::size_t i = 0; i < doors; ++i) {
-    const DoorWorld world(1000 * seed + i);
+    const ClosedDoorWorld world(1000 * seed + i);
     const auto handle = static_cast<std::size_t>(
         std::distance(world.visible.label.begin(), std::ranges::find(world.visible.label, 1)));
-    for (const double extent_m : {near ? kNearM : -1, whole ? 0.0 : -1}) {
+    for (const double extent_m : {near ? kNearLookM : -1, whole ? 0.0 : -1}) {
       if (extent_m < 0) continue;
       looks.clouds.push_back(world.Sample(world.Point(handle), extent_m));
       TrainingSample sample;
@@ -129,16 +130,20 @@ TrainConfig FinderConfig() {
   return config;
 }
 
+// Trained once, of 24 doors.
 HandleFinder TrainedFinder() {
-  TrainConfig config = FinderConfig();
-  config.epochs = 10;
-  config.learning_rate = 3e-3;
-  return HandleFinder(TrainStage(MakeLooks(1, 24).samples, {}, config, {}).networks);
+  static const StageNetworks networks = [] {
+    TrainConfig config = FinderConfig();
+    config.epochs = 30;
+    config.learning_rate = 3e-3;
+    return TrainStage(MakeRecordedLooks(1, 24).samples, {}, config, {}).networks;
+  }();
+  return HandleFinder(networks);
 }
 
 TEST(TrainFind, GivesTheSameBitsForAnyNumberOfThreadsAndInterruptionsInBothPhases) {
-  const Looks train = MakeLooks(1, 8);
-  const Looks validation = MakeLooks(2, 1);
+  const RecordedLooks train = MakeRecordedLooks(1, 8);
+  const RecordedLooks validation = MakeRecordedLooks(2, 1);
   TrainConfig config = FinderConfig();
   config.epochs = 1;
   TrainHooks hooks;
@@ -165,19 +170,19 @@ TEST(TrainFind, GivesTheSameBitsForAnyNumberOfThreadsAndInterruptionsInBothPhase
 }
 
 TEST(TrainFind, RefusesLooksOfOneExtentAlone) {
-  const Looks near = MakeLooks(1, 2, true, false);
-  const Looks whole = MakeLooks(1, 2, false, true);
+  const RecordedLooks near = MakeRecordedLooks(1, 2, true, false);
+  const RecordedLooks whole = MakeRecordedLooks(1, 2, false, true);
   EXPECT_THROW(TrainStage(near.samples, {}, FinderConfig(), {}), Error);
   EXPECT_THROW(TrainStage(whole.samples, {}, FinderConfig(), {}), Error);
-  std::vector<TrainingSample> of_two_extents = MakeLooks(1, 2).samples;
+  std::vector<TrainingSample> of_two_extents = MakeRecordedLooks(1, 2).samples;
   of_two_extents.back().cloud_crop_radius_m = 0.2F;
   EXPECT_THROW(TrainStage(of_two_extents, {}, FinderConfig(), {}), Error);
 }
 
 /// What a policy was shown, which takes hold of the first handle point.
-class Witness : public GraspPolicy {
+class GraspWitness : public GraspPolicy {
  public:
-  explicit Witness(GraspObservation& shown) : shown_(&shown) {}
+  explicit GraspWitness(GraspObservation& shown) : shown_(&shown) {}
   std::optional<GraspAction> Choose(const GraspObservation& seen) override {
     *shown_ = seen;
     sampled_ = seen.sample(Eigen::Vector3d::Zero(), 0);
@@ -195,7 +200,7 @@ TEST(HandleFinder, FindsHandlesOfDoorsThatItHasNotSeen) {
   const HandleFinder finder = TrainedFinder();
   for (std::uint64_t seed = 9001; seed <= 9006; ++seed) {
     SCOPED_TRACE(seed);
-    const DoorWorld world(seed, 0.05 * static_cast<double>(seed % 3) - 0.05);
+    const ClosedDoorWorld world(seed, 0.05 * static_cast<double>(seed % 3) - 0.05);
     const auto found = finder.Find(world.visible, world.sample());
     ASSERT_TRUE(found.has_value());
     EXPECT_GT(world.IntersectionOverUnion(found->is_handle), 0.8);
@@ -204,7 +209,7 @@ TEST(HandleFinder, FindsHandlesOfDoorsThatItHasNotSeen) {
 }
 
 TEST(HandleFinder, ReadsNoLabelAndLetsTheGraspSeeWhatItFinds) {
-  DoorWorld world(9101);
+  ClosedDoorWorld world(9101);
   const std::vector<std::uint8_t> truth = world.visible.label;
   std::ranges::fill(world.visible.label, std::uint8_t{0});
   GraspObservation seen;
@@ -212,15 +217,15 @@ TEST(HandleFinder, ReadsNoLabelAndLetsTheGraspSeeWhatItFinds) {
   seen.sample = world.sample();
   seen.approach = Eigen::Vector3d::UnitY();
   GraspObservation shown;
-  FindingGrasp policy(std::make_unique<Witness>(shown), TrainedFinder());
+  FindingGrasp policy(std::make_unique<GraspWitness>(shown), TrainedFinder());
   ASSERT_TRUE(policy.Choose(seen).has_value());
   EXPECT_GT(shown.approach.dot(world.approach()), std::cos(0.01));
   double agree = 0;
-  for (std::size_t i = 0; i < kSeen; ++i) {
+  for (std::size_t i = 0; i < kSeenOfDoor; ++i) {
     const bool of_handle = shown.visible.label[i] == static_cast<std::uint8_t>(PointLabel::kHandle);
     agree += of_handle == (truth[i] == 1) ? 1 : 0;
   }
-  EXPECT_GT(agree, 0.98 * kSeen);
+  EXPECT_GT(agree, 0.98 * kSeenOfDoor);
   // what is sampled has the labels of the same points
   const LabelledCloud sampled = shown.sample({}, 0);
   const LabelledCloud again = world.Sample(Eigen::Vector3d::Zero(), 0);

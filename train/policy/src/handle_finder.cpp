@@ -33,6 +33,7 @@ constexpr float kOfHandle = 0.5F;      // a point from near by that is a handle'
 constexpr float kAboutHandleM = 0.3F;  // what of the door says which way it faces
 constexpr float kInPlaneM = 0.006F;
 constexpr int kPlanes = 200;
+constexpr int kLooks = 2;  // from near by
 
 Eigen::Vector3f SeenAt(const std::vector<float>& xyz, std::size_t i) {
   return {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
@@ -166,6 +167,41 @@ Eigen::Vector3d DominantNormal(const std::vector<Eigen::Vector3f>& points) {
   return Facing(LeastSquaresNormal(points, best, best_offset));
 }
 
+namespace {
+
+std::vector<bool> InMask(const std::vector<float>& xyz, const NearestOf& mask, float reach_m) {
+  std::vector<bool> inside(xyz.size() / 3);
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    const Eigen::Vector3f point = SeenAt(xyz, i);
+    inside[i] = (point - mask.begin()).norm() <= reach_m && mask.At(point) >= kOfHandle;
+  }
+  return inside;
+}
+
+std::optional<Eigen::Vector3d> MiddleOf(const std::vector<float>& xyz,
+                                        const std::vector<bool>& is_handle) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  int count = 0;
+  for (std::size_t i = 0; i < is_handle.size(); ++i) {
+    if (!is_handle[i]) continue;
+    sum += SeenAt(xyz, i).cast<double>();
+    ++count;
+  }
+  return count > 0 ? std::optional<Eigen::Vector3d>(sum / count) : std::nullopt;
+}
+
+std::vector<Eigen::Vector3f> BesideHandle(const std::vector<float>& xyz, const FoundHandle& found) {
+  std::vector<Eigen::Vector3f> beside;
+  for (std::size_t i = 0; i < found.is_handle.size(); ++i) {
+    const Eigen::Vector3f point = SeenAt(xyz, i);
+    if (!found.is_handle[i] && (point - found.middle_m.cast<float>()).norm() < kAboutHandleM)
+      beside.push_back(point);
+  }
+  return beside;
+}
+
+}  // namespace
+
 struct HandleFinder::Networks {
   explicit Networks(StageNetworks from)
       : networks(std::move(from)),
@@ -216,29 +252,17 @@ std::optional<FoundHandle> HandleFinder::Find(const LabelledCloud& visible,
   if (!place) return std::nullopt;
   const auto extent_m =
       static_cast<double>(networks_->networks.normalisation.view.cloud_crop_radius_m);
-  const NearestOf mask = networks_->MaskOf(sample(place->cast<double>(), extent_m));
-  const std::size_t count = visible.xyz.size() / 3;
   FoundHandle found;
-  found.is_handle.resize(count);
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  int of_handle = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3f point = SeenAt(visible.xyz, i);
-    if ((point - mask.begin()).norm() > networks_->reach_m() || mask.At(point) < kOfHandle)
-      continue;
-    found.is_handle[i] = true;
-    sum += point.cast<double>();
-    ++of_handle;
+  found.middle_m = place->cast<double>();
+  // the first look may begin at an end of the handle, the next ones begin in its middle
+  for (int look = 0; look < kLooks; ++look) {
+    found.is_handle = InMask(visible.xyz, networks_->MaskOf(sample(found.middle_m, extent_m)),
+                             networks_->reach_m());
+    const std::optional<Eigen::Vector3d> middle = MiddleOf(visible.xyz, found.is_handle);
+    if (!middle) return std::nullopt;
+    found.middle_m = *middle;
   }
-  if (of_handle == 0) return std::nullopt;
-  found.middle_m = sum / of_handle;
-  std::vector<Eigen::Vector3f> about;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3f point = SeenAt(visible.xyz, i);
-    if (!found.is_handle[i] && (point - found.middle_m.cast<float>()).norm() < kAboutHandleM)
-      about.push_back(point);
-  }
-  found.approach = DominantNormal(about);
+  found.approach = DominantNormal(BesideHandle(visible.xyz, found));
   return found;
 }
 

@@ -8,10 +8,11 @@ TrainConfig TrainDefaultsOf(std::string_view stage) {
   TrainConfig config;
   config.family = FamilyOf(stage);
   if (config.family != NetworkFamily::kFind) return config;
-  config.epochs = 12;
+  config.epochs = 2;
+  config.discriminator_epochs = 8;
   config.sampled_points = 1024;
-  config.crop_radius_m = 0.3;
-  config.point_scale = 4;
+  config.crop_radius_m = 0.2;
+  config.point_scale = 6;
   config.augment_mirror = true;
   config.augment_roll_rad = 0.2;
   return config;

@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kPlacePhase = 1;
 // In use a near look begins where the place was guessed to be: somewhere about the handle.
-constexpr float kGuessM = 0.1F;
+constexpr float kGuessM = 0.05F;
 // What all points of a handle count together, afar, where those of the rest of the door count 1: a
 // small handle is to be found as surely as a long one.
 constexpr float kHandleShare = 0.1F;

@@ -49,7 +49,8 @@ struct TrainConfig {
   /// after it.
   int epochs = 10;
   int discriminator_epochs = 0;  ///< In the place of `epochs`; 0: as many. With near points an
-                                 ///< epoch takes a tenth of the affordance's.
+                                 ///< epoch takes a tenth of the affordance's. At "find" the mask's,
+                                 ///< called mask_epochs.
   int batch_size =
       32;  ///< UniDoorManip's released code; an epoch leaves out the last, incomplete batch.
   double learning_rate = 1e-3;
@@ -120,6 +121,7 @@ struct TrainConfig {
       visit("state", self.state);
       visit("critic_interval", self.critic_interval);
     } else if (self.family == NetworkFamily::kFind) {
+      visit("mask_epochs", self.discriminator_epochs);
       visit("sampled_points", self.sampled_points);
       visit("augment_roll_rad", self.augment_roll_rad);
     } else {
@@ -151,7 +153,8 @@ struct TrainConfig {
 };
 
 /// The settings with which the training of a stage begins, by its name or "motion" or "find". A
-/// finder's mask sees 0.3 m about where the handle is guessed to be, told four times larger.
+/// finder's mask sees 0.2 m about where the handle is guessed to be, told six times larger, and
+/// learns longer than its place.
 TrainConfig TrainDefaultsOf(std::string_view stage);
 
 /// Epochs, counted from 1; 0: none, as long as nothing was validated.

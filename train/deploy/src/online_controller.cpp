@@ -296,8 +296,7 @@ ActAnswer DecideFromFiles(OnlineController& controller, const DecisionFiles& fil
   DepthImage depth = ReadDepthPicture(files.depth, controller.camera());
   AddColors(files.color, depth);
   const bool told = !files.handle.empty();
-  const bool takes_hold = told || (files.state.empty() && controller.FindsHandle());
-  if (!takes_hold) {
+  if (!told && !files.state.empty()) {
     names.state = files.state;
     return controller.Decide(std::move(depth), ReadRobotState(files.state, controller.robot()),
                              names);

@@ -31,10 +31,9 @@ Options Parse(int argc, char** argv) {
   Options options;
   CLI::App app("Trains a stage's policy from the shards of `doorforge datagen`.",
                "doorforge train");
-  app.add_option(
-         "stage", options.request.stage,
-         "open, handle or grasp; motion: one policy of the data of open and handle; find: a\n"
-         "finder of handles, of looks of the stage grasp at whole doors and from near by")
+  app.add_option("stage", options.request.stage,
+                 "open, handle or grasp; motion: one policy of open and handle; find: a finder of "
+                 "handles")
       ->required()
       ->check(CLI::IsMember({"open", "handle", "grasp", "motion", "find"}));
   app.add_option("--data", options.request.data,

@@ -37,6 +37,19 @@ class ShippedPolicies(ProgramTest):
         failed = [f'{episode["door_id"]}: {episode["detail"]}' for episode in episodes if episode["outcome"] != "opened"]
         self.assertLessEqual(len(failed), 1, failed)
 
+    def test_they_open_doors_whose_handle_nobody_tells_them(self):
+        for body, handle in DOORS.items():
+            self.assert_ends(run("compose", "--body", body, "--handle", handle, "--out", self.folder / "untold" / body), 0)
+        result = run("eval", "--opener", POLICIES / "opener", "--handler", POLICIES / "handler", "--grasper", POLICIES / "grasper",
+                     "--set", f"grasp.finder={POLICIES / 'finder'}", "--doors", self.folder / "untold", "--seeds", 1,
+                     "--set", "expert_reference=false", "--out", self.folder / "untold_report")
+        self.assert_ends(result, 0)
+        report = json.loads((self.folder / "untold_report/report.json").read_text())
+        found_by = json.loads((POLICIES / "finder/policy.json").read_text())["weights_sha256"]
+        self.assertEqual(report["provenance"]["finder_sha256"], found_by)
+        failed = [f'{episode["door_id"]}: {episode["detail"]}' for episode in report["episodes"] if episode["outcome"] != "opened"]
+        self.assertLessEqual(len(failed), 1, failed)
+
     def test_doors_of_other_kinds_open_without_being_told(self):
         kinds = {"right": ["hinge_side=right"], "pushed": ["opening=push"], "reversed": ["handle_sense=reversed"]}
         for name, settings in kinds.items():

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
+#include <functional>
 #include <numeric>
 #include <string>
 #include <string_view>
@@ -33,7 +33,9 @@ constexpr float kOfHandle = 0.5F;      // a point from near by that is a handle'
 constexpr float kAboutHandleM = 0.3F;  // what of the door says which way it faces
 constexpr float kInPlaneM = 0.006F;
 constexpr int kPlanes = 200;
-constexpr int kLooks = 2;  // from near by
+constexpr int kLooks = 2;           // from near by
+constexpr std::size_t kPlaces = 3;  // that are looked at from near by
+constexpr std::size_t kSurest = 20;
 
 Eigen::Vector3f SeenAt(const std::vector<float>& xyz, std::size_t i) {
   return {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
@@ -58,16 +60,21 @@ std::vector<std::uint16_t> AllOf(std::size_t count) {
   return all;
 }
 
-// The place with the most that looks like a handle within reach; nothing where nothing does.
-std::optional<Eigen::Vector3f> LikeliestPlace(const std::vector<float>& xyz,
-                                              const std::vector<float>& probability) {
+// The points that may be a handle's; where none may, the one that is it likeliest.
+std::vector<std::size_t> LikelyPoints(const std::vector<float>& probability) {
   std::vector<std::size_t> likely;
   for (std::size_t i = 0; i < probability.size(); ++i)
     if (probability[i] > kLikely) likely.push_back(i);
-  if (likely.empty())
+  if (likely.empty() && !probability.empty())
     likely.push_back(static_cast<std::size_t>(
         std::distance(probability.begin(), std::ranges::max_element(probability))));
-  float most = 0;
+  return likely;
+}
+
+// The place with the most that looks like a handle within reach of it.
+Eigen::Vector3f LikeliestPlace(const std::vector<float>& xyz, const std::vector<float>& probability,
+                               const std::vector<std::size_t>& likely) {
+  float most = -1;
   Eigen::Vector3f place = Eigen::Vector3f::Zero();
   for (const std::size_t centre : likely) {
     float sum = 0;
@@ -81,7 +88,23 @@ std::optional<Eigen::Vector3f> LikeliestPlace(const std::vector<float>& xyz,
     most = sum;
     place = weighted / sum;
   }
-  return most > 0 ? std::optional(place) : std::nullopt;
+  return place;
+}
+
+// Places that are apart, the likeliest first.
+std::vector<Eigen::Vector3f> LikelyPlaces(const std::vector<float>& xyz,
+                                          const std::vector<float>& probability) {
+  std::vector<Eigen::Vector3f> places;
+  std::vector<std::size_t> likely = LikelyPoints(probability);
+  while (!likely.empty() && places.size() < kPlaces) {
+    const Eigen::Vector3f place = LikeliestPlace(xyz, probability, likely);
+    places.push_back(place);
+    const std::size_t before = likely.size();
+    std::erase_if(likely,
+                  [&](std::size_t i) { return (SeenAt(xyz, i) - place).norm() <= 2 * kPlaceM; });
+    if (likely.size() == before) break;
+  }
+  return places;
 }
 
 // What visible points within reach of the look take over from those of its points that were read.
@@ -105,6 +128,17 @@ class NearestOf {
     return sum;
   }
   const Eigen::Vector3f& begin() const { return begin_; }
+
+  // The mean of its surest points: what is no handle has none that are as sure.
+  float Sureness() const {
+    std::vector<float> surest = probability_;
+    const std::size_t count = std::min(surest.size(), kSurest);
+    std::ranges::partial_sort(surest, surest.begin() + static_cast<std::ptrdiff_t>(count),
+                              std::greater{});
+    return std::accumulate(surest.begin(), surest.begin() + static_cast<std::ptrdiff_t>(count),
+                           0.0F) /
+           static_cast<float>(std::max(count, std::size_t{1}));
+  }
 
  private:
   Eigen::Vector3f begin_;
@@ -210,10 +244,25 @@ struct HandleFinder::Networks {
         mask_encoder(networks.critic_layout(), "encoder.", networks.critic, BestInstructionSet()),
         mask_head(networks.critic_layout(), networks.critic) {}
 
-  std::optional<Eigen::Vector3f> PlaceIn(const LabelledCloud& cloud) const {
+  std::vector<Eigen::Vector3f> PlacesIn(const LabelledCloud& cloud) const {
     const CloudGeometry geometry = BuildGeometry(cloud, internal::PlaceWindow(cloud.xyz),
                                                  AllOf(cloud.label.size()), BestInstructionSet());
-    return LikeliestPlace(cloud.xyz, ProbabilitiesOf(place_encoder, place_head, geometry));
+    return LikelyPlaces(cloud.xyz, ProbabilitiesOf(place_encoder, place_head, geometry));
+  }
+
+  // Of the places, the one where the mask is surest of a handle.
+  Eigen::Vector3d SurestOf(const std::vector<Eigen::Vector3f>& places,
+                           const SampleAbout& sample) const {
+    Eigen::Vector3f best = places.front();
+    float most = -1;
+    for (const Eigen::Vector3f& place : places) {
+      if (places.size() == 1) break;
+      const float sureness = MaskOf(sample(place.cast<double>(), extent_m())).Sureness();
+      if (sureness <= most) continue;
+      most = sureness;
+      best = place;
+    }
+    return best.cast<double>();
   }
 
   NearestOf MaskOf(const LabelledCloud& cloud) const {
@@ -226,6 +275,9 @@ struct HandleFinder::Networks {
     return {cloud.xyz, inside, ProbabilitiesOf(mask_encoder, mask_head, geometry)};
   }
 
+  double extent_m() const {
+    return static_cast<double>(networks.normalisation.view.cloud_crop_radius_m);
+  }
   float reach_m() const { return networks.normalisation.view.crop_radius_m; }
 
   StageNetworks networks;
@@ -248,16 +300,15 @@ HandleFinder& HandleFinder::operator=(HandleFinder&&) noexcept = default;
 std::optional<FoundHandle> HandleFinder::Find(const LabelledCloud& visible,
                                               const SampleAbout& sample) const {
   if (visible.xyz.empty()) return std::nullopt;
-  const auto place = networks_->PlaceIn(sample(SeenAt(visible.xyz, 0).cast<double>(), 0));
-  if (!place) return std::nullopt;
-  const auto extent_m =
-      static_cast<double>(networks_->networks.normalisation.view.cloud_crop_radius_m);
+  const std::vector<Eigen::Vector3f> places =
+      networks_->PlacesIn(sample(SeenAt(visible.xyz, 0).cast<double>(), 0));
   FoundHandle found;
-  found.middle_m = place->cast<double>();
+  found.middle_m = networks_->SurestOf(places, sample);
   // the first look may begin at an end of the handle, the next ones begin in its middle
   for (int look = 0; look < kLooks; ++look) {
-    found.is_handle = InMask(visible.xyz, networks_->MaskOf(sample(found.middle_m, extent_m)),
-                             networks_->reach_m());
+    found.is_handle =
+        InMask(visible.xyz, networks_->MaskOf(sample(found.middle_m, networks_->extent_m())),
+               networks_->reach_m());
     const std::optional<Eigen::Vector3d> middle = MiddleOf(visible.xyz, found.is_handle);
     if (!middle) return std::nullopt;
     found.middle_m = *middle;

@@ -34,7 +34,7 @@ struct Options {
   std::vector<std::string> doors;
   std::string finder;
   int per_category = 40;
-  int seeds = 3;
+  int seeds = 1;
   double worst_below = 0;
 };
 
@@ -115,7 +115,9 @@ Options Parse(int argc, char** argv) {
   app.add_option("--doors", options.doors, "folders of doors, and a split")->required();
   app.add_option("--finder", options.finder, "folder of `doorforge train find`")->required();
   app.add_option("-n,--per-category", options.per_category, "doors, 0: all")->capture_default_str();
-  app.add_option("--seeds", options.seeds, "looks at each door")->capture_default_str();
+  app.add_option("--seeds", options.seeds,
+                 "looks at each door, by scenes that may not differ in their camera")
+      ->capture_default_str();
   app.add_option("--list-below", options.worst_below, "name looks of a lower IoU")
       ->capture_default_str();
   try {

@@ -163,6 +163,8 @@ def record_schema(name: str, samples: list[dict]) -> dict:
     schema = schema_of([*samples, *SHOWN.get(name, [])], MAPS.get(name, ()) + anything, "", "")
     schema["required"] = ["schema", "schema_version", *(key for key in schema["required"] if not key.startswith("schema"))]
     schema["properties"]["schema"] = {"const": "doorforge." + name}
+    if name == "policy":  # a finder's is no stage of an episode
+        schema["properties"]["stage"]["enum"] = [*WORDS["stage"], "find"]
     newest = max(sample["schema_version"] for sample in samples)
     schema["properties"]["schema_version"] = {"type": "integer", "minimum": 1, "maximum": newest}
     return {"$schema": JSON_SCHEMA, "title": TITLES[name], **schema}

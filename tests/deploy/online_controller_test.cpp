@@ -3,6 +3,7 @@
 #include "doorforge/deploy/online_controller.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -71,6 +72,27 @@ TEST(OnlineController, ItTakesHoldOfAHandleInMemoryAsTheProgramDoesOfOneInAFile)
   const RigidTransform hand = TransformFromJson(program["world_from_hand"], "program");
   EXPECT_LT((hand.matrix() - answer.world_from_hand.matrix()).norm(), 1e-9);
   EXPECT_EQ(program["handle_points"], *answer.handle_points);
+}
+
+TEST(OnlineController, WithoutAMaskItTakesHoldOfTheHandleThatAFinderFinds) {
+  OnlineControllerSetup setup = SetupFor("grasp");
+  setup.grasper = (kData / "policies" / "grasper").string();
+  const PixelMask mask = DecodeMaskPng(ReadFile(SightOf("grasp") / "mask.png"), "mask");
+  OnlineController told(setup);
+  const ActAnswer by_mask = told.DecideGrasp(DepthOf("grasp"), mask);
+  EXPECT_THROW(told.DecideGrasp(DepthOf("grasp"), std::nullopt), Error);
+  setup.config.grasp.finder = (kData / "policies" / "finder").string();
+  OnlineController finds(setup);
+  EXPECT_THROW(finds.DecideGrasp(DepthOf("grasp"), mask), Error);
+  const ActAnswer found = finds.DecideGrasp(DepthOf("grasp"), std::nullopt);
+  EXPECT_LT((*found.contact_m - *by_mask.contact_m).norm(), 0.03);
+  EXPECT_GT(found.world_from_hand.linear().col(2).dot(by_mask.world_from_hand.linear().col(2)),
+            0.99);
+  const auto program = ProgramAnswerOf(FilesOf("grasp") + " --grasper " + setup.grasper +
+                                       " --set grasp.finder=" + setup.config.grasp.finder);
+  const RigidTransform hand = TransformFromJson(program["world_from_hand"], "program");
+  EXPECT_LT((hand.matrix() - found.world_from_hand.matrix()).norm(), 1e-9);
+  EXPECT_EQ(program["handle_points"], *found.handle_points);
 }
 
 TEST(OnlineController, WhatCannotBeUsedIsCalledByTheNamesThatItsUserGave) {

@@ -73,7 +73,8 @@ def collect(samples: Samples, inputs: pathlib.Path, folder: pathlib.Path) -> Non
 def evaluate(samples: Samples, inputs: pathlib.Path, folder: pathlib.Path, doors: list[pathlib.Path]) -> None:
     policies = SOURCE / "data/policies"
     for name, options in (("a", ("--opener", "expert", "--films")), ("b", ("--opener", policies / "opener", "--handler", policies / "handler",
-                                                                 "--grasper", policies / "grasper", "--allow-seen"))):
+                                                                 "--grasper", policies / "grasper", "--set", f"grasp.finder={policies / 'finder'}",
+                                                                 "--allow-seen"))):
         samples.take("eval", *options, "--doors", *doors[2:4], "--seeds", 1, "--set", "scene.physics.max_opening_actions=2",
                      "--out", folder / name, "--json")
     samples.take("report", folder / "a", folder / "b", "--json")

@@ -31,9 +31,12 @@ TEST(Report, ReadsBackWhatItWrote) {
 TEST(Report, KeepsWhatAPolicyIsToldBeyondARobot) {
   EvaluationReport report = ExampleReport();
   EXPECT_FALSE(ReportToJson(report).at("provenance").contains("privileges"));
+  EXPECT_FALSE(ReportToJson(report).at("provenance").contains("finder_sha256"));
+  report.provenance.finder_sha256 = std::string(64, 'f');
   report.provenance.privileges = {"knows <this>", "and that"};
   const auto json = ReportToJson(report);
   EXPECT_EQ(ReportFromJson(json, "report").provenance.privileges, report.provenance.privileges);
+  EXPECT_EQ(ReportFromJson(json, "report").provenance.finder_sha256, std::string(64, 'f'));
   auto bad = json;
   bad["provenance"]["privileges"] = {"text", 3};
   EXPECT_THROW(ReportFromJson(bad, "report"), Error);

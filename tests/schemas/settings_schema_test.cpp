@@ -28,10 +28,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json TrainSchema(const std::string& stage, NetworkFamily family) {
-  TrainConfig config;
-  config.family = family;
-  return SettingsSchema("Settings of `doorforge train " + stage + "`", config);
+Json TrainSchema(const std::string& verb, std::string_view stage) {
+  return SettingsSchema("Settings of `doorforge train " + verb + "`", TrainDefaultsOf(stage));
 }
 
 std::vector<std::pair<std::string, Json>> Settings() {
@@ -46,8 +44,9 @@ std::vector<std::pair<std::string, Json>> Settings() {
       {"robot", SettingsSchema<RobotOptions>("NAME.robot.yaml beside a robot's NAME.urdf")},
       {"sight", SettingsSchema<SceneConfig>("Settings of `doorforge sight`")},
       {"simulate", SettingsSchema<PolicySimulateConfig>("Settings of `doorforge simulate`")},
-      {"train_grasp", TrainSchema("grasp", NetworkFamily::kGrasp)},
-      {"train_motion", TrainSchema("open` and `doorforge train handle", NetworkFamily::kMotion)}};
+      {"train_find", TrainSchema("find", "find")},
+      {"train_grasp", TrainSchema("grasp", "grasp")},
+      {"train_motion", TrainSchema("open` and `doorforge train handle", "open")}};
   for (const auto& [name, stage] :
        {std::pair{"open", Stage::kOpen}, {"handle", Stage::kHandle}, {"grasp", Stage::kGrasp}})
     all.emplace_back(std::string("datagen_") + name,

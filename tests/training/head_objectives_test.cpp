@@ -114,6 +114,38 @@ struct GraspFixture : Fixture {
   }
 };
 
+TEST(HeadNetworks, TheFindersGradientIsThatOfFiniteDifferencesAndItsValueTheWeightedCrossEntropy) {
+  Fixture f;
+  f.networks =
+      InitialNetworks(MeasureNormalisation(f.made.samples), false, 1, NetworkFamily::kFind);
+  const ParameterLayout& layout = ActorLayout(NetworkFamily::kFind);
+  for (std::size_t i = 0; i < f.made.samples.size(); ++i) {
+    f.batch.is_handle.push_back(i % 3 == 0 ? 1.0F : 0.0F);
+    f.batch.weights.push_back(0.5F + static_cast<float>(i));
+  }
+  const internal::FinderNetwork network{layout, f.networks.actor, &StageLosses::place};
+  std::vector<float> gradient(layout.size());
+  const auto value = [&] { return FinderObjective(network, f.batch, {}).objective; };
+  const auto result = FinderObjective(network, f.batch, gradient);
+  EXPECT_EQ(result.objective, value());
+  ExpectGradientOfLayers(layout, f.networks.actor, gradient, value);
+  std::vector<float> direction = result.feature_gradient;
+  const double norm = Norm(direction);
+  for (float& d : direction) d = static_cast<float>(d / norm);
+  EXPECT_NEAR(Slope(f.batch.features, 0, direction, value) / norm, 1, 0.03);
+  // the kernels that run a finder compute the same logits
+  const std::vector<float> logits = internal::FinderHead(layout, f.networks.actor).Score({f.batch});
+  double sum = 0;
+  double weights = 0;
+  for (std::size_t i = 0; i < logits.size(); ++i) {
+    const double p = 1 / (1 + std::exp(-static_cast<double>(logits[i])));
+    sum -= f.batch.weights[i] * std::log(f.batch.is_handle[i] > 0 ? p : 1 - p);
+    weights += f.batch.weights[i];
+  }
+  EXPECT_NEAR(sum / weights, result.objective, 1e-5);
+  EXPECT_EQ(*result.losses.place, result.objective);
+}
+
 TEST(HeadNetworks, TheDiscriminatorsGradientIsThatOfFiniteDifferencesForBothLosses) {
   for (const auto& [loss, by_near_points] : {std::pair{ScoreLoss::kSquared, true},
                                              {ScoreLoss::kSquared, false},

@@ -77,8 +77,12 @@ void ExpectSameGradients(const ParameterLayout& layout, std::span<const float> e
   }
 }
 
-TEST(PointEncoder, GivesTheFeaturesAndGradientsOfStockOperatorsForAllPoints) {
-  const Net net;
+class PointEncoderOfWidth : public ::testing::TestWithParam<EncoderWidth> {};
+INSTANTIATE_TEST_SUITE_P(Widths, PointEncoderOfWidth,
+                         ::testing::Values(EncoderWidth::kFull, EncoderWidth::kNarrow));
+
+TEST_P(PointEncoderOfWidth, GivesTheFeaturesAndGradientsOfStockOperatorsForAllPoints) {
+  const Net net({EncoderNorm::kNone, false, GetParam()});
   const std::vector<float> cloud = testing::DoorCloud(1, 0.3);
   std::vector<float> wanted = RandomVector(std::size_t{kCloudPoints} * kFeatureSize, "all");
   // all of one sign: the sum is large against the few ReLUs that rounding switches
@@ -99,8 +103,8 @@ TEST(PointEncoder, GivesTheFeaturesAndGradientsOfStockOperatorsForAllPoints) {
   }
 }
 
-TEST(PointEncoder, GivesTheFeatureAndGradientOfStockOperatorsForPointZeroAlone) {
-  const Net net;
+TEST_P(PointEncoderOfWidth, GivesTheFeatureAndGradientOfStockOperatorsForPointZeroAlone) {
+  const Net net({EncoderNorm::kNone, false, GetParam()});
   const std::vector<float> cloud = testing::DoorCloud(2, 0.6);
   const std::vector<float> wanted = RandomVector(kFeatureSize, "zero");
   std::vector<float> wanted_of_all(std::size_t{kCloudPoints} * kFeatureSize);

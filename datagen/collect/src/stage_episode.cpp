@@ -85,7 +85,7 @@ CollectedEpisode RunRecorded(const EpisodeToRun& run, StagePolicies& policies, F
   if (at_grasp) policies_camera = CameraOf(place, policies.remembered(), UsesColors(*set));
   const CloudExtent extent{config.cloud.point_count, crop_radius_m};
   const auto look = [&](const SceneSnapshot& snapshot) { return before->ObserveAll(snapshot); };
-  EpisodePolicies roles{.recorded = config.stage, .open = set->open.get()};
+  EpisodePolicies roles{.recorded = config.stage, .open = set->open.get(), .tries = config.tries};
   if (config.stage != Stage::kOpen) roles.handle = set->handle.get();
   std::optional<GraspFromPolicy> grasp;
   if (samples_grasp) {

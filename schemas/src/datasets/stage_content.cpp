@@ -13,6 +13,7 @@ bool ActsAt(std::string_view trained, std::string_view stage) {
 }
 
 std::string StageReadOf(const std::filesystem::path& folder, std::string_view stage) {
+  if (stage == kFindStage) return "grasp";
   if (stage != kMotionStage) return std::string(stage);
   return std::filesystem::exists(folder / "handle") ? "handle" : "open";
 }

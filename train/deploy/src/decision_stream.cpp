@@ -30,7 +30,7 @@ ActAnswer AnswerLine(OnlineController& controller, const std::string& camera,
   files.before = file("before", false);
   files.color = file("color", false);
   files.before_color = file("before_color", false);
-  files.state = file("state", files.handle.empty());
+  files.state = file("state", files.handle.empty() && !controller.FindsHandle());
   return DecideFromFiles(controller, files);
 }
 
@@ -48,11 +48,15 @@ void CheckRequest(const OnlineControllerSetup& setup, const DecisionFiles& files
   const auto require = [](bool condition, const std::string& problem) {
     Require(condition, ErrorCode::kInvalidArgument, problem + "; see `doorforge act --help`");
   };
-  const bool one = !files.depth.empty() && files.state.empty() != files.handle.empty();
+  // who takes hold may find the handle by itself
+  const bool says_what =
+      files.handle.empty() ? !files.state.empty() || !setup.grasper.empty() : files.state.empty();
+  const bool one = !files.depth.empty() && says_what;
   const bool none = files.depth.empty() && files.state.empty() && files.handle.empty();
   require(
       setup.sees_every_decision ? none : one,
-      "--depth and either --state or --handle-mask, or --stream in place of them, are required");
+      "--depth and either --state or --handle-mask (with a finder of handles neither), or --stream "
+      "in place of them, are required");
   require(!setup.opener.empty() || !setup.handler.empty() || !setup.grasper.empty(),
           "--opener, --handler or --grasper is required");
   require(!setup.sees_every_decision || picture.empty(),

@@ -109,27 +109,45 @@ std::optional<OnlineController::Grasper> OnlineController::LoadGrasper(const std
                  record.weights_sha256, std::move(familiarity)};
 }
 
-ActAnswer OnlineController::DecideGrasp(DepthImage depth, PixelMask handle,
+// What of the picture in seen_ a grasp is chosen from.
+HandleObservation OnlineController::ViewForGrasp(const InputNames& names) const {
+  const CloudConfig& cloud = setup_.config.cloud;
+  if (!seen_.handle)
+    return NamingInputs(names.depth + " and " + names.camera,
+                        [&] { return ObserveClosedDoor(seen_.depth, setup_.camera, cloud); });
+  const double yaw = setup_.config.door_yaw_rad;
+  return NamingInputs(names.depth + ", " + names.handle + " and " + names.camera, [&] {
+    return ObserveHandle(seen_.depth, *seen_.handle, setup_.camera,
+                         -Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0), cloud);
+  });
+}
+
+ActAnswer OnlineController::DecideGrasp(DepthImage depth, std::optional<PixelMask> handle,
                                         const InputNames& names) {
   if (!grasper_)
     throw Error(ErrorCode::kInvalidArgument,
                 "a grasp is to be chosen, and --grasper, which chooses it, was not given");
-  const double yaw = setup_.config.door_yaw_rad;
+  Require(handle.has_value() || FindsHandle(), ErrorCode::kInvalidArgument,
+          "nobody says which points are the handle; pass --handle-mask, or a finder as --set "
+          "grasp.finder=FOLDER");
+  Require(!handle || !FindsHandle(), ErrorCode::kInvalidArgument,
+          "the handle is told by --handle-mask and to be found by grasp.finder; leave one of them "
+          "out");
   RequireColors(grasper_->policy->UsesColors(), depth.rgb.empty());
   seen_ = {WithHoles(std::move(depth)), std::move(handle)};
-  HandleObservation seen =
-      NamingInputs(names.depth + ", " + names.handle + " and " + names.camera, [&] {
-        return ObserveHandle(seen_.depth, *seen_.handle, setup_.camera,
-                             -Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0),
-                             setup_.config.cloud);
-      });
+  HandleObservation seen = ViewForGrasp(names);
   KeepBefore(seen.view.visible);
   const GripperClearance clearance(robot_);
   seen.view.hand_from_tcp = robot_.hand_from_tcp();
   seen.view.fits = [&](const Eigen::Vector3d& contact_m, const Eigen::Matrix3d& rotation) {
     return clearance.Fits(seen.view.visible, contact_m, rotation);
   };
-  return Answer(*grasper_->policy->Choose(seen.view), seen);
+  const std::optional<GraspAction> choice = grasper_->policy->Choose(seen.view);
+  Require(choice.has_value(), ErrorCode::kInvalidArgument,
+          names.depth + ": no handle is found in it; look from nearer by, or pass --handle-mask");
+  if (FindsHandle())
+    seen.handle_count = static_cast<int>(choice->explanation->affordance_rad.size());
+  return Answer(*choice, seen);
 }
 
 ActAnswer OnlineController::Decide(DepthImage depth, const RobotState& state,
@@ -277,13 +295,15 @@ ActAnswer DecideFromFiles(OnlineController& controller, const DecisionFiles& fil
   names.camera = files.camera;
   DepthImage depth = ReadDepthPicture(files.depth, controller.camera());
   AddColors(files.color, depth);
-  if (files.handle.empty()) {
+  const bool told = !files.handle.empty();
+  if (!told && !files.state.empty()) {
     names.state = files.state;
     return controller.Decide(std::move(depth), ReadRobotState(files.state, controller.robot()),
                              names);
   }
   names.handle = files.handle;
-  return controller.DecideGrasp(std::move(depth), ReadMaskPicture(files.handle), names);
+  return controller.DecideGrasp(
+      std::move(depth), told ? std::optional(ReadMaskPicture(files.handle)) : std::nullopt, names);
 }
 
 }  // namespace doorforge

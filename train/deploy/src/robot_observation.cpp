@@ -102,6 +102,22 @@ LabelledCloud VisiblePoints(const DepthImage& depth, const CalibratedCamera& cam
   return visible;
 }
 
+// A grasper sees these points, whatever their labels.
+HandleObservation ViewOfAll(LabelledCloud visible, const Eigen::Vector3d& approach,
+                            const CloudConfig& config) {
+  HandleObservation seen;
+  seen.visible_count = static_cast<int>(visible.label.size());
+  seen.handle_count = static_cast<int>(
+      std::ranges::count(visible.label, static_cast<std::uint8_t>(PointLabel::kHandle)));
+  seen.view.visible = visible;
+  seen.view.approach = approach;
+  seen.view.sample = [visible = std::move(visible), count = config.point_count](
+                         const Eigen::Vector3d& start, double crop_radius_m) {
+    return SampleCloud(visible, start, {count, crop_radius_m}).cloud;
+  };
+  return seen;
+}
+
 }  // namespace
 
 RobotState ReadRobotState(const std::filesystem::path& path, const RobotModel& robot) {
@@ -170,11 +186,7 @@ HandleObservation ObserveHandle(DepthImage depth, const PixelMask& handle,
                 "take hold of; pixels that show the handle are to be other than 0");
   for (std::size_t i = 0; i < depth.label.size(); ++i)
     depth.label[i] = handle.set[i] != 0 ? kHandle : static_cast<std::uint8_t>(PointLabel::kOther);
-  HandleObservation seen;
-  seen.view.visible = VisiblePoints(depth, camera, config);
-  const LabelledCloud& visible = seen.view.visible;
-  seen.visible_count = static_cast<int>(visible.label.size());
-  seen.handle_count = static_cast<int>(std::ranges::count(visible.label, kHandle));
+  HandleObservation seen = ViewOfAll(VisiblePoints(depth, camera, config), approach, config);
   if (seen.handle_count == 0)
     throw Error(ErrorCode::kInvalidArgument,
                 "no point to take hold of is in view: " +
@@ -182,12 +194,14 @@ HandleObservation ObserveHandle(DepthImage depth, const PixelMask& handle,
                     " pixels of the mask are set, and none of them has a depth inside the crop " +
                     Format("(nearer than %.2f m, higher than %.2f m)", config.max_depth_m,
                            config.min_height_m));
-  seen.view.approach = approach;
-  seen.view.sample = [visible, count = config.point_count](const Eigen::Vector3d& start,
-                                                           double crop_radius_m) {
-    return SampleCloud(visible, start, {count, crop_radius_m}).cloud;
-  };
   return seen;
+}
+
+HandleObservation ObserveClosedDoor(const DepthImage& depth, const CalibratedCamera& camera,
+                                    const CloudConfig& config) {
+  LabelledCloud visible = VisiblePoints(depth, camera, config);
+  std::ranges::fill(visible.label, static_cast<std::uint8_t>(PointLabel::kOther));
+  return ViewOfAll(std::move(visible), -Eigen::Vector3d::UnitX(), config);
 }
 
 }  // namespace doorforge

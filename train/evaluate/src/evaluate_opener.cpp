@@ -135,6 +135,16 @@ std::string RecordedAs(const PolicyChoice& choice, Stage stage, bool allow_seen,
   return policy.weights_sha256;
 }
 
+// Who finds the handle, where a trained grasper is not told it.
+void AddFinder(const EvaluationRequest& request, const PolicyChoice& grasper,
+               EvaluationReport& report) {
+  const std::string& folder = request.config.grasp.finder;
+  if (folder.empty() || !grasper.IsFolder()) return;
+  const PolicyRecord finder = ReadPolicy(folder, kFindStage);
+  AddSeenParts(finder, folder, request.allow_seen, report);
+  report.provenance.finder_sha256 = finder.weights_sha256;
+}
+
 // One that does all of it turned the handle and took hold as well.
 void AddWhole(const fs::path& folder, EvaluationReport& report) {
   const WholePolicy policy = ReadWholePolicy(folder);
@@ -159,6 +169,7 @@ void AddTraining(const EvaluationRequest& request, const PolicySetFactory& facto
   AddOpener(request, factory.opener(), report);
   report.provenance.handler_sha256 = RecordedAs(factory.handler(), Stage::kHandle, seen, report);
   report.provenance.grasper_sha256 = RecordedAs(factory.grasper(), Stage::kGrasp, seen, report);
+  AddFinder(request, factory.grasper(), report);
   if (!seen) RequireHeldOut(report);
 }
 

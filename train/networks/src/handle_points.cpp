@@ -69,6 +69,15 @@ CloudWindow GraspWindow(const StageNormalisation& normalisation, std::span<const
   return WindowOf(normalisation, {xyz[0], xyz[1], xyz[2]});
 }
 
+CloudWindow PlaceWindow(std::span<const float> xyz) {
+  std::array<double, 3> mean{};
+  for (std::size_t i = 0; i < xyz.size(); ++i) mean.at(i % 3) += static_cast<double>(xyz[i]);
+  CloudWindow window;
+  for (std::size_t k = 0; k < 3; ++k)
+    window.centre.at(k) = static_cast<float>(mean.at(k) / (static_cast<double>(xyz.size()) / 3));
+  return window;
+}
+
 std::vector<std::size_t> PointsInWindow(std::span<const float> xyz, const CloudWindow& window,
                                         std::span<const std::size_t> points) {
   std::vector<std::size_t> inside;

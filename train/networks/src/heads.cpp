@@ -126,4 +126,20 @@ std::vector<float> AffordanceHead::Score(const HeadInputs& inputs) const {
   return Denormalised(angle_gain_rad_, layers_->Apply("score.1", hidden.View(), Activation::kNone));
 }
 
+FinderHead::FinderHead(const ParameterLayout& layout, std::span<const float> parameters,
+                       InstructionSet set)
+    : layers_(std::make_shared<DenseLayers>(layout, parameters, set)) {}
+
+std::vector<float> FinderHead::Score(const HeadInputs& inputs) const {
+  const Table hidden =
+      layers_->Apply("score.0", ViewOf(inputs.features, kFeatureSize), Activation::kLeaky);
+  const Table score = layers_->Apply("score.1", hidden.View(), Activation::kNone);
+  std::vector<float> logits;
+  logits.reserve(static_cast<std::size_t>(score.rows));
+  for (int row = 0; row < score.rows; ++row)
+    logits.push_back(
+        score.values[static_cast<std::size_t>(row) * static_cast<std::size_t>(score.stride)]);
+  return logits;
+}
+
 }  // namespace doorforge::internal

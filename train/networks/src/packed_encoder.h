@@ -52,7 +52,7 @@ struct PackedEncoder {
   PackedLayer head;
 
   bool reads_colors() const;
-  /// Width of a level's point rows: position and feature.
+  /// Width of a level's point rows, 0 to 4: position and feature.
   int LevelWidth(std::size_t level) const;
 };
 
@@ -79,14 +79,12 @@ void ForRowBlocks(int rows, const Body& body) {
     body(row, rows - row < kBlockRows ? rows - row : kBlockRows);
 }
 
-/// What an abstraction gives a point of level `level`, 1 to 4: its position and feature.
-int LevelWidth(std::size_t level);
-
 /// How many coarser points propagation l interpolates between.
 std::size_t CoarsePoints(const CloudGeometry& geometry, std::size_t l);
 
 /// Their features.
-Rows CoarseFeatures(const CloudGeometry& geometry, const PointEncoder::Trace& trace, std::size_t l);
+Rows CoarseFeatures(const PackedEncoder& encoder, const CloudGeometry& geometry,
+                    const PointEncoder::Trace& trace, std::size_t l);
 
 /// Whether propagation l's first layer is computed for the coarser points and interpolated then,
 /// not the other way round: where there are far fewer of them. Its first rows in the trace are then

@@ -15,7 +15,6 @@ namespace doorforge {
 using internal::CentreBlock;
 using internal::kBlockRows;
 using internal::Kernels;
-using internal::LevelWidth;
 using internal::MutableRows;
 using internal::PackedEncoder;
 using internal::PackedLayer;
@@ -24,12 +23,24 @@ using internal::Scratch;
 
 namespace {
 
-// Sizes of UniDoorManip's PointNet++; the first number of each abstraction counts the position. The
-// first layers of "sa1" and "fp1" have kColors inputs more where colours are read.
-constexpr std::array<std::array<int, 4>, 4> kAbstractionSizes = {
-    {{6, 32, 32, 64}, {67, 64, 64, 128}, {131, 128, 128, 256}, {259, 256, 256, 512}}};
-const std::array<std::vector<int>, 4> kPropagationSizes = {
-    {{131, 128, 128, 128}, {320, 256, 128}, {384, 256, 256}, {768, 256, 256}}};
+// The first number of each abstraction counts the position. The first layers of "sa1" and "fp1"
+// have kColors inputs more where colours are read. Features are multiples of the kernels' panels.
+struct EncoderSizes {
+  std::array<std::array<int, 4>, 4> abstraction;
+  std::array<std::vector<int>, 4> propagation;
+};
+
+// UniDoorManip's PointNet++.
+const EncoderSizes kFullSizes = {
+    {{{6, 32, 32, 64}, {67, 64, 64, 128}, {131, 128, 128, 256}, {259, 256, 256, 512}}},
+    {{{131, 128, 128, 128}, {320, 256, 128}, {384, 256, 256}, {768, 256, 256}}}};
+const EncoderSizes kNarrowSizes = {
+    {{{6, 32, 32, 32}, {35, 32, 32, 64}, {67, 64, 64, 64}, {67, 64, 64, 128}}},
+    {{{67, 64, 64, 64}, {96, 64, 64}, {128, 64, 64}, {192, 64, 64}}}};
+
+const EncoderSizes& SizesOf(EncoderWidth width) {
+  return width == EncoderWidth::kNarrow ? kNarrowSizes : kFullSizes;
+}
 
 constexpr int kColors = 3;
 
@@ -75,6 +86,8 @@ class Packer {
          int panel)
       : layout_(layout), prefix_(std::move(prefix)), parameters_(parameters), panel_(panel) {}
 
+  int Outputs(const std::string& name) const { return Find(prefix_ + name).outputs; }
+
   PackedLayer Pack(const std::string& name, GradientInputs passed_on) const {
     const DenseLayer& dense = Find(prefix_ + name);
     PackedLayer layer{.inputs = dense.inputs,
@@ -107,9 +120,11 @@ class Packer {
 
 // Max-pools each ball of a block and writes the rectified result into the level's rows.
 // NOLINTNEXTLINE(readability-function-size): the operands of a kernel
-void PoolBlock(const Kernels& kernels, const CloudGeometry::Level& level, const CentreBlock& block,
-               const float* rows, PointEncoder::Trace& trace, std::size_t l) {
-  const int width = LevelWidth(l + 1);
+void PoolBlock(const PackedEncoder& encoder, const CloudGeometry::Level& level,
+               const CentreBlock& block, const float* rows, PointEncoder::Trace& trace,
+               std::size_t l) {
+  const Kernels& kernels = *encoder.kernels;
+  const int width = encoder.LevelWidth(l + 1);
   const int features = width - 3;
   for (std::size_t s = block.first; s < block.last; ++s) {
     const std::uint32_t begin = level.ball_begin[s];
@@ -143,7 +158,7 @@ void AbstractSet(const PackedEncoder& encoder, const CloudGeometry& geometry, st
   kernels.multiply({level.centre_xyz.data(), 3, centres, 3}, layers[0].ForwardPanels(), nullptr,
                    {trace.centre[l].data(), width}, false);
 
-  trace.level[l + 1].resize(level.size() * LevelWidth(l + 1));
+  trace.level[l + 1].resize(level.size() * encoder.LevelWidth(l + 1));
   trace.argmax[l].resize(level.size() * layers[2].outputs);
   const auto first = Scratch(std::size_t{kBlockRows} * width);
   const auto second = Scratch(std::size_t{kBlockRows} * layers[1].outputs);
@@ -162,7 +177,7 @@ void AbstractSet(const PackedEncoder& encoder, const CloudGeometry& geometry, st
     kernels.multiply({second.get(), layers[1].outputs, block.rows, layers[1].outputs},
                      layers[2].ForwardPanels(), layers[2].bias.data(),
                      {third.get(), layers[2].outputs}, false);
-    PoolBlock(kernels, level, block, third.get(), trace, l);
+    PoolBlock(encoder, level, block, third.get(), trace, l);
     start = block.last;
   }
 }
@@ -198,7 +213,7 @@ Floats PropagationInputs(const PackedEncoder& encoder, const CloudGeometry& geom
                          const PointEncoder::Trace& trace) {
   const Kernels& kernels = *encoder.kernels;
   const CloudGeometry::Upsampling& upsampling = geometry.upsampling[l];
-  const Rows features = internal::CoarseFeatures(geometry, trace, l);
+  const Rows features = internal::CoarseFeatures(encoder, geometry, trace, l);
   const int row_width = encoder.LevelWidth(l);
   const int own = row_width - 3;
   const bool interpolates = !internal::ProjectsFirst(geometry, l);
@@ -221,7 +236,7 @@ Floats ProjectedLayer(const PackedEncoder& encoder, const CloudGeometry& geometr
   const Kernels& kernels = *encoder.kernels;
   const PackedLayer& layer = encoder.propagation[l][0];
   const int width = layer.outputs;
-  const Rows features = internal::CoarseFeatures(geometry, trace, l);
+  const Rows features = internal::CoarseFeatures(encoder, geometry, trace, l);
   Floats projected(static_cast<std::size_t>(features.rows) * width);
   internal::ForRowBlocks(features.rows, [&](std::ptrdiff_t row, int count) {
     kernels.multiply(
@@ -261,25 +276,24 @@ Floats Dense(const Kernels& kernels, const PackedLayer& layer, const Floats& inp
 
 namespace internal {
 
-int LevelWidth(std::size_t level) { return 3 + kAbstractionSizes.at(level - 1).back(); }
-
 bool PackedEncoder::reads_colors() const {
-  return abstraction[0][0].inputs == kAbstractionSizes[0][0] + kColors;
+  return abstraction[0][0].inputs == kFullSizes.abstraction[0][0] + kColors;
 }
 
 int PackedEncoder::LevelWidth(std::size_t level) const {
-  return level == 0 ? abstraction[0][0].inputs : internal::LevelWidth(level);
+  return level == 0 ? abstraction[0][0].inputs : 3 + abstraction.at(level - 1)[2].outputs;
 }
 
 std::size_t CoarsePoints(const CloudGeometry& geometry, std::size_t l) {
   return l == 3 ? geometry.levels[3].size() : geometry.upsampling[l + 1].size();
 }
 
-Rows CoarseFeatures(const CloudGeometry& geometry, const PointEncoder::Trace& trace,
-                    std::size_t l) {
+Rows CoarseFeatures(const PackedEncoder& encoder, const CloudGeometry& geometry,
+                    const PointEncoder::Trace& trace, std::size_t l) {
   const int rows = static_cast<int>(CoarsePoints(geometry, l));
-  if (l == 3) return {trace.level[4].data() + 3, LevelWidth(4), rows, LevelWidth(4) - 3};
-  const int width = kPropagationSizes[l + 1].back();
+  const int coarsest = encoder.LevelWidth(4);
+  if (l == 3) return {trace.level[4].data() + 3, coarsest, rows, coarsest - 3};
+  const int width = encoder.propagation[l + 1].back().outputs;
   return {trace.propagation[l + 1].back().data(), width, rows, width};
 }
 
@@ -306,16 +320,17 @@ void AddEncoderLayers(const std::string& prefix, ParameterLayout& layout, Encode
     layout.Add(prefix + name, inputs + (kind.colors && reads_points ? kColors : 0), outputs);
     if (kind.norm == EncoderNorm::kBatch) layout.Add(prefix + name + ".norm", 1, outputs);
   };
+  const EncoderSizes& all = SizesOf(kind.width);
   for (std::size_t level = 0; level < 4; ++level) {
-    const auto& sizes = kAbstractionSizes[level];
+    const auto& sizes = all.abstraction[level];
     for (std::size_t i = 0; i < 3; ++i) add(LayerName("sa", level, i), sizes[i], sizes[i + 1]);
   }
   for (std::size_t level = 4; level-- > 0;) {
-    const auto& sizes = kPropagationSizes[level];
+    const auto& sizes = all.propagation[level];
     for (std::size_t i = 0; i + 1 < sizes.size(); ++i)
       add(LayerName("fp", level, i), sizes[i], sizes[i + 1]);
   }
-  add("head", kFeatureSize, kFeatureSize);
+  add("head", all.propagation[0].back(), kFeatureSize);
 }
 
 PointEncoder::PointEncoder(const ParameterLayout& layout, const std::string& prefix,
@@ -323,22 +338,24 @@ PointEncoder::PointEncoder(const ParameterLayout& layout, const std::string& pre
   auto packed = std::make_shared<PackedEncoder>();
   packed->kernels = &internal::KernelsFor(set);
   const Packer packer(layout, prefix, parameters, packed->kernels->panel);
+  const bool narrow = packer.Outputs(LayerName("sa", 0, 2)) != kFullSizes.abstraction[0].back();
+  const EncoderSizes& all = narrow ? kNarrowSizes : kFullSizes;
   for (std::size_t level = 0; level < 4; ++level) {
     for (std::size_t i = 0; i < 3; ++i) {
       // positions are given, so the first layer passes a gradient to the features alone
-      const int inputs = kAbstractionSizes[level][i];
+      const int inputs = all.abstraction[level][i];
       const GradientInputs passed_on = i > 0        ? GradientInputs{0, inputs}
                                        : level == 0 ? GradientInputs{0, 0}
                                                     : GradientInputs{3, inputs - 3};
       packed->abstraction[level][i] = packer.Pack(LayerName("sa", level, i), passed_on);
     }
-    const auto& sizes = kPropagationSizes[level];
+    const auto& sizes = all.propagation[level];
     for (std::size_t i = 0; i + 1 < sizes.size(); ++i) {
-      const int passed_on = level == 0 && i == 0 ? kFeatureSize : sizes[i];
+      const int passed_on = level == 0 && i == 0 ? all.propagation[1].back() : sizes[i];
       packed->propagation[level].push_back(packer.Pack(LayerName("fp", level, i), {0, passed_on}));
     }
   }
-  packed->head = packer.Pack("head", {0, kFeatureSize});
+  packed->head = packer.Pack("head", {0, all.propagation[0].back()});
   packed_ = std::move(packed);
 }
 

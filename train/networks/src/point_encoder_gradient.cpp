@@ -16,7 +16,6 @@ namespace {
 using internal::CentreBlock;
 using internal::kBlockRows;
 using internal::Kernels;
-using internal::LevelWidth;
 using internal::PackedEncoder;
 using internal::PackedLayer;
 using internal::Scratch;
@@ -90,6 +89,7 @@ class SetGradient {
         level_(geometry.levels[l]),
         trace_(trace),
         l_(l),
+        output_width_(encoder.LevelWidth(l + 1)),
         widths_{layers_[0].outputs, layers_[1].outputs, layers_[2].outputs},
         row_width_(encoder.LevelWidth(l)),
         below_(static_cast<int>(trace.level[l].size()) / row_width_),
@@ -124,7 +124,7 @@ class SetGradient {
     return trace_.argmax[l_].data() + s * widths_[2];
   }
   const float* OutputOf(std::size_t s) const {
-    return trace_.level[l_ + 1].data() + s * LevelWidth(l_ + 1) + 3;
+    return trace_.level[l_ + 1].data() + s * output_width_ + 3;
   }
 
   // A row of a ball has a gradient only if it gave a maximum that is positive and is asked for.
@@ -246,6 +246,7 @@ class SetGradient {
   const CloudGeometry::Level& level_;
   const PointEncoder::Trace& trace_;
   std::size_t l_;
+  int output_width_;
   std::array<int, 3> widths_;
   int row_width_;
   int below_;
@@ -293,9 +294,10 @@ void ScatterToOwn(const Kernels& kernels, const CloudGeometry& geometry, std::si
 }
 
 // Through the inputs of a propagation.
-void ScatterUpsampling(const Kernels& kernels, const CloudGeometry& geometry, std::size_t l,
+void ScatterUpsampling(const PackedEncoder& encoder, const CloudGeometry& geometry, std::size_t l,
                        const Matrix& input_gradient, FeatureGradients& gradients) {
-  const int own = l == 0 ? 0 : LevelWidth(l) - 3;
+  const Kernels& kernels = *encoder.kernels;
+  const int own = l == 0 ? 0 : encoder.LevelWidth(l) - 3;
   const int width = input_gradient.columns;
   const int coarse = width - own;
   ScatterToNeighbours(kernels, geometry.upsampling[l],
@@ -333,7 +335,7 @@ class ProjectedGradient {
         own_(encoder.LevelWidth(l) - 3),
         geometry_(geometry),
         rows_(trace.propagation[l]),
-        features_(internal::CoarseFeatures(geometry, trace, l)),
+        features_(internal::CoarseFeatures(encoder, geometry, trace, l)),
         l_(l) {}
 
   // Adds to `gradient` and to those of the features.
@@ -383,7 +385,7 @@ void PointEncoder::AddGradient(const CloudGeometry& geometry, const Trace& trace
   const Kernels& kernels = *packed_->kernels;
   FeatureGradients gradients;
   for (std::size_t l = 1; l <= 4; ++l)
-    gradients.level[l].resize(geometry.levels[l - 1].size() * (LevelWidth(l) - 3));
+    gradients.level[l].resize(geometry.levels[l - 1].size() * (packed_->LevelWidth(l) - 3));
   for (std::size_t l = 0; l < 4; ++l)
     gradients.targets[l].resize(trace.propagation[l].back().size());
 
@@ -403,7 +405,7 @@ void PointEncoder::AddGradient(const CloudGeometry& geometry, const Trace& trace
           .Run(std::move(input_gradient), gradients, gradient);
     else
       ScatterUpsampling(
-          kernels, geometry, l,
+          *packed_, geometry, l,
           {input_gradient.data(), targets, static_cast<int>(input_gradient.size()) / targets},
           gradients);
   }

@@ -69,6 +69,14 @@ ParameterLayout MakeDiscriminatorLayout(EncoderKind kind) {
   return layout;
 }
 
+ParameterLayout MakeFinderLayout(EncoderKind kind) {
+  kind.width = EncoderWidth::kNarrow;
+  ParameterLayout layout;
+  AddEncoderLayers("encoder.", layout, kind);
+  AddBranch("score", {kFeatureSize, 64, 1}, layout);
+  return layout;
+}
+
 using LayoutsByKind = std::array<ParameterLayout, 4>;
 
 LayoutsByKind OfAllKinds(ParameterLayout (*make)(EncoderKind)) {
@@ -351,18 +359,31 @@ StageNormalisation NormalisationFromJson(const Json& json, const std::string& pa
 }
 
 NetworkFamily FamilyOf(std::string_view stage) {
+  if (stage == "find") return NetworkFamily::kFind;
   return stage == "grasp" ? NetworkFamily::kGrasp : NetworkFamily::kMotion;
 }
 
 NetworkNames NamesOf(NetworkFamily family) {
+  if (family == NetworkFamily::kFind) return {"place", "mask"};
   return family == NetworkFamily::kGrasp ? NetworkNames{"affordance", "discriminator"}
                                          : NetworkNames{"actor", "critic"};
 }
+
+namespace {
+
+// Its two networks are alike.
+const ParameterLayout& FinderLayout(EncoderKind kind) {
+  static const LayoutsByKind kFinder = OfAllKinds(MakeFinderLayout);
+  return kFinder.at(IndexOf(kind));
+}
+
+}  // namespace
 
 // Made once: whoever reads a policy asks for them at every layer.
 const ParameterLayout& ActorLayout(NetworkFamily family, EncoderKind kind) {
   static const LayoutsByKind kActor = OfAllKinds(MakeActorLayout);
   static const LayoutsByKind kAffordance = OfAllKinds(MakeAffordanceLayout);
+  if (family == NetworkFamily::kFind) return FinderLayout(kind);
   const LayoutsByKind& layouts = family == NetworkFamily::kGrasp ? kAffordance : kActor;
   return layouts.at(IndexOf(kind));
 }
@@ -370,6 +391,7 @@ const ParameterLayout& ActorLayout(NetworkFamily family, EncoderKind kind) {
 const ParameterLayout& CriticLayout(NetworkFamily family, EncoderKind kind) {
   static const LayoutsByKind kCritic = OfAllKinds(MakeCriticLayout);
   static const LayoutsByKind kDiscriminator = OfAllKinds(MakeDiscriminatorLayout);
+  if (family == NetworkFamily::kFind) return FinderLayout(kind);
   const LayoutsByKind& layouts = family == NetworkFamily::kGrasp ? kDiscriminator : kCritic;
   return layouts.at(IndexOf(kind));
 }

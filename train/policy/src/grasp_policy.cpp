@@ -15,6 +15,7 @@
 #include "doorforge/networks/handle_points.h"
 #include "doorforge/networks/heads.h"
 #include "doorforge/policy/grasp_rating.h"
+#include "doorforge/policy/handle_finder.h"
 #include "doorforge/policy/orientation_sampling.h"
 #include "doorforge/policy/policy_file.h"
 
@@ -225,7 +226,9 @@ std::unique_ptr<GraspPolicy> MakeGraspPolicy(StageNetworks networks, const Grasp
           "affordance_weight: must be in [0, 1000)");
   Require(networks.family == NetworkFamily::kGrasp, ErrorCode::kInvalidArgument,
           "grasp: the networks are those of another stage");
-  return std::make_unique<NetworkGraspPolicy>(std::move(networks), options);
+  auto policy = std::make_unique<NetworkGraspPolicy>(std::move(networks), options);
+  if (options.finder.empty()) return policy;
+  return std::make_unique<FindingGrasp>(std::move(policy), LoadHandleFinder(options.finder));
 }
 
 std::unique_ptr<GraspPolicy> LoadGraspPolicy(const std::filesystem::path& folder,

@@ -150,6 +150,7 @@ Json ProvenanceToJson(const ReportProvenance& provenance) {
                {"config", provenance.config}};
   if (!provenance.handler_sha256.empty()) json["handler_sha256"] = provenance.handler_sha256;
   if (!provenance.grasper_sha256.empty()) json["grasper_sha256"] = provenance.grasper_sha256;
+  if (!provenance.finder_sha256.empty()) json["finder_sha256"] = provenance.finder_sha256;
   if (!provenance.privileges.empty()) json["privileges"] = provenance.privileges;
   return json;
 }
@@ -171,6 +172,8 @@ ReportProvenance ProvenanceFromJson(const Json& json, const std::string& path) {
     provenance.handler_sha256 = ValueOf<std::string>(json, "handler_sha256", path);
   if (json.contains("grasper_sha256"))
     provenance.grasper_sha256 = ValueOf<std::string>(json, "grasper_sha256", path);
+  if (json.contains("finder_sha256"))
+    provenance.finder_sha256 = ValueOf<std::string>(json, "finder_sha256", path);
   if (json.contains("privileges"))
     provenance.privileges = PhrasesFromJson(json["privileges"], path + ".privileges");
   provenance.code_version = ValueOf<std::string>(json, "code_version", path);

@@ -498,6 +498,9 @@ std::string ProvenanceSection(const EvaluationReport& report) {
                      Term("grasp policy SHA-256", provenance.grasper_sha256.empty()
                                                       ? std::string("none: the expert takes hold")
                                                       : Code(provenance.grasper_sha256)) +
+                     (provenance.finder_sha256.empty()
+                          ? std::string()
+                          : Term("handle finder SHA-256", Code(provenance.finder_sha256))) +
                      PrivilegesTerm(provenance.privileges) +
                      Term("configuration SHA-256", Code(Sha256Hex(JsonText(provenance.config)))) +
                      Term("seeds", SeedList(report.episodes))},

@@ -81,6 +81,9 @@ std::string StagesLine(const ReportProvenance& provenance) {
     return IsTrained(sha256) ? "trained " + sha256.substr(0, 12) : sha256;
   };
   return "grasp: " + actor(provenance.grasper_sha256, "expert") +
+         (provenance.finder_sha256.empty()
+              ? ""
+              : " on a handle found by " + provenance.finder_sha256.substr(0, 12)) +
          "; handle: " + actor(provenance.handler_sha256, "rule") +
          (IsSwitchPredicted(provenance) ? ", which says when it is turned" : "") +
          "; opening: " + actor(provenance.policy_sha256, provenance.policy.c_str()) + "\n";

@@ -32,9 +32,10 @@ Options Parse(int argc, char** argv) {
   CLI::App app("Trains a stage's policy from the shards of `doorforge datagen`.",
                "doorforge train");
   app.add_option("stage", options.request.stage,
-                 "open, handle or grasp; motion: one policy of the data of open and handle")
+                 "open, handle or grasp; motion: one policy of open and handle; find: a finder of "
+                 "handles")
       ->required()
-      ->check(CLI::IsMember({"open", "handle", "grasp", "motion"}));
+      ->check(CLI::IsMember({"open", "handle", "grasp", "motion", "find"}));
   app.add_option("--data", options.request.data,
                  "data set, or several of the same stage; of motion: of either")
       ->required()
@@ -78,9 +79,8 @@ Options Parse(int argc, char** argv) {
 }
 
 TrainConfig ConfigOf(const Options& options) {
-  TrainConfig defaults;
-  defaults.family = FamilyOf(options.request.stage);
-  auto config = LoadConfig<TrainConfig>(options.config, options.settings, defaults);
+  auto config = LoadConfig<TrainConfig>(options.config, options.settings,
+                                        TrainDefaultsOf(options.request.stage));
   if (options.epochs) config.epochs = *options.epochs;
   if (options.seed) config.seed = *options.seed;
   if (options.device) config.device = *options.device;

@@ -9,14 +9,15 @@ namespace doorforge::internal {
 namespace {
 
 std::optional<double> ActorError(const StageLosses& losses, const TrainConfig& config) {
+  if (config.family == NetworkFamily::kFind) return losses.place;
   if (config.family == NetworkFamily::kGrasp) return losses.affordance_rad;
   if (!losses.position_m || !losses.rotation_rad) return std::nullopt;
   return config.lambda_position * *losses.position_m +
          config.lambda_rotation * *losses.rotation_rad;
 }
 
-std::optional<double> CriticError(const StageLosses& losses, const TrainConfig& /*config*/) {
-  return losses.angle_gain_rad;
+std::optional<double> CriticError(const StageLosses& losses, const TrainConfig& config) {
+  return config.family == NetworkFamily::kFind ? losses.mask : losses.angle_gain_rad;
 }
 
 // From 1, the first of equals; 0 without a number.

@@ -308,4 +308,22 @@ HeadResult AffordanceObjective(const StageNetworks& networks, const HeadBatch& b
                   });
 }
 
+HeadResult FinderObjective(const FinderNetwork& network, const HeadBatch& batch,
+                           std::span<float> gradient) {
+  return Evaluate(
+      {network.layout, network.parameters, gradient}, batch,
+      [&](const HeadParameters& parameters, const torch::Tensor& features) {
+        const torch::Tensor hidden = parameters.Dense("score.0", features);
+        const torch::Tensor logit =
+            parameters.Dense("score.1", torch::leaky_relu(hidden, kLeakySlope));
+        const torch::Tensor weight = View(batch.weights, 1);
+        Loss loss{(weight * torch::binary_cross_entropy_with_logits(logit, View(batch.is_handle, 1),
+                                                                    {}, {}, at::Reduction::None))
+                      .sum() /
+                  weight.sum()};
+        loss.losses.*network.reported = loss.objective.item<double>();
+        return loss;
+      });
+}
+
 }  // namespace doorforge::internal

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,8 @@ namespace doorforge::internal {
 struct HeadBatch : HeadInputs {
   std::vector<float> angle_gains_rad;  ///< n, [rad].
   std::vector<float> noise;            ///< n x 128, N(0, 1): the actor's latent draws.
+  /// n each, of the family kFind: 1 for a handle's point, else 0, and what the point counts.
+  std::vector<float> is_handle, weights;
 };
 
 struct HeadResult {
@@ -47,5 +50,14 @@ HeadResult DiscriminatorObjective(const StageNetworks& networks, const HeadBatch
 /// Objective of the affordance (5.4): L1 of the score of `points` to `angle_gains_rad`.
 HeadResult AffordanceObjective(const StageNetworks& networks, const HeadBatch& batch,
                                std::span<float> gradient);
+
+/// Objective of one of the finder's networks: cross entropy of `is_handle`, weighted.
+struct FinderNetwork {
+  const ParameterLayout& layout;
+  const std::vector<float>& parameters;
+  std::optional<double> StageLosses::*reported;
+};
+HeadResult FinderObjective(const FinderNetwork& network, const HeadBatch& batch,
+                           std::span<float> gradient);
 
 }  // namespace doorforge::internal

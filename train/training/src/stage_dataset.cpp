@@ -197,7 +197,7 @@ void AddColors(const DatasetReader& reader, std::size_t episode,
 
 std::vector<TrainingSample> SamplesOf(const EpisodeRange& range, const SampleOptions& options) {
   const DatasetReader& reader = range.reader;
-  const bool is_grasp = FamilyOf(range.stage) == NetworkFamily::kGrasp;
+  const bool is_grasp = range.stage == NameOf(Stage::kGrasp);
   std::vector<TrainingSample> samples;
   for (std::size_t i = range.begin; i < range.end; ++i) {
     const EpisodeArrays arrays = reader.Arrays(i);

@@ -18,10 +18,10 @@ std::size_t BatchSize(std::size_t samples, const TrainConfig& config) {
   return std::min(samples, static_cast<std::size_t>(config.batch_size));
 }
 
-int PhasesOf(NetworkFamily family) { return family == NetworkFamily::kGrasp ? 2 : 1; }
+int PhasesOf(NetworkFamily family) { return family == NetworkFamily::kMotion ? 1 : 2; }
 
 int EpochsOfPhase(const TrainConfig& config, int phase) {
-  const bool judges = config.family == NetworkFamily::kGrasp && phase == 0;
+  const bool judges = config.family != NetworkFamily::kMotion && phase == 0;
   return judges && config.discriminator_epochs > 0 ? config.discriminator_epochs : config.epochs;
 }
 

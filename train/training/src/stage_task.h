@@ -84,5 +84,8 @@ struct TaskInput {
 std::unique_ptr<StageTask> MakeMotionTask(const TaskInput& input);
 /// Discriminator, then affordance.
 std::unique_ptr<StageTask> MakeGraspTask(const TaskInput& input);
+/// The finder's mask, then its place. Throws Error(kInvalidArgument) where there are not looks of
+/// both extents.
+std::unique_ptr<StageTask> MakeFindTask(const TaskInput& input);
 
 }  // namespace doorforge::internal

@@ -96,6 +96,9 @@ double LearningRateAt(const TrainConfig& config, TrainingPlace place) {
 }
 
 std::vector<LossColumn> LossColumnsOf(NetworkFamily family) {
+  if (family == NetworkFamily::kFind)
+    return {{"mask.cross_entropy", &StageLosses::mask},
+            {"place.cross_entropy", &StageLosses::place}};
   if (family == NetworkFamily::kGrasp)
     return {{"discriminator.score_rad", &StageLosses::angle_gain_rad},
             {"affordance.score_rad", &StageLosses::affordance_rad}};

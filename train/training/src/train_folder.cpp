@@ -194,9 +194,10 @@ class FolderTraining {
     output_.turned = FitTurnedClassifier(TurnedExamples());
     output_.side = FitSideClassifier(dataset_.sides);
     output_.heights = FitHeights(dataset_.heights_m);
-    output_.familiarity = FitFamiliarity(
-        dataset_.train, dataset_.validation, request_.config.family,
-        request_.config.augment_mirror ? SampleSides::kMirroredToo : SampleSides::kAsSeen);
+    if (request_.config.family != NetworkFamily::kFind)
+      output_.familiarity = FitFamiliarity(
+          dataset_.train, dataset_.validation, request_.config.family,
+          request_.config.augment_mirror ? SampleSides::kMirroredToo : SampleSides::kAsSeen);
     WriteBesides(output_, request_.out);
     if (!hooks_.resume) RemoveBest(request_.out);  // of an earlier training
   }
@@ -280,8 +281,12 @@ std::string LossText(const StageLosses& losses, NetworkFamily family) {
                                      {"critic %.2f deg", to_degrees, losses.angle_gain_rad}};
   const std::vector<Shown> grasp = {{"discriminator %.2f deg", to_degrees, losses.angle_gain_rad},
                                     {"affordance %.2f deg", to_degrees, losses.affordance_rad}};
+  const std::vector<Shown> find = {{"mask %.4f nat", 1, losses.mask},
+                                   {"place %.4f nat", 1, losses.place}};
   std::string text;
-  for (const Shown& shown : family == NetworkFamily::kGrasp ? grasp : motion) {
+  for (const Shown& shown : family == NetworkFamily::kMotion  ? motion
+                            : family == NetworkFamily::kGrasp ? grasp
+                                                              : find) {
     if (!shown.value) continue;
     char part[64];
     std::snprintf(part, sizeof part, shown.format, shown.unit * *shown.value);

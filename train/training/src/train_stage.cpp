@@ -61,9 +61,14 @@ void SumAsTree(std::span<std::span<float>> parts) {
   }
 }
 
-constexpr std::array<std::optional<double> StageLosses::*, 5> kLosses = {
-    &StageLosses::position_m, &StageLosses::rotation_rad, &StageLosses::divergence,
-    &StageLosses::angle_gain_rad, &StageLosses::affordance_rad};
+constexpr std::array<std::optional<double> StageLosses::*, 7> kLosses = {
+    &StageLosses::position_m,
+    &StageLosses::rotation_rad,
+    &StageLosses::divergence,
+    &StageLosses::angle_gain_rad,
+    &StageLosses::affordance_rad,
+    &StageLosses::place,
+    &StageLosses::mask};
 
 // `losses` with those values of `newer` that are known.
 StageLosses Updated(StageLosses losses, const StageLosses& newer) {
@@ -87,11 +92,20 @@ void AddScaled(const StageLosses& losses, double factor, StageLosses& sum) {
   }
 }
 
+// The extent of clouds from near by: a finder has seen the whole door as well.
+float ExtentOf(std::span<const TrainingSample> samples, NetworkFamily family) {
+  const auto near = std::ranges::find_if(
+      samples, [](const TrainingSample& sample) { return sample.cloud_crop_radius_m > 0; });
+  const bool finds = family == NetworkFamily::kFind && near != samples.end();
+  return (finds ? *near : samples.front()).cloud_crop_radius_m;
+}
+
 // All clouds are made in one way, which the policy's record tells whoever lets it act.
-void RequireLikeClouds(std::span<const TrainingSample> samples) {
+void RequireLikeClouds(std::span<const TrainingSample> samples, NetworkFamily family) {
+  const float extent_m = ExtentOf(samples, family);
   for (const TrainingSample& sample : samples) {
-    Require(sample.cloud_crop_radius_m == samples.front().cloud_crop_radius_m,
-            ErrorCode::kInvalidArgument,
+    const bool of_whole = family == NetworkFamily::kFind && sample.cloud_crop_radius_m == 0;
+    Require(of_whole || sample.cloud_crop_radius_m == extent_m, ErrorCode::kInvalidArgument,
             "the data sets' clouds have different extents (cloud_within_m in meta.json); train "
             "from those with the same");
     Require(sample.remembered_finer == samples.front().remembered_finer,
@@ -108,8 +122,8 @@ NetworkView ViewOf(const TrainConfig& config, std::span<const TrainingSample> sa
   if (config.family == NetworkFamily::kMotion) view.state = config.state;
   view.crop_radius_m = static_cast<float>(config.crop_radius_m);
   view.point_scale = static_cast<float>(config.point_scale);
-  RequireLikeClouds(samples);
-  view.cloud_crop_radius_m = samples.front().cloud_crop_radius_m;
+  RequireLikeClouds(samples, config.family);
+  view.cloud_crop_radius_m = ExtentOf(samples, config.family);
   view.remembered_finer = samples.front().remembered_finer;
   if (config.family == NetworkFamily::kGrasp) view.near_points = config.near_points;
   view.colors = config.colors;
@@ -119,7 +133,7 @@ NetworkView ViewOf(const TrainConfig& config, std::span<const TrainingSample> sa
 std::vector<TrainingSample> AllInHandFrame(std::span<const TrainingSample> samples,
                                            NetworkFamily family) {
   const auto convert =
-      family == NetworkFamily::kGrasp ? internal::AboutContact : internal::WithTurns;
+      family == NetworkFamily::kMotion ? internal::WithTurns : internal::AboutContact;
   std::vector<TrainingSample> converted;
   converted.reserve(samples.size());
   for (const TrainingSample& sample : samples) converted.push_back(convert(sample));
@@ -235,6 +249,7 @@ class Trainer {
     // about the contact its own place is 0 always: the scale is that of the handle's other points
     if (config_.family == NetworkFamily::kGrasp && view.frame == ViewFrame::kHand)
       std::fill_n(normalisation.action.deviation.begin(), 3, kHandleScale);
+    if (config_.family == NetworkFamily::kFind) normalisation.angle_gain_rad = {{0.0F}, {1.0F}};
     return normalisation;
   }
 
@@ -242,7 +257,7 @@ class Trainer {
   // of a normalised number is normalised then.
   std::vector<TrainingSample> AllShown() const {
     std::vector<TrainingSample> all(train_.begin(), train_.end());
-    if (config_.family == NetworkFamily::kGrasp || !config_.augment_mirror) return all;
+    if (config_.family != NetworkFamily::kMotion || !config_.augment_mirror) return all;
     for (const TrainingSample& sample : train_)
       all.push_back(internal::WithoutCloudMirrored(sample));
     return all;
@@ -251,6 +266,7 @@ class Trainer {
   std::unique_ptr<StageTask> MakeTask() const {
     const internal::TaskInput input{
         train_, validation_, &config_, &state_.networks, hooks_.geometry_cache_bytes, threads_};
+    if (config_.family == NetworkFamily::kFind) return internal::MakeFindTask(input);
     return config_.family == NetworkFamily::kGrasp ? internal::MakeGraspTask(input)
                                                    : internal::MakeMotionTask(input);
   }

@@ -31,13 +31,15 @@ struct ShownLoss {
   double factor;
 };
 constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr std::array<ShownLoss, 6> kShown = {{
+constexpr std::array<ShownLoss, 8> kShown = {{
     {"actor.position_m", "Actor: hand position, mean L1", "mm", 1000},
     {"actor.rotation_rad", "Actor: hand rotation, geodesic angle", "deg", kDegrees},
     {"actor.divergence", "Actor: divergence from N(0, I)", "nat", 1},
     {"critic.score_rad", "Critic: angle gained, mean L1", "deg", kDegrees},
     {"discriminator.score_rad", "Discriminator: the door's angle, mean L1", "deg", kDegrees},
     {"affordance.score_rad", "Affordance: the best ratings, mean L1", "deg", kDegrees},
+    {"mask.cross_entropy", "Mask: cross entropy of a point", "nat", 1},
+    {"place.cross_entropy", "Place: cross entropy of a point", "nat", 1},
 }};
 
 ShownLoss ShownAs(const std::string& name) {

@@ -13,12 +13,16 @@ namespace doorforge {
 /// paper's ablation without disentangling. It is no stage of an episode or of a data set.
 inline constexpr std::string_view kMotionStage = "motion";
 
+/// The stage of a finder of handles, trained from looks at closed doors, which are data of the
+/// stage "grasp".
+inline constexpr std::string_view kFindStage = "find";
+
 /// Whether a policy that was trained for one stage acts at another: at its own; one of kMotionStage
 /// at "handle" and at "open".
 bool ActsAt(std::string_view trained, std::string_view stage);
 
 /// The stage whose shards a training reads of a data set: its own; of kMotionStage "handle" where
-/// the data set has that, else "open".
+/// the data set has that, else "open"; of kFindStage "grasp".
 std::string StageReadOf(const std::filesystem::path& folder, std::string_view stage);
 
 /// SHA-256 that tells what a stage's networks were trained from: over the content hashes of the

@@ -87,7 +87,7 @@ void Play::Grasp() {
     const Action action{chosen->contact_m, chosen->world_from_hand_rotation};
     recorder_.Note(seen, action, action, stepper_.state());
   }
-  stepper_.Step(chosen);
+  stepper_.Step(roles_.tries ? chosen : std::nullopt);
   begun_ = Stage::kGrasp;
 }
 

@@ -33,7 +33,10 @@ struct StageConfig {
   RandomGraspConfig grasp;  ///< How grasps are sampled.
   /// With a learner: it drives 1 to this many decisions, drawn for each episode, then the expert.
   int learner_decisions = 16;
-  GraspCameraConfig grasp_camera;   ///< At "grasp": what the recorded cloud is seen with.
+  GraspCameraConfig grasp_camera;  ///< At "grasp": what the recorded cloud is seen with.
+  /// At "grasp". False: what would be taken hold of is recorded and not tried, and rated 0: looks
+  /// at closed doors, which a finder of handles learns from. Written into files only then.
+  bool tries = true;
   RememberedViewConfig remembered;  ///< At "handle": what the recorded clouds are joined with.
   CloudConfig cloud;
   /// Adds preview.png to each episode: depth at the first and at the last look.
@@ -54,6 +57,8 @@ struct StageConfig {
     }
     visit("grasp", self.grasp);
     if (self.stage == Stage::kGrasp) visit("grasp_look", self.grasp_camera);
+    if (self.stage == Stage::kGrasp && (!std::is_const_v<Self> || !self.tries))
+      visit("tries", self.tries);
     if (self.stage == Stage::kHandle) visit("remembered", self.remembered);
     visit("cloud", self.cloud);
     visit("preview", self.preview);

@@ -61,6 +61,9 @@ struct EpisodePolicies {
   /// still as good as shut (3 degrees), the fingers open, the hand moves straight back, and `grasp`
   /// is asked again.
   int grasps = 1;
+  /// False: a chosen grasp is noted where grasps are recorded, and not tried; the episode ends
+  /// there as one without a grasp in view.
+  bool tries = true;
 };
 
 /// Runs one episode of the three stages: grasp, turn of the handle until it is "handle done" and

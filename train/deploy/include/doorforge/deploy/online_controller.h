@@ -99,10 +99,15 @@ class OnlineController {
   ///     the state nor a policy says whether the handle is turned.
   ActAnswer Decide(DepthImage depth, const RobotState& state, const InputNames& names = {});
 
-  /// Where and how to take hold of the handle that the mask shows, before the robot moves.
+  /// Where and how to take hold of the handle, before the robot moves: of the one that the mask
+  /// shows, or, without a mask, of the one that GraspOptions::finder finds.
   ///
-  /// @throws Error(kInvalidArgument) as ObserveHandle(), or without a grasper.
-  ActAnswer DecideGrasp(DepthImage depth, PixelMask handle, const InputNames& names = {});
+  /// @throws Error(kInvalidArgument) as ObserveHandle(), without a grasper, without a mask where
+  ///     there is no finder or it finds none, and with a mask where there is a finder.
+  ActAnswer DecideGrasp(DepthImage depth, std::optional<PixelMask> handle,
+                        const InputNames& names = {});
+  /// Whether handles are found and not told.
+  bool FindsHandle() const { return !setup_.config.grasp.finder.empty(); }
 
   const CalibratedCamera& camera() const { return setup_.camera; }
   const RobotModel& robot() const { return robot_; }
@@ -128,6 +133,7 @@ class OnlineController {
     std::optional<Familiarity> familiarity;
   };
 
+  HandleObservation ViewForGrasp(const InputNames& names) const;
   void KeepBefore(LabelledCloud before);
   std::optional<Actor> LoadActor(const std::string& folder, Stage stage);
   std::optional<Actor> LoadHandler(const std::string& folder);
@@ -160,7 +166,8 @@ class OnlineController {
 struct DecisionFiles {
   std::string depth{};         ///< A picture, see ReadDepthPicture().
   std::string state{};         ///< Either the robot's state, YAML,
-  std::string handle{};        ///< or the mask of a handle that is to be taken hold of, PNG.
+  std::string handle{};        ///< or the mask of a handle that is to be taken hold of, PNG;
+                               ///< neither: the handle is to be found, see FindsHandle().
   std::string before{};        ///< A depth picture from before the robot came, which is kept.
   std::string camera{};        ///< What messages call the camera.
   std::string color{};         ///< Colours of `depth`, PNG or JPEG, see AddColors().

@@ -82,4 +82,11 @@ HandleObservation ObserveHandle(DepthImage depth, const PixelMask& handle,
                                 const CalibratedCamera& camera, const Eigen::Vector3d& approach,
                                 const CloudConfig& config = {});
 
+/// Does the same where nobody says which points are the handle: none is labelled as one, and the
+/// approach is against the world's x.
+///
+/// @throws Error(kInvalidArgument) as ObserveDepth().
+HandleObservation ObserveClosedDoor(const DepthImage& depth, const CalibratedCamera& camera,
+                                    const CloudConfig& config = {});
+
 }  // namespace doorforge

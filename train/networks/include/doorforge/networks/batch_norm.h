@@ -19,11 +19,16 @@ inline constexpr NamedValue<EncoderNorm> kEncoderNorms[] = {{EncoderNorm::kNone,
                                                             {EncoderNorm::kBatch, "batch"}};
 constexpr std::span<const NamedValue<EncoderNorm>> ValuesOf(EncoderNorm) { return kEncoderNorms; }
 
-/// Which encoder: what normalises its layers, and whether a point's colour is an input beside its
-/// position.
+/// How many features the encoder's layers have. kNarrow: a quarter and less, a tenth of the
+/// weights; enough to tell a handle from a leaf.
+enum class EncoderWidth { kFull, kNarrow };
+
+/// Which encoder: what normalises its layers, whether a point's colour is an input beside its
+/// position, and how wide it is.
 struct EncoderKind {
   EncoderNorm norm = EncoderNorm::kNone;
   bool colors = false;
+  EncoderWidth width = EncoderWidth::kFull;
 
   friend bool operator==(const EncoderKind&, const EncoderKind&) = default;
 };

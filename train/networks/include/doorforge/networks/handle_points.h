@@ -33,6 +33,10 @@ std::array<float, 3> GraspOrigin(const StageNormalisation& normalisation,
 /// The window of a cloud from which a grasp is chosen.
 CloudWindow GraspWindow(const StageNormalisation& normalisation, std::span<const float> xyz);
 
+/// The window of a cloud in which a handle's place is sought: all of it, from the mean of its
+/// points.
+CloudWindow PlaceWindow(std::span<const float> xyz);
+
 /// Those of the points that are surely in the cloud's window.
 std::vector<std::size_t> PointsInWindow(std::span<const float> xyz, const CloudWindow& window,
                                         std::span<const std::size_t> points);

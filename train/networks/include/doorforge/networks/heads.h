@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "doorforge/networks/head_inputs.h"
@@ -72,6 +73,20 @@ class AffordanceHead {
  private:
   std::shared_ptr<const DenseLayers> layers_;
   Normaliser<1> angle_gain_rad_;
+};
+
+/// Tells handles' points from others, by either network of the family kFind.
+class FinderHead {
+ public:
+  /// `layout` and `parameters` of one of the two networks.
+  FinderHead(const ParameterLayout& layout, std::span<const float> parameters,
+             InstructionSet set = BestInstructionSet());
+  /// Reads `features`.
+  /// @returns The logit of being a handle's, n.
+  std::vector<float> Score(const HeadInputs& inputs) const;
+
+ private:
+  std::shared_ptr<const DenseLayers> layers_;
 };
 
 }  // namespace doorforge::internal

@@ -33,10 +33,11 @@ inline float ColorInput(std::uint8_t channel) {
   return static_cast<float>(kColorScale) * (static_cast<float>(channel) / 255.0F - 0.5F);
 }
 
-/// PointNet++ for segmentation, single-scale (Qi et al. 2017; UniDoorManip's sizes): four set
-/// abstractions, four feature propagations, one dense layer, all with bias and ReLU. A point's
-/// input feature is its position, and with EncoderKind::colors its colour; the first set
-/// abstraction reads the position relative to the centre as well.
+/// PointNet++ for segmentation, single-scale (Qi et al. 2017; UniDoorManip's sizes, or with
+/// EncoderWidth::kNarrow smaller ones): four set abstractions, four feature propagations, one dense
+/// layer, all with bias and ReLU. A point's input feature is its position, and with
+/// EncoderKind::colors its colour; the first set abstraction reads the position relative to the
+/// centre as well.
 ///
 /// Adds the encoder's layers ("<prefix>sa1.0" ... "<prefix>fp1.2", "<prefix>head") to `layout`,
 /// with kBatch behind each its normalisation, see NormBehind().
@@ -61,7 +62,7 @@ class PointEncoder {
   };
 
   /// `parameters` is a flat vector of `layout`, in which the encoder's layers have `prefix` and no
-  /// normalisation. Whether it reads colours follows from the layout.
+  /// normalisation. Whether it reads colours and how wide it is follow from the layout.
   PointEncoder(const ParameterLayout& layout, const std::string& prefix,
                std::span<const float> parameters, InstructionSet set);
 

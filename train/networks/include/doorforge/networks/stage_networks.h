@@ -113,11 +113,13 @@ StageNormalisation NormalisationFromJson(const nlohmann::ordered_json& json,
 
 /// Which networks a stage has. Each stage has one that proposes and one that judges: actor and
 /// critic where the hand is moved, affordance and discriminator where a grasp is chosen
-/// (UniDoorManip, Section 4).
-enum class NetworkFamily { kMotion, kGrasp };
+/// (UniDoorManip, Section 4); where a handle is found, one that says where on the door it is and
+/// one that says, seen from near by, which points are its.
+enum class NetworkFamily { kMotion, kGrasp, kFind };
 NetworkFamily FamilyOf(std::string_view stage);
 
-/// What files call the two: "actor" and "critic", or "affordance" and "discriminator".
+/// What files call the two: "actor" and "critic", "affordance" and "discriminator", or "place" and
+/// "mask".
 struct NetworkNames {
   const char* actor;
   const char* critic;
@@ -127,13 +129,14 @@ NetworkNames NamesOf(NetworkFamily family);
 /// The actor: encoder ("encoder.*") and conditional VAE (UniDoorManip's table): action
 /// 9-128-128-64, state 18-128-128-64, posterior 256-128-128 -> mean and log-variance of 128
 /// latents, decoder 320-512-256-9. The affordance: encoder, contact point 3-128-128-128, score
-/// 256-128-1.
+/// 256-128-1. The place: encoder of EncoderWidth::kNarrow, score 128-64-1.
 const ParameterLayout& ActorLayout(NetworkFamily family = NetworkFamily::kMotion,
                                    EncoderKind kind = {});
 
 /// The critic: encoder of its own, state 18-128-128-64, action 9-128-128-64, hand and base position
 /// 3-128-128-64 each, score 384-256-128-1. The discriminator: encoder and action 9-128-128-128, or
 /// near points 3-64-64-128 and their maximum (as Liang et al. 2019), the other 0; score 384-128-1.
+/// The mask: as the place.
 const ParameterLayout& CriticLayout(NetworkFamily family = NetworkFamily::kMotion,
                                     EncoderKind kind = {});
 
@@ -141,8 +144,8 @@ const ParameterLayout& CriticLayout(NetworkFamily family = NetworkFamily::kMotio
 struct StageNetworks {
   StageNormalisation normalisation;
   bool linear_branches = false;  ///< See TrainConfig.
-  std::vector<float> actor;      ///< At "grasp" the affordance.
-  std::vector<float> critic;     ///< At "grasp" the discriminator.
+  std::vector<float> actor;      ///< At "grasp" the affordance, at "find" the place.
+  std::vector<float> critic;     ///< At "grasp" the discriminator, at "find" the mask.
   NetworkFamily family = NetworkFamily::kMotion;
   EncoderNorm norm = EncoderNorm::kNone;  ///< kBatch in training alone, see PolicyOf().
 

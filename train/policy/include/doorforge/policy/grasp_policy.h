@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <type_traits>
 
 #include "doorforge/networks/stage_networks.h"
 #include "doorforge/schemas/grasp_policy.h"
@@ -36,6 +38,10 @@ struct GraspOptions {
   /// others.
   bool clear = true;
   std::uint64_t seed = 1;  ///< The sampled orientations are drawn from it.
+  /// A folder that `doorforge train find` wrote: which points are the handle and the way into the
+  /// leaf are found by it (FindingGrasp) where a policy is loaded. Empty: they are told. Written
+  /// into files only where there is one.
+  std::string finder;
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -48,17 +54,18 @@ struct GraspOptions {
     visit("centred", self.centred);
     visit("clear", self.clear);
     visit("seed", self.seed);
+    if (!std::is_const_v<Self> || !self.finder.empty()) visit("finder", self.finder);
   }
 };
 
 /// A trained affordance and discriminator choose where and how to take hold; they look at clouds of
 /// the extent that they were trained on and explain their actions.
 ///
-/// Loads it from the folder that `doorforge train grasp` wrote.
+/// Loads it from the folder that `doorforge train grasp` wrote, with GraspOptions::finder.
 /// @throws Error(kMissing or kFormat) as ReadPolicy(), Error(kInvalidConfig) on bad options.
 std::unique_ptr<GraspPolicy> LoadGraspPolicy(const std::filesystem::path& folder,
                                              const GraspOptions& options = {});
-/// Makes it of networks of the family kGrasp in memory.
+/// Makes it of networks of the family kGrasp in memory, with GraspOptions::finder.
 std::unique_ptr<GraspPolicy> MakeGraspPolicy(StageNetworks networks,
                                              const GraspOptions& options = {});
 

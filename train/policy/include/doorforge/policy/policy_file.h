@@ -17,7 +17,7 @@ inline constexpr int kPolicySchemaVersion = 1;
 
 /// What a policy was made from.
 struct PolicyProvenance {
-  std::string stage;           ///< "open", "handle", "grasp" or "motion".
+  std::string stage;           ///< "open", "handle", "grasp", "motion" or "find".
   std::string dataset_sha256;  ///< StageDataset::content_sha256 of what it was trained from.
   std::string code_version;
   TrainConfig config;

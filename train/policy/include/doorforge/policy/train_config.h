@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 #include "doorforge/core/named_enum.h"
@@ -48,7 +49,8 @@ struct TrainConfig {
   /// after it.
   int epochs = 10;
   int discriminator_epochs = 0;  ///< In the place of `epochs`; 0: as many. With near points an
-                                 ///< epoch takes a tenth of the affordance's.
+                                 ///< epoch takes a tenth of the affordance's. At "find" the mask's,
+                                 ///< called mask_epochs.
   int batch_size =
       32;  ///< UniDoorManip's released code; an epoch leaves out the last, incomplete batch.
   double learning_rate = 1e-3;
@@ -77,7 +79,9 @@ struct TrainConfig {
   /// The critic learns on every n-th step only; 1: on all.
   int critic_interval = 1;
   ScoreLoss score_loss = ScoreLoss::kSquared;
-  int sampled_points = 4;  ///< The affordance learns from so many points of each cloud's handle.
+  /// The affordance learns from so many points of each cloud's handle, a finder from so many of
+  /// each look.
+  int sampled_points = 4;
   int sampled_orientations = 50;  ///< Rated by the discriminator at each of them (UniDoorManip).
   int best_orientations = 10;     ///< Whose mean rating is the affordance's target (likewise).
   double tilt_rad = 0.1;          ///< Sampled orientations lean by it, see OrientationSampling.
@@ -116,6 +120,10 @@ struct TrainConfig {
       visit("linear_branches", self.linear_branches);
       visit("state", self.state);
       visit("critic_interval", self.critic_interval);
+    } else if (self.family == NetworkFamily::kFind) {
+      visit("mask_epochs", self.discriminator_epochs);
+      visit("sampled_points", self.sampled_points);
+      visit("augment_roll_rad", self.augment_roll_rad);
     } else {
       visit("discriminator_epochs", self.discriminator_epochs);
       visit("score_loss", self.score_loss);
@@ -127,20 +135,27 @@ struct TrainConfig {
       visit("augment_roll_rad", self.augment_roll_rad);
     }
     visit("augment_mirror", self.augment_mirror);
-    visit("frame", self.frame);
+    if (self.family != NetworkFamily::kFind) visit("frame", self.frame);
     visit("context_m", self.crop_radius_m);
     visit("zoom", self.point_scale);
     // records from before there was a choice stay as they are, byte by byte
-    if (!std::is_const_v<Self> || self.colors) {
-      visit("colors", self.colors);
-      visit("augment_colors", self.augment_colors);
+    if (self.family != NetworkFamily::kFind) {
+      if (!std::is_const_v<Self> || self.colors) {
+        visit("colors", self.colors);
+        visit("augment_colors", self.augment_colors);
+      }
+      visit("encoder_norm", self.encoder_norm);
+      visit("device", self.device);
     }
-    visit("encoder_norm", self.encoder_norm);
-    visit("device", self.device);
     visit("validation_share", self.validation_share);
     visit("seed", self.seed);
   }
 };
+
+/// The settings with which the training of a stage begins, by its name or "motion" or "find". A
+/// finder's mask sees 0.2 m about where the handle is guessed to be, told six times larger, and
+/// learns longer than its place.
+TrainConfig TrainDefaultsOf(std::string_view stage);
 
 /// Epochs, counted from 1; 0: none, as long as nothing was validated.
 struct BestEpochs {

@@ -47,6 +47,8 @@ struct ReportProvenance {
   std::string handler_sha256 = {};
   /// Names who chose the grasp in the same way.
   std::string grasper_sha256 = {};
+  /// It hashes the weights that found the handle for who chose the grasp; empty: it was told.
+  std::string finder_sha256 = {};
   /// What the policy is told that a robot would not know, a phrase each; empty where its record
   /// does not say.
   std::vector<std::string> privileges = {};

@@ -18,7 +18,7 @@ namespace doorforge {
 
 /// A training from data sets to a policy's folder.
 struct TrainingRequest {
-  std::string stage;  ///< "open", "handle", "grasp" or "motion".
+  std::string stage;  ///< "open", "handle", "grasp", "motion" or "find".
   std::vector<std::filesystem::path> data;
   /// A policy whose weights and normalisation the training begins with; empty: drawn from the seed.
   std::filesystem::path from = {};

@@ -28,6 +28,8 @@ struct StageLosses {
   std::optional<double> divergence = {};      ///< Posterior against N(0, I).
   std::optional<double> angle_gain_rad = {};  ///< Critic's or discriminator's mean absolute error.
   std::optional<double> affordance_rad = {};  ///< Affordance's, to the mean of the best ratings.
+  std::optional<double> place = {};  ///< The finder's, mean cross entropy of a point [nat]: afar,
+  std::optional<double> mask = {};   ///< and near by.
 };
 
 /// A loss by its name in files, such as "critic.score_rad".
@@ -110,7 +112,7 @@ double LearningRateAt(const TrainConfig& config, TrainingPlace place);
 /// in docs/design/learn.md): Adam, the losses above, batches that are a pure function of (seed,
 /// epoch, step). Gradients are summed over fixed parts of the batch in a fixed order. Actor and
 /// critic learn side by side; the discriminator learns before the affordance, whose targets are its
-/// ratings.
+/// ratings; the finder's mask learns before its place, each from the looks of its own extent.
 ///
 /// @returns The state at the end, or where `stop` ended it.
 /// @throws Error(kInvalidConfig), also if there is no such device, Error(kInvalidArgument) without

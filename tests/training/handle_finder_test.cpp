@@ -124,6 +124,7 @@ RecordedLooks MakeRecordedLooks(std::uint64_t seed, std::size_t doors, bool near
 
 TrainConfig FinderConfig() {
   TrainConfig config = TrainDefaultsOf("find");
+  config.discriminator_epochs = 0;  // the mask learns as long as the place
   config.batch_size = 8;
   config.warmup_steps = 5;
   config.sampled_points = 256;

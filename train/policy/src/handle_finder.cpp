@@ -36,7 +36,6 @@ constexpr int kPlanes = 200;
 constexpr int kLooks = 2;           // from near by
 constexpr std::size_t kPlaces = 3;  // that are looked at from near by
 constexpr std::size_t kSurest = 20;
-constexpr float kAsLikely = 0.3F;
 
 Eigen::Vector3f SeenAt(const std::vector<float>& xyz, std::size_t i) {
   return {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
@@ -72,15 +71,11 @@ std::vector<std::size_t> LikelyPoints(const std::vector<float>& probability) {
   return likely;
 }
 
-struct Place {
-  Eigen::Vector3f at_m = Eigen::Vector3f::Zero();
-  float likelihood = -1;  // the sum of its points'
-};
-
 // The place with the most that looks like a handle within reach of it.
-Place LikeliestPlace(const std::vector<float>& xyz, const std::vector<float>& probability,
-                     const std::vector<std::size_t>& likely) {
-  Place likeliest;
+Eigen::Vector3f LikeliestPlace(const std::vector<float>& xyz, const std::vector<float>& probability,
+                               const std::vector<std::size_t>& likely) {
+  float most = -1;
+  Eigen::Vector3f place = Eigen::Vector3f::Zero();
   for (const std::size_t centre : likely) {
     float sum = 0;
     Eigen::Vector3f weighted = Eigen::Vector3f::Zero();
@@ -89,26 +84,24 @@ Place LikeliestPlace(const std::vector<float>& xyz, const std::vector<float>& pr
       sum += probability[i];
       weighted += probability[i] * SeenAt(xyz, i);
     }
-    if (sum > likeliest.likelihood) likeliest = {weighted / sum, sum};
+    if (sum <= most) continue;
+    most = sum;
+    place = weighted / sum;
   }
-  return likeliest;
+  return place;
 }
 
-// Places that are apart, the likeliest first. What is far less likely is none: the mask, which has
-// learned about handles alone, is no judge of what lies elsewhere.
+// Places that are apart, the likeliest first.
 std::vector<Eigen::Vector3f> LikelyPlaces(const std::vector<float>& xyz,
                                           const std::vector<float>& probability) {
   std::vector<Eigen::Vector3f> places;
   std::vector<std::size_t> likely = LikelyPoints(probability);
-  float most = 0;
   while (!likely.empty() && places.size() < kPlaces) {
-    const Place place = LikeliestPlace(xyz, probability, likely);
-    most = std::max(most, place.likelihood);
-    if (place.likelihood < kAsLikely * most) break;
-    places.push_back(place.at_m);
+    const Eigen::Vector3f place = LikeliestPlace(xyz, probability, likely);
+    places.push_back(place);
     const std::size_t before = likely.size();
-    std::erase_if(
-        likely, [&](std::size_t i) { return (SeenAt(xyz, i) - place.at_m).norm() <= 2 * kPlaceM; });
+    std::erase_if(likely,
+                  [&](std::size_t i) { return (SeenAt(xyz, i) - place).norm() <= 2 * kPlaceM; });
     if (likely.size() == before) break;
   }
   return places;

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Finders on a world of our own: a leaf with one bar of a handle, a wall beside it, and a step of
-// the leaf that sticks out as far as the handle does.
+// Finders on a world of our own: a leaf with one bar of a handle, and a wall beside it.
 #include "doorforge/policy/handle_finder.h"
 
 #include <algorithm>
@@ -35,8 +34,6 @@ struct ClosedDoorWorld {
       Eigen::Vector3d point(0, rng.Uniform(-0.5, 0.5), rng.Uniform(0.2, 1.9));
       if (part < 0.03)
         point = {0.05, y + rng.Uniform(-0.06, 0.06), z + rng.Uniform(-0.012, 0.012)};
-      else if (part < 0.2)
-        point = {0.05, rng.Uniform(-0.5, 0.5), rng.Uniform(0.2, 0.4)};
       else if (part < 0.4)
         point.y() += 1;
       point = rotation * point;
@@ -124,6 +121,7 @@ RecordedLooks MakeRecordedLooks(std::uint64_t seed, std::size_t doors, bool near
 
 TrainConfig FinderConfig() {
   TrainConfig config = TrainDefaultsOf("find");
+  config.discriminator_epochs = 0;  // the mask learns as long as the place
   config.batch_size = 8;
   config.warmup_steps = 5;
   config.sampled_points = 256;

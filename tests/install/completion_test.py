@@ -35,7 +35,7 @@ class Completion(unittest.TestCase):
     def test_the_helps_tell_something(self):
         self.assertGreater(len(self.helps), 20)
         self.assertIn("--doors", self.helps["doorforge datagen open"].options)
-        self.assertEqual(self.helps["doorforge train"].places, [["open", "handle", "grasp", "motion"]])
+        self.assertEqual(self.helps["doorforge train"].places, [["open", "handle", "grasp", "motion", "find"]])
         self.assertEqual(self.helps["doorforge act"].options["--base"], ["sliders", "fixed"])
 
     def test_all_that_a_help_tells_is_offered(self):

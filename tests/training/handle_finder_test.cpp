@@ -94,7 +94,7 @@ struct RecordedLooks {
   std::vector<TrainingSample> samples;
 };
 
-// Of each door one look from near by and one of all of it, as `datagen grasp` records them.
+// Each door is looked at from near by and as a whole, as `datagen grasp` records it.
 RecordedLooks MakeRecordedLooks(std::uint64_t seed, std::size_t doors, bool near = true,
                                 bool whole = true) {
   RecordedLooks looks;

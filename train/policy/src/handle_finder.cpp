@@ -43,7 +43,7 @@ Eigen::Vector3f SeenAt(const std::vector<float>& xyz, std::size_t i) {
 
 float Probability(float logit) { return 1.0F / (1.0F + std::exp(-logit)); }
 
-// Of a handle, of the window's points that were asked for.
+// Says how likely the window's points that were asked for are a handle's.
 std::vector<float> ProbabilitiesOf(const PointEncoder& encoder, const internal::FinderHead& head,
                                    const CloudGeometry& geometry) {
   internal::HeadInputs inputs;
@@ -250,7 +250,7 @@ struct HandleFinder::Networks {
     return LikelyPlaces(cloud.xyz, ProbabilitiesOf(place_encoder, place_head, geometry));
   }
 
-  // Of the places, the one where the mask is surest of a handle.
+  // Finds the place where the mask is surest of a handle.
   Eigen::Vector3d SurestOf(const std::vector<Eigen::Vector3f>& places,
                            const SampleAbout& sample) const {
     Eigen::Vector3f best = places.front();

@@ -12,9 +12,9 @@ namespace {
 
 constexpr double kPatience = 0.4;  // [s] for a hand whose commanded pose has arrived
 constexpr double kThere = 0.002;   // [m]
-// Of a hand whose force is limited: with half the momentum it strikes with half the force.
-// Retreating and approaching at 0.15 m/s, 46 reversed doors of the validation side were struck with
-// 455 N at most, at this speed with 193.
+// A hand whose force is limited moves no faster: with half the momentum it strikes with half the
+// force. Retreating and approaching at 0.15 m/s, 46 reversed doors of the validation side were
+// struck with 455 N at most, at this speed with 193.
 constexpr double kGentleSpeed = 0.07;  // [m/s]
 
 }  // namespace

@@ -63,7 +63,8 @@ bool IsHandle(const LabelledCloud& cloud, std::size_t i) {
   return cloud.label[i] == static_cast<std::uint8_t>(PointLabel::kHandle);
 }
 
-// Of what was found: how much is the handle's, how much of the handle it is, and both in one.
+// Says how much of what was found is the handle's, how much of the handle was found, and both in
+// one.
 void Compare(const LabelledCloud& truth, const std::vector<bool>& found, Findings& findings) {
   double both = 0;
   double in_truth = 0;

@@ -16,7 +16,7 @@ struct RobotCommand {
   /// Where the tool centre is to be; ArmController::kOperationalSpace alone looks at it. Without
   /// it, and with kJointMotors, the joints follow arm_position.
   std::optional<RigidTransform> world_from_tcp = std::nullopt;
-  /// Of what PhysicsConfig::hand_force_n leaves to the joint motors; (0, 1].
+  /// The joint motors use this share of what PhysicsConfig::hand_force_n leaves to them; (0, 1].
   double effort_share = 1;
 };
 

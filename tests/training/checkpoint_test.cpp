@@ -154,6 +154,46 @@ TEST(Checkpoint, WeightsOfAnotherNetworkAreRefusedAlsoWhereTheirHashIsTheRecords
   ExpectError(ErrorCode::kFormat, "actor.", [&] { ReadPolicy(folder / "open"); });
 }
 
+// Takes tensors away from a policy's file and lets its record name what is left.
+void WithoutTensors(const fs::path& folder, std::initializer_list<const char*> prefixes) {
+  const fs::path path = folder / "policy.safetensors";
+  TensorFile file = DecodeTensors(ReadFile(path), path.string());
+  for (const char* prefix : prefixes)
+    std::erase_if(file.tensors, [&](const auto& t) { return t.first.starts_with(prefix); });
+  std::string record = ReadFile(folder / "policy.json");
+  const std::string own = Sha256OfFile(path);
+  CommitFile(path, EncodeTensors(file));
+  record.replace(record.find(own), own.size(), Sha256OfFile(path));
+  CommitFile(folder / "policy.json", record);
+}
+
+TEST(Checkpoint, AMotionMayBeWithoutThePosteriorThatTrainingAloneReads) {
+  const fs::path folder = EmptyFolder("posterior");
+  const StageNetworks networks = SomeState().networks;
+  WritePolicy(folder / "open", networks, {"open", "abc", "v", {}, 1});
+  const StageNetworks whole = ReadPolicy(folder / "open").networks;
+  WithoutTensors(folder / "open",
+                 {"actor.action.", "actor.posterior.", "actor.mean.", "actor.log_variance."});
+  const StageNetworks slim = ReadPolicy(folder / "open").networks;
+  const StageNetworks untrained =
+      InitialNetworks(whole.normalisation, whole.linear_branches, 0, whole.family);
+  EXPECT_EQ(slim.critic, whole.critic);
+  for (const DenseLayer& layer : whole.actor_layout().layers()) {
+    const bool acts = layer.name.starts_with("encoder.") || layer.name.starts_with("state.") ||
+                      layer.name.starts_with("decoder.");
+    const std::vector<float>& expected = acts ? whole.actor : untrained.actor;
+    for (std::size_t i = layer.offset; i < layer.bias_offset() + layer.outputs; ++i)
+      ASSERT_EQ(slim.actor[i], expected[i]) << layer.name;
+  }
+}
+
+TEST(Checkpoint, HalfAPosteriorIsRefused) {
+  const fs::path folder = EmptyFolder("half_posterior");
+  WritePolicy(folder, SomeState().networks, {"open", "abc", "v", {}, 1});
+  WithoutTensors(folder, {"actor.posterior.", "actor.mean."});
+  ExpectError(ErrorCode::kFormat, "actor.posterior.0.weight", [&] { ReadPolicy(folder); });
+}
+
 TEST(Checkpoint, DamagedPoliciesAreRefused) {
   const fs::path folder = EmptyFolder("damaged");
   ExpectError(ErrorCode::kMissing, "policy.json", [&] { ReadPolicy(folder); });

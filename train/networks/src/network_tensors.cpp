@@ -2,11 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/networks/network_tensors.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "doorforge/core/error.h"
 
 namespace doorforge::internal {
+namespace {
+
+bool IsOfPosterior(std::string_view name, const std::string& prefix) {
+  const auto begins = [&](const char* layer) { return name.starts_with(prefix + layer); };
+  return begins("action.") || begins("posterior.") || begins("mean.") || begins("log_variance.");
+}
+
+}  // namespace
 
 std::string NetworkPrefix(const char* network) { return std::string(network) + "."; }
 
@@ -51,6 +60,17 @@ TensorFile WeightsOf(const StageNetworks& networks, MakeFloats make) {
   AddParameters(networks.actor_layout(), NetworkPrefix(names.actor), networks.actor, make, file);
   AddParameters(networks.critic_layout(), NetworkPrefix(names.critic), networks.critic, make, file);
   return file;
+}
+
+void AddMissingPosterior(const StageNetworks& networks, TensorFile& file) {
+  if (networks.family != NetworkFamily::kMotion) return;
+  const std::string prefix = NetworkPrefix(NamesOf(networks.family).actor);
+  const auto of_posterior = [&](const auto& tensor) { return IsOfPosterior(tensor.first, prefix); };
+  if (std::ranges::any_of(file.tensors, of_posterior)) return;
+  const StageNetworks untrained =
+      InitialNetworks(networks.normalisation, networks.linear_branches, 0);
+  for (const auto& tensor : WeightsOf(untrained, MakeTensor<float>).tensors)
+    if (of_posterior(tensor)) file.tensors.insert(tensor);
 }
 
 void ReadWeights(const TensorFile& file, const std::string& path, StageNetworks& networks) {

@@ -119,7 +119,9 @@ PolicyRecord ReadPolicy(const fs::path& folder, std::string_view stage) {
   if (Sha256Hex(weights) != record.weights_sha256)
     throw Error(ErrorCode::kFormat, weights_path + ": its SHA-256 is not the one in " + path +
                                         "; run the training again with --resume");
-  internal::ReadWeights(DecodeTensors(weights, weights_path), weights_path, record.networks);
+  TensorFile file = DecodeTensors(weights, weights_path);
+  internal::AddMissingPosterior(record.networks, file);
+  internal::ReadWeights(file, weights_path, record.networks);
   return record;
 }
 

@@ -69,7 +69,7 @@ void AddMissingPosterior(const StageNetworks& networks, TensorFile& file) {
   if (std::ranges::any_of(file.tensors, of_posterior)) return;
   const StageNetworks untrained =
       InitialNetworks(networks.normalisation, networks.linear_branches, 0);
-  for (const auto& tensor : WeightsOf(untrained, MakeTensor<float>).tensors)
+  for (const auto& tensor : WeightsOf(untrained, MakeHalfTensor).tensors)
     if (of_posterior(tensor)) file.tensors.insert(tensor);
 }
 

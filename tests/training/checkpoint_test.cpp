@@ -183,9 +183,10 @@ TEST(Checkpoint, AMotionMayBeWithoutThePosteriorThatTrainingAloneReads) {
     const bool acts = layer.name.starts_with("encoder.") || layer.name.starts_with("state.") ||
                       layer.name.starts_with("decoder.");
     const std::vector<float>& expected = acts ? whole.actor : untrained.actor;
-    for (std::size_t i = layer.offset; i < layer.bias_offset() + layer.outputs; ++i)
+    for (std::size_t i = layer.offset; i < layer.bias_offset() + layer.outputs; ++i) {
       const float rounding = std::max(std::ldexp(std::abs(expected[i]), -11), 3.0e-8F);
-    ASSERT_NEAR(slim.actor[i], expected[i], rounding) << layer.name;
+      ASSERT_NEAR(slim.actor[i], expected[i], rounding) << layer.name;
+    }
   }
 }
 

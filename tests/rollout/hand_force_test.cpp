@@ -83,6 +83,27 @@ TEST_F(HandForceTest, DoorsOpenWithinTheForce) {
   EXPECT_GE(opened, 11);
 }
 
+// Fingers without friction slip off the handle as soon as the hand pulls.
+TEST_F(HandForceTest, AHandThatHasLostTheHandleStandsStill) {
+  const DoorAsset door = MakePrimitiveDoor(RandomPrimitive(Mechanism::kRound, 23, 0));
+  const auto moved_at_the_end = [&](double most_n) {
+    Scene scene = SampleScene(door, 23, 0);
+    scene.physics.finger_friction = 0.01;
+    scene.physics.hand_force_n = most_n;
+    EpisodeStepper stepper(door, robot_, {.first = Stage::kHandle});
+    stepper.Reset(scene);
+    const auto hand = [&] { return stepper.now().observation.privileged.world_from_hand; };
+    Eigen::Vector3d before = hand().translation();
+    for (int i = 0; i < 9 && !stepper.now().over(); ++i) {
+      before = hand().translation();
+      stepper.Step(Moved(stepper, {0, 0, 0.05}));
+    }
+    return (hand().translation() - before).norm();
+  };
+  EXPECT_GT(moved_at_the_end(0), 0.03);
+  EXPECT_LT(moved_at_the_end(kMost), 0.001);
+}
+
 // The share of the drives that is left is part of what an episode comes back to.
 TEST_F(HandForceTest, ComesBackWhileItPresses) {
   const DoorAsset door = MakePrimitiveDoor(RandomPrimitive(Mechanism::kLever, 23, 0));

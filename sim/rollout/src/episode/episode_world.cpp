@@ -43,7 +43,11 @@ void EpisodeWorld::Step(const RobotCommand& command) {
   world_.Step(governed);
   ++memory_.step;
   if (diverged()) return;
-  if (memory_.governor.IsOn()) memory_.governor.Note(world_.Contacts().force_on_door_n.norm());
+  if (memory_.governor.IsOn()) {
+    const DoorContacts contacts = world_.Contacts();
+    memory_.governor.Note(contacts.force_on_door_n.norm());
+    memory_.grip.Note(command.close_fingers, contacts.AnyPad());
+  }
   memory_.peak_hinge_rad = std::max(memory_.peak_hinge_rad, state().hinge_rad);
   memory_.peak_handle_rad = std::max(memory_.peak_handle_rad, state().handle_rad);
   if (observer_ != nullptr && memory_.step % scene_.physics.steps_per_action == 0 &&
@@ -52,6 +56,7 @@ void EpisodeWorld::Step(const RobotCommand& command) {
 }
 
 void EpisodeWorld::StepHand() {
+  if (memory_.grip.lost()) controller().FollowHand(world_.PoseOfRobot().world_from_hand);
   Step(controller().Step(state().robot_position, scene_.physics.time_step_s));
 }
 

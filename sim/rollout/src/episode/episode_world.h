@@ -26,9 +26,11 @@ class EpisodeWorld {
   EpisodeWorld(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
                Observer* observer, const JointVector& start);
 
-  /// Advances by one step of the physics. Does nothing once the world has a fault.
+  /// Advances by one step of the physics, with drives that yield to force where it is limited. Does
+  /// nothing once the world has a fault.
   void Step(const RobotCommand& command);
-  /// Advances by what the hand's controller commands.
+  /// Advances by what the hand's controller commands. Where the hand's force is limited and its
+  /// fingers have lost what they held, it stands still.
   void StepHand();
   int StepsIn(double seconds) const;
   /// Moves the hand in a straight line and waits for it; whether it has arrived.
@@ -47,6 +49,7 @@ class EpisodeWorld {
   struct Memory {
     HandController controller;
     ForceGovernor governor;
+    GripWatch grip{};
     long step = 0;
     double peak_hinge_rad = 0;
     double peak_handle_rad = 0;

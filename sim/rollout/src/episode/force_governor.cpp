@@ -20,4 +20,9 @@ void ForceGovernor::Note(double force_n) {
                : std::min(1.0, share_ * kGivenBack);
 }
 
+void GripWatch::Note(bool closing, bool touching) {
+  held_ = closing && (held_ || touching);
+  steps_without_ = touching ? 0 : steps_without_ + 1;
+}
+
 }  // namespace doorforge::internal

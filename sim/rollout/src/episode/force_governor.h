@@ -25,4 +25,21 @@ class ForceGovernor {
   double share_ = 1;
 };
 
+/// Tells when fingers that had closed on a handle have nothing between them any more, by the touch
+/// of their pads. Whoever moves on then strikes leaf, frame or handle with all the momentum of arm
+/// and base within one step of the physics, before any drive can yield. A value.
+class GripWatch {
+ public:
+  /// Once a step: whether the fingers are told to be closed, and whether a pad touches the handle.
+  void Note(bool closing, bool touching);
+  /// For three steps at least; until a pad touches again or the fingers open.
+  bool lost() const { return held_ && steps_without_ >= kStepsToLose; }
+
+ private:
+  static constexpr int kStepsToLose = 3;
+
+  bool held_ = false;
+  int steps_without_ = 0;
+};
+
 }  // namespace doorforge::internal

@@ -395,23 +395,36 @@ class Decomposition {
     if (region.trimmed) return false;
     CheckWork();
     region.trimmed = true;
-    std::vector<const std::vector<HalfSpace>*> others;
+    std::vector<const Region*> others;
+    std::vector<int> ids{region.id};
     for (std::size_t i = 0; i < regions_.size(); ++i) {
-      if (i != index && regions_[i].box.exteriorDistance(region.box) <= kHeldSkins * SkinM())
-        others.push_back(&regions_[i].faces);
+      if (i == index || regions_[i].box.exteriorDistance(region.box) > kHeldSkins * SkinM())
+        continue;
+      others.push_back(&regions_[i]);
+      ids.push_back(regions_[i].id);
     }
-    CutSurface kept = region.surface.Without([&](std::span<const Eigen::Vector3d> corners) {
-      return std::any_of(others.begin(), others.end(), [&](const std::vector<HalfSpace>* faces) {
-        return IsHeldBy(*faces, corners);
-      });
-    });
-    if (kept.PolygonCount() == region.surface.PolygonCount()) return false;
-    if (kept.PolygonCount() == 0 || !SetHull(region, SearchHull(kept.points()))) {
+    const auto [entry, is_new] = trimmed_.try_emplace(std::move(ids));
+    if (is_new) entry->second = TrimmedBy(others, region);
+    const std::optional<Region>& trimmed = entry->second;
+    if (!trimmed) return false;
+    if (trimmed->hull.vertices.empty())
       regions_.erase(regions_.begin() + static_cast<std::ptrdiff_t>(index));
-      return true;
-    }
-    region.surface = std::move(kept);
+    else
+      region = *trimmed;
     return true;
+  }
+
+  // Without what the hulls of others hold; without a hull where that is all, and nothing where it
+  // changes nothing.
+  std::optional<Region> TrimmedBy(const std::vector<const Region*>& others, Region region) {
+    CutSurface kept = region.surface.Without([&](std::span<const Eigen::Vector3d> corners) {
+      return std::any_of(others.begin(), others.end(),
+                         [&](const Region* other) { return IsHeldBy(other->faces, corners); });
+    });
+    if (kept.PolygonCount() == region.surface.PolygonCount()) return std::nullopt;
+    if (kept.PolygonCount() == 0 || !SetHull(region, SearchHull(kept.points()))) return Region{};
+    region.surface = std::move(kept);
+    return region;
   }
 
   // Wholly in the hull, but for a skin.
@@ -430,19 +443,28 @@ class Decomposition {
 
   // Replaces a region by its two sides of the best cut; false if no cut separates anything.
   bool Split(std::size_t index, Depths depths) {
-    const std::optional<AxisCut> cut = BestCut(regions_[index], depths);
-    if (!cut) return false;
-    std::vector<Region> sides;
+    const std::vector<Region>& sides = SidesOf(regions_[index], depths);
+    if (sides.size() < 2) return false;
+    regions_[index] = sides[0];
+    regions_.push_back(sides[1]);
+    return true;
+  }
+
+  // The two sides of the best cut, or fewer. A search that begins anew, or goes back to what was
+  // best, asks for many of them again, and for the largest.
+  const std::vector<Region>& SidesOf(const Region& region, Depths depths) {
+    const auto [entry, is_new] = sides_.try_emplace({region.id, depths});
+    std::vector<Region>& sides = entry->second;
+    if (!is_new) return sides;
+    const std::optional<AxisCut> cut = BestCut(region, depths);
+    if (!cut) return sides;
     for (const int sign : {-1, 1}) {
       Region side;
-      side.box = SideOfBox(regions_[index].box, {*cut, sign});
-      side.surface = regions_[index].surface.Side({*cut, sign}, SkinM(), NotedFor(side.box));
-      if (Enclose(side, regions_[index].faces)) sides.push_back(std::move(side));
+      side.box = SideOfBox(region.box, {*cut, sign});
+      side.surface = region.surface.Side({*cut, sign}, SkinM(), NotedFor(side.box));
+      if (Enclose(side, region.faces)) sides.push_back(std::move(side));
     }
-    if (sides.size() < 2) return false;
-    regions_[index] = std::move(sides[0]);
-    regions_.push_back(std::move(sides[1]));
-    return true;
+    return sides;
   }
 
   static Eigen::AlignedBox3d SideOfBox(Eigen::AlignedBox3d box, const CutSide& side) {
@@ -625,6 +647,8 @@ class Decomposition {
   int next_id_ = 0;
   std::map<std::pair<int, int>, Between> between_;
   std::map<int, Concavity> measured_;  // by the region's id
+  std::map<std::pair<int, Depths>, std::vector<Region>> sides_;  // the same
+  std::map<std::vector<int>, std::optional<Region>> trimmed_;    // by its id, then the others'
   std::map<std::pair<int, int>, Between> measured_between_;
   CutSurface::SideContent content_;  // of the side that is looked at
 };

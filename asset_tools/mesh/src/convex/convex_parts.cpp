@@ -29,7 +29,6 @@ constexpr double kFineCoverShare = 0.1;  // the same after cuts that were measur
 constexpr double kCutShare = 0.875;      // of the parts: what those cuts may use in any case
 constexpr int kExchanges = 16;           // measured cuts and joins without gain before they end
 constexpr double kSearchHull = 0.01;     // of the concavity: what hulls of the search leave out
-constexpr double kComparedHull = 0.04;   // the same of hulls that are only compared
 constexpr double kComparedCells = 1;     // to within which depths are told where cuts are compared
 constexpr double kFineStep = 0.5;        // cells: to within which protrusion is found
 constexpr double kCoarseStep = 1.25;     // the same where cuts are compared
@@ -550,7 +549,7 @@ class Decomposition {
   std::optional<Side> SideOf(const Region& region, const CutSide& side) {
     CheckWork();
     region.surface.FindSide(side, SkinM(), NotedFor(SideOfBox(region.box, side)), content_);
-    std::optional<TriangleMesh> hull = GrownHull(content_.points, kComparedHull * allowed_m_);
+    std::optional<TriangleMesh> hull = SearchHull(content_.points);
     if (!hull) return std::nullopt;
     const double volume_m3 = VolumeOf(*hull);
     if (!(volume_m3 > smallest_m3_)) return std::nullopt;

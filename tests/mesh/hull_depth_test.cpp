@@ -75,6 +75,23 @@ TEST(ConcavityOf, IsThatOfTheDeepestOfAllCells) {
   }
 }
 
+TEST(ConcavityOf, IsTooLittleByAStepAtMost) {
+  const DistanceGrid solid(Posts(), 0.013);
+  Rng rng(4, "depth");
+  for (int round = 0; round < 100; ++round) {
+    const TriangleMesh hull = DrawnHull(rng, {1.1, 0.7, 0.8});
+    const double all_m = DeepestOfAll(hull, solid);
+    const double step_m = rng.Uniform(0, 0.2);
+    const Concavity found = ConcavityOf(hull, solid, {.step_m = step_m});
+    EXPECT_LE(found.depth_m, all_m);
+    EXPECT_GE(found.depth_m, all_m - step_m);
+    const Eigen::Vector3i cell = solid.grid().CellAt(found.at_m);
+    EXPECT_EQ(solid.DistanceAt(cell.x(), cell.y(), cell.z()), found.depth_m);
+    // what may be left out is not what counts
+    EXPECT_GT(ConcavityOf(hull, solid, {.above_m = 0.99 * all_m, .step_m = 1}).depth_m, 0);
+  }
+}
+
 // The diagonal face of an angle's hull is farthest from the angle in its middle.
 TEST(ProtrusionOf, AnAngleIsHalfItsOpening) {
   constexpr double kWall = 0.1;

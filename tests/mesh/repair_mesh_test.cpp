@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -344,6 +345,31 @@ TEST(RepairMesh, SaysWhyItFailsWhereItMayNotWrap) {
   EXPECT_EQ(result.report.outcome, RepairOutcome::kFailed);
   EXPECT_FALSE(result.mesh);
   EXPECT_EQ(result.report.reason, "a piece of 7200 triangles crosses itself");
+}
+
+// Beside an open sheet, of which a wall would be made.
+TriangleMesh HopelessBesideASheet() {
+  TriangleMesh crossing = Torus(1, 0.3, 60, 60);
+  crossing.vertices[0] = {-2, 0.1, 0.1};
+  const TriangleMesh sheet{{{3, 0, 0}, {4, 0, 0}, {4, 1, 0}, {3, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+  return Together(crossing, sheet);
+}
+
+TEST(RepairMesh, MakesNoWallsWhereAPieceCrossesItselfHopelessly) {
+  const RepairResult result = Repaired(HopelessBesideASheet(), {.wrap = WrapUse::kNever});
+  EXPECT_EQ(result.report.outcome, RepairOutcome::kFailed);
+  EXPECT_EQ(result.report.reason, "a piece of 7200 triangles crosses itself");
+  for (const std::string& step : result.report.steps)
+    EXPECT_EQ(step.find("made walls"), std::string::npos) << step;
+}
+
+TEST(RepairMesh, DropsAHiddenPieceHoweverItCrossesItself) {
+  const TriangleMesh mesh = Together(
+      Box(Eigen::Vector3d::Constant(-2.5), Eigen::Vector3d::Constant(2.5)), HopelessBesideASheet());
+  const RepairResult result = Repaired(mesh, {.wrap = WrapUse::kNever});
+  EXPECT_EQ(result.report.outcome, RepairOutcome::kRepaired) << result.report.reason;
+  EXPECT_EQ(result.report.components_dropped, 1);
+  EXPECT_EQ(result.report.sheets_thickened, 1);
 }
 
 TEST(RepairMesh, FailsOnAMeshWithoutAnArea) {

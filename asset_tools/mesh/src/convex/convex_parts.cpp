@@ -29,6 +29,7 @@ constexpr double kFineCoverShare = 0.1;  // the same after cuts that were measur
 constexpr double kCutShare = 0.875;      // of the parts: what those cuts may use in any case
 constexpr int kExchanges = 16;           // measured cuts and joins without gain before they end
 constexpr double kSearchHull = 0.01;     // of the concavity: what hulls of the search leave out
+constexpr double kComparedCells = 1;     // to within which depths are told where cuts are compared
 constexpr double kFineStep = 0.5;        // cells: to within which protrusion is found
 constexpr double kCoarseStep = 1.25;     // the same where cuts are compared
 constexpr double kHeldSkins = 2;         // how far surface may stand out of a hull that holds it
@@ -395,23 +396,36 @@ class Decomposition {
     if (region.trimmed) return false;
     CheckWork();
     region.trimmed = true;
-    std::vector<const std::vector<HalfSpace>*> others;
+    std::vector<const Region*> others;
+    std::vector<int> ids{region.id};
     for (std::size_t i = 0; i < regions_.size(); ++i) {
-      if (i != index && regions_[i].box.exteriorDistance(region.box) <= kHeldSkins * SkinM())
-        others.push_back(&regions_[i].faces);
+      if (i == index || regions_[i].box.exteriorDistance(region.box) > kHeldSkins * SkinM())
+        continue;
+      others.push_back(&regions_[i]);
+      ids.push_back(regions_[i].id);
     }
-    CutSurface kept = region.surface.Without([&](std::span<const Eigen::Vector3d> corners) {
-      return std::any_of(others.begin(), others.end(), [&](const std::vector<HalfSpace>* faces) {
-        return IsHeldBy(*faces, corners);
-      });
-    });
-    if (kept.PolygonCount() == region.surface.PolygonCount()) return false;
-    if (kept.PolygonCount() == 0 || !SetHull(region, SearchHull(kept.points()))) {
+    const auto [entry, is_new] = trimmed_.try_emplace(std::move(ids));
+    if (is_new) entry->second = TrimmedBy(others, region);
+    const std::optional<Region>& trimmed = entry->second;
+    if (!trimmed) return false;
+    if (trimmed->hull.vertices.empty())
       regions_.erase(regions_.begin() + static_cast<std::ptrdiff_t>(index));
-      return true;
-    }
-    region.surface = std::move(kept);
+    else
+      region = *trimmed;
     return true;
+  }
+
+  // Without what the hulls of others hold; without a hull where that is all, and nothing where it
+  // changes nothing.
+  std::optional<Region> TrimmedBy(const std::vector<const Region*>& others, Region region) {
+    CutSurface kept = region.surface.Without([&](std::span<const Eigen::Vector3d> corners) {
+      return std::any_of(others.begin(), others.end(),
+                         [&](const Region* other) { return IsHeldBy(other->faces, corners); });
+    });
+    if (kept.PolygonCount() == region.surface.PolygonCount()) return std::nullopt;
+    if (kept.PolygonCount() == 0 || !SetHull(region, SearchHull(kept.points()))) return Region{};
+    region.surface = std::move(kept);
+    return region;
   }
 
   // Wholly in the hull, but for a skin.
@@ -430,19 +444,28 @@ class Decomposition {
 
   // Replaces a region by its two sides of the best cut; false if no cut separates anything.
   bool Split(std::size_t index, Depths depths) {
-    const std::optional<AxisCut> cut = BestCut(regions_[index], depths);
-    if (!cut) return false;
-    std::vector<Region> sides;
+    const std::vector<Region>& sides = SidesOf(regions_[index], depths);
+    if (sides.size() < 2) return false;
+    regions_[index] = sides[0];
+    regions_.push_back(sides[1]);
+    return true;
+  }
+
+  // The two sides of the best cut, or fewer. A search that begins anew, or goes back to what was
+  // best, asks for many of them again, and for the largest.
+  const std::vector<Region>& SidesOf(const Region& region, Depths depths) {
+    const auto [entry, is_new] = sides_.try_emplace({region.id, depths});
+    std::vector<Region>& sides = entry->second;
+    if (!is_new) return sides;
+    const std::optional<AxisCut> cut = BestCut(region, depths);
+    if (!cut) return sides;
     for (const int sign : {-1, 1}) {
       Region side;
-      side.box = SideOfBox(regions_[index].box, {*cut, sign});
-      side.surface = regions_[index].surface.Side({*cut, sign}, SkinM(), NotedFor(side.box));
-      if (Enclose(side, regions_[index].faces)) sides.push_back(std::move(side));
+      side.box = SideOfBox(region.box, {*cut, sign});
+      side.surface = region.surface.Side({*cut, sign}, SkinM(), NotedFor(side.box));
+      if (Enclose(side, region.faces)) sides.push_back(std::move(side));
     }
-    if (sides.size() < 2) return false;
-    regions_[index] = std::move(sides[0]);
-    regions_.push_back(std::move(sides[1]));
-    return true;
+    return sides;
   }
 
   static Eigen::AlignedBox3d SideOfBox(Eigen::AlignedBox3d box, const CutSide& side) {
@@ -462,43 +485,64 @@ class Decomposition {
     double area_m2 = 0;    // of the surface in it
   };
 
+  // A cut with all of its score but the depths, which only add to it.
+  struct RatedCut {
+    AxisCut cut;
+    std::array<Side, 2> sides;
+    double least_score = 0;
+  };
+
   // The cut after which the least surface is left in regions that are still deep, weighed against
   // the air in both hulls. Depth matters because an opening is rid of by cutting its walls off one
   // by one, which gains no air before the last. Faces are preferred, since walls end there, and so
-  // are halves over slivers.
+  // are halves over slivers. Of equal cuts the one with the least score without depths is taken,
+  // then the first.
   std::optional<AxisCut> BestCut(const Region& region, Depths depths) {
+    std::vector<RatedCut> rated;
+    for (const Candidate& candidate : Candidates(region, solid_.grid().cell_m)) {
+      if (std::optional<RatedCut> cut = Rated(region, candidate)) rated.push_back(*std::move(cut));
+    }
+    std::stable_sort(rated.begin(), rated.end(), [](const RatedCut& a, const RatedCut& b) {
+      return a.least_score < b.least_score;
+    });
     std::optional<AxisCut> best;
     double best_score = 1e300;
-    for (const Candidate& candidate : Candidates(region, solid_.grid().cell_m)) {
-      const std::optional<double> score = ScoreOf(region, candidate, depths, best_score - 1e-9);
-      if (!score) continue;  // ties: the first
-      best_score = *score;
-      best = candidate.cut;
+    for (const RatedCut& cut : rated) {
+      const double score = ScoreOf(region, cut, depths, best_score - 1e-9);
+      if (score >= best_score - 1e-9) continue;
+      best_score = score;
+      best = cut.cut;
     }
     return best;
   }
 
-  // It rates a cut; nothing where a side is empty or flat, or the score is no less than `below`.
-  std::optional<double> ScoreOf(const Region& region, const Candidate& candidate, Depths depths,
-                                double below) {
+  // Nothing where a side is empty or flat.
+  std::optional<RatedCut> Rated(const Region& region, const Candidate& candidate) {
     constexpr double kAirWeight = 0.5;
     constexpr double kFaceBonus = 0.02;
     constexpr double kHalfBonus = 0.05;
-    const std::optional<Side> lower = SideOf(region, {candidate.cut, -1});
+    std::optional<Side> lower = SideOf(region, {candidate.cut, -1});
     if (!lower) return std::nullopt;
-    const std::optional<Side> upper = SideOf(region, {candidate.cut, 1});
+    std::optional<Side> upper = SideOf(region, {candidate.cut, 1});
     if (!upper) return std::nullopt;
-    double score = kAirWeight * (lower->volume_m3 + upper->volume_m3) / region.volume_m3 -
-                   kFaceBonus * candidate.face_share -
-                   kHalfBonus * std::min(lower->volume_m3, upper->volume_m3) / region.volume_m3;
-    const double area_m2 = lower->area_m2 + upper->area_m2;
-    for (const Side* side : {&*lower, &*upper}) {
-      if (score >= below) return std::nullopt;  // depths only add to it
+    const double score =
+        kAirWeight * (lower->volume_m3 + upper->volume_m3) / region.volume_m3 -
+        kFaceBonus * candidate.face_share -
+        kHalfBonus * std::min(lower->volume_m3, upper->volume_m3) / region.volume_m3;
+    return RatedCut{candidate.cut, {*std::move(lower), *std::move(upper)}, score};
+  }
+
+  // With the depths; any that is no less than `below` where it is no less.
+  double ScoreOf(const Region& region, const RatedCut& cut, Depths depths, double below) {
+    double score = cut.least_score;
+    const double area_m2 = cut.sides[0].area_m2 + cut.sides[1].area_m2;
+    for (const Side& side : cut.sides) {
+      if (score >= below) break;
       // of the score, a depth of one metre
-      const double weight = side->area_m2 / (region.concavity.depth_m * area_m2);
-      score += weight * ComparableDepth(side->hull, depths, (below - score) / weight);
+      const double weight = side.area_m2 / (region.concavity.depth_m * area_m2);
+      score += weight * ComparableDepth(side.hull, depths, (below - score) / weight);
     }
-    return score < below ? std::optional(score) : std::nullopt;
+    return score;
   }
 
   // Nothing where the side is empty or flat.
@@ -515,7 +559,9 @@ class Decomposition {
   // It measures a hull, where that makes a cut necessary, and stops at any depth beyond `stop_m`.
   double ComparableDepth(const TriangleMesh& hull, Depths depths, double stop_m) {
     if (depths == Depths::kMeasured) return Protrusion(hull, kCoarseStep, stop_m).depth_m;
-    return ConcavityOf(hull, solid_, {.above_m = allowed_m_, .stop_m = stop_m}).depth_m;
+    const DepthRange range{
+        .above_m = allowed_m_, .stop_m = stop_m, .step_m = kComparedCells * solid_.grid().cell_m};
+    return ConcavityOf(hull, solid_, range).depth_m;
   }
 
   // Whether the solid begins at the point in the direction of the box's inside. Asked a little way
@@ -624,7 +670,9 @@ class Decomposition {
   std::vector<Region> whole_;  // the first of them
   int next_id_ = 0;
   std::map<std::pair<int, int>, Between> between_;
-  std::map<int, Concavity> measured_;  // by the region's id
+  std::map<int, Concavity> measured_;                            // by the region's id
+  std::map<std::pair<int, Depths>, std::vector<Region>> sides_;  // the same
+  std::map<std::vector<int>, std::optional<Region>> trimmed_;    // by its id, then the others'
   std::map<std::pair<int, int>, Between> measured_between_;
   CutSurface::SideContent content_;  // of the side that is looked at
 };

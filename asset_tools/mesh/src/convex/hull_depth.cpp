@@ -43,6 +43,8 @@ class DeepestCell {
         active_(std::make_unique_for_overwrite<int[]>(
             faces_.size() * static_cast<std::size_t>(solid.levels() + 1))),
         stop_m_(std::max(range.stop_m, range.above_m)),
+        step_m_(range.step_m),
+        worthwhile_m_(range.above_m),
         margin_m_(IsThin(hull, solid.grid().cell_m) ? 0.5 * solid.grid().cell_m : 0) {
     deepest_.depth_m = range.above_m;
     std::iota(active_.get(), active_.get() + faces_.size(), 0);
@@ -84,8 +86,7 @@ class DeepestCell {
 
   // Those of the block that this one is part of are active. Its own are written behind them.
   void Visit(int level, const Eigen::Vector3i& block, std::span<int> active) {
-    if (solid_->LargestInBlock(level, block) <= deepest_.depth_m || deepest_.depth_m > stop_m_)
-      return;
+    if (solid_->LargestInBlock(level, block) <= worthwhile_m_ || deepest_.depth_m > stop_m_) return;
     const Eigen::Vector3i low = (block * (1 << level)).cwiseMax(first_);
     const Eigen::Vector3i high =
         (block * (1 << level) + Eigen::Vector3i::Constant((1 << level) - 1)).cwiseMin(last_);
@@ -110,8 +111,10 @@ class DeepestCell {
     }
     if (low == high) {
       const double depth_m = solid_->DistanceAt(low.x(), low.y(), low.z());
-      if (depth_m > deepest_.depth_m && (margin_m_ == 0 || Touches(center, {own, count})))
+      if (depth_m > worthwhile_m_ && (margin_m_ == 0 || Touches(center, {own, count}))) {
         deepest_ = {depth_m, center};
+        worthwhile_m_ = depth_m + step_m_;
+      }
       return;
     }
     VisitParts(level - 1, block, {own, count});
@@ -171,7 +174,7 @@ class DeepestCell {
           2 * block + Eigen::Vector3i(corner & 1, corner >> 1 & 1, corner >> 2);
       if ((part.array() >= count.array()).any()) continue;
       const float largest_m = solid_->LargestInBlock(level, part);
-      if (!(largest_m > deepest_.depth_m)) continue;
+      if (!(largest_m > worthwhile_m_)) continue;
       std::size_t place = found++;  // behind those that are no less
       for (; place > 0 && parts[place - 1].first < largest_m; --place)
         parts[place] = parts[place - 1];
@@ -186,7 +189,9 @@ class DeepestCell {
   std::unique_ptr<int[]> active_;  // a stack: of each level no more than all faces
   int parting_ = 0;
   double stop_m_;
-  double margin_m_;  // around a cell's centre; 0 where centres alone count
+  double step_m_;
+  double worthwhile_m_;  // what else is of interest is deeper
+  double margin_m_;      // around a cell's centre; 0 where centres alone count
   Concavity deepest_;
   Eigen::Vector3i first_, last_;  // cells of the hull's box
 };

@@ -135,7 +135,9 @@ class Repair {
     if (!is_closed) surface_ = Closed();
     std::vector<TriangleMesh> pieces = PiecesOf(surface_);
     std::vector<TriangleMesh> sheets;  // closed ones without an inside
-    if (!SortOutFlat(pieces, sheets) || !AddWalls(pieces, std::move(sheets))) return {};
+    if (!SortOutFlat(pieces, sheets)) return {};
+    if (!is_closed && !AreWorthWalls(pieces)) return {};
+    if (!AddWalls(pieces, std::move(sheets))) return {};
     if (is_closed) {
       OrientKeepingCavities(pieces);
     } else {
@@ -200,6 +202,37 @@ class Repair {
     return !pieces.empty() || !sheets.empty();
   }
 
+  // Asked before walls are made of others, which takes the longest: false, with a reason, where a
+  // closed piece crosses itself in a way that ends it all afterwards. One that may lie hidden in
+  // another is not asked.
+  bool AreWorthWalls(const std::vector<TriangleMesh>& pieces) {
+    std::vector<Eigen::AlignedBox3d> boxes;
+    std::vector<char> is_open;
+    for (const TriangleMesh& piece : pieces) {
+      boxes.push_back(BoxAround(piece));
+      is_open.push_back(MeasureTopology(piece).boundary_edges > 0);
+    }
+    if (std::find(is_open.begin(), is_open.end(), 1) == is_open.end()) return true;
+    const double wall_m = 2 * config_.offset_fraction * diagonal_m_;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      const auto may_hide = [&](const Eigen::AlignedBox3d& box) {
+        return &box != &boxes[i] &&
+               Eigen::AlignedBox3d(box.min().array() - wall_m, box.max().array() + wall_m)
+                   .contains(boxes[i]);
+      };
+      if (is_open[i] || std::any_of(boxes.begin(), boxes.end(), may_hide)) continue;
+      if (!SelfIntersects(pieces[i])) continue;
+      std::vector<TriangleMesh> piece{pieces[i]};
+      OrientOutwards(piece);
+      if (WithoutOwnCrossings(piece[0], Limits())) continue;
+      report_.reason = "a piece of " +
+                       Count(static_cast<int>(pieces[i].triangles.size()), "triangle") +
+                       " crosses itself";
+      return false;
+    }
+    return true;
+  }
+
   // Makes walls of the pieces that are still open and of the sheets. False, with a reason, where
   // one would cross itself.
   bool AddWalls(std::vector<TriangleMesh>& pieces, std::vector<TriangleMesh> sheets) {
@@ -256,10 +289,16 @@ class Repair {
   // A piece that lies wholly inside another adds nothing to the union.
   void DropHidden(std::vector<TriangleMesh>& pieces) {
     std::vector<char> hidden(pieces.size(), 0);
+    std::vector<Container> containers;
+    for (const TriangleMesh& piece : pieces) {
+      CheckWork(static_cast<unsigned>(20 * piece.triangles.size()));
+      containers.push_back({&piece, BoxAround(piece), std::nullopt});
+    }
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       for (std::size_t j = 0; j < pieces.size() && !hidden[i]; ++j)
-        hidden[i] = i != j && !hidden[j] && LiesInside(pieces[i], pieces[j]);
+        hidden[i] = i != j && !hidden[j] && LiesInside(containers[i], containers[j]);
     }
+    containers.clear();
     std::size_t index = 0;
     const auto dropped = static_cast<int>(
         std::erase_if(pieces, [&](const TriangleMesh&) { return hidden[index++] != 0; }));
@@ -276,13 +315,23 @@ class Repair {
     return box;
   }
 
-  static bool LiesInside(const TriangleMesh& piece, const TriangleMesh& other) {
-    CheckWork(static_cast<unsigned>(20 * (piece.triangles.size() + other.triangles.size())));
-    if (!BoxAround(other).contains(BoxAround(piece))) return false;
-    const TriangleTree tree(other);
-    const auto is_inside = [&](const Eigen::Vector3d& point) {
-      return tree.WindingNumber(point) > 0.5;
-    };
+  // A closed piece as others are looked for in it; the tree is made for the first.
+  struct Container {
+    const TriangleMesh* piece;
+    Eigen::AlignedBox3d box;
+    std::optional<TriangleTree> tree;
+
+    const TriangleTree& Tree() {
+      if (!tree) tree.emplace(*piece);
+      return *tree;
+    }
+  };
+
+  static bool LiesInside(const Container& inner, Container& other) {
+    if (!other.box.contains(inner.box)) return false;
+    const TriangleMesh& piece = *inner.piece;
+    const TriangleTree& tree = other.Tree();
+    const auto is_inside = [&](const Eigen::Vector3d& point) { return tree.IsInside(point); };
     constexpr int kProbes = 64;
     const std::size_t step = piece.vertices.size() / kProbes + 1;
     for (std::size_t i = 0; i < piece.vertices.size(); i += step) {
@@ -292,11 +341,14 @@ class Repair {
     return std::all_of(probes.begin(), probes.end(), is_inside);
   }
 
+  SeparationLimits Limits() const {
+    return {.shift_m = kShiftFraction * diagonal_m_,
+            .half_wall_m = config_.offset_fraction * diagonal_m_,
+            .fill_cavities = report_.sheets_thickened > 0};
+  }
+
   TriangleMesh WithoutCrossings(std::vector<TriangleMesh> pieces) {
-    Separation separation =
-        Separated(std::move(pieces), {.shift_m = kShiftFraction * diagonal_m_,
-                                      .half_wall_m = config_.offset_fraction * diagonal_m_,
-                                      .fill_cavities = report_.sheets_thickened > 0});
+    Separation separation = Separated(std::move(pieces), Limits());
     if (separation.solids.empty()) {
       report_.reason = separation.problem;
       return {};

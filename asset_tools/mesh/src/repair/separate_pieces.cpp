@@ -201,6 +201,13 @@ std::optional<TriangleMesh> WallsOf(const TriangleMesh& surface, double half_m) 
   return Merged(separation.solids);
 }
 
+std::optional<TriangleMesh> WithoutOwnCrossings(const TriangleMesh& piece,
+                                                const SeparationLimits& limits) {
+  std::optional<TriangleMesh> moved = Untangled(piece, limits.shift_m);
+  if (!moved && limits.half_wall_m > 0) moved = WallsOf(piece, limits.half_wall_m);
+  return moved;
+}
+
 Separation Separated(std::vector<TriangleMesh> pieces, const SeparationLimits& limits) {
   constexpr int kGrowthRounds = 4;  // growing pieces may make them meet others
   Separation separation;
@@ -220,8 +227,7 @@ Separation Separated(std::vector<TriangleMesh> pieces, const SeparationLimits& l
       return separation;
     }
     for (const std::size_t i : meetings.with_themselves) {
-      std::optional<TriangleMesh> moved = Untangled(pieces[i], limits.shift_m);
-      if (!moved && limits.half_wall_m > 0) moved = WallsOf(pieces[i], limits.half_wall_m);
+      std::optional<TriangleMesh> moved = WithoutOwnCrossings(pieces[i], limits);
       if (!moved) {
         separation.problem = "a piece of " + std::to_string(pieces[i].triangles.size()) +
                              " triangles crosses itself";

@@ -34,4 +34,9 @@ struct SeparationLimits {
 /// the union of walls along them, filled; pieces that meet are united.
 Separation Separated(std::vector<TriangleMesh> pieces, const SeparationLimits& limits);
 
+/// What Separated() puts in the place of a closed piece that crosses itself, or nothing where it
+/// fails for that.
+std::optional<TriangleMesh> WithoutOwnCrossings(const TriangleMesh& piece,
+                                                const SeparationLimits& limits);
+
 }  // namespace doorforge

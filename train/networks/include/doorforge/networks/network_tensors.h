@@ -36,7 +36,8 @@ TensorFile WeightsOf(const StageNetworks& networks, MakeFloats make);
 
 /// A file may lack the posterior of a motion's actor ("action", "posterior", "mean" and
 /// "log_variance", all of them), which training alone reads: adds one that has learned nothing, as
-/// InitialNetworks() makes it of seed 0, rounded to F16. Where a part of it is there nothing is added.
+/// InitialNetworks() makes it of seed 0, rounded to F16. Where a part of it is there nothing is
+/// added.
 void AddMissingPosterior(const StageNetworks& networks, TensorFile& file);
 
 /// The inverse of WeightsOf(), into networks of the family that they name. Throws as

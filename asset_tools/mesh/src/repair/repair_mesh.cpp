@@ -136,7 +136,7 @@ class Repair {
     std::vector<TriangleMesh> pieces = PiecesOf(surface_);
     std::vector<TriangleMesh> sheets;  // closed ones without an inside
     if (!SortOutFlat(pieces, sheets)) return {};
-    if (!is_closed && !AreWorthWalls(pieces)) return {};
+    if (!is_closed && !AreWorthWalls(pieces, sheets)) return {};
     if (!AddWalls(pieces, std::move(sheets))) return {};
     if (is_closed) {
       OrientKeepingCavities(pieces);
@@ -205,15 +205,19 @@ class Repair {
   // Asked before walls are made of others, which takes the longest: false, with a reason, where a
   // closed piece crosses itself in a way that ends it all afterwards. One that may lie hidden in
   // another is not asked.
-  bool AreWorthWalls(const std::vector<TriangleMesh>& pieces) {
+  bool AreWorthWalls(const std::vector<TriangleMesh>& pieces,
+                     const std::vector<TriangleMesh>& sheets) {
     std::vector<Eigen::AlignedBox3d> boxes;
     std::vector<char> is_open;
     for (const TriangleMesh& piece : pieces) {
       boxes.push_back(BoxAround(piece));
       is_open.push_back(MeasureTopology(piece).boundary_edges > 0);
     }
-    if (std::find(is_open.begin(), is_open.end(), 1) == is_open.end()) return true;
-    const double wall_m = 2 * config_.offset_fraction * diagonal_m_;
+    if (sheets.empty() && std::find(is_open.begin(), is_open.end(), 1) == is_open.end())
+      return true;
+    for (const TriangleMesh& sheet : sheets) boxes.push_back(BoxAround(sheet));
+    // as far as a vertex of a wall may stand out where its triangles fold sharply, and more
+    const double wall_m = 4 * config_.offset_fraction * diagonal_m_;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       const auto may_hide = [&](const Eigen::AlignedBox3d& box) {
         return &box != &boxes[i] &&

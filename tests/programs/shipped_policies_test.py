@@ -3,6 +3,10 @@
 """The policies in data/policies are whole, small, and open doors of every category that they never saw."""
 import hashlib
 import json
+import shutil
+import struct
+import subprocess
+import sys
 import unittest
 
 from programs import SOURCE, ProgramTest, run
@@ -15,6 +19,58 @@ DOORS = {"interior_arched_03": "interior_lever_wave_04", "interior_louvred_04": 
          "safe_box_tall_02": "safe_wheel_three_01", "safe_wall_01": "safe_key_03",
          "storage_arched_hutch_01": "storage_pull_bow_01",
          "refrigerator_arched_01": "refrigerator_latch_01"}
+
+
+def tensors_of(path):
+    """The name of each tensor of a safetensors file, and its bytes."""
+    data = path.read_bytes()
+    (size,) = struct.unpack("<Q", data[:8])
+    header = json.loads(data[8 : 8 + size])
+    header.pop("__metadata__", None)
+    return {name: data[8 + size :][slice(*tensor["data_offsets"])] for name, tensor in header.items()}
+
+
+def write_tensors(path, tensors):
+    header, numbers = {}, b""
+    for name, content in tensors.items():
+        header[name] = {"dtype": "F16", "shape": [len(content) // 2], "data_offsets": [len(numbers), len(numbers) + len(content)]}
+        numbers += content
+    text = json.dumps(header).encode()
+    path.write_bytes(struct.pack("<Q", len(text)) + text + numbers)
+
+
+class SlimPolicy(ProgramTest):
+    def slim(self, folder):
+        return subprocess.run([sys.executable, SOURCE / "scripts/slim_policy.py", folder], capture_output=True, text=True)
+
+    def test_it_takes_the_posterior_out_and_leaves_all_else(self):
+        policy = self.folder / "handler"
+        shutil.copytree(POLICIES / "handler", policy)
+        shipped = tensors_of(policy / "policy.safetensors")
+        posterior = {f"actor.{layer}.weight": bytes([i, 60, i, 61]) for i, layer in
+                     enumerate(("action.0", "posterior.1", "mean", "log_variance"))}
+        names = sorted([*shipped, *posterior])
+        write_tensors(policy / "policy.safetensors", {name: (shipped | posterior)[name] for name in names})
+        record = json.loads((policy / "policy.json").read_text())
+        record["weights_sha256"] = hashlib.sha256((policy / "policy.safetensors").read_bytes()).hexdigest()
+        (policy / "policy.json").write_text(json.dumps(record))
+        self.assertEqual(self.slim(policy).returncode, 0)
+        self.assertEqual(tensors_of(policy / "policy.safetensors"), shipped)
+        found = json.loads((policy / "policy.json").read_text())
+        self.assertEqual(found.pop("weights_sha256"), hashlib.sha256((policy / "policy.safetensors").read_bytes()).hexdigest())
+        self.assertEqual(found, {key: value for key, value in record.items() if key != "weights_sha256"})
+
+    def test_what_is_damaged_or_has_no_posterior_is_left_as_it_is(self):
+        for name, reason in (("handler", "SHA-256"), ("grasper", "has no posterior")):
+            policy = self.folder / "refused" / name
+            shutil.copytree(POLICIES / name, policy)
+            weights = bytearray((policy / "policy.safetensors").read_bytes())
+            weights[-1] ^= 1
+            (policy / "policy.safetensors").write_bytes(weights)
+            result = self.slim(policy)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(reason, result.stderr)
+            self.assertEqual((policy / "policy.safetensors").read_bytes(), weights)
 
 
 class ShippedPolicies(ProgramTest):

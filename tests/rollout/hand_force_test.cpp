@@ -83,7 +83,7 @@ TEST_F(HandForceTest, DoorsOpenWithinTheForce) {
   EXPECT_GE(opened, 11);
 }
 
-// Fingers without friction slip off the handle as soon as the hand pulls.
+// Fingers without friction slip off a knob as the hand goes up.
 TEST_F(HandForceTest, AHandThatHasLostTheHandleStandsStill) {
   const DoorAsset door = MakePrimitiveDoor(RandomPrimitive(Mechanism::kRound, 23, 0));
   const auto moved_at_the_end = [&](double most_n) {

@@ -336,6 +336,64 @@ TEST(RepairMesh, UnitesSheetsThatMeetInOneEdge) {
   EXPECT_NEAR(VolumeAfter(result), 3 * 2 * half, 0.1 * half);
 }
 
+// One vertex of it lies beyond the other side of its tube.
+TriangleMesh PiercedTorus() {
+  TriangleMesh torus = Torus(1, 0.3, 60, 30);
+  const auto outermost = std::max_element(
+      torus.vertices.begin(), torus.vertices.end(),
+      [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.x() < b.x(); });
+  outermost->x() = 0.6;
+  return torus;
+}
+
+TEST(WithCrossingsMended, DrawsAnewOnlyWhatCrosses) {
+  const TriangleMesh pierced = PiercedTorus();
+  ASSERT_TRUE(SelfIntersects(pierced));
+  const std::optional<TriangleMesh> mended = WithCrossingsMended(pierced);
+  ASSERT_TRUE(mended);
+  EXPECT_TRUE(ClosedMesh::From(*mended));
+  EXPECT_FALSE(SelfIntersects(*mended));
+  const double volume = VolumeOf(Torus(1, 0.3, 60, 30));
+  EXPECT_NEAR(VolumeOf(*mended), volume, 0.01 * volume);
+  const auto stays = [&](const Eigen::Vector3d& vertex) {
+    return std::find(mended->vertices.begin(), mended->vertices.end(), vertex) !=
+           mended->vertices.end();
+  };
+  const auto kept = std::count_if(pierced.vertices.begin(), pierced.vertices.end(), stays);
+  EXPECT_GT(kept, static_cast<std::ptrdiff_t>(0.97 * pierced.vertices.size()));
+}
+
+TEST(WithCrossingsMended, IsTheSameOnAnotherHeap) {
+  const TriangleMesh pierced = PiercedTorus();
+  const std::optional<TriangleMesh> first = WithCrossingsMended(pierced);
+  ASSERT_TRUE(first);
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    const auto held = ScatteredBlocks(seed);
+    const std::optional<TriangleMesh> again = WithCrossingsMended(pierced);
+    ASSERT_TRUE(again);
+    ASSERT_EQ(again->vertices, first->vertices) << seed;
+    ASSERT_EQ(again->triangles, first->triangles) << seed;
+  }
+}
+
+TEST(WithCrossingsMended, LeavesSolidsThatGoThroughEachOtherToUnions) {
+  TriangleMesh other = Torus(1, 0.3, 60, 30);
+  for (Eigen::Vector3d& vertex : other.vertices) vertex.x() += 1;
+  EXPECT_FALSE(WithCrossingsMended(Together(Torus(1, 0.3, 60, 30), other)));
+}
+
+TEST(RepairMesh, WrapsWhatMeetsInMorePairsOfTrianglesThanMayBeUnited) {
+  const TriangleMesh boxes =
+      Together(UnitBox(), Box(Eigen::Vector3d(0.2, 0.2, 0.5), Eigen::Vector3d(0.8, 0.8, 1.5)));
+  RepairConfig config = Coarse();
+  EXPECT_EQ(Repaired(boxes, config).report.outcome, RepairOutcome::kRepaired);
+  config.max_pairs = 3;
+  const RepairResult wrapped = Repaired(boxes, config);
+  EXPECT_EQ(wrapped.report.outcome, RepairOutcome::kWrapped);
+  EXPECT_NE(wrapped.report.reason.find("more than max_pairs, which is 3"), std::string::npos)
+      << wrapped.report.reason;
+}
+
 TEST(RepairMesh, SaysWhyItFailsWhereItMayNotWrap) {
   RepairConfig config;
   config.wrap = WrapUse::kNever;
@@ -453,6 +511,9 @@ TEST(RepairMesh, WrapsAndSimplifiesToTheSameBytesTwice) {
 TEST(RepairMesh, RefusesSettingsOutOfRange) {
   RepairConfig config;
   config.alpha_fraction = 0;
+  EXPECT_THROW(Repaired(UnitBox(), config), Error);
+  config = {};
+  config.max_pairs = -1;
   EXPECT_THROW(Repaired(UnitBox(), config), Error);
 }
 

@@ -51,6 +51,7 @@ void CheckConfig(const RepairConfig& config) {
           "repair.max_cap_fraction: allowed 0..1");
   require(config.max_triangles == 0 || config.max_triangles >= 100,
           "repair.max_triangles: allowed 0 (any number) or 100 and more");
+  require(config.max_pairs >= 0, "repair.max_pairs: allowed 0 and more");
 }
 
 std::string Count(int count, const std::string& what) {
@@ -136,7 +137,7 @@ class Repair {
     std::vector<TriangleMesh> pieces = PiecesOf(surface_);
     std::vector<TriangleMesh> sheets;  // closed ones without an inside
     if (!SortOutFlat(pieces, sheets)) return {};
-    if (!is_closed && !AreWorthWalls(pieces, sheets)) return {};
+    if (!is_closed && !UntangleThoseThatStay(pieces, sheets)) return {};
     if (!AddWalls(pieces, std::move(sheets))) return {};
     if (is_closed) {
       OrientKeepingCavities(pieces);
@@ -202,11 +203,11 @@ class Repair {
     return !pieces.empty() || !sheets.empty();
   }
 
-  // Asked before walls are made of others, which takes the longest: false, with a reason, where a
-  // closed piece crosses itself in a way that ends it all afterwards. One that may lie hidden in
-  // another is not asked.
-  bool AreWorthWalls(const std::vector<TriangleMesh>& pieces,
-                     const std::vector<TriangleMesh>& sheets) {
+  // Closed pieces that cross themselves, before walls are made of others, which takes the longest:
+  // false, with a reason, where one cannot be untangled, which ends it all. One that may lie hidden
+  // in another waits until that is known.
+  bool UntangleThoseThatStay(std::vector<TriangleMesh>& pieces,
+                             const std::vector<TriangleMesh>& sheets) {
     std::vector<Eigen::AlignedBox3d> boxes;
     std::vector<char> is_open;
     for (const TriangleMesh& piece : pieces) {
@@ -226,13 +227,17 @@ class Repair {
       };
       if (is_open[i] || std::any_of(boxes.begin(), boxes.end(), may_hide)) continue;
       if (!SelfIntersects(pieces[i])) continue;
-      std::vector<TriangleMesh> piece{pieces[i]};
-      OrientOutwards(piece);
-      if (WithoutOwnCrossings(piece[0], Limits())) continue;
-      report_.reason = "a piece of " +
-                       Count(static_cast<int>(pieces[i].triangles.size()), "triangle") +
-                       " crosses itself";
-      return false;
+      if (MeasureTopology(pieces[i]).volume_m3 < 0)
+        pieces[i] = TurnedInsideOut(std::move(pieces[i]));
+      std::optional<TriangleMesh> untangled = WithoutOwnCrossings(pieces[i], Limits());
+      if (!untangled) {
+        report_.reason = "a piece of " +
+                         Count(static_cast<int>(pieces[i].triangles.size()), "triangle") +
+                         " crosses itself";
+        return false;
+      }
+      pieces[i] = *std::move(untangled);
+      ++untangled_;
     }
     return true;
   }
@@ -243,7 +248,7 @@ class Repair {
     const double half_m = config_.offset_fraction * diagonal_m_;
     int thickened = 0;
     const auto thicken = [&](TriangleMesh& piece) {
-      std::optional<TriangleMesh> wall = WallsOf(piece, half_m);
+      std::optional<TriangleMesh> wall = WallsOf(piece, half_m, MaxPairs());
       if (!wall) {
         report_.reason = "an open piece of " +
                          Count(static_cast<int>(piece.triangles.size()), "triangle") +
@@ -348,8 +353,11 @@ class Repair {
   SeparationLimits Limits() const {
     return {.shift_m = kShiftFraction * diagonal_m_,
             .half_wall_m = config_.offset_fraction * diagonal_m_,
-            .fill_cavities = report_.sheets_thickened > 0};
+            .fill_cavities = report_.sheets_thickened > 0,
+            .max_pairs = MaxPairs()};
   }
+
+  std::size_t MaxPairs() const { return static_cast<std::size_t>(config_.max_pairs); }
 
   TriangleMesh WithoutCrossings(std::vector<TriangleMesh> pieces) {
     Separation separation = Separated(std::move(pieces), Limits());
@@ -357,13 +365,13 @@ class Repair {
       report_.reason = separation.problem;
       return {};
     }
-    if (separation.untangled > 0)
-      Did("untangled " + Count(separation.untangled, "piece") + " that crossed themselves");
+    const int untangled = untangled_ + separation.untangled;
+    if (untangled > 0) Did("untangled " + Count(untangled, "piece") + " that crossed themselves");
     if (separation.united > 0) {
       Did("united pieces that met: " + Count(separation.united, "piece") + " fewer");
       report_.components_united = separation.united;
     }
-    if (separation.untangled + separation.united > 0) report_.outcome = RepairOutcome::kRepaired;
+    if (untangled + separation.united > 0) report_.outcome = RepairOutcome::kRepaired;
     return Merged(separation.solids);
   }
 
@@ -437,6 +445,7 @@ class Repair {
   TriangleMesh soup_;     // the input, welded
   TriangleMesh surface_;  // the same, oriented and with small holes filled where that was tried
   double diagonal_m_ = 0;
+  int untangled_ = 0;  // pieces, before others are looked at
 };
 
 }  // namespace

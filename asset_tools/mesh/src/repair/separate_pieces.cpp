@@ -24,9 +24,8 @@ namespace doorforge {
 namespace {
 
 // A union takes about a tenth of a millisecond for each pair of triangles that meet.
-constexpr std::size_t kFewPairs = 200;      // drawn again for slivers
-constexpr std::size_t kManyPairs = 5'000;   // drawn twice: then a wrap is quicker than another draw
-constexpr std::size_t kMostPairs = 15'000;  // a wrap is quicker than the first
+constexpr std::size_t kFewPairs = 200;     // drawn again for slivers
+constexpr std::size_t kManyPairs = 5'000;  // drawn twice, if at first they unite at all
 
 struct Meetings {
   std::size_t pairs = 0;  // of triangles
@@ -141,16 +140,19 @@ bool SurvivesFiles(const TriangleMesh& mesh) {
 
 // Where faces nearly coincide, a union has slivers, which cross each other by rounding; most vanish
 // when what costs less than the shift is collapsed. Those that files would flatten are worth
-// another draw where that takes little.
+// another draw where that takes little. Where each draw leaves some that cross, those of the last
+// are drawn anew one by one; not of the first, of which a rim may be so torn that what walls
+// enclose is no cavity any more.
 std::optional<TriangleMesh> SimpleUnion(const std::vector<TriangleMesh>& solids, double shift_m,
                                         std::size_t pairs, int attempt) {
   constexpr int kRepeats = 6;
   // of many, the second draw is one that moves them farther
   const int step = pairs > kManyPairs ? kRepeats - 2 : 1;
-  std::optional<TriangleMesh> flattened;
+  std::optional<TriangleMesh> flattened, crossing;
   for (int repeat = 0; repeat < kRepeats; repeat += step) {
     const std::optional<TriangleMesh> whole =
         United(solids, (1 + 0.5 * repeat) * shift_m, kRepeats * attempt + repeat);
+    if (!whole && pairs > kManyPairs) break;
     if (!whole) continue;
     const TriangleMesh simple =
         Simplified(*whole, std::numeric_limits<int>::max() / 4, 0.5 * shift_m);
@@ -163,8 +165,9 @@ std::optional<TriangleMesh> SimpleUnion(const std::vector<TriangleMesh>& solids,
       flattened = mesh;
     }
     if (flattened && pairs > kFewPairs) break;
+    if (ClosedMesh::From(simple)) crossing = simple;
   }
-  return flattened;
+  return flattened || !crossing ? flattened : WithCrossingsMended(*crossing);
 }
 
 // Puts the union of each group in the place of its first member. False where there is none.
@@ -189,14 +192,15 @@ bool Unite(std::vector<TriangleMesh>& pieces, const Meetings& meetings,
 
 }  // namespace
 
-std::optional<TriangleMesh> WallsOf(const TriangleMesh& surface, double half_m) {
+std::optional<TriangleMesh> WallsOf(const TriangleMesh& surface, double half_m,
+                                    std::size_t max_pairs) {
   if (MeasureTopology(surface).boundary_edges > 0) {
     if (std::optional<TriangleMesh> wall = SimpleWallOf(surface, half_m)) return wall;
   }
   std::vector<TriangleMesh> walls;
   if (!AddWalls(surface, half_m, walls) || walls.empty()) return std::nullopt;
-  const Separation separation =
-      Separated(std::move(walls), {.shift_m = 0.05 * half_m, .fill_cavities = true});
+  const Separation separation = Separated(
+      std::move(walls), {.shift_m = 0.05 * half_m, .fill_cavities = true, .max_pairs = max_pairs});
   if (separation.solids.empty()) return std::nullopt;
   return Merged(separation.solids);
 }
@@ -204,7 +208,8 @@ std::optional<TriangleMesh> WallsOf(const TriangleMesh& surface, double half_m) 
 std::optional<TriangleMesh> WithoutOwnCrossings(const TriangleMesh& piece,
                                                 const SeparationLimits& limits) {
   std::optional<TriangleMesh> moved = Untangled(piece, limits.shift_m);
-  if (!moved && limits.half_wall_m > 0) moved = WallsOf(piece, limits.half_wall_m);
+  if (!moved && limits.half_wall_m > 0)
+    moved = WallsOf(piece, limits.half_wall_m, limits.max_pairs);
   return moved;
 }
 
@@ -221,9 +226,10 @@ Separation Separated(std::vector<TriangleMesh> pieces, const SeparationLimits& l
       separation.solids = std::move(pieces);
       return separation;
     }
-    if (meetings.pairs > kMostPairs) {
-      separation.problem = std::to_string(meetings.pairs) + " pairs of triangles meet, more than " +
-                           std::to_string(kMostPairs) + ", from which on a wrap is quicker";
+    if (meetings.pairs > limits.max_pairs) {
+      separation.problem = std::to_string(meetings.pairs) +
+                           " pairs of triangles meet, more than max_pairs, which is " +
+                           std::to_string(limits.max_pairs);
       return separation;
     }
     for (const std::size_t i : meetings.with_themselves) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,8 +14,10 @@ namespace doorforge {
 /// The solid that stands for an open sheet: walls of twice `half_m`, or thinner where the sheet
 /// folds tightly; free of crossings. A sheet that cannot be thickened as a whole is the union of
 /// the walls of its patches; voids that these close in are filled, as they are for any surface that
-/// crosses itself. Nothing where that takes too many walls or they have no simple union.
-std::optional<TriangleMesh> WallsOf(const TriangleMesh& surface, double half_m);
+/// crosses itself. Nothing where that takes too many walls, more than `max_pairs` of their
+/// triangles meet, or they have no simple union.
+std::optional<TriangleMesh> WallsOf(const TriangleMesh& surface, double half_m,
+                                    std::size_t max_pairs);
 
 struct Separation {
   std::vector<TriangleMesh> solids;  ///< None meets another or itself; empty if that failed.
@@ -27,6 +30,7 @@ struct SeparationLimits {
   double shift_m = 0;          ///< How far surfaces may move so that nothing touches.
   double half_wall_m = 0;      ///< Half the thickness of walls that stand for tangled pieces.
   bool fill_cavities = false;  ///< Whether voids that arise where pieces are united are filled.
+  std::size_t max_pairs = 0;   ///< Pairs of triangles that may meet; more are not united.
 };
 
 /// Solids without crossings from closed pieces, which face outwards or, as cavities, inwards:

@@ -11,9 +11,9 @@
 #include "doorforge/core/triangle_mesh.h"
 
 // What CGAL does for this room. Its headers take gigabytes and minutes to compile, so only the
-// four sources behind this header include them: close_soup.cpp, reduce_surface.cpp,
-// unite_solids.cpp, wrap_surface.cpp. Indices must be in range and vertices finite. All
-// deterministic.
+// five sources behind this header include them: close_soup.cpp, mend_crossings.cpp,
+// reduce_surface.cpp, unite_solids.cpp, wrap_surface.cpp. Indices must be in range and vertices
+// finite. All deterministic.
 
 namespace doorforge {
 
@@ -47,6 +47,12 @@ std::vector<std::pair<int, int>> CrossingTriangles(const TriangleMesh& mesh);
 
 /// Whether there is such a pair; quicker where there are many.
 bool SelfIntersects(const TriangleMesh& mesh);
+
+/// The closed mesh with the few places where its triangles cross drawn anew, each by moving the
+/// vertices there or by cutting a patch out and filling the hole; the rest stays as it is. Nothing
+/// where many cross, or some do still. How far the patches lie from what they stand for is not
+/// bounded.
+std::optional<TriangleMesh> WithCrossingsMended(const TriangleMesh& mesh);
 
 /// One surface around closed, outward oriented solids, none of which crosses itself. Each is grown
 /// by about `shift_m` first and moved by less, differently in each attempt, so that faces in one

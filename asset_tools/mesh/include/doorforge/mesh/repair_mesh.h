@@ -39,6 +39,9 @@ struct RepairConfig {
   /// The output has at most so many, a wrap never more than three times the input's and 5,000. More
   /// are kept where fewer would cross. 0: any number.
   int max_triangles = 6000;
+  /// Pieces and walls of which more pairs of triangles meet are not united but wrapped. Uniting
+  /// them takes about 0.1 ms for each pair, and keeps nearer to the surface.
+  int max_pairs = 100'000;
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -49,6 +52,7 @@ struct RepairConfig {
     visit("max_flat_hole_share", self.max_flat_hole_share);
     visit("max_cap_fraction", self.max_cap_fraction);
     visit("max_triangles", self.max_triangles);
+    visit("max_pairs", self.max_pairs);
   }
 };
 

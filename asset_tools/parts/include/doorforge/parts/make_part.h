@@ -15,7 +15,8 @@
 namespace doorforge {
 
 struct MakePartConfig {
-  RepairConfig repair = {.max_cap_fraction = 1};  ///< Hollow leaves become solid.
+  /// Hollow leaves become solid; where a wrap is quicker than a union, it is wrapped.
+  RepairConfig repair = {.max_cap_fraction = 1, .max_pairs = 15'000};
   /// A grid sees depths to within a third of the bound: this keeps nearly all within a centimetre.
   ConvexPartsConfig frame_convex{
       .max_parts = 32, .max_concavity_m = 0.009, .max_protrusion_m = 0.01};

@@ -24,8 +24,8 @@ namespace doorforge {
 namespace {
 
 // A union takes about a tenth of a millisecond for each pair of triangles that meet.
-constexpr std::size_t kFewPairs = 200;     // drawn again for slivers
-constexpr std::size_t kManyPairs = 5'000;  // drawn twice, if at first they unite at all
+constexpr std::size_t kFewPairs = 200;  // drawn again for slivers
+constexpr std::size_t kMany = 3;        // the part of `max_pairs` from which draws are few
 
 struct Meetings {
   std::size_t pairs = 0;  // of triangles
@@ -143,19 +143,21 @@ bool SurvivesFiles(const TriangleMesh& mesh) {
 // another draw where that takes little. Where each draw leaves some that cross, those of the last
 // are drawn anew one by one; not of the first, of which a rim may be so torn that what walls
 // enclose is no cavity any more.
-std::optional<TriangleMesh> SimpleUnion(const std::vector<TriangleMesh>& solids, double shift_m,
-                                        std::size_t pairs, int attempt) {
+std::optional<TriangleMesh> SimpleUnion(const std::vector<TriangleMesh>& solids,
+                                        const SeparationLimits& limits, std::size_t pairs,
+                                        int attempt) {
   constexpr int kRepeats = 6;
-  // of many, the second draw is one that moves them farther
-  const int step = pairs > kManyPairs ? kRepeats - 2 : 1;
+  // of many, the second draw is one that moves them farther, and none where they do not unite
+  const bool are_many = pairs > limits.max_pairs / kMany;
+  const int step = are_many ? kRepeats - 2 : 1;
   std::optional<TriangleMesh> flattened, crossing;
   for (int repeat = 0; repeat < kRepeats; repeat += step) {
     const std::optional<TriangleMesh> whole =
-        United(solids, (1 + 0.5 * repeat) * shift_m, kRepeats * attempt + repeat);
-    if (!whole && pairs > kManyPairs) break;
+        United(solids, (1 + 0.5 * repeat) * limits.shift_m, kRepeats * attempt + repeat);
+    if (!whole && are_many) break;
     if (!whole) continue;
     const TriangleMesh simple =
-        Simplified(*whole, std::numeric_limits<int>::max() / 4, 0.5 * shift_m);
+        Simplified(*whole, std::numeric_limits<int>::max() / 4, 0.5 * limits.shift_m);
     for (const TriangleMesh& mesh : {simple, *whole}) {
       if (!ClosedMesh::From(mesh)) continue;
       // of two that files would flatten the first is kept
@@ -180,8 +182,7 @@ bool Unite(std::vector<TriangleMesh>& pieces, const Meetings& meetings,
       members.push_back(std::move(pieces[i]));
       gone[i] = i != group.front();
     }
-    std::optional<TriangleMesh> whole =
-        SimpleUnion(members, limits.shift_m, meetings.pairs, attempt);
+    std::optional<TriangleMesh> whole = SimpleUnion(members, limits, meetings.pairs, attempt);
     if (!whole) return false;
     pieces[group.front()] = limits.fill_cavities ? WithoutCavities(*whole) : *std::move(whole);
   }

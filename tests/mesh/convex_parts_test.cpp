@@ -8,6 +8,7 @@
 
 #include "doorforge/core/error.h"
 
+#include "convex/convex_region.h"
 #include "convex/cover_parts.h"
 #include "shapes.h"
 
@@ -250,6 +251,29 @@ TEST(Covering, MissesNoStripBetweenCoveredCorners) {
     for (const Eigen::Vector3d& vertex : part.vertices) box.extend(vertex);
     return box.exteriorDistance(middle) < 0.005 && box.sizes().y() < 1;
   }));
+}
+
+// Two halves of a plate of 16 m^2, of which 12 mm between them are left out.
+TEST(Covering, MissesNoGapThatIsNarrowBesideALargePlate) {
+  const ClosedMesh mesh = Closed(Box({0, 0, 0}, {4, 2, 0.02}));
+  const std::vector<TriangleMesh> halves = {Box({0, 0, 0}, {2.0162, 2, 0.02}),
+                                            Box({2.0282, 0, 0}, {4, 2, 0.02})};
+  const CoverLimits limits{
+      .tolerance_m = 0.0005, .allowed_m = 0.006, .max_parts = 32, .max_vertices = 64};
+  const std::vector<TriangleMesh> covering =
+      Covering(halves, mesh, DistanceGrid(mesh, 0.02), limits);
+  std::vector<std::vector<HalfSpace>> faces;
+  for (const TriangleMesh& part : covering) faces.push_back(HalfSpacesOf(part));
+  int covered = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Eigen::Vector3d point(2.0222, 0.005 * i + 0.0025, 0.02);
+    covered += std::any_of(faces.begin(), faces.end(), [&](const std::vector<HalfSpace>& part) {
+      return std::all_of(part.begin(), part.end(), [&](const HalfSpace& face) {
+        return face.normal.dot(point) <= face.offset + 0.001;
+      });
+    });
+  }
+  EXPECT_GE(covered, 396);
 }
 
 }  // namespace

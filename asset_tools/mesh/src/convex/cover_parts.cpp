@@ -20,8 +20,9 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-constexpr double kThinnest = 2e-4;  // [m]
-constexpr int kCoverSamples = 8000;
+constexpr double kThinnest = 2e-4;      // [m]
+constexpr double kCoverSamples = 8000;  // and more where they would lie far apart
+constexpr double kMostCoverSamples = 100'000;
 
 // Direction in which the points spread least.
 Eigen::Vector3d FlatDirection(const Points& points) {
@@ -134,8 +135,8 @@ std::pair<Points, Points> Halves(const Points& points) {
 
 // Samples by area pass over strips, whose corners may be covered while their middle is not: so the
 // edges and the centres of all triangles are looked at as well.
-Points ProbesOf(const TriangleMesh& mesh, double spacing_m) {
-  Points probes = SurfaceSamples(mesh, kCoverSamples);
+Points ProbesOf(const TriangleMesh& mesh, int samples, double spacing_m) {
+  Points probes = SurfaceSamples(mesh, samples);
   probes.insert(probes.end(), mesh.vertices.begin(), mesh.vertices.end());
   for (const Eigen::Vector3i& t : mesh.triangles) {
     Eigen::Vector3d center = Eigen::Vector3d::Zero();
@@ -163,8 +164,11 @@ class Cover {
   }
 
   std::vector<TriangleMesh> Over(const ClosedMesh& mesh) {
-    const double spacing_m = std::sqrt(MeasureTopology(mesh.mesh()).area_m2 / kCoverSamples);
-    const Points probes = ProbesOf(mesh.mesh(), spacing_m);
+    const double area_m2 = MeasureTopology(mesh.mesh()).area_m2;
+    // a gap between parts that is wider than they may reach into air is seen
+    const double spacing_m = std::min(std::sqrt(area_m2 / kCoverSamples), limits_.allowed_m);
+    const double samples = std::min(area_m2 / (spacing_m * spacing_m), kMostCoverSamples);
+    const Points probes = ProbesOf(mesh.mesh(), static_cast<int>(samples), spacing_m);
     constexpr int kCoverRounds =
         5;  // reduced to few vertices, a part may not cover all that it was for
     for (int round = 0; round < kCoverRounds; ++round) {

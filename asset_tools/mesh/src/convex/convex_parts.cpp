@@ -343,7 +343,7 @@ class Decomposition {
   // The point of the hull's surface that is farthest from the mesh's, if it is farther than may be;
   // depth 0 where there is none.
   Concavity Protrusion(const TriangleMesh& hull, double step_cells = kFineStep,
-                       double stop_m = 1e300) {
+                       double stop_m = kNoStop) {
     return ProtrusionOf(hull, distances_, {.above_m = config_.max_protrusion_m, .stop_m = stop_m},
                         step_cells * solid_.grid().cell_m);
   }

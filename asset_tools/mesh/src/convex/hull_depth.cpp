@@ -218,6 +218,8 @@ class DeepestOnSurface {
   }
 
   // To within `step_m` of its place and a part of its depth, or any that is deeper than `stop_m`.
+  // Where the depth to stop at is known, larger steps look first: they find most of what is deeper
+  // with a small part of the work.
   template <class DepthAt>
   Concavity Find(const TriangleMesh& hull, double step_m, double stop_m, const DepthAt& depth_at) {
     const double known_m = deepest_.depth_m;
@@ -231,12 +233,14 @@ class DeepestOnSurface {
     // what a deep one holds lets most others be left out
     std::stable_sort(triangles.begin(), triangles.end(),
                      [](const Patch& a, const Patch& b) { return a.bound_m > b.bound_m; });
-    for (const Patch& triangle : triangles) {
-      patches_.assign(1, triangle);
-      while (!patches_.empty() && deepest_.depth_m <= stop_m) {
-        const Patch patch = patches_.back();
-        patches_.pop_back();
-        Visit(patch, step_m, depth_at);
+    for (double larger = stop_m < kNoStop ? kLargestStep : 1; larger >= 1; larger /= kFiner) {
+      for (const Patch& triangle : triangles) {
+        patches_.assign(1, triangle);
+        while (!patches_.empty() && deepest_.depth_m <= stop_m) {
+          const Patch patch = patches_.back();
+          patches_.pop_back();
+          Visit(patch, larger * step_m, depth_at);
+        }
       }
     }
     return deepest_.depth_m > known_m ? deepest_ : Concavity{};
@@ -246,6 +250,8 @@ class DeepestOnSurface {
   static constexpr double kAsked =
       2;  // steps; larger patches are halved without asking for a depth
   static constexpr double kWorthwhile = 0.03;  // of a depth: what must be left to look further
+  static constexpr double kLargestStep = 64;   // steps: the first where there is a depth to stop at
+  static constexpr double kFiner = 8;          // by which the next are smaller
 
   template <class DepthAt>
   void Visit(const Patch& patch, double step_m, const DepthAt& depth_at) {

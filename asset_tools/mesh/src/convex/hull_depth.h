@@ -17,11 +17,14 @@ struct Concavity {
   Eigen::Vector3d at_m = Eigen::Vector3d::Zero();  ///< It means nothing at depth 0.
 };
 
+/// No depth is so deep.
+inline constexpr double kNoStop = 1e300;
+
 /// Which depths are of interest.
 struct DepthRange {
-  double above_m = 0;     ///< What is no deeper counts as depth 0.
-  double stop_m = 1e300;  ///< Where there is something deeper than this, any such depth will do.
-  double step_m = 0;      ///< By so much the depth of a cell that is found may be too little.
+  double above_m = 0;       ///< What is no deeper counts as depth 0.
+  double stop_m = kNoStop;  ///< Where there is something deeper than this, any such depth will do.
+  double step_m = 0;        ///< By so much the depth of a cell that is found may be too little.
 };
 
 /// The cell inside a hull that is farthest from the solid. Inside is what has its centre there; of

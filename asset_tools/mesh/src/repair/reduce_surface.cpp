@@ -131,50 +131,79 @@ class WithoutCrossings {
   using Face = PlacedTriangles::Face;
   using Vertex = PlacedTriangles::Vertex;
 
+  // A triangle as it will be.
+  struct Placed {
+    CornerTriangle triangle;
+    Eigen::AlignedBox3d box;
+  };
+
   // The edge's ends become one corner, `kept`, at `to`.
   bool IsFree(Vertex kept, Vertex gone, const Point& to) const {
-    const SurfaceMesh& surface = *triangles_->surface;
-    const auto placed = [&](Face face) {
-      CornerTriangle triangle{triangles_->CornersOf(face), {}};
-      for (std::size_t i = 0; i < 3; ++i) {
-        Vertex& corner = triangle.corners[i];
-        const bool moves = corner == kept || corner == gone;
-        triangle.points[i] = moves ? to : surface.point(corner);
-        if (moves) corner = kept;
-      }
-      return triangle;
-    };
-    const auto vanishes = [&](Face face) {
-      const auto corners = triangles_->CornersOf(face);
-      return std::count(corners.begin(), corners.end(), kept) +
-                 std::count(corners.begin(), corners.end(), gone) ==
-             2;
-    };
-    for (const Vertex end : {kept, gone}) {
-      for (const Face face : surface.faces_around_target(surface.halfedge(end))) {
-        if (vanishes(face)) continue;
-        CheckWork(100);
-        const CornerTriangle moved = placed(face);
-        if (CGAL::collinear(moved.points[0], moved.points[1], moved.points[2])) return false;
-        Eigen::AlignedBox3d box;
-        for (const Point& point : moved.points) box.extend(PlacedTriangles::VectorOf(point));
-        std::vector<std::size_t> near;
-        triangles_->boxes.Find(box, near);
-        AddAround(kept, near);  // they move too, so their boxes of now do not tell
-        AddAround(gone, near);
-        for (const std::size_t other : near) {
-          const Face at(static_cast<Face::size_type>(other));
-          if (at != face && !vanishes(at) && Cross(moved, placed(at))) return false;
-        }
+    const std::vector<Placed> moved = MovedBy(kept, gone, to);
+    Eigen::AlignedBox3d reach;
+    for (const Placed& one : moved) {
+      CheckWork(100);
+      const std::array<Point, 3>& points = one.triangle.points;
+      if (CGAL::collinear(points[0], points[1], points[2])) return false;
+      reach.extend(one.box);
+    }
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k) {
+        if (Cross(moved[i].triangle, moved[k].triangle)) return false;
       }
     }
-    return true;
+    return std::none_of(
+        moved.begin(), moved.end(), [&, still = StillIn(reach, kept, gone)](const Placed& one) {
+          return std::any_of(still.begin(), still.end(), [&](const Placed& other) {
+            return one.box.intersects(other.box) && Cross(one.triangle, other.triangle);
+          });
+        });
   }
 
-  void AddAround(Vertex vertex, std::vector<std::size_t>& faces) const {
+  // The triangles of one end or the other; those of both vanish.
+  std::vector<Placed> MovedBy(Vertex kept, Vertex gone, const Point& to) const {
     const SurfaceMesh& surface = *triangles_->surface;
-    for (const Face face : surface.faces_around_target(surface.halfedge(vertex)))
-      faces.push_back(static_cast<std::size_t>(face));
+    std::vector<Placed> moved;
+    for (const Vertex end : {kept, gone}) {
+      for (const Face face : surface.faces_around_target(surface.halfedge(end))) {
+        Placed placed = AsItIs(face);
+        if (EndsAmong(placed.triangle, kept, gone) == 2) continue;
+        placed.box.setEmpty();
+        for (std::size_t i = 0; i < 3; ++i) {
+          Vertex& corner = placed.triangle.corners[i];
+          if (corner == end) placed.triangle.points[i] = to, corner = kept;
+          placed.box.extend(PlacedTriangles::VectorOf(placed.triangle.points[i]));
+        }
+        moved.push_back(placed);
+      }
+    }
+    return moved;
+  }
+
+  // What touches the box and stays where it is.
+  std::vector<Placed> StillIn(const Eigen::AlignedBox3d& box, Vertex kept, Vertex gone) const {
+    std::vector<std::size_t> near;
+    triangles_->boxes.Find(box, near);
+    std::vector<Placed> still;
+    for (const std::size_t index : near) {
+      const Placed placed = AsItIs(Face(static_cast<Face::size_type>(index)));
+      if (EndsAmong(placed.triangle, kept, gone) == 0) still.push_back(placed);
+    }
+    return still;
+  }
+
+  Placed AsItIs(Face face) const {
+    Placed placed{{triangles_->CornersOf(face), {}}, {}};
+    for (std::size_t i = 0; i < 3; ++i) {
+      placed.triangle.points[i] = triangles_->surface->point(placed.triangle.corners[i]);
+      placed.box.extend(PlacedTriangles::VectorOf(placed.triangle.points[i]));
+    }
+    return placed;
+  }
+
+  static std::ptrdiff_t EndsAmong(const CornerTriangle& triangle, Vertex kept, Vertex gone) {
+    return std::count(triangle.corners.begin(), triangle.corners.end(), kept) +
+           std::count(triangle.corners.begin(), triangle.corners.end(), gone);
   }
 
   const PlacedTriangles* triangles_;

@@ -209,19 +209,19 @@ struct Patch {
 // along the surface by no more than the way.
 class DeepestOnSurface {
  public:
-  // `slack_m` is how much deeper than the grid says a point may be; no point of a cell that is not
-  // `far` is deeper than `above_m`.
-  DeepestOnSurface(const DistanceGrid& solid, const MarkedCells& far, double above_m,
-                   double slack_m)
-      : solid_(&solid), far_(&far), slack_m_(slack_m), worthwhile_m_(above_m) {
+  DeepestOnSurface(MeasuredDistances& distances, double above_m)
+      : distances_(&distances),
+        solid_(&distances.solid()),
+        far_(&distances.FarCells(above_m)),
+        slack_m_(distances.MostBeyondGrid()),
+        worthwhile_m_(above_m) {
     deepest_.depth_m = above_m;
   }
 
   // To within `step_m` of its place and a part of its depth, or any that is deeper than `stop_m`.
   // Where the depth to stop at is known, larger steps look first: they find most of what is deeper
   // with a small part of the work.
-  template <class DepthAt>
-  Concavity Find(const TriangleMesh& hull, double step_m, double stop_m, const DepthAt& depth_at) {
+  Concavity Find(const TriangleMesh& hull, double step_m, double stop_m) {
     const double known_m = deepest_.depth_m;
     std::vector<Patch> triangles;
     for (const Eigen::Vector3i& t : hull.triangles) {
@@ -239,7 +239,7 @@ class DeepestOnSurface {
         while (!patches_.empty() && deepest_.depth_m <= stop_m) {
           const Patch patch = patches_.back();
           patches_.pop_back();
-          Visit(patch, larger * step_m, depth_at);
+          Visit(patch, larger * step_m);
         }
       }
     }
@@ -247,26 +247,34 @@ class DeepestOnSurface {
   }
 
  private:
-  static constexpr double kAsked =
-      2;  // steps; larger patches are halved without asking for a depth
+  static constexpr double kMeasured = 8;       // steps; larger patches are halved without measuring
+  static constexpr double kAsked = 2;          // steps; larger ones without asking for a depth
   static constexpr double kWorthwhile = 0.03;  // of a depth: what must be left to look further
   static constexpr double kLargestStep = 64;   // steps: the first where there is a depth to stop at
   static constexpr double kFiner = 8;          // by which the next are smaller
 
-  template <class DepthAt>
-  void Visit(const Patch& patch, double step_m, const DepthAt& depth_at) {
+  void Visit(const Patch& patch, double step_m) {
     if (patch.bound_m <= worthwhile_m_) return;
     CheckWork(5);
     double bound_m = patch.bound_m;
+    const bool is_last = patch.reach_m <= step_m;
+    if (!is_last && patch.reach_m <= kMeasured * step_m &&
+        distances_->NoneBeyond(patch.corners, worthwhile_m_))
+      return;
     if (patch.reach_m <= kAsked * step_m) {
-      const double depth_m = depth_at(patch.center);
+      const double depth_m = DepthAt(patch.center);
       if (depth_m > deepest_.depth_m) {
         deepest_ = {depth_m, patch.center};
         worthwhile_m_ = (1 + kWorthwhile) * depth_m;
       }
       if (depth_m > 0) bound_m = std::min(bound_m, depth_m + patch.reach_m);
     }
-    if (patch.reach_m > step_m && bound_m > worthwhile_m_) Halve(patch, bound_m);
+    if (!is_last && bound_m > worthwhile_m_) Halve(patch, bound_m);
+  }
+
+  double DepthAt(const Eigen::Vector3d& point) {
+    const Eigen::Vector3i cell = solid_->grid().CellAt(point);
+    return solid_->DistanceAt(cell.x(), cell.y(), cell.z()) > 0 ? distances_->At(point) : 0;
   }
 
   // False where nothing in the patch is of interest; `bound_m` is what is known of it already.
@@ -314,9 +322,10 @@ class DeepestOnSurface {
     if (keeps_low || keeps_high) patches_.push_back(low_first ? low : high);
   }
 
+  MeasuredDistances* distances_;
   const DistanceGrid* solid_;
-  const MarkedCells* far_;
-  double slack_m_;
+  const MarkedCells* far_;  // no point of other cells is deeper than what counts
+  double slack_m_;          // how much deeper than the grid says a point may be
   Concavity deepest_;
   double worthwhile_m_;         // what else is of interest is deeper
   std::vector<Patch> patches_;  // a stack
@@ -331,14 +340,8 @@ Concavity ConcavityOf(const TriangleMesh& hull, const DistanceGrid& solid,
 
 Concavity ProtrusionOf(const TriangleMesh& hull, MeasuredDistances& distances,
                        const DepthRange& range, double step_m) {
-  const DistanceGrid& solid = distances.solid();
-  const auto depth_at = [&](const Eigen::Vector3d& point) {
-    const Eigen::Vector3i cell = solid.grid().CellAt(point);
-    return solid.DistanceAt(cell.x(), cell.y(), cell.z()) > 0 ? distances.At(point) : 0.0;
-  };
-  return DeepestOnSurface(solid, distances.FarCells(range.above_m), range.above_m,
-                          distances.MostBeyondGrid())
-      .Find(hull, step_m, std::max(range.stop_m, range.above_m), depth_at);
+  return DeepestOnSurface(distances, range.above_m)
+      .Find(hull, step_m, std::max(range.stop_m, range.above_m));
 }
 
 }  // namespace doorforge

@@ -89,17 +89,37 @@ double MeasuredDistances::MostBeside(int i, int j, int k) const {
 }
 
 double MeasuredDistances::AtCell(int i, int j, int k) {
-  float& distance_m = distance_m_[solid_->grid().IndexOf(i, j, k)];
+  const std::size_t index = solid_->grid().IndexOf(i, j, k);
+  float& distance_m = distance_m_[index];
   if (distance_m < 0) {
     const double most_m = MostAtCell(solid_->DistanceAt(i, j, k));
-    distance_m = static_cast<float>(surface_->Distance(solid_->grid().CenterOf(i, j, k),
-                                                       std::min(most_m, MostBeside(i, j, k))));
+    const TriangleTree::Near near = surface_->NearestTriangle(
+        solid_->grid().CenterOf(i, j, k), std::min(most_m, MostBeside(i, j, k)));
+    distance_m = static_cast<float>(near.distance_m);
+    nearest_[index] = near.triangle;
   }
   return distance_m;
 }
 
+void MeasuredDistances::BeReady() {
+  if (!distance_m_.empty()) return;
+  distance_m_.assign(solid_->grid().count(), -1.0F);
+  nearest_.assign(solid_->grid().count(), -1);
+}
+
+bool MeasuredDistances::NoneBeyond(const std::array<Eigen::Vector3d, 3>& corners, double far_m) {
+  BeReady();
+  const Eigen::Vector3i cell = solid_->grid().CellAt((corners[0] + corners[1] + corners[2]) / 3);
+  AtCell(cell.x(), cell.y(), cell.z());
+  const int nearest = nearest_[solid_->grid().IndexOf(cell.x(), cell.y(), cell.z())];
+  return nearest >= 0 &&
+         std::all_of(corners.begin(), corners.end(), [&](const Eigen::Vector3d& corner) {
+           return surface_->DistanceTo(nearest, corner) <= far_m;
+         });
+}
+
 double MeasuredDistances::At(const Eigen::Vector3d& point) {
-  if (distance_m_.empty()) distance_m_.assign(solid_->grid().count(), -1.0F);
+  BeReady();
   const Grid& grid = solid_->grid();
   Eigen::Vector3i low, high;
   Eigen::Vector3d share;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -25,6 +26,11 @@ class MeasuredDistances {
   const DistanceGrid& solid() const { return *solid_; }
   double At(const Eigen::Vector3d& point);
 
+  /// True where every point of the triangle with these corners is known to be no farther than
+  /// `far_m` from the surface: the distance to one triangle of the surface is convex, so that it is
+  /// largest at a corner. Asked is the one that is nearest to the middle.
+  bool NoneBeyond(const std::array<Eigen::Vector3d, 3>& corners, double far_m);
+
   /// How much more than the grid's distance to a cell that of a point in it may be.
   double MostBeyondGrid() const;
   /// The cells in air that may hold a point for which At() is more than `above_m`. Made anew only
@@ -33,6 +39,7 @@ class MeasuredDistances {
 
  private:
   double AtCell(int i, int j, int k);
+  void BeReady();
   /// What AtCell() is at most where the grid says `grid_m`, and what it is by the cells beside.
   double MostAtCell(double grid_m) const;
   double MostBeside(int i, int j, int k) const;
@@ -40,6 +47,7 @@ class MeasuredDistances {
   const DistanceGrid* solid_;
   const TriangleTree* surface_;
   std::vector<float> distance_m_;  // negative where it was not asked for
+  std::vector<int> nearest_;       // triangle of the surface where the distance was asked for
   std::optional<MarkedCells> far_;
   double far_above_m_ = 0;
 };

@@ -115,8 +115,18 @@ void TriangleTree::Build(int node, int first, int count) {
 }
 
 double TriangleTree::Distance(const Vector3d& point, double at_most) const {
+  return NearestTriangle(point, at_most).distance_m;
+}
+
+double TriangleTree::DistanceTo(int triangle, const Vector3d& point) const {
+  const Triangle& t = triangles_[static_cast<std::size_t>(triangle)];
+  return (point - NearestPoint(point, t.a, t.b, t.c)).norm();
+}
+
+TriangleTree::Near TriangleTree::NearestTriangle(const Vector3d& point, double at_most) const {
   double best = at_most * at_most;
-  if (triangles_.empty()) return at_most;
+  int nearest = -1;
+  if (triangles_.empty()) return {nearest, at_most};
   struct Pending {
     double bound;
     int node;
@@ -132,7 +142,8 @@ double TriangleTree::Distance(const Vector3d& point, double at_most) const {
     const Node& node = nodes_[static_cast<std::size_t>(next.node)];
     for (int i = node.first; i < node.first + node.count; ++i) {
       const Triangle& t = triangles_[static_cast<std::size_t>(i)];
-      best = std::min(best, (point - NearestPoint(point, t.a, t.b, t.c)).squaredNorm());
+      const double squared = (point - NearestPoint(point, t.a, t.b, t.c)).squaredNorm();
+      if (squared < best) best = squared, nearest = i;
     }
     if (node.count > 0) continue;
     Pending near{nodes_[static_cast<std::size_t>(node.first)].box.squaredExteriorDistance(point),
@@ -144,7 +155,7 @@ double TriangleTree::Distance(const Vector3d& point, double at_most) const {
     if (near.bound < best) pending[count++] = near;
   }
   CheckWork(visited);
-  return std::sqrt(best);
+  return {nearest, std::sqrt(best)};
 }
 
 bool TriangleTree::Hits(const Vector3d& origin, const Vector3d& direction, double from_m) const {

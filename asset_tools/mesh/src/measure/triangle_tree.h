@@ -21,6 +21,16 @@ class TriangleTree {
   /// Distance to the nearest point of any triangle, or `at_most` if that is smaller.
   double Distance(const Eigen::Vector3d& point, double at_most = 1e300) const;
 
+  /// One triangle of the mesh and how far it is.
+  struct Near {
+    int triangle = -1;  ///< A number of the tree's; -1 where none is so near.
+    double distance_m = 0;
+  };
+  /// The nearest triangle and Distance().
+  Near NearestTriangle(const Eigen::Vector3d& point, double at_most = 1e300) const;
+  /// Distance to the nearest point of this triangle.
+  double DistanceTo(int triangle, const Eigen::Vector3d& point) const;
+
   /// Whether the ray meets a triangle, of either side, farther than `from_m` from its origin.
   bool Hits(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double from_m) const;
 

@@ -3,6 +3,7 @@
 #include "convex/hull_depth.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -14,6 +15,7 @@
 
 #include "convex/convex_region.h"
 #include "measure/distance_grid.h"
+#include "measure/surface_samples.h"
 #include "measure/triangle_tree.h"
 #include "shapes.h"
 
@@ -109,6 +111,35 @@ TEST(ProtrusionOf, AnAngleIsHalfItsOpening) {
   EXPECT_EQ(ProtrusionOf(hull, distances, {.above_m = 0.5}, 0.005).depth_m, 0);
 }
 
+// Drawn hulls against the deepest of many points of their surface.
+TEST(ProtrusionOf, IsThatOfTheDeepestPointOfTheSurface) {
+  constexpr double kCell = 0.013, kStep = 0.5 * kCell, kAbove = 0.04;
+  const ClosedMesh posts = Posts();
+  const DistanceGrid solid(posts, kCell);
+  const TriangleTree tree(posts.mesh());
+  MeasuredDistances distances(solid, tree);
+  Rng rng(5, "protrusion");
+  for (int round = 0; round < 40; ++round) {
+    const TriangleMesh hull = DrawnHull(rng, {1.1, 0.7, 0.8});
+    double deepest_m = 0;
+    for (const Eigen::Vector3d& point : SurfaceSamples(hull, 4000)) {
+      const Eigen::Vector3i cell = solid.grid().CellAt(point);
+      if (solid.DistanceAt(cell.x(), cell.y(), cell.z()) > 0)
+        deepest_m = std::max(deepest_m, distances.At(point));
+    }
+    const DepthRange range{.above_m = kAbove};
+    const double found_m = ProtrusionOf(hull, distances, range, kStep).depth_m;
+    EXPECT_GE(found_m, deepest_m > kAbove + kStep ? 0.97 * deepest_m - kStep : 0);
+    EXPECT_LE(found_m, 1.05 * deepest_m + 2 * kStep);
+    // asked with a depth to stop at, it finds one beyond or all of it
+    const double stop_m = 0.8 * found_m;
+    const double stopped_m =
+        ProtrusionOf(hull, distances, {.above_m = kAbove, .stop_m = stop_m}, kStep).depth_m;
+    EXPECT_GE(stopped_m, stop_m);
+    EXPECT_LE(stopped_m, 1.03 * found_m + kStep);
+  }
+}
+
 TEST(MeasuredDistances, AreOffByHalfACellsDiagonalAtMost) {
   constexpr double kCell = 0.02;
   const ClosedMesh posts = Posts();
@@ -120,6 +151,35 @@ TEST(MeasuredDistances, AreOffByHalfACellsDiagonalAtMost) {
     const Eigen::Vector3d point = Drawn(rng, {1.0, 0.6, 0.7});
     EXPECT_NEAR(distances.At(point), tree.Distance(point), std::sqrt(0.75) * kCell);
   }
+}
+
+TEST(MeasuredDistances, NoPointIsBeyondWhereNoneIsSaidToBe) {
+  const ClosedMesh posts = Posts();
+  const DistanceGrid solid(posts, 0.013);
+  const TriangleTree tree(posts.mesh());
+  MeasuredDistances distances(solid, tree);
+  Rng rng(10, "beyond");
+  int known = 0, near = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Eigen::Vector3d a = Drawn(rng, {1.0, 0.6, 0.7});
+    const auto beside = [&] { return (a + 0.1 * Drawn(rng, {1, 1, 1})).eval(); };
+    const std::array<Eigen::Vector3d, 3> corners{a, beside(), beside()};
+    const double far_m = rng.Uniform(0.02, 0.3);
+    double most_m = 0;
+    for (int k = 0; k < 40; ++k) {
+      const double u = std::sqrt(rng.Uniform(0, 1));
+      const double v = rng.Uniform(0, 1);
+      most_m = std::max(most_m, tree.Distance((1 - u) * corners[0] + u * (1 - v) * corners[1] +
+                                              u * v * corners[2]));
+    }
+    const bool none = distances.NoneBeyond(corners, far_m);
+    EXPECT_TRUE(!none || most_m <= far_m);
+    known += none;
+    near += most_m <= far_m;
+  }
+  // it knows of most, else it would be of no use
+  EXPECT_GT(known, 0.8 * near);
+  EXPECT_LT(near, 2500);
 }
 
 TEST(MeasuredDistances, NoPointOutsideTheFarCellsIsFar) {

@@ -624,17 +624,30 @@ class Decomposition {
     return SearchHull(points);
   }
 
-  // Whether there is so much air between the middles of two regions that their common hull, which
-  // holds the way from one to the other, is deeper than the bound. Regions need not touch: those on
-  // both sides of a bar go through it.
+  // Whether there is so much air between two regions that their common hull, which holds the ways
+  // from points of one to points of the other, is known to be deeper than the bound: it need not be
+  // made then. Regions need not touch: those on both sides of a bar go through it.
   bool LieApart(const Region& a, const Region& b, double bound_m) const {
-    constexpr int kAsked = 8;
+    constexpr std::size_t kWays = 16;
     constexpr double kGap = 0.5;  // of the smaller region: what may lie between them
     const double smaller_m = std::min(a.box.diagonal().norm(), b.box.diagonal().norm());
     if (a.box.exteriorDistance(b.box) > std::max(solid_.grid().cell_m, kGap * smaller_m))
       return true;
-    const Eigen::Vector3d from = a.middle;
-    const Eigen::Vector3d way = b.middle - from;
+    if (IsDeepBetween(a.middle, b.middle, bound_m)) return true;
+    const std::vector<Eigen::Vector3d>& from = a.hull.vertices;
+    const std::vector<Eigen::Vector3d>& to = b.hull.vertices;
+    for (std::size_t way = 0; way < kWays; ++way) {
+      const std::size_t other = (5 * way + 2) % kWays;  // in another order
+      if (IsDeepBetween(from[way * from.size() / kWays], to[other * to.size() / kWays], bound_m))
+        return true;
+    }
+    return false;
+  }
+
+  // Asked at a few points, with what a hull's deepest cell may lack of a point in the hull.
+  bool IsDeepBetween(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double bound_m) const {
+    constexpr int kAsked = 8;
+    const Eigen::Vector3d way = to - from;
     const double slack_m = std::sqrt(3.0) * solid_.grid().cell_m;
     for (int i = 1; i < kAsked; ++i) {
       const Eigen::Vector3i cell = solid_.grid().CellAt(from + way * i / kAsked);

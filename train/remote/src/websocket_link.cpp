@@ -93,11 +93,12 @@ class WebSocketLink : public Link {
       // the operation refers to what goes away here
       beast::get_lowest_layer(*socket_).close();
       while (!result) context_.run_one();
-      throw Failed(StopRequested() != 0
-                       ? "stopped"
-                       : "no answer within " +
-                             std::to_string(timeout_.count() / 1000.0).substr(0, 5) +
-                             " s (--policy-timeout)");
+      throw Failed(
+          StopRequested() != 0
+              ? "stopped"
+              : "no answer within " +
+                    std::to_string(std::chrono::duration<double>(timeout_).count()).substr(0, 5) +
+                    " s (--policy-timeout)");
     }
     if (*result) throw Failed(problem + " (" + result->message() + ")", ErrorCode::kMissing);
   }

@@ -13,6 +13,7 @@ constexpr double kSameTime = 1e-9;  // [s]
 FilmInstant InstantOf(const SceneSnapshot& snapshot) {
   const JointVector& joints = snapshot.robot_position;
   return {.time_s = snapshot.time_s,
+          .phase = {},
           .robot = {joints.data(), joints.data() + joints.size()},
           .hinge_rad = snapshot.hinge_rad,
           .handle_rad = snapshot.handle_rad,

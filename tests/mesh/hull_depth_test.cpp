@@ -43,6 +43,15 @@ ClosedMesh Posts() {
   return *ClosedMesh::From(posts);
 }
 
+struct MeasuredPosts {
+  explicit MeasuredPosts(double cell_m) : solid(posts, cell_m) {}
+
+  ClosedMesh posts = Posts();
+  DistanceGrid solid;
+  TriangleTree tree{posts.mesh()};
+  MeasuredDistances distances{solid, tree};
+};
+
 // every cell of the grid is asked
 double DeepestOfAll(const TriangleMesh& hull, const DistanceGrid& solid) {
   const std::vector<HalfSpace> faces = HalfSpacesOf(hull);
@@ -114,27 +123,24 @@ TEST(ProtrusionOf, AnAngleIsHalfItsOpening) {
 // Drawn hulls against the deepest of many points of their surface.
 TEST(ProtrusionOf, IsThatOfTheDeepestPointOfTheSurface) {
   constexpr double kCell = 0.013, kStep = 0.5 * kCell, kAbove = 0.04;
-  const ClosedMesh posts = Posts();
-  const DistanceGrid solid(posts, kCell);
-  const TriangleTree tree(posts.mesh());
-  MeasuredDistances distances(solid, tree);
+  MeasuredPosts posts(kCell);
   Rng rng(5, "protrusion");
   for (int round = 0; round < 40; ++round) {
     const TriangleMesh hull = DrawnHull(rng, {1.1, 0.7, 0.8});
     double deepest_m = 0;
     for (const Eigen::Vector3d& point : SurfaceSamples(hull, 4000)) {
-      const Eigen::Vector3i cell = solid.grid().CellAt(point);
-      if (solid.DistanceAt(cell.x(), cell.y(), cell.z()) > 0)
-        deepest_m = std::max(deepest_m, distances.At(point));
+      const Eigen::Vector3i cell = posts.solid.grid().CellAt(point);
+      if (posts.solid.DistanceAt(cell.x(), cell.y(), cell.z()) > 0)
+        deepest_m = std::max(deepest_m, posts.distances.At(point));
     }
     const DepthRange range{.above_m = kAbove};
-    const double found_m = ProtrusionOf(hull, distances, range, kStep).depth_m;
+    const double found_m = ProtrusionOf(hull, posts.distances, range, kStep).depth_m;
     EXPECT_GE(found_m, deepest_m > kAbove + kStep ? 0.97 * deepest_m - kStep : 0);
     EXPECT_LE(found_m, 1.05 * deepest_m + 2 * kStep);
     // asked with a depth to stop at, it finds one beyond or all of it
     const double stop_m = 0.8 * found_m;
     const double stopped_m =
-        ProtrusionOf(hull, distances, {.above_m = kAbove, .stop_m = stop_m}, kStep).depth_m;
+        ProtrusionOf(hull, posts.distances, {.above_m = kAbove, .stop_m = stop_m}, kStep).depth_m;
     EXPECT_GE(stopped_m, stop_m);
     EXPECT_LE(stopped_m, 1.03 * found_m + kStep);
   }
@@ -142,22 +148,16 @@ TEST(ProtrusionOf, IsThatOfTheDeepestPointOfTheSurface) {
 
 TEST(MeasuredDistances, AreOffByHalfACellsDiagonalAtMost) {
   constexpr double kCell = 0.02;
-  const ClosedMesh posts = Posts();
-  const DistanceGrid solid(posts, kCell);
-  const TriangleTree tree(posts.mesh());
-  MeasuredDistances distances(solid, tree);
+  MeasuredPosts posts(kCell);
   Rng rng(8, "distances");
   for (int i = 0; i < 2000; ++i) {
     const Eigen::Vector3d point = Drawn(rng, {1.0, 0.6, 0.7});
-    EXPECT_NEAR(distances.At(point), tree.Distance(point), std::sqrt(0.75) * kCell);
+    EXPECT_NEAR(posts.distances.At(point), posts.tree.Distance(point), std::sqrt(0.75) * kCell);
   }
 }
 
 TEST(MeasuredDistances, NoPointIsBeyondWhereNoneIsSaidToBe) {
-  const ClosedMesh posts = Posts();
-  const DistanceGrid solid(posts, 0.013);
-  const TriangleTree tree(posts.mesh());
-  MeasuredDistances distances(solid, tree);
+  MeasuredPosts posts(0.013);
   Rng rng(10, "beyond");
   int known = 0, near = 0;
   for (int i = 0; i < 3000; ++i) {
@@ -169,10 +169,10 @@ TEST(MeasuredDistances, NoPointIsBeyondWhereNoneIsSaidToBe) {
     for (int k = 0; k < 40; ++k) {
       const double u = std::sqrt(rng.Uniform(0, 1));
       const double v = rng.Uniform(0, 1);
-      most_m = std::max(most_m, tree.Distance((1 - u) * corners[0] + u * (1 - v) * corners[1] +
-                                              u * v * corners[2]));
+      most_m = std::max(most_m, posts.tree.Distance((1 - u) * corners[0] +
+                                                    u * (1 - v) * corners[1] + u * v * corners[2]));
     }
-    const bool none = distances.NoneBeyond(corners, far_m);
+    const bool none = posts.distances.NoneBeyond(corners, far_m);
     EXPECT_TRUE(!none || most_m <= far_m);
     known += none;
     near += most_m <= far_m;
@@ -184,19 +184,16 @@ TEST(MeasuredDistances, NoPointIsBeyondWhereNoneIsSaidToBe) {
 
 TEST(MeasuredDistances, NoPointOutsideTheFarCellsIsFar) {
   constexpr double kCell = 0.013;
-  const ClosedMesh posts = Posts();
-  const DistanceGrid solid(posts, kCell);
-  const TriangleTree tree(posts.mesh());
-  MeasuredDistances distances(solid, tree);
+  MeasuredPosts posts(kCell);
   Rng rng(9, "far");
   for (const double above_m : {0.5, 2.0, 6.0, 12.0}) {
     int left_out = 0;
     for (int i = 0; i < 4000; ++i) {
       const Eigen::Vector3d point = Drawn(rng, {1.0, 0.6, 0.7});
-      const Eigen::Vector3i cell = solid.grid().CellAt(point);
-      if (distances.FarCells(above_m * kCell).AnyBetween(cell, cell)) continue;
-      const bool in_air = solid.DistanceAt(cell.x(), cell.y(), cell.z()) > 0;
-      EXPECT_TRUE(!in_air || distances.At(point) <= above_m * kCell);
+      const Eigen::Vector3i cell = posts.solid.grid().CellAt(point);
+      if (posts.distances.FarCells(above_m * kCell).AnyBetween(cell, cell)) continue;
+      const bool in_air = posts.solid.DistanceAt(cell.x(), cell.y(), cell.z()) > 0;
+      EXPECT_TRUE(!in_air || posts.distances.At(point) <= above_m * kCell);
       left_out += in_air;
     }
     // beyond two cells and a half diagonal it leaves out what is near

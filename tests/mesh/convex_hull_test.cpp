@@ -138,7 +138,9 @@ TEST(GrownHull, LeavesNoPointOutByTwiceItsTolerance) {
         for (const Eigen::Vector3d& point : points)
           ASSERT_LE(face.normal.dot(point) - face.offset, 2 * tolerance_m + 1e-12) << round;
       }
-      if (tolerance_m == 5e-3) EXPECT_LT(hull->vertices.size(), 200U);
+      if (tolerance_m == 5e-3) {
+        EXPECT_LT(hull->vertices.size(), 200U);
+      }
     }
   }
 }

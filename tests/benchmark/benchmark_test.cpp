@@ -144,6 +144,16 @@ TEST(BenchmarkPipeline, APipelineIsToldTheSettingsThatItHas) {
   EXPECT_NE(told.find("decisions"), std::string::npos) << told;
 }
 
+TEST(BenchmarkPipeline, TheHandOfTrueStatesTeachesTheOneThatLooks) {
+  const Pipeline joined =
+      PlanBenchmark(ReadBenchmark("quick", {}, {"partmanip", "doorgym"})).pipeline;
+  const auto learns = [](const PipelineStep& step) { return step.command.front() == "reinforce"; };
+  EXPECT_EQ(std::ranges::count_if(joined.steps, learns), 2);  // one hand for both rows
+  EXPECT_TRUE(Actors(joined, "doorgym_1_test").contains("hand"));
+  EXPECT_TRUE(Actors(joined, "partmanip_1_test").contains("looks"));
+  EXPECT_EQ(StepNamed(joined, "looks").needs, (std::vector<std::string>{"doors", "hand"}));
+}
+
 TEST(BenchmarkPipeline, WhoseRowsAreNotTrainedMakesDoorsAlone) {
   const Pipeline joined = PlanBenchmark(ReadBenchmark("quick", {}, {"expert"})).pipeline;
   std::vector<std::string> names;

@@ -177,11 +177,14 @@ TEST_F(TrainDistilTest, SaysWhatIsWrongWithATeacher) {
   ExpectRefusal(request, ErrorCode::kFormat, "a policy that looks");
 
   request = Lesson("refused");
-  request.config.scene.episode.open_angle_rad = 0.3;
+  request.config.scene.physics.finger_friction = 0.9;
   ExpectRefusal(request, ErrorCode::kInvalidArgument, "was trained in another environment");
-  ExpectRefusal(request, ErrorCode::kInvalidArgument, "open_angle_rad");
+  ExpectRefusal(request, ErrorCode::kInvalidArgument, "finger_friction");
   request = Lesson("refused");
-  request.config.scene.camera.width = 32;  // it never looked
+  request.config.scene.camera.width = 32;             // it never looked,
+  request.config.scene.episode.open_angle_rad = 0.3;  // and was never told what counts
+  request.config.scene.episode.grip_needed = 0;
+  request.config.scene.physics.finish_hinge_rad = 0.3;
   request.config.dagger.rounds = 1;
   EXPECT_TRUE(DistilIntoFolder(request).finished());
 }

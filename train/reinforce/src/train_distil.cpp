@@ -32,10 +32,16 @@ HandPolicyRecord TeacherIn(const fs::path& folder) {
   return ReadHandPolicy(folder);
 }
 
-// The camera may be any: who acts on true states never looked through it.
-nlohmann::ordered_json SceneWithoutCamera(nlohmann::ordered_json scene) {
-  scene.erase("camera");
-  return scene;
+// What a teacher's training depends on. The camera may be any: who acts on true states never looked
+// through it. So may what counts as open: its episodes went on to their budget, and no reward asks.
+std::string TaughtIn(SceneConfig scene) {
+  const SceneConfig any;
+  scene.physics.finish_hinge_rad = any.physics.finish_hinge_rad;
+  scene.episode.open_angle_rad = any.episode.open_angle_rad;
+  scene.episode.grip_needed = any.episode.grip_needed;
+  nlohmann::ordered_json json = ToJson(scene);
+  json.erase("camera");
+  return JsonText(json);
 }
 
 // A teacher knows what to do in its own environment alone. Records that were made by hand may not
@@ -44,8 +50,10 @@ void RequireSameEnvironment(const fs::path& folder, const HandPolicyRecord& teac
                             const SceneConfig& scene) {
   const auto config = ParseJson(teacher.provenance.config, folder.string());
   if (!config.is_object() || !config.contains("scene")) return;
-  const std::string recorded = JsonText(SceneWithoutCamera(config["scene"]));
-  const std::string given = JsonText(SceneWithoutCamera(ToJson(scene)));
+  SceneConfig before;
+  Assign(config["scene"], before, folder.string() + ": config.scene");
+  const std::string recorded = TaughtIn(before);
+  const std::string given = TaughtIn(scene);
   Require(recorded == given, ErrorCode::kInvalidArgument,
           "--teacher " + folder.string() +
               ": was trained in another environment; give its --preset and settings of scenes, or "

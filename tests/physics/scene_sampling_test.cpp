@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -207,6 +208,24 @@ TEST(SceneSampling, WhoPushesLeansAwayFromTheJamb) {
     const double to_hinge = side == HingeSide::kLeft ? -1 : 1;
     EXPECT_NEAR(-grasp.linear()(1, 2) * to_hinge, std::sin(0.35), 1e-9);
     EXPECT_NEAR(grasp.linear()(0, 2), -std::cos(0.35), 1e-9);
+  }
+}
+
+TEST(SceneSampling, WhoPushesAtAnUprightHandleLeansAwayFromTheJambAsWell) {
+  for (const HingeSide side : {HingeSide::kLeft, HingeSide::kRight}) {
+    for (const double turn : {std::numbers::pi / 2, -std::numbers::pi / 2}) {
+      DoorAsset door = MakePrimitiveDoor({.hinge_side = side, .opening = Opening::kPush});
+      // the lever's free end up, or down, as that of a window's
+      door.handle_from_grasp =
+          RotationAbout(Eigen::Vector3d::UnitX(), turn) * door.handle_from_grasp;
+      const Scene scene = SampleScene(door, 1, 0, With(Randomisation::kOff));
+      const RigidTransform grasp = scene.world_from_door * DoorFromLinks(door, 0, 0)[kHandleLink] *
+                                   door.handle_from_grasp * scene.grasp_from_noisy_grasp;
+      const double to_hinge = side == HingeSide::kLeft ? -1 : 1;
+      EXPECT_NEAR(-grasp.linear()(1, 2) * to_hinge, std::sin(0.9), 1e-9);
+      EXPECT_NEAR(grasp.linear()(2, 2), 0, 1e-9);            // level
+      EXPECT_NEAR(std::abs(grasp.linear()(2, 0)), 1, 1e-9);  // along the handle
+    }
   }
 }
 

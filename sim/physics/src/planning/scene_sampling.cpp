@@ -52,6 +52,7 @@ constexpr double kWayTo = 0.7;
 constexpr double kHalfWay = 0.08;
 
 constexpr double kPushLean = 0.35;         // [rad]
+constexpr double kUprightPushLean = 0.9;   // [rad] about a handle that stands upright
 constexpr double kMostHeightJitter = 0.5;  // [m] beyond it the arm reaches few handles
 
 double ClippedNormal(Rng& rng) { return std::clamp(0.5 * rng.Normal(), -1.0, 1.0); }
@@ -115,10 +116,15 @@ RigidTransform GraspNoise(const DoorAsset& door, double scale, Rng rng) {
 
 // Who pushes follows the handle through the doorway, past the jamb on the handle's side. So the
 // hand leans away from the jamb, about the pads' normal; and on a knob, which has no up or down,
-// the wide hand stands upright half way through the turn.
+// the wide hand stands upright half way through the turn. Across a handle that stands upright the
+// wide hand would meet the jamb: it leans about the handle, and straightens with the leaf.
 RigidTransform ClearOfTheJamb(const DoorAsset& door) {
+  constexpr double kUpright = 0.7;
   const Eigen::Matrix3d grasp = door.handle_from_grasp.linear();
   const double to_hinge = door.hinge_side == HingeSide::kLeft ? -1 : 1;
+  if (door.mechanism != Mechanism::kRound && std::abs(grasp(2, 0)) > kUpright)
+    return RigidTransform(RotationAbout(
+        Eigen::Vector3d::UnitX(), kUprightPushLean * to_hinge * std::copysign(1, grasp(2, 0))));
   const double turn = door.mechanism == Mechanism::kRound ? door.latch.handle_done_angle_rad : 0;
   return RotationAbout(Eigen::Vector3d::UnitZ(),
                        -turn / 2 * door.handle_joint.axis.dot(grasp.col(2))) *

@@ -109,11 +109,11 @@ struct SceneConfig {
 /// shifted along the handle by up to grasp_half_extent_m. A door hinged right stands where the
 /// mirror image of one hinged left would, the robot likewise; a door that is pushed stands as one
 /// that is pulled, with the robot on the handle's side, and the grasp of whoever pushes leans 20
-/// degrees away from the jamb and, on a knob, is rolled back by half its turn. Throws as
-/// RequireSimulatable(); Error(kInvalidArgument) where the frame of a pushed door stands between
-/// robot and handle, as the back of a cupboard does; Error(kInvalidConfig) on a height_jitter_m
-/// out of 0..0.5, as CheckEpisodeLimits() and as CameraOf(). A stronger randomisation leaves the
-/// draws of a weaker one as they are.
+/// degrees away from the jamb (about an upright handle, as windows have, 0.9 rad) and, on a knob,
+/// is rolled back by half its turn. Throws as RequireSimulatable(); Error(kInvalidArgument) where
+/// the frame of a pushed door stands between robot and handle, as the back of a cupboard does;
+/// Error(kInvalidConfig) on a height_jitter_m out of 0..0.5, as CheckEpisodeLimits() and as
+/// CameraOf(). A stronger randomisation leaves the draws of a weaker one as they are.
 Scene SampleScene(const IdentifiedDoor& door, std::uint64_t seed, std::uint64_t episode,
                   const SceneConfig& config = {});
 /// This one takes a door that was made or changed in memory. It writes all meshes as text to hash

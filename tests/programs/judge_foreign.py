@@ -57,8 +57,11 @@ def codes(item: dict) -> collections.Counter:
 
 def damages_of(text: str, gate: str):
     """Name, damaged text, rule, line (or None)."""
+    moving = re.search(r'type="(revolute|prismatic)"', text)
     for pattern, new, code in IN_PLACE:
-        if match := re.search(pattern, text):
+        # limits of a fixed joint mean nothing, whatever they are
+        begin = moving.start() if moving and code == "JNT004" else 0
+        if match := re.compile(pattern).search(text, begin):
             changed = text[:match.start()] + new + text[match.end():]
             line = None if code in ("FIL002",) else changed[:match.start()].count("\n") + 1
             yield f"{pattern} -> {new}", changed, code, line

@@ -11,6 +11,7 @@ import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "programs"))
 import foreign_samples as samples  # noqa: E402
+from browser import Browser  # noqa: E402
 from pages import PageTest, run  # noqa: E402
 
 MOST_BYTES = 1_500_000
@@ -53,6 +54,15 @@ class FindingsPage(PageTest):
         """Names of the links of which a shape glows."""
         return self.js("doorforge.findings.view.model.drawn.filter((m) => m.material.emissiveIntensity > 0)"
                        ".map((m) => doorforge.findings.view.item.object.links[m.userData.shape.link].name)")
+
+    def test_a_browser_without_webgl_shows_the_list_and_says_why_there_is_no_picture(self) -> None:
+        page = self.folder / "findings.html"
+        run("validate", self.gate("urdf", ('mass value="20"', 'mass value="-20"')), "--ask", "none", "--format", "html", "--out", page, code=1)
+        with Browser("--disable-3d-apis") as browser:
+            browser.open(page.as_uri())
+            self.assertIn("no WebGL", browser.js("document.querySelector('.no-webgl').textContent"))
+            browser.js("document.querySelector('[data-code=INR001]').click(), 0")
+            self.assertIn("-20", browser.js("document.querySelector('[data-code=INR001]').textContent"))
 
     def test_findings_of_link_joint_and_mass_lie_on_the_object(self) -> None:
         page = self.validated(self.gate("urdf", ('mass value="20"', 'mass value="-20"'), ('axis xyz="0 0 -1"', 'axis xyz="0 0 -2"')), code=1)

@@ -6,16 +6,30 @@
 import { AmbientLight, Box3, Color, DirectionalLight, GridHelper, HemisphereLight, PerspectiveCamera, Raycaster, Scene, Spherical, Vector2, Vector3, WebGLRenderer } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 
+import { h } from './dom.js';
+
 const FIELD = 40; // [deg] of view, as previews have
 const AZIMUTH = (-34 * Math.PI) / 180; // from x (towards who opens the door) towards y
 const ELEVATION = 0.35; // [rad]
 const TURN = 0.12; // [rad] a key
 const ZOOM = 0.85; // a key
 
+// A browser without WebGL, as over some remote desktops, shows all but the picture, and says so.
+const NO_RENDERER = { setPixelRatio() {}, setSize() {}, render() {}, dispose() {}, forceContextLoss() {} };
+
+const rendererOf = (canvas) => {
+  try {
+    return new WebGLRenderer({ canvas, antialias: true });
+  } catch {
+    canvas.parentElement.append(h('p', { class: 'fault no-webgl', role: 'alert' }, 'Nothing is drawn in 3D: this browser has no WebGL. Turn on its hardware acceleration, or open the page in another browser; what is written beside is complete.'));
+    return NO_RENDERER;
+  }
+};
+
 export class Stage {
   constructor(canvas) {
     this.canvas = canvas;
-    this.renderer = new WebGLRenderer({ canvas, antialias: true });
+    this.renderer = rendererOf(canvas);
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(FIELD, 1, 0.01, 60);

@@ -183,6 +183,13 @@ TEST(Urdf, RefusesWhatCouldHarmAndSaysWhere) {
   EXPECT_TRUE(contains(ProblemOf(std::string(17 << 20, ' ')), "16 MiB"));
 }
 
+// Found by fuzzing: what is no comment to the parser hides the declaration behind it from the first
+// look, and the second one read behind the text.
+TEST(Urdf, ATextThatEndsInTheMiddleOfADeclarationIsRefused) {
+  for (const std::string text : {R"(<robot name="<!--"/><!)", R"(<robot name="<!--"/><!-)", "<!"})
+    EXPECT_THROW(ParseUrdf(text, "cut.urdf"), Error) << text;
+}
+
 TEST(Urdf, RefusesLinksThatAreNotOneTree) {
   const auto joint = [](const std::string& name, const std::string& parent,
                         const std::string& child) {

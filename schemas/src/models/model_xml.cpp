@@ -64,8 +64,9 @@ void RefuseManyAttributes(std::string_view text, const ModelSource& source) {
   int attributes = 0;
   for (std::size_t at = 0; at < text.size(); ++at) {
     const char c = text[at];
-    if (!in_tag && text.substr(at).starts_with("<!")) {  // a comment or CDATA, where tags are text
-      at = std::min(text.find(text[at + 2] == '-' ? "-->" : "]]>", at), text.size());
+    const std::string_view rest = text.substr(at);
+    if (!in_tag && rest.starts_with("<!")) {  // a comment or CDATA, where tags are text
+      at = std::min(text.find(rest.starts_with("<!-") ? "-->" : "]]>", at), text.size());
     } else if (!in_tag) {
       in_tag = c == '<';
       attributes = 0;

@@ -57,7 +57,7 @@ void RefuseDeclarations(std::string_view text, const ModelSource& source) {
   }
 }
 
-// Of one element. The parser is not asked: it would take minutes over a million.
+// It counts those of each element before the parser does, which would take minutes over a million.
 void RefuseManyAttributes(std::string_view text, const ModelSource& source) {
   char quote = 0;
   bool in_tag = false;

@@ -41,7 +41,8 @@ struct DistilOutcome {
 ///
 /// @throws Error(kMissing) if `teacher` is no folder of a policy; Error(kFormat) as
 ///     ReadHandPolicy(), also for a policy that looks itself; Error(kInvalidArgument) if the
-///     teacher was trained in another environment (its record's `scene`, the camera aside), naming
+///     teacher was trained in another environment (its record's `scene`, but for the camera
+///     and what counts as open), naming
 ///     what differs, or if `out` holds a training and neither `resume` nor `overwrite` says what to
 ///     do; else as FindDoorSet(), DistilTask(), ReadDistilState(), ReadDistilSamples(),
 ///     TrainDagger().

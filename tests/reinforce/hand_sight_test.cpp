@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "doorforge/core/error.h"
+#include "doorforge/policy/whole_policy.h"
 
 namespace doorforge {
 namespace {
@@ -132,11 +133,11 @@ TEST_F(SightPolicyFileTest, ComesBackAndActsTheSame) {
   EXPECT_EQ(read.provenance.teacher_sha256, "abc");
   const WholePolicy whole = ReadWholePolicy(folder_);
   EXPECT_EQ(whole.weights_sha256, read.weights_sha256);
-  EXPECT_EQ(whole.policy->look(), record_.look);
+  EXPECT_EQ(whole.hand->look(), record_.look);
   ASSERT_EQ(whole.privileges.size(), 2U);
   EXPECT_NE(whole.privileges[0].find("of which part each point is"), std::string::npos);
   const HandCommand a = HandSightPolicy(record_).Act(SeenState(), FiveParts());
-  const HandCommand b = whole.policy->Act(SeenState(), FiveParts());
+  const HandCommand b = whole.hand->Act(SeenState(), FiveParts());
   EXPECT_EQ(a.move_m, b.move_m);
   EXPECT_EQ(a.turn_rad, b.turn_rad);
 }
@@ -175,7 +176,7 @@ TEST_F(SightPolicyFileTest, IsToldFromAPolicyOfStates) {
   WriteHandPolicy(folder_, states);
   ExpectSightRefused("a policy of true states");
   const WholePolicy whole = ReadWholePolicy(folder_);
-  EXPECT_FALSE(whole.policy->look());
+  EXPECT_FALSE(whole.hand->look());
   EXPECT_NE(whole.privileges.at(0).find("true states"), std::string::npos);
 }
 

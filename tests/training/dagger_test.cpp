@@ -12,12 +12,12 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/rng.h"
 
-#include "dagger_loss.h"
+#include "point_net_loss.h"
 
 namespace doorforge {
 namespace {
 
-using internal::DaggerBatch;
+using internal::PointNetBatch;
 
 std::vector<float> Noise(std::size_t count, double scale, const std::string& stream) {
   Rng rng(13, stream);
@@ -38,7 +38,7 @@ const PointNetShape kStudent{.point = 7,
                              .last_hidden = 12,
                              .outputs = 3};
 
-DaggerBatch SomeBatch() {
+PointNetBatch SomeBatch() {
   return {kTaught, Noise(std::size_t{kTaught} * kSeenPoints * 7, 1, "points"),
           Noise(std::size_t{kTaught} * 5, 1, "own"), Noise(std::size_t{kTaught} * 3, 1, "taught")};
 }
@@ -88,23 +88,23 @@ std::vector<double> ReferencePointNet(const std::vector<double>& weights, const 
   return ReferenceLayer(layers[7], weights, x, After::kNothing);
 }
 
-double ReferenceDaggerLoss(const std::vector<double>& weights, const DaggerBatch& batch) {
+double ReferenceDaggerLoss(const std::vector<double>& weights, const PointNetBatch& batch) {
   double sum = 0;
   for (std::size_t n = 0; n < kTaught; ++n) {
     const auto says = ReferencePointNet(weights, batch.points.data() + n * kSeenPoints * 7,
                                         batch.own.data() + n * 5);
     for (std::size_t i = 0; i < 3; ++i)
-      sum += (says[i] - batch.taught[3 * n + i]) * (says[i] - batch.taught[3 * n + i]);
+      sum += (says[i] - batch.targets[3 * n + i]) * (says[i] - batch.targets[3 * n + i]);
   }
   return sum;
 }
 
 // Our kernels, which act, and libtorch, which learns, against the definition.
 TEST(PointNet, IsWhatItsHeaderSaysForKernelsAndLibtorch) {
-  const DaggerBatch batch = SomeBatch();
+  const PointNetBatch batch = SomeBatch();
   const std::vector<float> weights = SomeWeights();
   const PointNet network(kStudent, weights);
-  const auto learns = internal::DaggerOutputsOf(kStudent, weights, batch);
+  const auto learns = internal::PointNetOutputsOf(kStudent, weights, batch);
   const std::vector<double> exact(weights.begin(), weights.end());
   for (std::size_t n = 0; n < kTaught; ++n) {
     const auto points = std::span(batch.points).subspan(n * kSeenPoints * 7, kSeenPoints * 7);
@@ -122,11 +122,11 @@ TEST(PointNet, IsWhatItsHeaderSaysForKernelsAndLibtorch) {
 TEST(PointNet, AgreesWithLibtorchAtFullSize) {
   const PointNetShape shape = SightShape({});
   const auto weights = PointNetInitialisation(shape, 5, "test.");
-  DaggerBatch batch{3,
-                    Noise(std::size_t{3} * 512 * kSightPoint, 1, "p"),
-                    Noise(std::size_t{3} * kSightOwn, 1, "o"),
-                    {}};
-  const auto learns = internal::DaggerOutputsOf(shape, weights, batch);
+  PointNetBatch batch{3,
+                      Noise(std::size_t{3} * 512 * kSightPoint, 1, "p"),
+                      Noise(std::size_t{3} * kSightOwn, 1, "o"),
+                      {}};
+  const auto learns = internal::PointNetOutputsOf(shape, weights, batch);
   const PointNet network(shape, weights);
   for (std::size_t n = 0; n < 3; ++n) {
     const auto acts = network(
@@ -148,13 +148,13 @@ TEST(PointNet, RefusesOtherSizes) {
 
 // Central differences of the definition, some weights and biases of each layer.
 TEST(DaggerLoss, HasTheGradientOfItsDefinition) {
-  const DaggerBatch batch = SomeBatch();
+  const PointNetBatch batch = SomeBatch();
   const std::vector<float> weights = SomeWeights();
   const std::vector<double> exact(weights.begin(), weights.end());
   std::vector<float> gradient(weights.size(), 1);  // is added to
-  const double loss = internal::DaggerLossOf(kStudent, weights, batch, 0.5, gradient);
+  const double loss = internal::PointNetLossOf({kStudent}, weights, batch, 0.5, gradient);
   EXPECT_NEAR(loss, ReferenceDaggerLoss(exact, batch), 1e-4 * loss);
-  EXPECT_NEAR(internal::DaggerLossOf(kStudent, weights, batch, 0.5, {}), loss, 1e-5 * loss);
+  EXPECT_NEAR(internal::PointNetLossOf({kStudent}, weights, batch, 0.5, {}), loss, 1e-5 * loss);
   const ParameterLayout layout = PointNetLayout(kStudent);
   for (const DenseLayer& layer : layout.layers()) {
     const std::size_t step = std::max<std::size_t>((layer.end() - layer.offset) / 23, 1);
@@ -297,7 +297,7 @@ TEST(DaggerSamples, KeepTheNewest) {
   EXPECT_EQ(samples.xyz, (std::vector<float>{3, 3, 3, 3, 3, 3, 4, 4, 4, 4, 4, 4}));
   EXPECT_EQ(samples.label.size(), 4U);
   EXPECT_EQ(samples.own.front(), 3);
-  EXPECT_EQ(samples.taught.front(), 3);
+  EXPECT_EQ(samples.targets.front(), 3);
 }
 
 TEST(DaggerConfig, IsChecked) {

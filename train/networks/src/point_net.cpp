@@ -3,7 +3,6 @@
 #include "doorforge/networks/point_net.h"
 
 #include <cmath>
-#include <utility>
 
 #include "doorforge/core/error.h"
 
@@ -18,6 +17,13 @@ constexpr int kFeatureMultiple = 32;  // the widest panel of the kernels
 internal::Rows RowOf(std::span<const float> values) {
   return {values.data(), static_cast<std::ptrdiff_t>(values.size()), 1,
           static_cast<int>(values.size())};
+}
+
+void RequireRows(std::size_t found, int columns, std::size_t rows, const char* what) {
+  const std::size_t needed = rows * static_cast<std::size_t>(columns);
+  Require(rows > 0 && found == needed, ErrorCode::kInvalidArgument,
+          "network: " + std::to_string(found) + " " + what + ", it reads " +
+              std::to_string(columns) + " in a row");
 }
 
 void Elu(internal::Table& x) {
@@ -64,26 +70,42 @@ PointNet::PointNet(const PointNetShape& shape, std::span<const float> parameters
 
 std::vector<float> PointNet::operator()(std::span<const float> points,
                                         std::span<const float> own) const {
-  const auto width = static_cast<std::size_t>(shape_.point);
-  Require(!points.empty() && points.size() % width == 0 && std::cmp_equal(own.size(), shape_.own),
-          ErrorCode::kInvalidArgument,
-          "network: " + std::to_string(points.size()) + " numbers of points and " +
-              std::to_string(own.size()) + " others, it reads " + std::to_string(shape_.point) +
-              " a point and " + std::to_string(shape_.own));
-  const internal::Rows rows{points.data(), shape_.point, static_cast<int>(points.size() / width),
-                            shape_.point};
+  RequireRows(own.size(), shape_.own, 1, "numbers beside the cloud");
+  return Outputs(CloudFeatures(points), own);
+}
+
+std::vector<float> PointNet::CloudFeatures(std::span<const float> points) const {
+  const std::size_t count = points.size() / static_cast<std::size_t>(shape_.point);
+  RequireRows(points.size(), shape_.point, count, "numbers of points");
+  const internal::Rows rows{points.data(), shape_.point, static_cast<int>(count), shape_.point};
   const internal::Table hidden = layers_->Apply("point.0", rows, internal::Activation::kRectified);
   std::vector<float> best(static_cast<std::size_t>(shape_.point_features));
   layers_->MaximumOver("point.1", hidden.View(), best);
   internal::Table x = layers_->Apply("cloud.0", RowOf(best), internal::Activation::kRectified);
   x = layers_->Apply("cloud.1", x.View(), internal::Activation::kRectified);
-  x = internal::SideBySide({x.View(), RowOf(own)});
+  return {x.values.begin(), x.values.begin() + shape_.cloud_features};
+}
+
+std::vector<float> PointNet::Outputs(std::span<const float> cloud_features,
+                                     std::span<const float> own) const {
+  const std::size_t count = own.size() / static_cast<std::size_t>(shape_.own);
+  RequireRows(own.size(), shape_.own, count, "numbers beside the cloud");
+  RequireRows(cloud_features.size(), shape_.cloud_features, 1, "features of a cloud");
+  const int rows = static_cast<int>(count);
+  // a stride of 0 repeats the cloud's features in each row
+  const internal::Rows seen{cloud_features.data(), 0, rows, shape_.cloud_features};
+  internal::Table x = internal::SideBySide({seen, {own.data(), shape_.own, rows, shape_.own}});
   for (const char* name : {"head.0", "head.1", "head.2"}) {
     x = layers_->Apply(name, x.View(), internal::Activation::kNone);
     Elu(x);
   }
   const internal::Table out = layers_->Apply("head.3", x.View(), internal::Activation::kNone);
-  return {out.values.begin(), out.values.begin() + shape_.outputs};
+  std::vector<float> numbers;
+  for (int row = 0; row < rows; ++row) {
+    const auto first = out.values.begin() + static_cast<std::ptrdiff_t>(row) * out.stride;
+    numbers.insert(numbers.end(), first, first + shape_.outputs);
+  }
+  return numbers;
 }
 
 }  // namespace doorforge

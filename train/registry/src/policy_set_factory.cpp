@@ -6,9 +6,9 @@
 
 #include "doorforge/core/error.h"
 #include "doorforge/policy/belief_grasp.h"
-#include "doorforge/policy/hand_sight.h"
 #include "doorforge/policy/policy_file.h"
 #include "doorforge/policy/turning_policy.h"
+#include "doorforge/policy/whole_policy.h"
 
 namespace doorforge {
 namespace {
@@ -44,8 +44,18 @@ PolicySet PolicySetFactory::Make() const {
   AddOpener(set, belief);
   AddHandler(set, belief);
   AddGrasper(set, belief);
-  if (!whole_.empty()) set.whole = ReadWholePolicy(whole_).policy;
+  if (!whole_.empty()) AddWhole(set);
   return set;
+}
+
+void PolicySetFactory::AddWhole(PolicySet& set) const {
+  WholePolicy whole = ReadWholePolicy(whole_);
+  set.whole = std::move(whole.hand);
+  if (!whole.stages) return;
+  set.grasp = std::move(whole.stages->grasp);
+  set.grasp_resolution_scale = whole.stages->resolution_scale;
+  set.handle = std::move(whole.stages->handle);
+  set.open = std::move(whole.stages->open);
 }
 
 bool PolicySetFactory::IsExpertAlone() const {

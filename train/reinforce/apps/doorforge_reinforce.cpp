@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The program that trains a hand by trying, and one that looks from one that knows.
+// The program that trains a hand by trying, one that looks from one that knows, and an arm that
+// says whole trajectories.
 
 #include <CLI/CLI.hpp>
 
@@ -10,27 +11,30 @@
 #include "doorforge/cli/verb_table.h"
 #include "doorforge/core/environment_preset.h"
 #include "doorforge/core/program.h"
-#include "doorforge/reinforce/train_distil.h"
+#include "doorforge/reinforce/reinforce.h"
 
 namespace doorforge {
 namespace {
 
 void Parse(int argc, char** argv, ConfigSources& config, ReinforceRequest& request) {
-  CLI::App app("Trains a flying hand by PPO from true states, or with --teacher one that looks.",
+  CLI::App app("Trains a flying hand by PPO from true states, with --teacher one that looks.",
                "doorforge reinforce");
   app.add_option("--doors", request.doors,
                  "folders of composed doors; with a split such as full:train only its doors")
       ->required();
   app.add_option("--out", request.out, "folder of the policy")->required();
   app.add_option("--teacher", request.teacher, "a policy of true states, for one that looks");
+  app.add_flag("--trajectories", request.trajectories,
+               "an arm that decides once, from one look, and replays its trajectory");
   app.add_option("--decisions", request.decisions, "of all steppers (config: ppo.decisions)");
-  app.add_option("--rounds", request.rounds, "with --teacher (config: dagger.rounds)");
+  app.add_option("--rounds", request.rounds,
+                 "of --teacher and --trajectories (config: dagger.rounds, learning.rounds)");
   app.add_option("--minutes", request.minutes, "stop after the last update within this time")
       ->check(CLI::PositiveNumber);
   AddPreset(app, config.preset);
   AddConfig(app, config.file, "YAML file with settings")->check(CLI::ExistingFile);
   AddSettings(app, config.settings, "a.b=c overrides one setting");
-  app.add_option("--seed", request.seed, "of every random choice (config: ppo.seed, dagger.seed)");
+  app.add_option("--seed", request.seed, "of every random choice (config: ppo.seed and so on)");
   AddThreads(app, request.threads, "0: all processors; the result does not depend on it");
   app.add_flag("--resume", request.resume, "go on from the state in --out, if there is one");
   AddOverwrite(app, request.overwrite, "start anew where --out holds a training");

@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <utility>
 
 #include "doorforge/core/committed_file.h"
 #include "doorforge/core/error.h"
-#include "doorforge/core/hash.h"
 #include "doorforge/schemas/safetensors.h"
 #include "doorforge/training/event_log.h"
 
@@ -20,36 +18,15 @@ namespace doorforge {
 namespace {
 
 constexpr const char* kDistilKind = "doorforge.dagger";
-constexpr const char* kSamplesKey = "samples_sha256";
 
-std::filesystem::path SamplesPath(const std::filesystem::path& folder, std::uint64_t round) {
-  char name[40];
-  std::snprintf(name, sizeof name, "round_%04llu.safetensors",
-                static_cast<unsigned long long>(round));
-  return folder / "samples" / name;
-}
-
-DaggerSamples SamplesOfRound(const std::filesystem::path& path, const std::string& sha256,
-                             int points) {
-  const std::string bytes = ReadFile(path);
-  if (Sha256Hex(bytes) != sha256)
-    throw Error(ErrorCode::kFormat, path.string() +
-                                        ": damaged: its SHA-256 is not the one that the training "
-                                        "recorded; put back a copy, or train again with "
-                                        "--overwrite");
-  const TensorFile file = DecodeTensors(bytes, path.string());
-  const Tensor& own = TensorNamed(file, "own", path.string());
-  const std::uint64_t count = own.shape.empty() ? 0 : own.shape[0];
+DaggerSamples SamplesOfRound(const internal::RoundSamples& round, int points) {
+  const std::uint64_t count = round.Rows("own");
   const auto each = static_cast<std::uint64_t>(points);
-  const auto floats = [&](const char* name, const std::vector<std::uint64_t>& shape) {
-    return ValuesOf<float>(TensorNamed(file, name, path.string()), shape, path.string());
-  };
   DaggerSamples samples{.points = points};
-  samples.xyz = floats("xyz", {count, each, 3});
-  samples.label = ValuesOf<std::uint8_t>(TensorNamed(file, "label", path.string()), {count, each},
-                                         path.string());
-  samples.own = floats("own", {count, kSightOwn});
-  samples.taught = floats("taught", {count, kHandActions});
+  samples.xyz = round.Values<float>("xyz", {count, each, 3});
+  samples.label = round.Values<std::uint8_t>("label", {count, each});
+  samples.own = round.Values<float>("own", {count, kSightOwn});
+  samples.taught = round.Values<float>("taught", {count, kHandActions});
   return samples;
 }
 
@@ -59,16 +36,6 @@ void VisitDistilVectors(State& state, const Visit& visit) {
   visit("student", state.network);
   visit("adam.first", state.first_moment);
   visit("adam.second", state.second_moment);
-}
-
-std::vector<std::string> WordsOf(const std::string& text) {
-  std::vector<std::string> words;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find(' ', at), text.size());
-    words.push_back(text.substr(at, end - at));
-    at = end + 1;
-  }
-  return words;
 }
 
 std::vector<ScalarEvent> DistilEvents(const DaggerState& state) {
@@ -124,9 +91,7 @@ std::string WriteDistilSamples(const std::filesystem::path& folder, std::uint64_
   file.tensors["label"] = MakeTensor<std::uint8_t>(samples.label, {count, points});
   file.tensors["own"] = MakeTensor<float>(samples.own, {count, kSightOwn});
   file.tensors["taught"] = MakeTensor<float>(samples.taught, {count, kHandActions});
-  const std::string bytes = EncodeTensors(file);
-  CommitFile(SamplesPath(folder, round), bytes);
-  return Sha256Hex(bytes);
+  return internal::WriteRoundSamples(folder, round, file);
 }
 
 DaggerSamples ReadDistilSamples(const std::filesystem::path& folder, const DistilProgress& progress,
@@ -134,8 +99,9 @@ DaggerSamples ReadDistilSamples(const std::filesystem::path& folder, const Disti
   std::vector<DaggerSamples> newest;  // the last round first
   std::size_t found = 0;
   for (std::size_t round = progress.samples_sha256.size(); round > 0 && found < buffer; --round) {
-    newest.push_back(SamplesOfRound(SamplesPath(folder, round - 1),
-                                    progress.samples_sha256[round - 1], task.points));
+    newest.push_back(SamplesOfRound(
+        internal::ReadRoundSamples(folder, round - 1, progress.samples_sha256[round - 1]),
+        task.points));
     found += newest.back().size();
   }
   DaggerSamples samples{.points = task.points};
@@ -156,9 +122,7 @@ void WriteDistilState(const std::filesystem::path& folder, const DistilProgress&
                          {state.rounds.size(), DaggerColumns().size()});
   file.tensors["gradient_steps"] = MakeTensor<std::int64_t>(
       std::vector<std::int64_t>{static_cast<std::int64_t>(state.gradient_steps)}, {1});
-  std::string& words = file.metadata[kSamplesKey];
-  for (const std::string& sha256 : progress.samples_sha256)
-    words += (words.empty() ? "" : " ") + sha256;
+  internal::NoteSamples(progress.samples_sha256, file);
   internal::WriteTrainingState(folder, kDistilKind, origin, std::move(file));
 }
 
@@ -175,10 +139,7 @@ DistilProgress ReadDistilState(const std::filesystem::path& folder, const PpoOri
       internal::RowsOfTensor<DaggerRound>(TensorNamed(file, "rounds", path), DaggerColumns(), path);
   state.gradient_steps = static_cast<std::uint64_t>(
       ValuesOf<std::int64_t>(TensorNamed(file, "gradient_steps", path), {1}, path)[0]);
-  const auto words = file.metadata.find(kSamplesKey);
-  if (words != file.metadata.end()) progress.samples_sha256 = WordsOf(words->second);
-  if (progress.samples_sha256.size() != state.rounds.size())
-    throw Error(ErrorCode::kFormat, path + ": samples_sha256: not a hash for each round");
+  progress.samples_sha256 = internal::NotedSamples(file, state.rounds.size(), path);
   return progress;
 }
 

@@ -207,21 +207,4 @@ std::string OutcomeText(const DistilOutcome& outcome, const DistilRequest& reque
   return text + last;
 }
 
-ReinforceOutcome Reinforce(const ReinforceRequest& request, const ConfigSources& sources) {
-  const HandTrainingRequest& common = request;
-  if (request.teacher.empty()) {
-    Require(!request.rounds, ErrorCode::kInvalidArgument, "--rounds: goes with --teacher");
-    const PpoTrainingRequest ppo{common, LoadConfig<HandTrainingConfig>(sources),
-                                 request.decisions};
-    const PpoTrainingOutcome outcome = TrainPpoIntoFolder(ppo);
-    return {OutcomeText(outcome, ppo), outcome.finished()};
-  }
-  Require(!request.decisions, ErrorCode::kInvalidArgument,
-          "--decisions: with --teacher give --rounds");
-  const DistilRequest distil{common, request.teacher, LoadConfig<DistilConfig>(sources),
-                             request.rounds};
-  const DistilOutcome outcome = DistilIntoFolder(distil);
-  return {OutcomeText(outcome, distil), outcome.finished()};
-}
-
 }  // namespace doorforge

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "training_state.h"
 
+#include <algorithm>
+#include <cstdio>
 #include <utility>
 
 #include "doorforge/core/committed_file.h"
@@ -29,6 +31,25 @@ std::string ContentHashOf(const TensorFile& file) {
     add(text);
   }
   return hash.HexDigest();
+}
+
+constexpr const char* kSamplesKey = "samples_sha256";
+
+std::filesystem::path SamplesPath(const std::filesystem::path& folder, std::uint64_t round) {
+  char name[40];
+  std::snprintf(name, sizeof name, "round_%04llu.safetensors",
+                static_cast<unsigned long long>(round));
+  return folder / "samples" / name;
+}
+
+std::vector<std::string> WordsOf(const std::string& text) {
+  std::vector<std::string> words;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    words.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return words;
 }
 
 std::string WordOf(const TensorFile& file, const std::string& key) {
@@ -110,6 +131,43 @@ TensorFile ReadTrainingState(const std::filesystem::path& folder, const std::str
                                         "put back a copy, or train again with --overwrite");
   RequireOrigin(file, expected, path);
   return file;
+}
+
+std::string WriteRoundSamples(const std::filesystem::path& folder, std::uint64_t round,
+                              const TensorFile& samples) {
+  const std::string bytes = EncodeTensors(samples);
+  CommitFile(SamplesPath(folder, round), bytes);
+  return Sha256Hex(bytes);
+}
+
+std::uint64_t RoundSamples::Rows(const char* name) const {
+  const Tensor& tensor = TensorNamed(file, name, path);
+  return tensor.shape.empty() ? 0 : tensor.shape[0];
+}
+
+RoundSamples ReadRoundSamples(const std::filesystem::path& folder, std::uint64_t round,
+                              const std::string& sha256) {
+  const std::string path = SamplesPath(folder, round).string();
+  const std::string bytes = ReadFile(path);
+  if (Sha256Hex(bytes) != sha256)
+    throw Error(ErrorCode::kFormat, path +
+                                        ": damaged: its SHA-256 is not the one that the training "
+                                        "recorded; put back a copy, or train again with "
+                                        "--overwrite");
+  return {path, DecodeTensors(bytes, path)};
+}
+
+void NoteSamples(const std::vector<std::string>& sha256, TensorFile& state) {
+  std::string& words = state.metadata[kSamplesKey];
+  for (const std::string& word : sha256) words += (words.empty() ? "" : " ") + word;
+}
+
+std::vector<std::string> NotedSamples(const TensorFile& state, std::size_t rounds,
+                                      const std::string& path) {
+  std::vector<std::string> words = WordsOf(WordOf(state, kSamplesKey));
+  if (words.size() != rounds)
+    throw Error(ErrorCode::kFormat, path + ": samples_sha256: not a hash for each round");
+  return words;
 }
 
 }  // namespace doorforge::internal

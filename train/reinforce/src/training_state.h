@@ -40,6 +40,33 @@ void WriteTrainingState(const std::filesystem::path& folder, const std::string& 
 TensorFile ReadTrainingState(const std::filesystem::path& folder, const std::string& kind,
                              const PpoOrigin& expected);
 
+/// Writes the samples that a round added, `samples/round_<round>.safetensors`, and returns the
+/// file's SHA-256; rounds count from 0.
+std::string WriteRoundSamples(const std::filesystem::path& folder, std::uint64_t round,
+                              const TensorFile& samples);
+
+/// Samples of a round with the place that they were read from.
+struct RoundSamples {
+  std::string path;
+  TensorFile file;
+
+  template <class T>
+  std::vector<T> Values(const char* name, const std::vector<std::uint64_t>& shape) const {
+    return ValuesOf<T>(TensorNamed(file, name, path), shape, path);
+  }
+  /// The first length of a tensor.
+  std::uint64_t Rows(const char* name) const;
+};
+
+/// Reads them back. Throws Error(kMissing), or Error(kFormat) where the hash is another.
+RoundSamples ReadRoundSamples(const std::filesystem::path& folder, std::uint64_t round,
+                              const std::string& sha256);
+
+/// The hashes of the rounds' samples in a state, and back: one a round, else Error(kFormat).
+void NoteSamples(const std::vector<std::string>& sha256, TensorFile& state);
+std::vector<std::string> NotedSamples(const TensorFile& state, std::size_t rounds,
+                                      const std::string& path);
+
 /// Numbers of rows by their columns, one row after the other, and back.
 template <class Row, class Columns>
 std::vector<double> NumbersOfRows(const std::vector<Row>& rows, const Columns& columns) {

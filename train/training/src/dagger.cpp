@@ -14,15 +14,13 @@
 #include "doorforge/core/parallel_for.h"
 #include "doorforge/core/rng.h"
 
-#include "adam.h"
-#include "dagger_loss.h"
+#include "point_net_loss.h"
+#include "sharded_step.h"
 
 namespace doorforge {
 namespace {
 
-using internal::DaggerBatch;
-
-constexpr std::size_t kShard = 16;  // decisions whose gradient one thread computes at a time
+using internal::PointNetBatch;
 
 template <class T>
 void AppendRow(const std::vector<T>& from, std::size_t row, std::size_t width, std::vector<T>& to) {
@@ -40,15 +38,15 @@ void EraseRows(std::size_t rows, std::size_t width, std::vector<T>& values) {
   values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rows * width));
 }
 
-DaggerBatch DaggerBatchOf(const DaggerSamples& samples, std::span<const std::size_t> rows) {
-  DaggerBatch batch{.size = static_cast<int>(rows.size())};
+PointNetBatch DaggerBatchOf(const DaggerSamples& samples, std::span<const std::size_t> rows) {
+  PointNetBatch batch{.size = static_cast<int>(rows.size())};
   const auto count = static_cast<std::size_t>(samples.points);
   batch.points.reserve(rows.size() * count * kSightPoint);
   for (const std::size_t row : rows) {
     AppendSightPoints(std::span(samples.xyz).subspan(3 * row * count, 3 * count),
                       std::span(samples.label).subspan(row * count, count), batch.points);
     AppendRow(samples.own, row, kSightOwn, batch.own);
-    AppendRow(samples.taught, row, kHandActions, batch.taught);
+    AppendRow(samples.taught, row, kHandActions, batch.targets);
   }
   return batch;
 }
@@ -136,35 +134,17 @@ class DaggerLearning {
   }
 
   double Step(const DaggerSamples& samples, std::span<const std::size_t> rows) {
-    const std::size_t shards = (rows.size() + kShard - 1) / kShard;
     const double weight = 1.0 / (static_cast<double>(rows.size()) * kHandActions);
-    std::vector<std::vector<float>> gradients(shards);
-    std::vector<double> losses(shards);
-    ParallelFor(shards, hooks_.threads, [&](std::size_t i) {
-      const auto part = rows.subspan(i * kShard, std::min(kShard, rows.size() - i * kShard));
-      gradients[i].resize(state_.network.size());
-      losses[i] = internal::DaggerLossOf(state_.shape, state_.network, DaggerBatchOf(samples, part),
-                                         weight, gradients[i]);
-    });
-    for (std::size_t i = 1; i < shards; ++i) {
-      losses[0] += losses[i];
-      for (std::size_t k = 0; k < gradients[0].size(); ++k) gradients[0][k] += gradients[i][k];
-    }
-    Require(std::isfinite(losses[0]), ErrorCode::kIncomplete,
-            "dagger: a loss is not finite; the last round is kept");
-    Follow(gradients[0]);
-    return weight * losses[0];
-  }
-
-  void Follow(std::span<float> gradient) {
-    double squares = 0;
-    for (const float g : gradient) squares += double{g} * double{g};
-    const double norm = std::sqrt(squares);
-    if (norm > config_.gradient_norm)
-      for (float& g : gradient) g = static_cast<float>(double{g} * (config_.gradient_norm / norm));
-    ++state_.gradient_steps;
-    internal::AdamStep({RateNow(), 0}, state_.gradient_steps, gradient,
-                       {state_.network, state_.first_moment, state_.second_moment});
+    const auto loss = [&](std::span<const std::size_t> part, std::span<float> gradient) {
+      return internal::PointNetLossOf({state_.shape}, state_.network, DaggerBatchOf(samples, part),
+                                      weight, gradient);
+    };
+    return weight * internal::ShardedStep(rows, loss,
+                                          {.learning_rate = RateNow(),
+                                           .gradient_norm = config_.gradient_norm,
+                                           .threads = hooks_.threads},
+                                          {state_.network, state_.first_moment,
+                                           state_.second_moment, state_.gradient_steps});
   }
 
   const DaggerConfig& config_;

@@ -54,6 +54,14 @@ class PointNet {
   /// @param points Row by row, shape().point numbers each, at least one row.
   /// @param own shape().own numbers. Error(kInvalidArgument) for other lengths.
   std::vector<float> operator()(std::span<const float> points, std::span<const float> own) const;
+
+  /// The two halves of it, for who asks about one cloud several times: shape().cloud_features
+  /// numbers of a cloud, and what follows from these and from each row of `own`, shape().outputs
+  /// numbers a row. A row's numbers do not depend on the rows beside it.
+  std::vector<float> CloudFeatures(std::span<const float> points) const;
+  std::vector<float> Outputs(std::span<const float> cloud_features,
+                             std::span<const float> own) const;
+
   const PointNetShape& shape() const { return shape_; }
 
  private:

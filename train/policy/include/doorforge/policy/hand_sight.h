@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -77,17 +76,5 @@ class HandSightPolicy : public HandPolicy {
   HandLook look_;
   PointNet network_;
 };
-
-/// Who does all of an episode, whatever it is told.
-struct WholePolicy {
-  std::unique_ptr<HandPolicy> policy;
-  std::string weights_sha256;
-  HandProvenance provenance;
-  /// What it is told that a robot would not know, a phrase each.
-  std::vector<std::string> privileges;
-};
-
-/// Throws as ReadHandPolicy() and ReadSightPolicy().
-WholePolicy ReadWholePolicy(const std::filesystem::path& folder);
 
 }  // namespace doorforge

@@ -72,6 +72,7 @@ class PolicySetFactory {
   void AddOpener(PolicySet& set, const std::shared_ptr<DoorBelief>& belief) const;
   void AddHandler(PolicySet& set, const std::shared_ptr<DoorBelief>& belief) const;
   void AddGrasper(PolicySet& set, const std::shared_ptr<DoorBelief>& belief) const;
+  void AddWhole(PolicySet& set) const;
 
   PolicySettings settings_;
   SwitchSource switch_source_;

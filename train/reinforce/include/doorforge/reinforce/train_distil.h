@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "doorforge/core/environment_preset.h"
 #include "doorforge/reinforce/distil_task.h"
 #include "doorforge/reinforce/train_ppo.h"
 
@@ -50,23 +49,5 @@ DistilOutcome DistilIntoFolder(DistilRequest request);
 
 /// What came of a training, for people; of one that is not finished, how to go on.
 std::string OutcomeText(const DistilOutcome& outcome, const DistilRequest& request);
-
-/// What `doorforge reinforce` was asked for.
-struct ReinforceRequest : HandTrainingRequest {
-  std::filesystem::path teacher;                ///< Empty: a hand learns by trying.
-  std::optional<std::uint64_t> decisions = {};  ///< By trying alone.
-  std::optional<int> rounds = {};               ///< From a teacher alone.
-};
-
-struct ReinforceOutcome {
-  std::string text;
-  bool finished = false;
-};
-
-/// TrainPpoIntoFolder(), or DistilIntoFolder() where there is a teacher.
-///
-/// @param sources Settings of a HandTrainingConfig, or of a DistilConfig.
-/// @throws Error(kInvalidArgument) where an option is not of this training; as LoadConfig().
-ReinforceOutcome Reinforce(const ReinforceRequest& request, const ConfigSources& sources);
 
 }  // namespace doorforge

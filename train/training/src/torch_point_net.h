@@ -1,27 +1,29 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
-#include "dagger_loss.h"
+#pragma once
+
+#include <span>
+#include <vector>
 
 #include <torch/types.h>
 
-#include "head_objectives.h"
+#include "doorforge/networks/point_net.h"
+
+// PointNet as training needs it, in libtorch. Only sources that compute losses include it.
 
 namespace doorforge::internal {
-namespace {
 
-// Shares the memory of `values`, row after row.
-torch::Tensor BatchTensor(const std::vector<float>& values, int columns) {
+/// Shares the memory of `values`, row after row.
+inline torch::Tensor BatchTensor(const std::vector<float>& values, int columns) {
   return torch::from_blob(const_cast<float*>(values.data()),
                           {static_cast<std::int64_t>(values.size()) / columns, columns});
 }
 
-// A student whose tensors share the flat vector's memory.
-class TorchPointNet {
+/// Dense layers whose tensors share a flat vector's memory.
+class TorchLayers {
  public:
-  TorchPointNet(const PointNetShape& shape, std::span<const float> parameters, bool learns)
-      : shape_(shape) {
+  TorchLayers(const ParameterLayout& layout, std::span<const float> parameters, bool learns) {
     auto* data = const_cast<float*>(parameters.data());
-    const ParameterLayout layout = PointNetLayout(shape);
     for (const DenseLayer& layer : layout.layers()) {
       tensors_.push_back(torch::from_blob(data + layer.offset, {layer.outputs, layer.inputs})
                              .set_requires_grad(learns));
@@ -30,16 +32,12 @@ class TorchPointNet {
     }
   }
 
-  torch::Tensor operator()(const DaggerBatch& batch) const {
-    const std::int64_t n = batch.size;
-    const torch::Tensor points = BatchTensor(batch.points, shape_.point);
-    const torch::Tensor pooled = Pooled(points, n);
-    const torch::Tensor seen = torch::relu(Dense(3, torch::relu(Dense(2, pooled))));
-    torch::Tensor x = torch::cat({seen, BatchTensor(batch.own, shape_.own)}, 1);
-    for (const std::size_t layer : {4U, 5U, 6U}) x = torch::elu(Dense(layer, x));
-    return Dense(7, x);
+  /// What the layer of this place in the layout makes of rows.
+  torch::Tensor Dense(std::size_t layer, const torch::Tensor& x) const {
+    return torch::addmm(tensors_[2 * layer + 1], x, tensors_[2 * layer].t());
   }
 
+  /// Adds what backward() found to `gradient`, a flat vector of the layout.
   void AddGradient(std::span<float> gradient) const {
     std::size_t at = 0;
     for (const torch::Tensor& tensor : tensors_) {
@@ -50,8 +48,31 @@ class TorchPointNet {
   }
 
  private:
+  std::vector<torch::Tensor> tensors_;  // weight and bias in turn
+};
+
+/// A PointNet whose tensors share the flat vector's memory.
+class TorchPointNet {
+ public:
+  TorchPointNet(const PointNetShape& shape, std::span<const float> parameters, bool learns)
+      : shape_(shape), layers_(PointNetLayout(shape), parameters, learns) {}
+
+  /// The features of n clouds whose points follow each other, n x cloud_features.
+  torch::Tensor CloudFeatures(const torch::Tensor& points, std::int64_t n) const {
+    return torch::relu(Dense(3, torch::relu(Dense(2, Pooled(points, n)))));
+  }
+
+  torch::Tensor Outputs(const torch::Tensor& cloud_features, const torch::Tensor& own) const {
+    torch::Tensor x = torch::cat({cloud_features, own}, 1);
+    for (const std::size_t layer : {4U, 5U, 6U}) x = torch::elu(Dense(layer, x));
+    return Dense(7, x);
+  }
+
+  void AddGradient(std::span<float> gradient) const { layers_.AddGradient(gradient); }
+
+ private:
   torch::Tensor Dense(std::size_t layer, const torch::Tensor& x) const {
-    return torch::addmm(tensors_[2 * layer + 1], x, tensors_[2 * layer].t());
+    return layers_.Dense(layer, x);
   }
 
   torch::Tensor Features(const torch::Tensor& points) const {
@@ -75,30 +96,7 @@ class TorchPointNet {
   }
 
   PointNetShape shape_;
-  std::vector<torch::Tensor> tensors_;  // weight and bias in turn
+  TorchLayers layers_;
 };
-
-}  // namespace
-
-double DaggerLossOf(const PointNetShape& shape, std::span<const float> parameters,
-                    const DaggerBatch& batch, double weight, std::span<float> gradient) {
-  UseOneTorchThread();  // the setting is each thread's own
-  const at::AutoGradMode mode(!gradient.empty());
-  const TorchPointNet student(shape, parameters, !gradient.empty());
-  const torch::Tensor taught = BatchTensor(batch.taught, shape.outputs);
-  const torch::Tensor loss = (student(batch) - taught).square().sum();
-  if (!gradient.empty()) {
-    (weight * loss).backward();
-    student.AddGradient(gradient);
-  }
-  return loss.item<double>();
-}
-
-std::vector<float> DaggerOutputsOf(const PointNetShape& shape, std::span<const float> parameters,
-                                   const DaggerBatch& batch) {
-  const at::AutoGradMode mode(false);
-  const torch::Tensor out = TorchPointNet(shape, parameters, false)(batch).contiguous();
-  return {out.data_ptr<float>(), out.data_ptr<float>() + out.numel()};
-}
 
 }  // namespace doorforge::internal

@@ -17,7 +17,9 @@
 #include "doorforge/physics/scene_sampling.h"
 #include "doorforge/policy/hand_network.h"
 #include "doorforge/policy/hand_sight.h"
+#include "doorforge/policy/trajectory_policy.h"
 #include "doorforge/registry/policy_episodes.h"
+#include "doorforge/rollout/base_placement.h"
 #include "doorforge/rollout/camera_observer.h"
 #include "doorforge/rollout/hand_stepper.h"
 
@@ -124,6 +126,37 @@ TEST_F(WholePolicyTest, IsShownWhatTheCameraSeesWithTheHandInIt) {
   // without the hand in the picture it sees something else, and does
   const Episode other = episodes.Run({scene, door, robot, CloudConfig{.robot = false}}, nullptr);
   EXPECT_NE(found.state_sha256, other.state_sha256);
+}
+
+// One that says trajectories, on an arm: the grasp and the way are those that it says of the closed
+// door, through a camera of its own.
+TEST_F(WholePolicyTest, CarriesOutWhatItSaidOfTheClosedDoor) {
+  TrajectoryPolicyRecord record;
+  record.networks = InitialTrajectoryNetworks({.waypoints = 3}, 5);
+  record.networks.posterior.clear();
+  record.look.finer = 1;
+  record.choice = {.contacts = 4, .proposals = 5};
+  record.provenance = {"trajectories", "0.0", "{}", 1, {}};
+  WriteTrajectoryPolicy(folder_, record);
+  const DoorAsset door = MakePrimitiveDoor({});
+  const RobotModel robot = LoadMobileFranka();
+  const Scene scene = PlaceRobotBase(robot, SampleScene(door, 3, 0), door);
+  TrajectoryPolicies policies = MakeTrajectoryPolicies(record);
+  CameraObserver camera(scene, door, robot, {}, /*sees_robot=*/false);
+  GraspFromPolicy chooser(*policies.grasp, scene, door, robot, [&](const SceneSnapshot& snapshot) {
+    return camera.Render(snapshot).visible;
+  });
+  const Episode expected = RunStages(
+      scene, door, robot,
+      {.grasp = &chooser, .handle = policies.handle.get(), .open = policies.open.get()}, nullptr);
+  const PolicySetFactory factory(BuiltInPolicies(), Words());
+  EXPECT_FALSE(factory.IsExpertAlone());
+  EXPECT_FALSE(UsesPointCloud(factory.Make()));
+  PolicyEpisodes episodes(factory);
+  const Episode found = episodes.Run({scene, door, robot}, nullptr);
+  EXPECT_EQ(found.state_sha256, expected.state_sha256);
+  EXPECT_EQ(found.detail, expected.detail);
+  EXPECT_EQ(episodes.Run({scene, door, robot}, nullptr).state_sha256, found.state_sha256);
 }
 
 TEST_F(WholePolicyTest, SaysWhatIsWrong) {

@@ -18,6 +18,7 @@
 #include "doorforge/core/settings_schema.h"
 #include "doorforge/policy/hand_sight.h"
 #include "doorforge/reinforce/distil_files.h"
+#include "doorforge/reinforce/reinforce.h"
 #include "doorforge/schemas/safetensors.h"
 
 #include "../physics/primitive_door.h"
@@ -212,6 +213,12 @@ TEST_F(TrainDistilTest, HasOptionsOfItsOwn) {
   EXPECT_THROW(Reinforce(request, {}), Error);
   request = {};
   request.teacher = folder_ / "teacher";
+  request.decisions = 3;
+  EXPECT_THROW(Reinforce(request, {}), Error);
+  request.decisions.reset();
+  request.trajectories = true;
+  EXPECT_THROW(Reinforce(request, {}), Error);
+  request.teacher.clear();
   request.decisions = 3;
   EXPECT_THROW(Reinforce(request, {}), Error);
 }

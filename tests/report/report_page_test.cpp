@@ -74,6 +74,20 @@ TEST(ReportPage, APolicyOfTheToolkitIsCalledByItsName) {
       << table;
 }
 
+// Who does all of it says nothing of stages.
+TEST(ReportPage, OnePolicyOfTheWholeEpisodeIsOne) {
+  EvaluationReport report = ExampleReport();
+  report.provenance.policy_sha256 = std::string(64, 'a');
+  report.provenance.handler_sha256 = report.provenance.policy_sha256;
+  EXPECT_TRUE(IsSwitchPredicted(report.provenance));  // another one took hold
+  report.provenance.grasper_sha256 = report.provenance.policy_sha256;
+  EXPECT_FALSE(IsSwitchPredicted(report.provenance));
+  EXPECT_NE(ReportPage(report, {}).find("One trained policy takes hold of the handle"),
+            std::string::npos);
+  EXPECT_NE(ReportTable(report).find("\ngrasp, handle and opening: trained aaaaaaaaaaaa\n"),
+            std::string::npos);
+}
+
 TEST(ReportPage, SaysWhatAPolicyIsToldBeyondARobot) {
   EvaluationReport report = ExampleReport();
   EXPECT_EQ(ReportPage(report, {}).find("privileges"), std::string::npos);

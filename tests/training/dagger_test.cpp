@@ -297,7 +297,7 @@ TEST(DaggerSamples, KeepTheNewest) {
   EXPECT_EQ(samples.xyz, (std::vector<float>{3, 3, 3, 3, 3, 3, 4, 4, 4, 4, 4, 4}));
   EXPECT_EQ(samples.label.size(), 4U);
   EXPECT_EQ(samples.own.front(), 3);
-  EXPECT_EQ(samples.targets.front(), 3);
+  EXPECT_EQ(samples.taught.front(), 3);
 }
 
 TEST(DaggerConfig, IsChecked) {

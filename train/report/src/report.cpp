@@ -206,8 +206,15 @@ bool IsTrained(std::string_view actor) {
          actor.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
+bool DidAll(const ReportProvenance& provenance) {
+  return IsTrained(provenance.policy_sha256) &&
+         provenance.handler_sha256 == provenance.policy_sha256 &&
+         provenance.grasper_sha256 == provenance.policy_sha256;
+}
+
 bool IsSwitchPredicted(const ReportProvenance& provenance) {
-  return IsTrained(provenance.handler_sha256) && provenance.config.is_object() &&
+  return !DidAll(provenance) && IsTrained(provenance.handler_sha256) &&
+         provenance.config.is_object() &&
          provenance.config.value("switch", "predicted") == "predicted";
 }
 

@@ -321,7 +321,9 @@ std::string Lead(const EvaluationReport& report, bool held_out) {
       : IsOwn(report)  ? "; the policy " + Escape(provenance.policy) + " opens the door."
                        : "; a trained policy opens the door from an occluded point cloud and the "
                          "robot's own joints.";
-  return grasp + handle + opening +
+  const std::string all =
+      "One trained policy takes hold of the handle, turns it and opens the door.";
+  return (DidAll(provenance) ? all : grasp + handle + opening) +
          (held_out ? " No body and no handle of these doors was in a training episode." : "");
 }
 

@@ -80,6 +80,8 @@ std::string StagesLine(const ReportProvenance& provenance) {
     if (sha256.empty()) return std::string(otherwise);
     return IsTrained(sha256) ? "trained " + sha256.substr(0, 12) : sha256;
   };
+  if (DidAll(provenance))
+    return "grasp, handle and opening: trained " + provenance.policy_sha256.substr(0, 12) + "\n";
   return "grasp: " + actor(provenance.grasper_sha256, "expert") +
          (provenance.finder_sha256.empty()
               ? ""

@@ -23,7 +23,7 @@ struct ProposerBatch {
 struct ProposerWeights {
   double waypoints = 10;
   double rotation = 5;
-  double latent = 0.02;
+  double latent = 0.2;
 };
 
 /// Sum over the trajectories of

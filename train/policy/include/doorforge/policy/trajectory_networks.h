@@ -16,8 +16,8 @@ namespace doorforge {
 
 /// What of one look at a closed door is read: points near the handle, and points of all of it.
 struct TrajectoryLook {
-  int near_points = 384;  ///< Farthest points first, within near_m of the handle's middle.
-  int far_points = 384;   ///< Farthest points first, of all that is seen.
+  int near_points = 256;  ///< Farthest points first, within near_m of the handle's middle.
+  int far_points = 256;   ///< Farthest points first, of all that is seen.
   double near_m = 0.2;
   int finer = 2;  ///< See GraspCameraConfig::resolution_scale.
 
@@ -64,7 +64,7 @@ void AppendTarget(const TrajectoryTarget& target, std::vector<float>& numbers);
 
 /// Sizes of the networks of one training.
 struct TrajectoryShape {
-  int waypoints = 16;
+  int waypoints = 12;
   int latent = 32;
   int point_hidden = 64;  ///< These as in PointNetShape, of all three networks.
   int point_features = 256;

@@ -50,6 +50,7 @@ void CheckTrajectoryTraining(const TrajectoryTrainingConfig& config);
 /// trajectory is the way of what they told the hand, in EvenWaypoints(). What was learned acts as
 /// the policy will, with the contacts and proposals of `learning`.
 ///
+/// @param doors Must outlive the task.
 /// @throws Error(kInvalidArgument) without doors; Error(kInvalidConfig) as
 ///     CheckTrajectoryTraining(), and on a robot that is not the built-in one or that flies.
 TrajectoryTask TrajectoryLessons(const std::vector<FoundDoor>& doors,

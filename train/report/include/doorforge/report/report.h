@@ -57,6 +57,9 @@ struct ReportProvenance {
   nlohmann::ordered_json config = nlohmann::ordered_json::object();  ///< The effective config.
 };
 
+/// Whether one trained policy did all of it: took hold, turned the handle and opened.
+bool DidAll(const ReportProvenance& provenance);
+
 /// Whether opening began when the policy that turned the handle said so, and not the simulator.
 bool IsSwitchPredicted(const ReportProvenance& provenance);
 

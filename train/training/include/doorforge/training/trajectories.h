@@ -18,8 +18,8 @@ namespace doorforge {
 struct TrajectoryLearning {
   int rounds = 4;          ///< In the first one rules act, in the others what was learned so far.
   int episodes = 1500;     ///< Of a round.
-  int minibatches = 1200;  ///< Steps of the gradient of each network in a round.
-  int minibatch = 64;      ///< Trajectories, drawn from all so far.
+  int minibatches = 1500;  ///< Steps of the gradient of each network in a round.
+  int minibatch = 32;      ///< Trajectories, drawn from all so far.
   /// Who has opened less far teaches no trajectory [rad]; what was not asked for by 15 % is a
   /// failure to the critic.
   double least_opening_rad = 0.17;
@@ -28,9 +28,9 @@ struct TrajectoryLearning {
   int rated_proposals = 100;    ///< At a contact, for what the affordance learns of it.
   double waypoint_weight = 10;  ///< See ProposerLossOf().
   double rotation_weight = 5;
-  double latent_weight = 0.02;
+  double latent_weight = 0.2;
   double learning_rate = 1e-3;
-  double final_rate = 0.05;  ///< The learning rate of the last round, times learning_rate.
+  double final_rate = 0.1;  ///< The learning rate of the last round, times learning_rate.
   double weight_decay = 1e-5;
   double gradient_norm = 10;  ///< A longer gradient is cut to this.
   std::uint64_t seed = 7;

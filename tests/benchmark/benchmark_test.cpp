@@ -154,6 +154,15 @@ TEST(BenchmarkPipeline, TheHandOfTrueStatesTeachesTheOneThatLooks) {
   EXPECT_EQ(StepNamed(joined, "looks").needs, (std::vector<std::string>{"doors", "hand"}));
 }
 
+TEST(BenchmarkPipeline, WhoSaysTrajectoriesIsTrainedAndDoesAllOfIt) {
+  const Pipeline joined =
+      PlanBenchmark(ReadBenchmark("quick", {"settings=[trials=9]"}, {"vatmart"})).pipeline;
+  const auto& command = StepNamed(joined, "replayer").command;
+  EXPECT_NE(std::ranges::find(command, "learning.episodes=9"), command.end());
+  EXPECT_NE(std::ranges::find(command, "--trajectories"), command.end());
+  EXPECT_TRUE(Actors(joined, "vatmart_1_test").contains("replayer"));
+}
+
 TEST(BenchmarkPipeline, WhoseRowsAreNotTrainedMakesDoorsAlone) {
   const Pipeline joined = PlanBenchmark(ReadBenchmark("quick", {}, {"expert"})).pipeline;
   std::vector<std::string> names;

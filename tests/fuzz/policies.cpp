@@ -16,6 +16,7 @@
 #include "doorforge/policy/side_classifier.h"
 #include "doorforge/policy/training_curves.h"
 #include "doorforge/policy/turned_classifier.h"
+#include "doorforge/policy/whole_policy.h"
 #include "doorforge/report/report.h"
 
 #include "fuzz_target.h"
@@ -32,6 +33,11 @@ std::filesystem::path FolderWith(const char* name, std::string_view input) {
 void ReadPolicyRecord(std::string_view input) {
   InputFile("policy.safetensors", "");
   ReadPolicy(FolderWith("policy.json", input), "open");
+}
+
+void ReadWholeRecord(std::string_view input) {
+  InputFile("policy.safetensors", "");
+  ReadWholePolicy(FolderWith("policy.json", input));
 }
 
 void ReadSide(std::string_view input) { ReadSideClassifier(FolderWith("side.safetensors", input)); }
@@ -66,6 +72,7 @@ void ReadRobot(std::string_view input) {
 
 constexpr std::array kTargets{
     Target{"policy", Shape::kJson, ReadPolicyRecord},
+    Target{"whole", Shape::kJson, ReadWholeRecord},
     Target{"side", Shape::kTensors, ReadSide},
     Target{"heights", Shape::kTensors, ReadLearnedHeights},
     Target{"turned", Shape::kTensors, ReadTurned},

@@ -124,7 +124,27 @@ def small_policy() -> str:
     return json.dumps(record)
 
 
+def whole_policies() -> list[str]:
+    """Of true states, of one that looks and of one that says trajectories; without weights."""
+    network = {"point_hidden": 64, "point_features": 256, "cloud_hidden": 256, "cloud_features": 112, "hidden": 64, "last_hidden": 64}
+    task = {"steps_per_action": 19, "max_actions": 128, "start_distance_m": 0.15, "move_m": 0.025, "turn_rad": 0.15}
+    kinds = [
+        {"sizes": {"inputs": 40, "hidden": 64, "outputs": 7}, "task": task},
+        {"network": "point_net", "sizes": {**network, "point": 7, "own": 19, "outputs": 7}, "task": task,
+         "look": {"points": 512, "crop_radius_m": 0.3}},
+        {"network": "trajectories", "sizes": {**network, "waypoints": 12, "latent": 32},
+         "look": {"near_points": 256, "far_points": 256, "near_m": 0.2, "finer": 2},
+         "choice": {"contacts": 64, "proposals": 100, "opening_rad": 0.95, "actions": 2}},
+    ]
+    record = {"schema": "doorforge.policy", "schema_version": 1, "stage": "whole", "weights": "policy.safetensors",
+              "weights_sha256": hashlib.sha256(b"").hexdigest()}
+    made_from = {"method": "ppo", "config": {}, "code_version": "0.1.0", "decisions": 1,
+                 "trained_on": {"bodies": [{"id": "b", "sha256": "1"}], "handles": []}}
+    return [json.dumps({**record, **kind, "provenance": made_from}) for kind in kinds]
+
+
 MADE["policy"] = [small_policy()]
+MADE["whole"] = whole_policies()
 MADE["curves"] = [(SOURCE / "data/policies/opener/losses.json").read_text()]
 MADE["side"] = [(SOURCE / "data/policies/opener/side.safetensors").read_bytes()]
 MADE["heights"] = [(SOURCE / "data/policies/opener/pushed/heights.safetensors").read_bytes()]

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The doorforge authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The program that trains a hand by trying, one that looks from one that knows, and an arm that
-// says whole trajectories.
+// The program that trains policies of the whole episode.
 
 #include <CLI/CLI.hpp>
 
@@ -24,11 +23,9 @@ void Parse(int argc, char** argv, ConfigSources& config, ReinforceRequest& reque
       ->required();
   app.add_option("--out", request.out, "folder of the policy")->required();
   app.add_option("--teacher", request.teacher, "a policy of true states, for one that looks");
-  app.add_flag("--trajectories", request.trajectories,
-               "an arm that decides once, from one look, and replays its trajectory");
+  app.add_flag("--trajectories", request.trajectories, "for an arm that replays what it decided");
   app.add_option("--decisions", request.decisions, "of all steppers (config: ppo.decisions)");
-  app.add_option("--rounds", request.rounds,
-                 "of --teacher and --trajectories (config: dagger.rounds, learning.rounds)");
+  app.add_option("--rounds", request.rounds, "of --teacher and --trajectories");
   app.add_option("--minutes", request.minutes, "stop after the last update within this time")
       ->check(CLI::PositiveNumber);
   AddPreset(app, config.preset);

@@ -3,7 +3,6 @@
 #include "doorforge/reinforce/train_distil.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <utility>
 
@@ -137,11 +136,7 @@ class DistilFolder {
       Write(now, fresh);
       note = DistilNote(now);
     };
-    hooks.stop = [this, start = std::chrono::steady_clock::now()] {
-      const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-      return StopRequested() != 0 ||
-             (request_.minutes > 0 && elapsed.count() > 60 * request_.minutes);
-    };
+    hooks.stop = internal::StopAfter(request_.minutes);
     return TrainDagger(task_, config, std::move(state), std::move(samples), hooks);
   }
 

@@ -3,7 +3,6 @@
 #include "doorforge/reinforce/train_ppo.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -62,10 +61,7 @@ class PpoFolder {
       Write(now);
       progress.Advance(each, PpoNote(now.updates.back()));
     };
-    hooks.stop = [start = std::chrono::steady_clock::now(), minutes = request_.minutes] {
-      const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-      return StopRequested() != 0 || (minutes > 0 && elapsed.count() > 60 * minutes);
-    };
+    hooks.stop = internal::StopAfter(request_.minutes);
     return TrainPpo(task_, config, std::move(state), hooks);
   }
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doorforge/reinforce/train_trajectories.h"
 
-#include <chrono>
 #include <cstdio>
 #include <utility>
 
@@ -75,11 +74,7 @@ class TrajectoryFolder {
       Write(now, fresh);
       note = TrajectoryNote(now);
     };
-    hooks.stop = [this, start = std::chrono::steady_clock::now()] {
-      const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-      return StopRequested() != 0 ||
-             (request_.minutes > 0 && elapsed.count() > 60 * request_.minutes);
-    };
+    hooks.stop = internal::StopAfter(request_.minutes);
     return TrainTrajectories(task_, config, std::move(state), std::move(samples), hooks);
   }
 

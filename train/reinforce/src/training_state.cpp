@@ -3,6 +3,7 @@
 #include "training_state.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "doorforge/core/config_difference.h"
 #include "doorforge/core/error.h"
 #include "doorforge/core/hash.h"
+#include "doorforge/core/program.h"
 
 namespace doorforge::internal {
 namespace {
@@ -96,6 +98,13 @@ void RequireUnusedFolder(const std::filesystem::path& folder, bool resume, bool 
             folder.string() +
                 ": holds a training already; pass --resume to go on, or "
                 "--overwrite to start anew");
+}
+
+std::function<bool()> StopAfter(double minutes) {
+  return [start = std::chrono::steady_clock::now(), minutes] {
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    return StopRequested() != 0 || (minutes > 0 && elapsed.count() > 60 * minutes);
+  };
 }
 
 std::string OutcomeHead(const std::vector<std::string>& notes, const std::filesystem::path& out,

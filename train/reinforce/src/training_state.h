@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,11 @@ SeenParts PartsOfDoors(const std::vector<FoundDoor>& doors);
 /// A folder that holds a training is only touched if the user said how: Error(kInvalidArgument).
 void RequireUnusedFolder(const std::filesystem::path& folder, bool resume, bool overwrite);
 
-/// The lines with which both trainings begin to say what came of them.
+/// True from now on after so many minutes, or when the program is asked to stop; 0: only then. May
+/// be asked by several threads at once.
+std::function<bool()> StopAfter(double minutes);
+
+/// The lines with which all trainings begin to say what came of them.
 std::string OutcomeHead(const std::vector<std::string>& notes, const std::filesystem::path& out,
                         std::size_t doors);
 

@@ -13,7 +13,7 @@ from sound_inputs import box_obj
 
 # Not JSON of their own: metadata of weights, the journal of a shard (whose lines have checksums), golden values of tests;
 # an attribute of HDF5 files, and the name of a tool in other programs' reports.
-WITHOUT = {"turned", "side", "familiar", "heights", "ppo", "dagger", "shard_journal", "golden_scenes", "robomimic", "validate"}
+WITHOUT = {"turned", "side", "familiar", "heights", "ppo", "dagger", "trajectories", "shard_journal", "golden_scenes", "robomimic", "validate"}
 WRITTEN_SETTINGS = {"datagen_open": "whole_set/config.yaml", "eval": "evaluated/a/config.yaml",
                     "train_motion": "inputs/trained/tested_training/config.yaml",
                     "compose": "inputs/doors/tested_door/compose.json"}

@@ -125,13 +125,15 @@ def small_policy() -> str:
 
 
 def whole_policies() -> list[str]:
-    """Of true states, of one that looks and of one that says trajectories; without weights."""
+    """Of true states, of one that looks, of one that acts on features and of one that says trajectories; without weights."""
     network = {"point_hidden": 64, "point_features": 256, "cloud_hidden": 256, "cloud_features": 112, "hidden": 64, "last_hidden": 64}
     task = {"steps_per_action": 19, "max_actions": 128, "start_distance_m": 0.15, "move_m": 0.025, "turn_rad": 0.15}
     kinds = [
         {"sizes": {"inputs": 40, "hidden": 64, "outputs": 7}, "task": task},
         {"network": "point_net", "sizes": {**network, "point": 7, "own": 19, "outputs": 7}, "task": task,
          "look": {"points": 512, "crop_radius_m": 0.3}},
+        {"network": "frozen_point_net", "sizes": {"inputs": 131, "hidden": 64, "outputs": 7}, "sight_sizes": {**network, "point": 7, "own": 19, "outputs": 7},
+         "task": task, "look": {"points": 512, "crop_radius_m": 0.3}},
         {"network": "trajectories", "sizes": {**network, "waypoints": 12, "latent": 32},
          "look": {"near_points": 256, "far_points": 256, "near_m": 0.2, "finer": 2},
          "choice": {"contacts": 64, "proposals": 100, "opening_rad": 0.95, "actions": 2}},

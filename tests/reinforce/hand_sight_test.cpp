@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "doorforge/core/error.h"
+#include "doorforge/policy/frozen_sight.h"
 #include "doorforge/policy/whole_policy.h"
 
 namespace doorforge {
@@ -178,6 +179,59 @@ TEST_F(SightPolicyFileTest, IsToldFromAPolicyOfStates) {
   const WholePolicy whole = ReadWholePolicy(folder_);
   EXPECT_FALSE(whole.hand->look());
   EXPECT_NE(whole.privileges.at(0).find("true states"), std::string::npos);
+}
+
+// ---- acting on features -------------------------------------------------------------------------
+
+FrozenPolicyRecord FrozenFrom(const SightPolicyRecord& sees) {
+  FrozenPolicyRecord record;
+  record.sight_shape = sees.shape;
+  record.sight = sees.parameters;
+  record.look = sees.look;
+  record.shape = {sees.shape.cloud_features + kSightOwn, 8, kHandActions};
+  record.parameters = MlpInitialisation(record.shape, 4, "test.", 1);
+  record.task.max_actions = 55;
+  record.provenance = {"ppo", "0.0", "{}", 9, {}, "sees"};
+  return record;
+}
+
+// The features are what the whole network goes on from.
+TEST_F(SightPolicyFileTest, FrozenItIsItsNetworkUpToTheLayersBehindTheCloud) {
+  const FrozenSight sight(record_.shape, record_.parameters, record_.look);
+  const std::vector<float> numbers = sight.NumbersOf(SeenState(), FiveParts());
+  ASSERT_EQ(numbers.size(), static_cast<std::size_t>(sight.size()));
+  ASSERT_EQ(sight.size(), 8 + kSightOwn);
+  const HandSight seen = HandSightOf(SeenState(), FiveParts());
+  std::vector<float> points;
+  AppendSightPoints(seen.xyz, seen.label, points);
+  const PointNet network(record_.shape, record_.parameters);
+  EXPECT_EQ(network.Outputs(std::span(numbers).first(8), std::span(numbers).subspan(8)),
+            network(points, seen.own));
+}
+
+TEST_F(SightPolicyFileTest, APolicyOfFeaturesComesBackAndIsToldFromOthers) {
+  EXPECT_THROW(ReadFrozenPolicy(folder_), Error);
+  const FrozenPolicyRecord frozen = FrozenFrom(record_);
+  WriteFrozenPolicy(folder_, frozen);
+  ExpectSightRefused("a policy that acts on features");
+  const FrozenPolicyRecord read = ReadFrozenPolicy(folder_);
+  EXPECT_EQ(read.sight, frozen.sight);
+  EXPECT_EQ(read.sight_shape, frozen.sight_shape);
+  EXPECT_EQ(read.parameters, frozen.parameters);
+  EXPECT_EQ(read.look, frozen.look);
+  EXPECT_EQ(read.task, frozen.task);
+  EXPECT_EQ(read.provenance.teacher_sha256, "sees");
+  const WholePolicy whole = ReadWholePolicy(folder_);
+  EXPECT_EQ(whole.hand->look(), record_.look);
+  EXPECT_NE(whole.privileges.at(0).find("of which part each point is"), std::string::npos);
+  const HandCommand command = whole.hand->Act(SeenState(), FiveParts());
+  const Mlp actor(frozen.shape, frozen.parameters);
+  const FrozenSight sight(record_.shape, record_.parameters, record_.look);
+  const HandCommand expected =
+      HandCommandOf(actor(sight.NumbersOf(SeenState(), FiveParts())), SeenState(), frozen.task);
+  EXPECT_EQ(command.move_m, expected.move_m);
+  ReplaceInRecord("\"cloud_features\": 8", "\"cloud_features\": 9");
+  EXPECT_THROW(ReadFrozenPolicy(folder_), Error);
 }
 
 }  // namespace

@@ -216,6 +216,9 @@ TEST_F(TrainDistilTest, HasOptionsOfItsOwn) {
   request.decisions = 3;
   EXPECT_THROW(Reinforce(request, {}), Error);
   request.decisions.reset();
+  request.features = folder_ / "teacher";
+  EXPECT_THROW(Reinforce(request, {}), Error);
+  request.features.clear();
   request.trajectories = true;
   EXPECT_THROW(Reinforce(request, {}), Error);
   request.teacher.clear();

@@ -15,8 +15,13 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/settings_schema.h"
+#include "doorforge/physics/load_robot.h"
+#include "doorforge/policy/frozen_sight.h"
 #include "doorforge/policy/hand_network.h"
 #include "doorforge/reinforce/ppo_files.h"
+#include "doorforge/rollout/base_placement.h"
+#include "doorforge/rollout/camera_observer.h"
+#include "doorforge/rollout/hand_stepper.h"
 #include "doorforge/schemas/safetensors.h"
 
 #include "../physics/primitive_door.h"
@@ -138,6 +143,96 @@ TEST_F(TrainPpoTest, TouchesAFolderWithATrainingOnlyWhereItWasTold) {
   again.resume = false;
   again.overwrite = true;
   EXPECT_TRUE(TrainPpoIntoFolder(again).finished());
+}
+
+// ---- acting on the features of a network that looks ---------------------------------------------
+
+class TrainOnFeaturesTest : public TrainPpoTest {
+ protected:
+  TrainOnFeaturesTest() { WriteEyes("eyes", 3); }
+
+  void WriteEyes(const std::string& name, std::uint64_t seed) const {
+    SightPolicyRecord eyes;
+    eyes.shape = SightShape({.point_hidden = 8,
+                             .point_features = 32,
+                             .cloud_hidden = 8,
+                             .cloud_features = 8,
+                             .hidden = 8,
+                             .last_hidden = 8});
+    eyes.parameters = PointNetInitialisation(eyes.shape, seed, "test.");
+    eyes.look.points = 32;
+    eyes.provenance = {"dagger", "0.0", "{}", 1, {{{"body_eyes", "e"}}, {}}};
+    WriteSightPolicy(folder_ / name, eyes);
+  }
+
+  PpoTrainingRequest OnFeatures(const std::string& out) const {
+    PpoTrainingRequest request = Request(out);
+    request.config.scene.camera.width = request.config.scene.camera.height = 48;
+    request.features = folder_ / "eyes";
+    return request;
+  }
+};
+
+// What the camera of the scene sees, the hand in it, in the numbers of the network.
+TEST_F(TrainOnFeaturesTest, ObservesWhatTheCameraSees) {
+  const HandTrainingConfig config = OnFeatures("none").config;
+  const auto doors = FindDoorSet({.folders = {folder_ / "doors"}}, 1).doors;
+  const SightPolicyRecord eyes = ReadSightPolicy(folder_ / "eyes");
+  const auto sight = std::make_shared<FrozenSight>(eyes.shape, eyes.parameters, eyes.look);
+  const PpoTask task = DoorTask(doors, config, sight);
+  EXPECT_EQ(task.observations, 8 + kSightOwn);
+  const auto stepper = task.make();
+  const std::vector<float> first = stepper->Reset(5);
+  const std::vector<float> next =
+      stepper->Step(std::vector<float>{1, 0, 0, 0, 0, 0, 0}).observation;
+  // by hand; which door episode 5 draws is told by which of the two gives the same
+  const RobotModel robot = LoadRobot({}, RobotBase::kFloating);
+  int same = 0;
+  for (const char* name : {"one", "two"}) {
+    DoorCache cache(FindDoorSet({.folders = {folder_ / "doors" / name}}, 1).doors);
+    const IdentifiedDoor door = cache.Take(0);
+    const Scene scene =
+        PlaceRobotBase(robot, SampleScene(door, config.ppo.seed, 5, config.scene), *door);
+    CameraObserver camera(scene, *door, robot, config.cloud);
+    camera.SampleAs({32, eyes.look.crop_radius_m});
+    HandStepper by_hand(*door, robot, config.task);
+    by_hand.Reset(scene, &camera);
+    if (sight->NumbersOf(by_hand.now().state, by_hand.Look()) != first) continue;
+    ++same;
+    const std::vector<float> action = {1, 0, 0, 0, 0, 0, 0};
+    by_hand.Step(HandCommandOf(action, by_hand.now().state, config.task));
+    EXPECT_EQ(sight->NumbersOf(by_hand.now().state, by_hand.Look()), next);
+  }
+  EXPECT_EQ(same, 1);
+}
+
+TEST_F(TrainOnFeaturesTest, LeavesTheSameBytesForAnyNumberOfThreadsAndAPolicyThatLooks) {
+  EXPECT_TRUE(TrainPpoIntoFolder(OnFeatures("one_thread")).finished());
+  PpoTrainingRequest two = OnFeatures("two_threads");
+  two.threads = 2;
+  TrainPpoIntoFolder(two);
+  ExpectSameFiles("one_thread", "two_threads");
+  const FrozenPolicyRecord policy = ReadFrozenPolicy(folder_ / "one_thread");
+  const SightPolicyRecord eyes = ReadSightPolicy(folder_ / "eyes");
+  EXPECT_EQ(policy.sight, eyes.parameters);  // they have not learned
+  EXPECT_EQ(policy.provenance.teacher_sha256, eyes.weights_sha256);
+  EXPECT_EQ(policy.provenance.trained_on.bodies.size(), 3U);  // those of the eyes, too
+}
+
+TEST_F(TrainOnFeaturesTest, SaysWhatIsWrongWithFeatures) {
+  PpoTrainingRequest request = OnFeatures("out");
+  request.features = folder_ / "nowhere";
+  ExpectRefused(request, ErrorCode::kMissing, "no such folder");
+  TrainPpoIntoFolder(Request("states"));
+  request.features = folder_ / "states";
+  ExpectRefused(request, ErrorCode::kFormat, "a policy of true states");
+  TrainPpoIntoFolder(OnFeatures("out"));
+  WriteEyes("eyes", 4);
+  request = OnFeatures("out");
+  request.resume = true;
+  ExpectRefused(request, ErrorCode::kInvalidArgument, "weights_sha256");
+  request.features.clear();
+  ExpectRefused(request, ErrorCode::kInvalidArgument, "features");
 }
 
 // After settings were changed on purpose:

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "doorforge/networks/network_tensors.h"
+#include "doorforge/policy/frozen_sight.h"
 #include "doorforge/policy/hand_network.h"
 #include "doorforge/policy/hand_sight.h"
 
@@ -16,15 +17,16 @@ using internal::WholeFile;
 
 constexpr int kMostHidden = 4096;
 
-// The numbers that the network reads and says are this build's.
-MlpShape HandShapeFromJson(const nlohmann::ordered_json& json, const std::string& path) {
+// The numbers that the network reads and says are this build's, or the features of its sight.
+MlpShape HandShapeFromJson(const nlohmann::ordered_json& json, const std::string& path,
+                           int inputs = kHandFeatures) {
   const MlpShape shape{ValueOf<int>(json, "inputs", path), ValueOf<int>(json, "hidden", path),
                        ValueOf<int>(json, "outputs", path)};
-  const bool fits = shape.inputs == kHandFeatures && shape.outputs == kHandActions &&
-                    shape.hidden >= 1 && shape.hidden <= kMostHidden;
+  const bool fits = shape.inputs == inputs && shape.outputs == kHandActions && shape.hidden >= 1 &&
+                    shape.hidden <= kMostHidden;
   if (!fits)
     throw Error(ErrorCode::kFormat, path + ": inputs, hidden and outputs must be " +
-                                        std::to_string(kHandFeatures) + ", 1 to " +
+                                        std::to_string(inputs) + ", 1 to " +
                                         std::to_string(kMostHidden) + " and " +
                                         std::to_string(kHandActions));
   return shape;
@@ -64,6 +66,16 @@ PointNetShape SightShapeFromJson(const nlohmann::ordered_json& json, const std::
   return shape;
 }
 
+nlohmann::ordered_json HandShapeToJson(const MlpShape& shape) {
+  return {{"inputs", shape.inputs}, {"hidden", shape.hidden}, {"outputs", shape.outputs}};
+}
+
+nlohmann::ordered_json SightShapeToJson(const PointNetShape& shape) {
+  nlohmann::ordered_json json;
+  for (const auto& field : kSightSizes) json[field.name] = shape.*field.value;
+  return json;
+}
+
 // Task, provenance and weights; the record's shape must be known.
 template <class Record>
 void FinishRecord(const std::filesystem::path& folder, const WholeFile& file,
@@ -82,9 +94,7 @@ void FinishRecord(const std::filesystem::path& folder, const WholeFile& file,
 void WriteHandPolicy(const std::filesystem::path& folder, const HandPolicyRecord& record) {
   nlohmann::ordered_json json =
       internal::WriteWholeWeights(folder, {{"actor", MlpLayout(record.shape), record.parameters}});
-  json["sizes"] = {{"inputs", record.shape.inputs},
-                   {"hidden", record.shape.hidden},
-                   {"outputs", record.shape.outputs}};
+  json["sizes"] = HandShapeToJson(record.shape);
   json["task"] = ToJson(record.task);
   json["provenance"] = internal::HandProvenanceToJson(record.provenance);
   internal::WriteWholeRecord(folder, json);
@@ -103,7 +113,7 @@ void WriteSightPolicy(const std::filesystem::path& folder, const SightPolicyReco
   nlohmann::ordered_json json = internal::WriteWholeWeights(
       folder, {{"actor", PointNetLayout(record.shape), record.parameters}});
   json["network"] = internal::kSightNetwork;
-  for (const auto& field : kSightSizes) json["sizes"][field.name] = record.shape.*field.value;
+  json["sizes"] = SightShapeToJson(record.shape);
   json["task"] = ToJson(record.task);
   json["look"] = ToJson(record.look);
   json["provenance"] = internal::HandProvenanceToJson(record.provenance);
@@ -117,6 +127,34 @@ SightPolicyRecord ReadSightPolicy(const std::filesystem::path& folder) {
   record.shape = SightShapeFromJson(file.Member("sizes"), file.Path("sizes"));
   record.look = internal::SettingsOfRecord<HandLook>(file, "look", CheckHandLook);
   FinishRecord(folder, file, PointNetLayout(record.shape), record);
+  return record;
+}
+
+void WriteFrozenPolicy(const std::filesystem::path& folder, const FrozenPolicyRecord& record) {
+  nlohmann::ordered_json json = internal::WriteWholeWeights(
+      folder, {{"sight", PointNetLayout(record.sight_shape), record.sight},
+               {"actor", MlpLayout(record.shape), record.parameters}});
+  json["network"] = internal::kFrozenNetwork;
+  json["sizes"] = HandShapeToJson(record.shape);
+  json["sight_sizes"] = SightShapeToJson(record.sight_shape);
+  json["task"] = ToJson(record.task);
+  json["look"] = ToJson(record.look);
+  json["provenance"] = internal::HandProvenanceToJson(record.provenance);
+  internal::WriteWholeRecord(folder, json);
+}
+
+FrozenPolicyRecord ReadFrozenPolicy(const std::filesystem::path& folder) {
+  const WholeFile file = internal::ReadWholeFile(folder);
+  internal::RequireNetwork(file, internal::kFrozenNetwork);
+  FrozenPolicyRecord record;
+  record.sight_shape = SightShapeFromJson(file.Member("sight_sizes"), file.Path("sight_sizes"));
+  record.shape = HandShapeFromJson(file.Member("sizes"), file.Path("sizes"),
+                                   record.sight_shape.cloud_features + kSightOwn);
+  record.look = internal::SettingsOfRecord<HandLook>(file, "look", CheckHandLook);
+  FinishRecord(folder, file, MlpLayout(record.shape), record);
+  record.sight = internal::ReadParameters(
+      PointNetLayout(record.sight_shape), internal::NetworkPrefix("sight"),
+      internal::ReadWholeWeights(folder, file), (folder / internal::kWholeWeights).string());
   return record;
 }
 

@@ -17,17 +17,18 @@ struct WholeKind {
   const char* what;
   const char* made_by;
 };
-const std::array<WholeKind, 3> kWholeKinds = {
+const std::array<WholeKind, 4> kWholeKinds = {
     {{"", "of true states", "`doorforge reinforce`"},
      {kSightNetwork, "that looks", "`doorforge reinforce --teacher`"},
+     {kFrozenNetwork, "that acts on features", "`doorforge reinforce --features`"},
      {kTrajectoryNetwork, "that says trajectories", "`doorforge reinforce --trajectories`"}}};
 
 const WholeKind& KindOf(const WholeFile& file, const std::string& network) {
   for (const WholeKind& kind : kWholeKinds)
     if (kind.network == network) return kind;
   throw Error(ErrorCode::kFormat, file.Path("network") + ": found \"" + network +
-                                      "\", expected \"" + kSightNetwork + "\" or \"" +
-                                      kTrajectoryNetwork + '"');
+                                      "\", expected \"" + kSightNetwork + "\", \"" +
+                                      kFrozenNetwork + "\" or \"" + kTrajectoryNetwork + '"');
 }
 
 }  // namespace

@@ -43,6 +43,7 @@ void RequireNetwork(const WholeFile& file, const std::string& network);
 
 /// The networks' names for RequireNetwork() and records.
 inline constexpr const char* kSightNetwork = "point_net";
+inline constexpr const char* kFrozenNetwork = "frozen_point_net";
 inline constexpr const char* kTrajectoryNetwork = "trajectories";
 
 /// Settings of a record, checked.

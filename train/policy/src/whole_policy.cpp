@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "doorforge/policy/frozen_sight.h"
 #include "doorforge/policy/hand_sight.h"
 
 #include "whole_file.h"
@@ -41,10 +42,11 @@ WholePolicy ReadWholePolicy(const std::filesystem::path& folder) {
             record.provenance,
             {"is told of which part each point is: handle, leaf or frame"}};
   }
+  const char* parts = "is told of which part each point is: handle, leaf, frame or robot";
+  if (network == internal::kFrozenNetwork)
+    return WholeHand<FrozenSightPolicy>(ReadFrozenPolicy(folder), parts);
   if (network == internal::kSightNetwork)
-    return WholeHand<HandSightPolicy>(
-        ReadSightPolicy(folder),
-        "is told of which part each point is: handle, leaf, frame or robot");
+    return WholeHand<HandSightPolicy>(ReadSightPolicy(folder), parts);
   return WholeHand<HandNetworkPolicy>(
       ReadHandPolicy(folder),
       "is told the true states of hinge, handle and latch, and where the grasp is");

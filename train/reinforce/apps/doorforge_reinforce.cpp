@@ -16,18 +16,17 @@ namespace doorforge {
 namespace {
 
 void Parse(int argc, char** argv, ConfigSources& config, ReinforceRequest& request) {
-  CLI::App app("Trains a flying hand by PPO from true states, with --teacher one that looks.",
-               "doorforge reinforce");
+  CLI::App app("Trains a policy of the whole episode, by PPO or else.", "doorforge reinforce");
   app.add_option("--doors", request.doors,
                  "folders of composed doors; with a split such as full:train only its doors")
       ->required();
   app.add_option("--out", request.out, "folder of the policy")->required();
   app.add_option("--teacher", request.teacher, "a policy of true states, for one that looks");
+  app.add_option("--features", request.features, "a policy that looks, to act on its features");
   app.add_flag("--trajectories", request.trajectories, "for an arm that replays what it decided");
   app.add_option("--decisions", request.decisions, "of all steppers (config: ppo.decisions)");
   app.add_option("--rounds", request.rounds, "of --teacher and --trajectories");
-  app.add_option("--minutes", request.minutes, "stop after the last update within this time")
-      ->check(CLI::PositiveNumber);
+  app.add_option("--minutes", request.minutes, "stop after so many")->check(CLI::PositiveNumber);
   AddPreset(app, config.preset);
   AddConfig(app, config.file, "YAML file with settings")->check(CLI::ExistingFile);
   AddSettings(app, config.settings, "a.b=c overrides one setting");

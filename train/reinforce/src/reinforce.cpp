@@ -12,7 +12,8 @@ namespace {
 ReinforceOutcome ByTrying(const ReinforceRequest& request, const ConfigSources& sources) {
   Require(!request.rounds, ErrorCode::kInvalidArgument,
           "--rounds: goes with --teacher or --trajectories");
-  const PpoTrainingRequest ppo{request, LoadConfig<HandTrainingConfig>(sources), request.decisions};
+  const PpoTrainingRequest ppo{request, LoadConfig<HandTrainingConfig>(sources), request.features,
+                               request.decisions};
   const PpoTrainingOutcome outcome = TrainPpoIntoFolder(ppo);
   return {OutcomeText(outcome, ppo), outcome.finished()};
 }
@@ -37,6 +38,8 @@ ReinforceOutcome Reinforce(const ReinforceRequest& request, const ConfigSources&
   Require(request.teacher.empty() || !request.trajectories, ErrorCode::kInvalidArgument,
           "--teacher: rules teach trajectories; leave it or --trajectories out");
   if (request.teacher.empty() && !request.trajectories) return ByTrying(request, sources);
+  Require(request.features.empty(), ErrorCode::kInvalidArgument,
+          "--features: goes with neither --teacher nor --trajectories");
   Require(!request.decisions, ErrorCode::kInvalidArgument,
           "--decisions: with --teacher or --trajectories give --rounds");
   return request.trajectories ? OfTrajectories(request, sources) : FromTeacher(request, sources);

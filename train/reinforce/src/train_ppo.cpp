@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <memory>
+#include <optional>
 #include <utility>
 
 #include "doorforge/core/committed_file.h"
@@ -14,6 +16,7 @@
 #include "doorforge/core/json_file.h"
 #include "doorforge/core/program.h"
 #include "doorforge/core/progress.h"
+#include "doorforge/policy/frozen_sight.h"
 #include "doorforge/policy/hand_network.h"
 #include "doorforge/reinforce/ppo_files.h"
 
@@ -31,14 +34,41 @@ std::string PpoNote(const PpoUpdate& update) {
   return text;
 }
 
+// Whose features a hand acts on; nothing: on true states.
+std::optional<SightPolicyRecord> FeaturesIn(const fs::path& folder) {
+  if (folder.empty()) return std::nullopt;
+  Require(fs::is_directory(folder), ErrorCode::kMissing,
+          "--features " + folder.string() +
+              ": no such folder; `doorforge reinforce --teacher` trains one");
+  return ReadSightPolicy(folder);
+}
+
+std::shared_ptr<const FrozenSight> FrozenOf(const std::optional<SightPolicyRecord>& features) {
+  if (!features) return nullptr;
+  return std::make_shared<FrozenSight>(features->shape, features->parameters, features->look);
+}
+
+// What a training belongs to: settings and doors, and whose features.
+PpoOrigin PpoOriginOf(const HandTrainingConfig& config,
+                      const std::optional<SightPolicyRecord>& features,
+                      const std::vector<FoundDoor>& doors) {
+  nlohmann::ordered_json settings = ToJson(config);
+  if (features) settings["features"] = {{"weights_sha256", features->weights_sha256}};
+  return {JsonText(settings), internal::HashOfDoors(doors)};
+}
+
 /// A training in its folder.
 class PpoFolder {
  public:
-  PpoFolder(const PpoTrainingRequest& request, const std::vector<FoundDoor>& doors)
+  PpoFolder(const PpoTrainingRequest& request, std::optional<SightPolicyRecord> features,
+            const std::vector<FoundDoor>& doors)
       : request_(request),
-        task_(DoorTask(doors, request.config)),
-        origin_{JsonText(ToJson(request.config)), internal::HashOfDoors(doors)},
-        parts_(internal::PartsOfDoors(doors)) {}
+        features_(std::move(features)),
+        task_(DoorTask(doors, request.config, FrozenOf(features_))),
+        origin_(PpoOriginOf(request.config, features_, doors)),
+        parts_(internal::PartsOfDoors(doors)) {
+    if (features_) parts_ = Union(parts_, features_->provenance.trained_on);
+  }
 
   PpoState Run() {
     const PpoConfig& config = request_.config.ppo;
@@ -67,19 +97,28 @@ class PpoFolder {
 
   // The state last: who goes on from it finds curves and policy of the same update, or makes them.
   void Write(const PpoState& state) const {
-    const PpoNetworks& networks = state.networks;
-    WriteHandPolicy(request_.out,
-                    {networks.actor_shape,
-                     networks.actor,
-                     request_.config.task,
-                     {kPpoMethod, CodeVersion(), origin_.config,
-                      static_cast<std::uint64_t>(state.updates.back().decisions), parts_}});
+    WriteActor(state);
     WritePpoCurves(request_.out, state);
     CommitFile(request_.out / "training.html", PpoPage(state, request_.config.ppo, origin_));
     WritePpoState(request_.out, state, origin_);
   }
 
+  void WriteActor(const PpoState& state) const {
+    const PpoNetworks& networks = state.networks;
+    const HandTaskConfig& task = request_.config.task;
+    HandProvenance provenance{kPpoMethod, CodeVersion(), origin_.config,
+                              static_cast<std::uint64_t>(state.updates.back().decisions), parts_};
+    if (!features_)
+      return WriteHandPolicy(request_.out,
+                             {networks.actor_shape, networks.actor, task, std::move(provenance)});
+    provenance.teacher_sha256 = features_->weights_sha256;
+    WriteFrozenPolicy(request_.out,
+                      {features_->shape, features_->parameters, features_->look,
+                       networks.actor_shape, networks.actor, task, std::move(provenance)});
+  }
+
   const PpoTrainingRequest& request_;
+  std::optional<SightPolicyRecord> features_;
   PpoTask task_;
   PpoOrigin origin_;
   SeenParts parts_;
@@ -91,11 +130,12 @@ PpoTrainingOutcome TrainPpoIntoFolder(PpoTrainingRequest request) {
   if (request.decisions) request.config.ppo.decisions = *request.decisions;
   if (request.seed) request.config.ppo.seed = *request.seed;
   CheckPpoConfig(request.config.ppo, "config.ppo");
-  const FolderLock lock(request.out, "doorforge train", Writers::kOne);
+  std::optional<SightPolicyRecord> features = FeaturesIn(request.features);
+  const FolderLock lock(request.out, "doorforge reinforce", Writers::kOne);
   internal::RequireUnusedFolder(request.out, request.resume, request.overwrite);
   RemoveStaleFiles(SystemFiles(), request.out);
   const DoorSet set = FindDoorSet(DoorSelectionOf(request.doors, "train"), request.threads);
-  const PpoState state = PpoFolder(request, set.doors).Run();
+  const PpoState state = PpoFolder(request, std::move(features), set.doors).Run();
   PpoTrainingOutcome outcome{.notes = set.notes,
                              .doors = set.doors.size(),
                              .updates_done = state.updates.size(),

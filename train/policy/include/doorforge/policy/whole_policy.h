@@ -25,7 +25,7 @@ struct WholePolicy {
   std::vector<std::string> privileges;
 };
 
-/// Throws as ReadHandPolicy(), ReadSightPolicy() and ReadTrajectoryPolicy().
+/// Throws as ReadHandPolicy(), ReadSightPolicy(), ReadFrozenPolicy() and ReadTrajectoryPolicy().
 WholePolicy ReadWholePolicy(const std::filesystem::path& folder);
 
 }  // namespace doorforge

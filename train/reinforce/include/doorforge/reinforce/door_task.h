@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "doorforge/physics/scene_sampling.h"
+#include "doorforge/policy/frozen_sight.h"
 #include "doorforge/reinforce/hand_reward.h"
 #include "doorforge/schemas/door_set.h"
 #include "doorforge/schemas/hand_policy.h"
@@ -18,7 +19,7 @@ namespace doorforge {
 /// Settings of a training of a hand on doors.
 struct HandTrainingConfig {
   SceneConfig scene;
-  CloudConfig cloud;  ///< Presets of environments have it; a hand that acts on states sees none.
+  CloudConfig cloud;  ///< A hand that acts on states sees none.
   HandTaskConfig task;
   HandRewardConfig reward;
   PpoConfig ppo;
@@ -40,8 +41,11 @@ struct HandTrainingConfig {
 /// physics became impossible, and not with success.
 ///
 /// @param doors Must outlive the task and its steppers.
+/// @param sight Not null: observations are its numbers of what the camera sees, with the hand in
+///     it, sampled as it looks. Rewards are of the true states all the same.
 /// @throws Error(kInvalidArgument) without doors; Error(kInvalidConfig) as CheckHandTask(),
 ///     CheckPpoConfig() and HandStepper, and on a robot that is not the built-in one.
-PpoTask DoorTask(const std::vector<FoundDoor>& doors, const HandTrainingConfig& config);
+PpoTask DoorTask(const std::vector<FoundDoor>& doors, const HandTrainingConfig& config,
+                 std::shared_ptr<const FrozenSight> sight = nullptr);
 
 }  // namespace doorforge

@@ -15,6 +15,7 @@ namespace doorforge {
 /// What `doorforge reinforce` was asked for.
 struct ReinforceRequest : HandTrainingRequest {
   std::filesystem::path teacher;                ///< Not empty: a hand that looks learns from it.
+  std::filesystem::path features;               ///< Not empty: one tries that acts on them.
   bool trajectories = false;                    ///< An arm learns to say whole trajectories.
   std::optional<std::uint64_t> decisions = {};  ///< By trying alone.
   std::optional<int> rounds = {};               ///< Not by trying.

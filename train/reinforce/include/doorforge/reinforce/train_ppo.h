@@ -30,6 +30,9 @@ struct HandTrainingRequest {
 /// A training by trying, from doors to a policy's folder.
 struct PpoTrainingRequest : HandTrainingRequest {
   HandTrainingConfig config;
+  /// A folder that DistilIntoFolder() wrote, whose network's features are what the hand acts on;
+  /// empty: it acts on true states.
+  std::filesystem::path features = {};
   std::optional<std::uint64_t> decisions = {};  ///< In the place of config.ppo.decisions.
 };
 
@@ -44,11 +47,13 @@ struct PpoTrainingOutcome {
 };
 
 /// Trains and shows progress. After each update it writes the state that `resume` reads, the policy
-/// (policy.json, policy.safetensors, see WriteHandPolicy()), the curves (losses.jsonl,
-/// training.html, an event file) and, once, config.yaml, so that a kill loses one update at most.
+/// (policy.json, policy.safetensors, see WriteHandPolicy() and WriteFrozenPolicy()), the curves
+/// (losses.jsonl, training.html, an event file) and, once, config.yaml, so that a kill loses one
+/// update at most.
 ///
-/// @throws Error(kInvalidArgument) if `out` holds a training and neither `resume` nor `overwrite`
-///     says what to do; else as FindDoorSet(), DoorTask(), ReadPpoState() and TrainPpo().
+/// @throws Error(kMissing) if `features` is no folder; Error(kInvalidArgument) if `out` holds a
+///     training and neither `resume` nor `overwrite` says what to do; else as ReadSightPolicy(),
+///     FindDoorSet(), DoorTask(), ReadPpoState() and TrainPpo().
 PpoTrainingOutcome TrainPpoIntoFolder(PpoTrainingRequest request);
 
 /// What came of a training, for people; of one that is not finished, how to go on.

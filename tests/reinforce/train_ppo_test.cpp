@@ -180,7 +180,7 @@ TEST_F(TrainOnFeaturesTest, ObservesWhatTheCameraSees) {
   const SightPolicyRecord eyes = ReadSightPolicy(folder_ / "eyes");
   const auto sight = std::make_shared<FrozenSight>(eyes.shape, eyes.parameters, eyes.look);
   const PpoTask task = DoorTask(doors, config, sight);
-  EXPECT_EQ(task.observations, 8 + kSightOwn);
+  EXPECT_EQ(task.observation_size, 8 + kSightOwn);
   const auto stepper = task.make();
   const std::vector<float> first = stepper->Reset(5);
   const std::vector<float> next =
@@ -189,7 +189,8 @@ TEST_F(TrainOnFeaturesTest, ObservesWhatTheCameraSees) {
   const RobotModel robot = LoadRobot({}, RobotBase::kFloating);
   int same = 0;
   for (const char* name : {"one", "two"}) {
-    DoorCache cache(FindDoorSet({.folders = {folder_ / "doors" / name}}, 1).doors);
+    const auto one = FindDoorSet({.folders = {folder_ / "doors" / name}}, 1).doors;
+    DoorCache cache(one);
     const IdentifiedDoor door = cache.Take(0);
     const Scene scene =
         PlaceRobotBase(robot, SampleScene(door, config.ppo.seed, 5, config.scene), *door);

@@ -33,7 +33,7 @@ struct HandSight {
   std::array<float, kSightOwn> own{};
 };
 
-/// Of `state` it reads nothing but the tool and the fingers. A cloud without points is one point at
+/// Reads nothing of `state` but the tool and the fingers. A cloud without points is one point at
 /// the tool centre that is of no part.
 HandSight HandSightOf(const HandState& state, const LabelledCloud& cloud);
 

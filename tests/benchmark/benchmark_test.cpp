@@ -154,6 +154,21 @@ TEST(BenchmarkPipeline, TheHandOfTrueStatesTeachesTheOneThatLooks) {
   EXPECT_EQ(StepNamed(joined, "looks").needs, (std::vector<std::string>{"doors", "hand"}));
 }
 
+TEST(BenchmarkPipeline, FrozenFeaturesAreThoseOfTheHandThatLooks) {
+  const Pipeline joined =
+      PlanBenchmark(ReadBenchmark("quick", {"settings=[feature_decisions=4096]"},
+                                  {"partmanip", "frozen_features"}))
+          .pipeline;
+  const auto learns = [](const PipelineStep& step) { return step.command.front() == "reinforce"; };
+  EXPECT_EQ(std::ranges::count_if(joined.steps, learns), 3);  // hand and looks are made once
+  EXPECT_TRUE(Actors(joined, "frozen_features_1_test").contains("tries"));
+  const PipelineStep& tries = StepNamed(joined, "tries");
+  EXPECT_EQ(tries.needs, (std::vector<std::string>{"doors", "looks"}));
+  EXPECT_NE(std::ranges::find(tries.command, "4096"), tries.command.end());
+  EXPECT_NE(std::ranges::find(StepNamed(joined, "hand").command, "1000000"),
+            StepNamed(joined, "hand").command.end());
+}
+
 TEST(BenchmarkPipeline, WhoSaysTrajectoriesIsTrainedAndDoesAllOfIt) {
   const Pipeline joined =
       PlanBenchmark(ReadBenchmark("quick", {"settings=[trials=9]"}, {"vatmart"})).pipeline;

@@ -91,7 +91,7 @@ TEST(ProposerLoss, IsWhatItsHeaderSays) {
               10 * apart + 5 * turned + 2 * divergence, 1e-3);
 }
 
-// The two errors of a sigmoid, at a network that says its last bias.
+// The cross entropy of a sigmoid, at a network that says its last bias.
 TEST(PointNetLoss, KnowsProbabilities) {
   const PointNetShape shape = AffordanceShape(kToyShape);
   std::vector<float> parameters(PointNetLayout(shape).size(), 0);
@@ -104,9 +104,20 @@ TEST(PointNetLoss, KnowsProbabilities) {
                                        batch, 1, gradient),
               -std::log(p) - 0.25 * std::log(p) - 0.75 * std::log(1 - p), 1e-5);
   EXPECT_NEAR(gradient.back(), 2 * p - 1.25, 1e-5);
-  EXPECT_NEAR(internal::PointNetLossOf({shape, internal::PointNetError::kAbsoluteOfSigmoid},
-                                       parameters, batch, 1, {}),
-              (1 - p) + (p - 0.25), 1e-5);
+}
+
+// A network that is surely wrong learns as fast as one that is not.
+TEST(PointNetLoss, TeachesWhoIsSurelyWrong) {
+  const PointNetShape shape = AffordanceShape(kToyShape);
+  std::vector<float> parameters(PointNetLayout(shape).size(), 0);
+  parameters.back() = 30;
+  const internal::PointNetBatch batch{
+      1, Scattered(7 * kDoorPoint, 1, "p"), Scattered(4, 1, "o"), {0}};
+  std::vector<float> gradient(parameters.size(), 0);
+  EXPECT_NEAR(internal::PointNetLossOf({shape, internal::PointNetError::kCrossEntropy}, parameters,
+                                       batch, 1, gradient),
+              30, 1e-4);
+  EXPECT_NEAR(gradient.back(), 1, 1e-6);
 }
 
 // ---- the rounds ---------------------------------------------------------------------------------

@@ -43,7 +43,7 @@ constexpr std::array<TrajectoryChart, 5> kTrajectoryCharts = {{
     {"Success of a round's episodes; of the first by rules", "share", &TrajectoryRound::success},
     {"Proposer, over a round's steps", "loss", &TrajectoryRound::proposer},
     {"Critic, over a round's steps", "cross entropy", &TrajectoryRound::critic},
-    {"Affordance, over a round's steps", "mean absolute error", &TrajectoryRound::affordance},
+    {"Affordance, over a round's steps", "cross entropy", &TrajectoryRound::affordance},
     {"What the critic makes of the best proposals", "probability", &TrajectoryRound::probability},
 }};
 

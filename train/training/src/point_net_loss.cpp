@@ -18,14 +18,8 @@ torch::Tensor OutputsOf(const TorchPointNet& network, const PointNetShape& shape
 
 // Summed over all numbers.
 torch::Tensor ErrorOf(PointNetError error, const torch::Tensor& says, const torch::Tensor& target) {
-  switch (error) {
-    case PointNetError::kCrossEntropy:
-      return torch::binary_cross_entropy_with_logits(says, target, {}, {}, at::Reduction::Sum);
-    case PointNetError::kAbsoluteOfSigmoid:
-      return (torch::sigmoid(says) - target).abs().sum();
-    case PointNetError::kSquared:
-      break;
-  }
+  if (error == PointNetError::kCrossEntropy)
+    return torch::binary_cross_entropy_with_logits(says, target, {}, {}, at::Reduction::Sum);
   return (says - target).square().sum();
 }
 

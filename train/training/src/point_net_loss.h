@@ -21,9 +21,8 @@ struct PointNetBatch {
 
 /// What is summed over all numbers of a batch.
 enum class PointNetError {
-  kSquared,            ///< (says - target)^2
-  kCrossEntropy,       ///< Binary, of the sigmoid of what it says; targets in [0, 1].
-  kAbsoluteOfSigmoid,  ///< |sigmoid(says) - target|
+  kSquared,       ///< (says - target)^2
+  kCrossEntropy,  ///< Binary, of the sigmoid of what it says; targets in [0, 1].
 };
 
 struct PointNetLoss {

@@ -189,7 +189,7 @@ class RoundLearning {
     const auto draw = [&](Rng& rng) { drawn.push_back(lessons_.DrawAny(rng)); };
     const auto clear = [&] { drawn.clear(); };
     const internal::PointNetLoss network{AffordanceShape(state_.shape),
-                                         internal::PointNetError::kAbsoluteOfSigmoid};
+                                         internal::PointNetError::kCrossEntropy};
     const auto loss_of = [&](std::span<const std::size_t> rows, std::span<float> gradient) {
       internal::PointNetBatch batch{.size = static_cast<int>(rows.size())};
       for (const std::size_t row : rows) {

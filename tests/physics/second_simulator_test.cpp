@@ -174,6 +174,29 @@ TEST(SecondSimulator, TheHandFollowsAsInBullet) {
   EXPECT_NEAR(there, here, 0.001);
 }
 
+TEST(SecondSimulator, FingersOpenAsFarAsTheyAreAsked) {
+  const RobotModel robot = LoadMobileFranka();
+  const DoorAsset door = MakePrimitiveDoor({});
+  for (const Simulator simulator : kBoth) {
+    SceneConfig config;
+    config.physics.simulator = simulator;
+    const Scene scene = SampleScene(door, 1, 0, config);
+    DoorWorld world(scene, door, robot, robot.InitialPosition());
+    RobotCommand command{robot.InitialPosition().head<kArmJointCount>()};
+    for (const double asked_m : {0.012, 0.031}) {
+      command.fingers_open_m = asked_m;
+      for (int i = 0; i < 240; ++i) world.Step(command);
+      for (const int finger : {robot.left_finger(), robot.right_finger()})
+        EXPECT_NEAR(world.state().robot_position[finger], asked_m, 5e-4) << NameOf(simulator);
+    }
+    command.fingers_open_m.reset();
+    for (int i = 0; i < 240; ++i) world.Step(command);
+    EXPECT_NEAR(world.state().robot_position[robot.left_finger()],
+                robot.joint(robot.left_finger()).upper, 5e-4)
+        << NameOf(simulator);
+  }
+}
+
 // Fingers in the air and on a bar: the force is what the drives give, friction the product.
 TEST(SecondSimulator, PadsPressWithTheirForce) {
   const RobotModel robot = LoadMobileFranka();

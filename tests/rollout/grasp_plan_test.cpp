@@ -6,6 +6,7 @@
 
 #include "doorforge/physics/grasp_probe.h"
 #include "doorforge/physics/scene_sampling.h"
+#include "doorforge/physics/spawn_collision_checker.h"
 
 #include "../physics/primitive_door.h"
 
@@ -64,6 +65,75 @@ TEST(GraspPlan, SaysByItsCostThatAHandleIsOutOfTheGripper) {
   shape.radius_m = 0.06;  // the gripper opens 8 cm
   const DoorAsset door = MakePrimitiveDoor(shape);
   EXPECT_GT(PlanGrasp(StillScene(door), door, robot).cost, 4);
+}
+
+// ---- pushed by an upright handle ----------------------------------------------------------------
+
+constexpr double kBarAt = 0.74;  // [m] along y, of a primitive door
+
+// A vertical bar, with a jamb in front of the leaf's free edge, as windows have it.
+DoorAsset BesideAJamb(double from_bar_m, Opening opening = Opening::kPush) {
+  DoorAsset door = MakePrimitiveDoor({.mechanism = Mechanism::kNone, .opening = opening});
+  DoorGeometry jamb;
+  jamb.name = "jamb";
+  jamb.hulls = {BoxMesh({0.025, kBarAt + from_bar_m, 0}, {0.13, kBarAt + from_bar_m + 0.1, 1.9})};
+  jamb.mesh = jamb.hulls.front();
+  door.links[kBaseLink].geometry.push_back(jamb);
+  return door;
+}
+
+// Whether the robot is outside of the door before the grasp and at it.
+bool IsFree(const DoorAsset& door, const Scene& scene, const GraspPlan& plan, double fingers_m) {
+  const RobotModel robot = LoadMobileFranka();
+  const SpawnCollisionChecker checker(door, robot);
+  for (JointVector position : {plan.pregrasp, plan.grasp}) {
+    position.tail<2>().setConstant(fingers_m);
+    if (checker.Find(robot.PoseAt(position, scene.world_from_robot_base), scene.world_from_door))
+      return false;
+  }
+  return true;
+}
+
+TEST(GraspPlan, WhoPushesOpensTheFingersAsFarAsThereIsRoomBesideTheJamb) {
+  const RobotModel robot = LoadMobileFranka();
+  const double wide = robot.joint(robot.left_finger()).upper;
+  for (const double room_m : {0.035, 0.2}) {
+    const DoorAsset door = BesideAJamb(room_m);
+    ASSERT_TRUE(IsPushedUpright(door));
+    const Scene scene = StillScene(door);
+    const GraspPlan plan = PlanGrasp(scene, door, robot);
+    EXPECT_TRUE(IsFree(door, scene, plan, plan.fingers_open_m.value_or(wide))) << room_m;
+    EXPECT_EQ(IsFree(door, scene, plan, wide), !plan.fingers_open_m) << room_m;
+    EXPECT_EQ(plan.fingers_open_m.has_value(), room_m < 0.1);
+    EXPECT_GT(plan.step_back_m, 0);
+  }
+}
+
+TEST(GraspPlan, WhoPullsOpensThemAllTheWay) {
+  const RobotModel robot = LoadMobileFranka();
+  const DoorAsset door = BesideAJamb(0.035, Opening::kPull);
+  const GraspPlan plan = PlanGrasp(StillScene(door), door, robot);
+  EXPECT_FALSE(plan.fingers_open_m);
+  EXPECT_EQ(plan.step_back_m, 0);
+}
+
+// The sum over pieces, each as near as it is: a wall that comes nearer by a centimetre.
+TEST(SpawnCollisionChecker, CrowdingGrowsAsAWallComesNearer) {
+  const RobotModel robot = LoadMobileFranka();
+  const DoorAsset door = MakePrimitiveDoor({});
+  const Scene scene = StillScene(door);
+  const SpawnCollisionChecker checker(door, robot);
+  const RobotPose pose = robot.PoseAt(robot.InitialPosition(), scene.world_from_robot_base);
+  EXPECT_EQ(checker.Crowding(pose, scene.world_from_door, 0.005), 0);
+  // moved until the first piece is within 5 mm: only it counts, by as much as the wall moves on
+  RigidTransform wall = scene.world_from_door;
+  while (checker.Crowding(pose, wall, 0.005) == 0) wall.translation().x() += 1e-4;
+  const double before = checker.Crowding(pose, wall, 0.005);
+  EXPECT_LE(before, 1.1e-4);
+  wall.translation().x() += 0.002;
+  EXPECT_NEAR(checker.Crowding(pose, wall, 0.005), before + 0.002, 1e-4);
+  wall.translation().x() += 0.2;  // far inside
+  EXPECT_GE(checker.Crowding(pose, wall, 0.005), 0.02);
 }
 
 // Room for a turn either way is all that counts: the grasp and its half turn are one grasp, and of

@@ -124,13 +124,15 @@ LabelledCloud SurfaceOf(const DoorAsset& door, Rng& rng) {
   return cloud;
 }
 
+constexpr double kFrankaOpen_m = 0.04;
+
 // Smallest distance on the straight way in, by the physics' own shapes.
 double ClearanceOnTheWay(const GraspProbe& probe, const RigidTransform& door_from_tcp) {
   double least = std::numeric_limits<double>::infinity();
   for (double back = 0; back <= kPregraspDistance; back += 0.004) {
     RigidTransform at = door_from_tcp;
     at.translation() -= back * door_from_tcp.linear().col(2);
-    least = std::min(least, probe.Clearance(at, 0.02));
+    least = std::min(least, probe.Clearance(at, kFrankaOpen_m, 0.02));
   }
   return least;
 }

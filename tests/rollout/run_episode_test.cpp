@@ -56,6 +56,28 @@ TEST_F(RunEpisodeTest, TheExpertOpensRandomDoorsOfEachMechanism) {
   }
 }
 
+// A vertical bar in a deep frame, 35 mm from the jamb: opened fingers would not pass, and the arm
+// has to leave the frame before it turns the hand.
+TEST_F(RunEpisodeTest, TheExpertPushesWhatLiesDeepInAFrame) {
+  DoorAsset door = MakePrimitiveDoor({.mechanism = Mechanism::kNone, .opening = Opening::kPush});
+  const std::array<TriangleMesh, 4> frame = {
+      BoxMesh({0.025, -0.1, 0.3}, {0.15, 0.0, 1.3}), BoxMesh({0.025, 0.775, 0.3}, {0.15, 0.9, 1.3}),
+      BoxMesh({0.025, -0.1, 0.2}, {0.15, 0.9, 0.3}), BoxMesh({0.025, -0.1, 1.3}, {0.15, 0.9, 1.4})};
+  for (const TriangleMesh& bar : frame) {
+    DoorGeometry piece;
+    piece.name = "frame" + std::to_string(door.links[kBaseLink].geometry.size());
+    piece.mesh = bar;
+    piece.hulls = {bar};
+    door.links[kBaseLink].geometry.push_back(piece);
+  }
+  int opened = 0;
+  for (std::uint64_t i = 0; i < 4; ++i) {
+    const Episode episode = Run(door, SampleScene(door, 21, i));
+    opened += episode.outcome == EpisodeOutcome::kOpened ? 1 : 0;
+  }
+  EXPECT_GE(opened, 3) << "a grasp straight in opens none of the four";
+}
+
 struct DoorKind {
   Mechanism mechanism;
   HingeSide hinge_side;

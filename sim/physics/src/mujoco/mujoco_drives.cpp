@@ -36,7 +36,7 @@ double MujocoDrives::WantedSpeed(int joint, double position) const {
   if (joint < robot_.arm_count())
     return kArmPositionGain * (command_.arm_position[joint] - position) / step;
   if (command_.close_fingers) return -kFingerSpeed;
-  const double open = robot_.joint(robot_.left_finger()).upper;
+  const double open = command_.fingers_open_m.value_or(robot_.joint(robot_.left_finger()).upper);
   return kFingerOpeningGain * (open - position) / step;
 }
 

@@ -96,11 +96,12 @@ GraspProbe::~GraspProbe() = default;
 GraspProbe::GraspProbe(GraspProbe&&) noexcept = default;
 GraspProbe& GraspProbe::operator=(GraspProbe&&) noexcept = default;
 
-double GraspProbe::Clearance(const RigidTransform& door_from_tcp, double cutoff_m) const {
+double GraspProbe::Clearance(const RigidTransform& door_from_tcp, double finger_position_m,
+                             double cutoff_m) const {
   double clearance = runtime_->Clearance(runtime_->hand, door_from_tcp, cutoff_m);
   for (const std::size_t side : {0U, 1U}) {
     const RigidTransform door_from_finger =
-        door_from_tcp * Translation(runtime_->opening.at(side) * runtime_->most_open);
+        door_from_tcp * Translation(runtime_->opening.at(side) * finger_position_m);
     clearance = std::min(
         clearance, runtime_->Clearance(runtime_->finger.at(side), door_from_finger, clearance));
   }

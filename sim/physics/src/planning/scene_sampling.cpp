@@ -119,10 +119,9 @@ RigidTransform GraspNoise(const DoorAsset& door, double scale, Rng rng) {
 // the wide hand stands upright half way through the turn. Across a handle that stands upright the
 // wide hand would meet the jamb: it leans about the handle, and straightens with the leaf.
 RigidTransform ClearOfTheJamb(const DoorAsset& door) {
-  constexpr double kUpright = 0.7;
   const Eigen::Matrix3d grasp = door.handle_from_grasp.linear();
   const double to_hinge = door.hinge_side == HingeSide::kLeft ? -1 : 1;
-  if (door.mechanism != Mechanism::kRound && std::abs(grasp(2, 0)) > kUpright)
+  if (IsPushedUpright(door))
     return RigidTransform(RotationAbout(
         Eigen::Vector3d::UnitX(), kUprightPushLean * to_hinge * std::copysign(1, grasp(2, 0))));
   const double turn = door.mechanism == Mechanism::kRound ? door.latch.handle_done_angle_rad : 0;
@@ -214,6 +213,12 @@ CameraModel CameraOf(const CameraConfig& config) {
   RequireCamera(config.horizontal_fov_rad > 0 && config.horizontal_fov_rad < std::numbers::pi,
                 "horizontal_fov_rad: must lie in (0, pi)");
   return camera;
+}
+
+bool IsPushedUpright(const DoorAsset& door) {
+  constexpr double kUpright = 0.7;  // share of the grasp's axis along the handle that is vertical
+  return door.opening == Opening::kPush && door.mechanism != Mechanism::kRound &&
+         std::abs(door.handle_from_grasp.linear()(2, 0)) > kUpright;
 }
 
 namespace {

@@ -40,9 +40,10 @@ class SpawnCollisionChecker::Runtime {
   std::array<RigidTransform, 3> door_from_link;
 };
 
-SpawnCollisionChecker::SpawnCollisionChecker(const DoorAsset& door, const RobotModel& robot)
+SpawnCollisionChecker::SpawnCollisionChecker(const DoorAsset& door, const RobotModel& robot,
+                                             double hinge_rad, double handle_rad)
     : runtime_(std::make_unique<Runtime>()) {
-  runtime_->door_from_link = DoorFromLinks(door, 0, 0);
+  runtime_->door_from_link = DoorFromLinks(door, hinge_rad, handle_rad);
   for (const RobotPiece& piece : robot.hulls())
     runtime_->robot.push_back(MakePiece(piece.mesh, piece.joint, piece.name));
   for (const int link : {kBaseLink, kLeafLink, kHandleLink}) {
@@ -71,6 +72,30 @@ std::optional<StartOverlap> SpawnCollisionChecker::Find(
     }
   }
   return std::nullopt;
+}
+
+double SpawnCollisionChecker::Crowding(const RobotPose& pose, const RigidTransform& world_from_door,
+                                       double gap_m) const {
+  const RigidTransform door_from_world = world_from_door.inverse();
+  double sum = 0;
+  for (const ProbedPiece& piece : runtime_->robot) {
+    const RigidTransform& world_from_piece =
+        piece.body < 0 ? pose.world_from_base
+                       : pose.world_from_body[static_cast<std::size_t>(piece.body)];
+    const RigidTransform door_from_piece = door_from_world * world_from_piece;
+    double clearance = gap_m;
+    for (const ProbedPiece& part : runtime_->door) {
+      if (part.body == kHandleLink) continue;
+      const RigidTransform part_from_piece =
+          runtime_->door_from_link[static_cast<std::size_t>(part.body)].inverse() * door_from_piece;
+      if (piece.hull.box.transformed(part_from_piece).exteriorDistance(part.hull.box) >= clearance)
+        continue;
+      const double distance = internal::Separate(piece.hull, part_from_piece, part.hull).distance;
+      clearance = std::min(clearance, std::isfinite(distance) ? distance : -0.02);
+    }
+    sum += std::min(gap_m - clearance, 0.02);
+  }
+  return sum;
 }
 
 }  // namespace doorforge

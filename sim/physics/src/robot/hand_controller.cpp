@@ -70,7 +70,7 @@ RobotCommand HandController::CommandOf(const JointVector& measured) {
   for (int i = 0; i < robot_->arm_count(); ++i)
     reference_[i] = std::clamp(reference_[i], measured[i] - config_.max_joint_lead,
                                measured[i] + config_.max_joint_lead);
-  return {reference_.head(robot_->arm_count()), close_fingers, std::nullopt};
+  return {reference_.head(robot_->arm_count()), close_fingers, fingers_open_m, std::nullopt};
 }
 
 RobotCommand HandController::Step(const JointVector& measured, double time_step_s) {

@@ -112,7 +112,9 @@ void RobotBody::Command(const RobotCommand& command) {
       motor->setVelocityTarget(-kFingerSpeed, 1);
       motor->setMaxAppliedImpulse(finger_force_n_ * time_step_s_);
     } else {
-      motor->setPositionTarget(robot_.joint(robot_.left_finger()).upper, kFingerOpeningGain);
+      motor->setPositionTarget(
+          command.fingers_open_m.value_or(robot_.joint(robot_.left_finger()).upper),
+          kFingerOpeningGain);
       motor->setVelocityTarget(0, 1);
       motor->setMaxAppliedImpulse(kFingerOpenForce * time_step_s_);
     }

@@ -2,24 +2,52 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "episode/take_hold.h"
 
+#include <algorithm>
+
 namespace doorforge::internal {
 namespace {
 
-constexpr double kBack = 0.1;          // [m] clear of the handle
-constexpr double kJointsThere = 0.01;  // [rad or m] from the place before the grasp
+constexpr double kBack = 0.1;             // [m] clear of the handle
+constexpr double kJointsThere = 0.01;     // [rad or m] from the place before the grasp
+constexpr double kJointsOnTheWay = 0.05;  // from those before it
+
+// Until all joints are as near to the goal as that, or the budget of steps is used up. Takes the
+// steps from the budget.
+void MoveJoints(EpisodeWorld& world, const JointVector& goal, double near, int& budget) {
+  const double dt = world.scene().physics.time_step_s;
+  const int arm = world.robot().arm_count();
+  while (budget > 0 && !world.diverged()) {
+    --budget;
+    const JointVector& now = world.state().robot_position;
+    world.Step(world.controller().StepJoints(goal, now, dt, world.limits().reach_speed_fraction));
+    const JointVector rest = goal - world.state().robot_position;
+    if (rest.head(arm).cwiseAbs().maxCoeff() < near) return;
+  }
+}
+
+// The same posture with the base farther from the door, which lies towards smaller x.
+JointVector SteppedBack(const EpisodeWorld& world, JointVector position, double distance_m) {
+  const RobotModel& robot = world.robot();
+  for (int i = 0; i < robot.base_count(); ++i) {
+    const RobotJoint& joint = robot.joint(i);
+    if (!joint.prismatic) continue;
+    const double away = (world.scene().world_from_robot_base.linear() *
+                         joint.parent_from_joint.linear() * joint.axis)
+                            .x();
+    position[i] = std::clamp(position[i] + distance_m * away, joint.lower, joint.upper);
+  }
+  return position;
+}
 
 // The joints go to the place before the grasp, then the hand straight in.
 std::optional<Verdict> ReachHandle(EpisodeWorld& world, ContactLog& log, const GraspPlan& plan) {
-  const double dt = world.scene().physics.time_step_s;
-  const int budget = world.StepsIn(world.limits().reach_time_s);
-  const int arm = world.robot().arm_count();
-  for (int i = 0; i < budget && !world.diverged(); ++i) {
-    const JointVector& now = world.state().robot_position;
-    world.Step(
-        world.controller().StepJoints(plan.pregrasp, now, dt, world.limits().reach_speed_fraction));
-    const JointVector rest = plan.pregrasp - world.state().robot_position;
-    if (rest.head(arm).cwiseAbs().maxCoeff() < kJointsThere) break;
+  int budget = world.StepsIn(world.limits().reach_time_s);
+  if (plan.step_back_m > 0) {
+    const JointVector from = world.state().robot_position;
+    MoveJoints(world, SteppedBack(world, from, plan.step_back_m), kJointsOnTheWay, budget);
+    MoveJoints(world, SteppedBack(world, plan.pregrasp, plan.step_back_m), kJointsOnTheWay, budget);
   }
+  MoveJoints(world, plan.pregrasp, kJointsThere, budget);
   world.Watch(EpisodePhase::kReach);
   const RigidTransform goal =
       world.WorldFromHandle(0) * plan.handle_from_tcp * world.robot().hand_from_tcp().inverse();
@@ -88,6 +116,7 @@ GraspPlan PlanOf(const GraspCommand& grasp, const EpisodeWorld& world) {
 
 std::optional<Verdict> TakeHold(EpisodeWorld& world, ContactLog& log, const GraspCommand& grasp) {
   world.controller().SetPosture(grasp.plan->grasp);
+  world.controller().fingers_open_m = grasp.plan->fingers_open_m;
   std::optional<Verdict> unreached = ReachHandle(world, log, *grasp.plan);
   if (unreached && grasp.both_pads) return unreached;
   const std::optional<Verdict> missed = Close(world, log, grasp.both_pads);

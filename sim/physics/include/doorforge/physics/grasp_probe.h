@@ -26,10 +26,11 @@ class GraspProbe {
   GraspProbe(GraspProbe&&) noexcept;
   GraspProbe& operator=(GraspProbe&&) noexcept;
 
-  /// Smallest distance between the open gripper (hand and both fingers) and any part of the door
-  /// with the tool centre there; negative: depth of the overlap. Exact up to `cutoff_m`, which is
-  /// returned for everything farther.
-  double Clearance(const RigidTransform& door_from_tcp, double cutoff_m) const;
+  /// Smallest distance between the gripper (hand and both fingers, each `finger_position_m` from
+  /// the middle) and any part of the door with the tool centre there; negative: depth of the
+  /// overlap. Exact up to `cutoff_m`, which is returned for everything farther.
+  double Clearance(const RigidTransform& door_from_tcp, double finger_position_m,
+                   double cutoff_m) const;
 
   /// Closes one finger (kLeftFinger or kRightFinger) until it touches the handle; nothing if it
   /// passes by.

@@ -48,6 +48,7 @@ class HandController {
   bool Arrived() const { return remaining_s_ <= 0; }
 
   bool close_fingers = false;
+  std::optional<double> fingers_open_m = std::nullopt;  ///< As in RobotCommand.
 
  private:
   void MoveHandTo(const RigidTransform& world_from_hand, double duration_s, bool limited);

@@ -13,6 +13,8 @@ namespace doorforge {
 struct RobotCommand {
   ArmVector arm_position;      ///< Position targets of sliders and arm.
   bool close_fingers = false;  ///< Squeeze with finger_force_n, or open.
+  /// How far from the middle a finger opens [m]; without it, all the way.
+  std::optional<double> fingers_open_m = std::nullopt;
   /// Where the tool centre is to be; ArmController::kOperationalSpace alone looks at it. Without
   /// it, and with kJointMotors, the joints follow arm_position.
   std::optional<RigidTransform> world_from_tcp = std::nullopt;

@@ -96,6 +96,10 @@ struct SceneConfig {
   }
 };
 
+/// Whether the door is pushed by a handle that stands upright, as windows have: the wide hand then
+/// comes across it, past the jamb, and leans about it.
+bool IsPushedUpright(const DoorAsset& door);
+
 /// Draws episode number `episode` of a door, as DoorCache gives it. A pure function of its
 /// arguments: the random streams are named "scene/<door id>/<episode>/<purpose>".
 ///

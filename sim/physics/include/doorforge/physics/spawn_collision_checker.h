@@ -17,11 +17,12 @@ struct StartOverlap {
   std::string door;
 };
 
-/// Static geometry of a start: all of a robot, its base among it, against the hulls of a closed
-/// door: frame or shell, leaf and handle.
+/// Static geometry of a start, or of another moment: all of a robot, its base among it, against the
+/// hulls of a door at these angles, closed unless said otherwise: frame or shell, leaf and handle.
 class SpawnCollisionChecker {
  public:
-  SpawnCollisionChecker(const DoorAsset& door, const RobotModel& robot);
+  SpawnCollisionChecker(const DoorAsset& door, const RobotModel& robot, double hinge_rad = 0,
+                        double handle_rad = 0);
   ~SpawnCollisionChecker();
   SpawnCollisionChecker(SpawnCollisionChecker&&) noexcept;
   SpawnCollisionChecker& operator=(SpawnCollisionChecker&&) noexcept;
@@ -32,6 +33,11 @@ class SpawnCollisionChecker {
   /// @param pose Of the robot that the probe was made for.
   std::optional<StartOverlap> Find(const RobotPose& pose,
                                    const RigidTransform& world_from_door) const;
+
+  /// By how much pieces of the robot come nearer than `gap_m` to frame or leaf, each by its nearest
+  /// place and by 2 cm at most, summed over the pieces [m]; 0 where all keep away. The handle,
+  /// which may be held, does not count. Deterministic.
+  double Crowding(const RobotPose& pose, const RigidTransform& world_from_door, double gap_m) const;
 
  private:
   class Runtime;

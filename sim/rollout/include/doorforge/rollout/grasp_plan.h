@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "doorforge/physics/robot_model.h"
 #include "doorforge/schemas/door_asset.h"
 #include "doorforge/schemas/scene.h"
@@ -15,6 +17,11 @@ struct GraspPlan {
   JointVector pregrasp;  ///< kPregraspDistance before the grasp.
   JointVector grasp;
   double cost = 0;  ///< It rates the geometry; 0 is flat, central contact of both pads.
+  /// How far from the middle the fingers open on the way there [m]; without it, all the way.
+  std::optional<double> fingers_open_m = std::nullopt;
+  /// How far the base, if it has sliders, steps back from the door before the arm moves [m], and
+  /// comes forward only when the arm has its posture.
+  double step_back_m = 0;
 };
 
 inline constexpr double kPregraspDistance = 0.12;  ///< [m], back along the approach.
@@ -24,6 +31,12 @@ inline constexpr double kPregraspDistance = 0.12;  ///< [m], back along the appr
 /// touch at once. Judged by the hulls of the closed door: both pads must meet the handle, the open
 /// gripper must pass; flat contact near the middle of the pads, little change and a wrist far from
 /// its limits are better. If no variation satisfies all that, the least bad one is returned.
+///
+/// Of a door that is pushed by an upright handle (IsPushedUpright()) the whole way is looked at, as
+/// the hand has to follow the leaf past the frame: of grasps that lean by different angles, and
+/// many postures, the best is one with which arm and base stay inside their limits and clear of
+/// frame and leaf while the handle turns and the leaf opens to 47 degrees. Where opened fingers do
+/// not pass, they open as far as the handle needs. That takes some 0.4 s.
 ///
 /// Privileged: uses the door's geometry. Deterministic.
 GraspPlan PlanGrasp(const Scene& scene, const DoorAsset& door, const RobotModel& robot);

@@ -36,7 +36,8 @@ inline constexpr double kPregraspDistance = 0.12;  ///< [m], back along the appr
 /// the hand has to follow the leaf past the frame: of grasps that lean by different angles, and
 /// many postures, the best is one with which arm and base stay inside their limits and clear of
 /// frame and leaf while the handle turns and the leaf opens to 47 degrees. Where opened fingers do
-/// not pass, they open as far as the handle needs. That takes some 0.4 s.
+/// not pass, they open as far as the handle needs. The cost counts the
+/// way as well. That takes some 0.3 s of one core more.
 ///
 /// Privileged: uses the door's geometry. Deterministic.
 GraspPlan PlanGrasp(const Scene& scene, const DoorAsset& door, const RobotModel& robot);

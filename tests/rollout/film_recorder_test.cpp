@@ -48,7 +48,9 @@ TEST(FilmRecorder, InstantsAreThoseOfTheEpisode) {
   double before = -1;
   for (const FilmInstant& instant : film.instants) {
     EXPECT_GT(instant.time_s, before);
-    if (before >= 0) EXPECT_LT(instant.time_s - before, 0.35);
+    if (before >= 0) {
+      EXPECT_LT(instant.time_s - before, 0.35);
+    }
     before = instant.time_s;
     EXPECT_LE(instant.force_n, episode.peak_force_n + 1e-9);
   }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -388,6 +389,10 @@ TEST_F(DoorSetTest, DoorsOfARecordAreFoundById) {
   RefusalOf(ErrorCode::kInvalidArgument,
             [&] { FindRecordedDoors({.folders = {folder_}}, recorded, 1); });
 }
+
+// It keeps a reference, so a list that nobody else keeps is refused as the program is compiled.
+static_assert(std::is_constructible_v<DoorCache, std::vector<FoundDoor>&>);
+static_assert(!std::is_constructible_v<DoorCache, std::vector<FoundDoor>>);
 
 }  // namespace
 }  // namespace doorforge

@@ -87,6 +87,7 @@ class DoorCache {
  public:
   /// Keeps a reference.
   explicit DoorCache(const std::vector<FoundDoor>& doors) : doors_(doors) {}
+  explicit DoorCache(std::vector<FoundDoor>&&) = delete;  // it would be gone
 
   /// Door number `door` of the set.
   ///

@@ -19,7 +19,7 @@ namespace doorforge {
 /// Where everything is at an instant of an episode, and what the robot does to the door.
 struct FilmInstant {
   double time_s = 0;
-  std::string phase;          ///< "start", "reach", "grasp", "unlock", "open" or "end".
+  std::string phase = {};     ///< "start", "reach", "grasp", "unlock", "open" or "end".
   std::vector<double> robot;  ///< Its joints in their order [m or rad].
   double hinge_rad = 0;
   double handle_rad = 0;

@@ -48,8 +48,8 @@ struct GraspObservation {
   std::vector<TriedGrasp> tried = {};  ///< In this episode already, in order.
   /// Name the episode, for policies that draw by chance: equal names, equal draws.
   std::uint64_t seed = 0;
-  std::string episode;  ///< "<door id>/<number>"
-  PrivilegedGraspState privileged;
+  std::string episode = {};  ///< "<door id>/<number>"
+  PrivilegedGraspState privileged = {};
 };
 
 /// What a choice was made from, for pictures and for who asks how sure it is.

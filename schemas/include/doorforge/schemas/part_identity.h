@@ -14,8 +14,8 @@ namespace doorforge {
 /// Which part a door was made of, for whoever must tell whether two doors share one.
 struct PartIdentity {
   std::string id;
-  std::string sha256;     ///< ContentHash of the part.
-  ShapeDescriptor shape;  ///< Empty in records of earlier versions.
+  std::string sha256;          ///< ContentHash of the part.
+  ShapeDescriptor shape = {};  ///< Empty in records of earlier versions.
 
   /// Whether both are one part, which has the same id, the same content or the same shape: a real
   /// data set repeats parts at another size under other ids.

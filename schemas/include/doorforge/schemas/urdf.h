@@ -46,9 +46,9 @@ struct UrdfShape {
 
 struct UrdfLink {
   std::string name;
-  std::optional<MassProperties> inertial;  ///< In the link's frame.
-  std::vector<UrdfShape> visuals;
-  std::vector<UrdfShape> collisions;
+  std::optional<MassProperties> inertial = std::nullopt;  ///< In the link's frame.
+  std::vector<UrdfShape> visuals = {};
+  std::vector<UrdfShape> collisions = {};
 };
 
 enum class UrdfJointType { kFixed, kRevolute, kContinuous, kPrismatic };

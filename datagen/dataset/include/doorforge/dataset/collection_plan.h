@@ -33,7 +33,7 @@ struct CollectionConfig {
 struct PlannedEpisode {
   std::uint64_t number = 0;  ///< In the plan; names the scene's random streams.
   std::size_t door = 0;      ///< Index into the plan's doors.
-  std::string key;           ///< "ep000123"
+  std::string key = {};      ///< "ep000123"
 };
 
 struct PlannedShard {

@@ -36,11 +36,11 @@ struct EpisodeGroup {
 /// The episodes of one stage, grouped in several ways.
 struct StageEpisodes {
   std::string stage;
-  EpisodeGroup all;
-  std::map<std::string, EpisodeGroup> by_category;
-  std::map<std::string, EpisodeGroup> by_mechanism;
-  std::map<std::string, EpisodeGroup> by_split;
-  std::map<std::uint64_t, std::uint64_t> decisions;  ///< Decisions an episode to episodes.
+  EpisodeGroup all = {};
+  std::map<std::string, EpisodeGroup> by_category = {};
+  std::map<std::string, EpisodeGroup> by_mechanism = {};
+  std::map<std::string, EpisodeGroup> by_split = {};
+  std::map<std::uint64_t, std::uint64_t> decisions = {};  ///< Decisions an episode to episodes.
 };
 
 /// An episode that is shown, with its preview.

@@ -21,8 +21,8 @@ struct DepthImage {
   int height = 0;
   /// Distance along the optical axis (not along the ray) [m]; infinity where nothing is seen.
   std::vector<float> depth_m;
-  std::vector<std::int16_t> link;   ///< Link index, -1 where nothing is seen.
-  std::vector<std::uint8_t> label;  ///< PointLabel values; kOther where nothing is seen.
+  std::vector<std::int16_t> link = {};   ///< Link index, -1 where nothing is seen.
+  std::vector<std::uint8_t> label = {};  ///< PointLabel values; kOther where nothing is seen.
   /// Colours, sRGB, height x width x 3; empty: none were looked at.
   std::vector<std::uint8_t> rgb{};
 };

@@ -50,14 +50,14 @@ struct OnlineControllerSetup {
   /// Folders that `doorforge train open`, `handle` and `grasp` wrote; empty: nobody. At least one.
   std::string opener;
   std::string handler;
-  std::string grasper;
+  std::string grasper = {};
   /// Which of opener and handler acts; nothing: the handler until the handle is turned.
-  std::optional<Stage> stage;
+  std::optional<Stage> stage = std::nullopt;
   RobotBase base = RobotBase::kSliders;  ///< kSliders or kFixed.
   /// Whether every decision of an episode is asked for, in order. Then a handler that can tell when
   /// the handle is turned is believed, and no state needs to say it.
   bool sees_every_decision = false;
-  OnlineControllerConfig config;
+  OnlineControllerConfig config = {};
 };
 
 /// What an answer was made from, for a picture of it.

@@ -41,7 +41,7 @@ struct GraspOptions {
   /// A folder that `doorforge train find` wrote: which points are the handle and the way into the
   /// leaf are found by it (FindingGrasp) where a policy is loaded. Empty: they are told. Written
   /// into files only where there is one.
-  std::string finder;
+  std::string finder = {};
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {

@@ -117,7 +117,7 @@ TEST(GraspPlan, WhoPullsOpensThemAllTheWay) {
   EXPECT_EQ(plan.step_back_m, 0);
 }
 
-// The sum over pieces, each as near as it is: a wall that comes nearer by a centimetre.
+// A door that comes nearer: the first piece that is too near counts by as much.
 TEST(SpawnCollisionChecker, CrowdingGrowsAsAWallComesNearer) {
   const RobotModel robot = LoadMobileFranka();
   const DoorAsset door = MakePrimitiveDoor({});

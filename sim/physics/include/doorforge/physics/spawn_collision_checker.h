@@ -35,8 +35,9 @@ class SpawnCollisionChecker {
                                    const RigidTransform& world_from_door) const;
 
   /// By how much pieces of the robot come nearer than `gap_m` to frame or leaf, each by its nearest
-  /// place and by 2 cm at most, summed over the pieces [m]; 0 where all keep away. The handle,
-  /// which may be held, does not count. Deterministic.
+  /// place and by 2 cm at most, summed over the pieces [m]; 0 where all keep away. Around each
+  /// there is a millimetre, as in Find(). The handle, which may be held, does not count.
+  /// Deterministic.
   double Crowding(const RobotPose& pose, const RigidTransform& world_from_door, double gap_m) const;
 
  private:

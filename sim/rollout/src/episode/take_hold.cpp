@@ -25,7 +25,7 @@ void MoveJoints(EpisodeWorld& world, const JointVector& goal, double near, int& 
   }
 }
 
-// The same posture with the base farther from the door, which lies towards smaller x.
+// Keeps the posture, and moves the base away from the door, which lies towards smaller x.
 JointVector SteppedBack(const EpisodeWorld& world, JointVector position, double distance_m) {
   const RobotModel& robot = world.robot();
   for (int i = 0; i < robot.base_count(); ++i) {

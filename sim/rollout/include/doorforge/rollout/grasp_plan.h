@@ -32,12 +32,12 @@ inline constexpr double kPregraspDistance = 0.12;  ///< [m], back along the appr
 /// gripper must pass; flat contact near the middle of the pads, little change and a wrist far from
 /// its limits are better. If no variation satisfies all that, the least bad one is returned.
 ///
-/// Of a door that is pushed by an upright handle (IsPushedUpright()) the whole way is looked at, as
+/// It looks at the whole way where a door is pushed by an upright handle (IsPushedUpright()), as
 /// the hand has to follow the leaf past the frame: of grasps that lean by different angles, and
 /// many postures, the best is one with which arm and base stay inside their limits and clear of
-/// frame and leaf while the handle turns and the leaf opens to 47 degrees. Where opened fingers do
-/// not pass, they open as far as the handle needs. The cost counts the
-/// way as well. That takes some 0.3 s of one core more.
+/// frame and leaf while the handle turns and the leaf opens to 47 degrees. The cost counts the way
+/// as well. Where opened fingers do not pass, they open as far as the handle needs. That takes some
+/// 0.3 s of one core more.
 ///
 /// Privileged: uses the door's geometry. Deterministic.
 GraspPlan PlanGrasp(const Scene& scene, const DoorAsset& door, const RobotModel& robot);

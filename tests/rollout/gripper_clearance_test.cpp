@@ -124,7 +124,7 @@ LabelledCloud SurfaceOf(const DoorAsset& door, Rng& rng) {
   return cloud;
 }
 
-constexpr double kFrankaOpen_m = 0.04;
+constexpr double kFrankaOpen = 0.04;  // [m]
 
 // Smallest distance on the straight way in, by the physics' own shapes.
 double ClearanceOnTheWay(const GraspProbe& probe, const RigidTransform& door_from_tcp) {
@@ -132,7 +132,7 @@ double ClearanceOnTheWay(const GraspProbe& probe, const RigidTransform& door_fro
   for (double back = 0; back <= kPregraspDistance; back += 0.004) {
     RigidTransform at = door_from_tcp;
     at.translation() -= back * door_from_tcp.linear().col(2);
-    least = std::min(least, probe.Clearance(at, kFrankaOpen_m, 0.02));
+    least = std::min(least, probe.Clearance(at, kFrankaOpen, 0.02));
   }
   return least;
 }

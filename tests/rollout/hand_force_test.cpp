@@ -15,6 +15,7 @@
 #include "doorforge/rollout/expert_grasp.h"
 #include "doorforge/rollout/opening_expert.h"
 #include "doorforge/rollout/run_episode.h"
+#include "doorforge/rollout/snapshot_grasp_policy.h"
 
 #include "../physics/primitive_door.h"
 
@@ -81,6 +82,33 @@ TEST_F(HandForceTest, DoorsOpenWithinTheForce) {
     }
   }
   EXPECT_GE(opened, 11);
+}
+
+// Sends the hand into the leaf, beside the handle.
+class MeetsTheLeaf : public SnapshotGraspPolicy {
+ public:
+  std::optional<GraspCommand> Choose(const SceneSnapshot& snapshot) override {
+    const RigidTransform& handle = snapshot.door[kHandleLink];
+    const Eigen::Vector3d approach = -handle.linear().col(0);
+    GraspCommand beside;
+    beside.contact_m = handle.translation() + 0.1 * approach - 0.15 * Eigen::Vector3d::UnitZ();
+    beside.world_from_hand_rotation.col(2) = approach;
+    beside.world_from_hand_rotation.col(1) = Eigen::Vector3d::UnitZ();
+    beside.world_from_hand_rotation.col(0) = Eigen::Vector3d::UnitZ().cross(approach);
+    return beside;
+  }
+};
+
+TEST_F(HandForceTest, WhatAHandMeetsOnItsWayToTheHandleCounts) {
+  const DoorAsset door = MakePrimitiveDoor(RandomPrimitive(Mechanism::kLever, 23, 0));
+  const Scene scene = SampleScene(door, 23, 0);
+  MeetsTheLeaf chooser;
+  EpisodeStepper stepper(door, robot_, {.first = Stage::kHandle, .grasp = &chooser});
+  stepper.Reset(scene);
+  const Episode episode = stepper.Summary();
+  EXPECT_EQ(episode.outcome, EpisodeOutcome::kCollision) << episode.detail;
+  EXPECT_GT(episode.peak_force_n, kMost);
+  EXPECT_GT(episode.peak_net_force_n, kMost);
 }
 
 // Fingers without friction slip off a knob as the hand goes up.

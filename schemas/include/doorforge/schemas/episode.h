@@ -79,10 +79,10 @@ struct Episode {
   double simulated_s = 0;
   int grasps = 1;              ///< So many times the hand took hold.
   bool handle_turned = false;  ///< The stages before opening succeeded: held, turned, unlocked.
-  /// Greatest sum of the normal forces between robot and door in one step, from the grasp on [N].
+  /// Greatest sum of the normal forces between robot and door in one step [N].
   double peak_force_n = 0;
   /// Greatest sum of all forces of the robot on the door, as a vector, behind a low-pass filter of
-  /// first order at 10 Hz, from the grasp on [N]. The squeeze of the fingers is not in it.
+  /// first order at 10 Hz [N]. The squeeze of the fingers is not in it.
   double peak_net_force_n = 0;
   std::string state_sha256;  ///< Hash of the final joint state: equal runs have equal hashes.
 };

@@ -2,29 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "episode/contact_log.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "text_format.h"
 
 namespace doorforge::internal {
-
-namespace {
-
-// It is that of a first-order low-pass at 10 Hz: what a wrist sensor's reading is after its usual
-// filter.
-constexpr double kForceFilter = 1 / (2 * std::numbers::pi * 10);  // [s]
-
-}  // namespace
-
-void ContactLog::NoteForce(const DoorContacts& contacts, double time_step_s) {
-  const double force = contacts.pad_force_n[0] + contacts.pad_force_n[1] + contacts.arm_force_n;
-  peak_force_n_ = std::max(peak_force_n_, force);
-  const double share = 1 - std::exp(-time_step_s / kForceFilter);
-  net_force_n_ += share * (contacts.force_on_door_n - net_force_n_);
-  peak_net_force_n_ = std::max(peak_net_force_n_, net_force_n_.norm());
-}
 
 void ContactLog::NoteSelfContact(const DoorContacts& contacts) {
   if (contacts.self_points > 0)
@@ -32,11 +12,10 @@ void ContactLog::NoteSelfContact(const DoorContacts& contacts) {
 }
 
 void ContactLog::Note(const EpisodeWorld& world) {
-  const DoorContacts contacts = world.world().Contacts();
+  const DoorContacts& contacts = world.contacts();
   NoteSelfContact(contacts);
-  NoteForce(contacts, world.scene().physics.time_step_s);
   if (!contacts.AnyPad() && last_pad_step_ == world.step() - 1)
-    held_up_at_loss_ = HeldUpBy(world.HindranceNow(contacts), world.limits());
+    held_up_at_loss_ = HeldUpBy(world.HindranceNow(), world.limits());
   if (contacts.AnyPad()) last_pad_step_ = world.step();
   if (contacts.AnyPad() || contacts.arm_points > 0) last_touch_step_ = world.step();
   const bool beyond = world.state().hinge_rad > world.limits().open_angle_rad;

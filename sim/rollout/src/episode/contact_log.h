@@ -14,8 +14,6 @@ namespace doorforge::internal {
 /// What touched what in the course of an episode, as far as its outcome asks. A value.
 class ContactLog {
  public:
-  /// Forces alone, while the fingers close and while a rule turns the handle.
-  void NoteForce(const DoorContacts& contacts, double time_step_s);
   void NoteSelfContact(const DoorContacts& contacts);
   /// Everything, after each step under a policy's action.
   void Note(const EpisodeWorld& world);
@@ -27,8 +25,6 @@ class ContactLog {
   long StepsWithoutTouch(long step) const { return step - last_touch_step_; }
   bool opened() const { return opened_; }    ///< Passed the angle with a pad on the handle.
   bool coasted() const { return coasted_; }  ///< Passed it without.
-  double peak_force_n() const { return peak_force_n_; }
-  double peak_net_force_n() const { return peak_net_force_n_; }  ///< Episode::peak_net_force_n.
   /// What held the hand up when the pads left the handle last.
   const std::optional<Verdict>& held_up_at_loss() const { return held_up_at_loss_; }
   const std::string& touched_at_opening() const { return touched_at_opening_; }
@@ -41,9 +37,6 @@ class ContactLog {
   long last_touch_step_ = -1;
   bool opened_ = false;
   bool coasted_ = false;
-  double peak_force_n_ = 0;
-  Eigen::Vector3d net_force_n_ = Eigen::Vector3d::Zero();  // low-pass filtered
-  double peak_net_force_n_ = 0;
   std::optional<Verdict> held_up_at_loss_;
   std::string touched_at_opening_;
   std::string touched_itself_;

@@ -113,7 +113,7 @@ Verdict EpisodeCourse::TurnVerdict(bool lost) const {
                     .slip_m = world_.Slip(),
                     .slip_rad = world_.TurnSlip(),
                     .lost_pads = lost,
-                    .hindrance = world_.HindranceNow(world_.world().Contacts())},
+                    .hindrance = world_.HindranceNow()},
                    world_.limits());
 }
 
@@ -157,7 +157,7 @@ OpeningEvidence EpisodeCourse::OpeningNow() const {
           .locked = world_.state().locked,
           .early = state_.early,
           .held_up_at_loss = state_.log.held_up_at_loss(),
-          .hindrance = world_.HindranceNow(world_.world().Contacts())};
+          .hindrance = world_.HindranceNow()};
 }
 
 // ---- the handle by a rule -----------------------------------------------------------------------
@@ -175,9 +175,7 @@ void EpisodeCourse::Turn(HandleRule& rule) {
     }
     world_.controller().FollowHand(rule.Follow(world_.Privileged()));
     world_.StepHand();
-    const DoorContacts contacts = world_.world().Contacts();
-    state_.log.NoteForce(contacts, physics().time_step_s);
-    lost = contacts.AnyPad() ? 0 : lost + 1;
+    lost = world_.contacts().AnyPad() ? 0 : lost + 1;
   }
   world_.Watch(EpisodePhase::kUnlock);
   Fail(TurnVerdict(lost > 0));
@@ -214,8 +212,8 @@ Episode EpisodeCourse::Summary() const {
   episode.simulated_s = world_.state().time_s;
   episode.handle_turned = state_.handle_turned;
   episode.grasps = state_.grasps;
-  episode.peak_force_n = state_.log.peak_force_n();
-  episode.peak_net_force_n = state_.log.peak_net_force_n();
+  episode.peak_force_n = world_.memory().forces.normal_n();
+  episode.peak_net_force_n = world_.memory().forces.net_n();
   episode.state_sha256 = world_.world().StateHash();
   return episode;
 }

@@ -43,16 +43,20 @@ void EpisodeWorld::Step(const RobotCommand& command) {
   world_.Step(governed);
   ++memory_.step;
   if (diverged()) return;
-  if (memory_.governor.IsOn()) {
-    const DoorContacts contacts = world_.Contacts();
-    memory_.governor.Note(contacts.force_on_door_n.norm());
-    memory_.grip.Note(command.close_fingers, contacts.AnyPad());
-  }
+  NoteContacts(command.close_fingers);
   memory_.peak_hinge_rad = std::max(memory_.peak_hinge_rad, state().hinge_rad);
   memory_.peak_handle_rad = std::max(memory_.peak_handle_rad, state().handle_rad);
   if (observer_ != nullptr && memory_.step % scene_.physics.steps_per_action == 0 &&
       observer_->Follows())
     observer_->Follow(Snapshot(EpisodePhase::kStart));
+}
+
+void EpisodeWorld::NoteContacts(bool closing) {
+  memory_.contacts = world_.Contacts();
+  memory_.forces.Note(contacts(), scene_.physics.time_step_s);
+  if (!memory_.governor.IsOn()) return;
+  memory_.governor.Note(contacts().force_on_door_n.norm());
+  memory_.grip.Note(closing, contacts().AnyPad());
 }
 
 void EpisodeWorld::StepHand() {
@@ -106,8 +110,8 @@ double EpisodeWorld::TurnSlip() const {
       .norm();
 }
 
-Hindrance EpisodeWorld::HindranceNow(const DoorContacts& contacts) const {
-  return {HandError(memory_.controller.CommandedHand()), contacts,
+Hindrance EpisodeWorld::HindranceNow() const {
+  return {HandError(memory_.controller.CommandedHand()), contacts(),
           JointAtLimit(robot_, state().robot_position, limits())};
 }
 
@@ -129,7 +133,7 @@ PrivilegedState EpisodeWorld::Privileged() const {
 
 SceneSnapshot EpisodeWorld::Snapshot(EpisodePhase phase) const {
   SceneSnapshot snapshot{world_.PoseOfRobot(), world_.WorldFromDoorLinks(), state().time_s, phase};
-  const DoorContacts contacts = world_.Contacts();
+  const DoorContacts& contacts = memory_.contacts;
   snapshot.robot_position = state().robot_position;
   snapshot.hinge_rad = state().hinge_rad;
   snapshot.handle_rad = state().handle_rad;

@@ -11,6 +11,7 @@
 #include "doorforge/schemas/scene.h"
 
 #include "episode/force_governor.h"
+#include "episode/force_peaks.h"
 
 namespace doorforge::internal {
 
@@ -42,6 +43,7 @@ class EpisodeWorld {
   const RobotModel& robot() const { return robot_; }
   const DoorWorld& world() const { return world_; }
   const WorldState& state() const { return world_.state(); }
+  const DoorContacts& contacts() const { return memory_.contacts; }  ///< Of the last step.
   HandController& controller() { return memory_.controller; }
   bool diverged() const { return world_.fault().has_value(); }
 
@@ -50,6 +52,8 @@ class EpisodeWorld {
     HandController controller;
     ForceGovernor governor;
     GripWatch grip{};
+    ForcePeaks forces{};
+    DoorContacts contacts{};  // of the last step
     long step = 0;
     double peak_hinge_rad = 0;
     double peak_handle_rad = 0;
@@ -63,7 +67,7 @@ class EpisodeWorld {
   double HandError(const RigidTransform& world_from_hand) const;  ///< [m]
   double Slip() const;      ///< [m] of the tool centre in the handle's frame since the grasp.
   double TurnSlip() const;  ///< [rad] of the hand there.
-  Hindrance HindranceNow(const DoorContacts& contacts) const;
+  Hindrance HindranceNow() const;
   PrivilegedState Privileged() const;
   SceneSnapshot Snapshot(EpisodePhase phase) const;
   void Watch(EpisodePhase phase) const;
@@ -73,6 +77,7 @@ class EpisodeWorld {
   void Restore(const WorldImage& image, const Memory& memory);
 
  private:
+  void NoteContacts(bool closing);
   RigidTransform HandleFromHand() const;
 
   Scene scene_;

@@ -82,7 +82,7 @@ class HandStepper::Running {
     for (int i = 0; i < task_.steps_per_action && !world_.diverged(); ++i) {
       world_.StepHand();
       log_.Note(world_);
-      if (!held_ && world_.world().Contacts().BothPads()) NoteHold();
+      if (!held_ && world_.contacts().BothPads()) NoteHold();
     }
     ++actions_;
     Settle();
@@ -162,7 +162,7 @@ HandState HandStepper::Running::StateNow() const {
 }
 
 void HandStepper::Running::Settle() {
-  const DoorContacts contacts = world_.world().Contacts();
+  const DoorContacts& contacts = world_.contacts();
   now_.state = StateNow();
   now_.state.closes_fingers = world_.controller().close_fingers;
   now_.pads = {contacts.pad_points[0] > 0, contacts.pad_points[1] > 0};
@@ -194,7 +194,7 @@ Verdict HandStepper::Running::OpeningFailure() const {
                        .locked = world_.state().locked,
                        .early = Format("the handle came to %.1f deg", handle_deg),
                        .held_up_at_loss = log_.held_up_at_loss(),
-                       .hindrance = world_.HindranceNow(world_.world().Contacts())},
+                       .hindrance = world_.HindranceNow()},
                       world_.limits());
 }
 
@@ -229,8 +229,8 @@ Episode HandStepper::Running::Summary() const {
   episode.handle_turned =
       HasTouched() && (world_.scene().latch.type == LatchType::kNone || world_.state().handle_done);
   episode.grasps = held_ ? 1 : 0;
-  episode.peak_force_n = log_.peak_force_n();
-  episode.peak_net_force_n = log_.peak_net_force_n();
+  episode.peak_force_n = world_.memory().forces.normal_n();
+  episode.peak_net_force_n = world_.memory().forces.net_n();
   episode.state_sha256 = world_.world().StateHash();
   return episode;
 }

@@ -52,9 +52,8 @@ std::optional<Verdict> ReachHandle(EpisodeWorld& world, ContactLog& log, const G
   const RigidTransform goal =
       world.WorldFromHandle(0) * plan.handle_from_tcp * world.robot().hand_from_tcp().inverse();
   if (world.MoveHand(goal, world.limits().approach_speed_m_s)) return std::nullopt;
-  const DoorContacts contacts = world.world().Contacts();
-  log.NoteSelfContact(contacts);
-  return JudgeReach(world.HandError(goal), world.HindranceNow(contacts), world.limits());
+  log.NoteSelfContact(world.contacts());
+  return JudgeReach(world.HandError(goal), world.HindranceNow(), world.limits());
 }
 
 // The arm does not yield to a finger that touches first, so it follows that finger.
@@ -75,9 +74,8 @@ std::optional<Verdict> Close(EpisodeWorld& world, ContactLog& log, bool needs_bo
   DoorContacts contacts;
   for (int i = 0; i < budget && both < enough && !world.diverged(); ++i) {
     world.StepHand();
-    contacts = world.world().Contacts();
+    contacts = world.contacts();
     log.NoteSelfContact(contacts);
-    log.NoteForce(contacts, world.scene().physics.time_step_s);
     both = contacts.BothPads() ? both + 1 : 0;
     CentreHand(world, contacts);
   }

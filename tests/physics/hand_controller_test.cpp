@@ -66,5 +66,59 @@ TEST(HandController, JointMotionEndsAtItsTargetTogether) {
   EXPECT_LT((measured - target).cwiseAbs().maxCoeff(), 1e-6);
 }
 
+// Sent half a second ahead while something holds the arm.
+JointVector HeldUp(HandController& controller, const JointVector& measured) {
+  RigidTransform target = controller.CommandedHand();
+  target.translation().x() += 0.2;
+  controller.MoveHandTo(target, 0.4);
+  for (int i = 0; i < 120; ++i) controller.Step(measured, 1.0 / 240);
+  return measured;
+}
+
+TEST(HandController, AfterAStopNothingThatWasCommandedAheadIsLeft) {
+  const RobotModel robot = LoadMobileFranka();
+  HandController controller(robot, RigidTransform::Identity(), robot.InitialPosition());
+  const JointVector measured = HeldUp(controller, robot.InitialPosition());
+  const auto lead = [&] {
+    const RobotCommand command = controller.Step(measured, 1.0 / 240);
+    return (command.arm_position - measured.head<kArmJointCount>()).cwiseAbs().maxCoeff();
+  };
+  EXPECT_GT(lead(), 0.05);
+  controller.StopAt(measured);
+  EXPECT_LT(lead(), 1e-9);
+}
+
+// Each joint alone, by what its own turning or sliding moves the tool centre.
+TEST(HandController, CatchesUpNoFasterThanItIsTold) {
+  const RobotModel robot = LoadMobileFranka();
+  const JointVector start = robot.InitialPosition();
+  HandControllerConfig config;
+  config.catch_up = 0.1;
+  HandController controller(robot, RigidTransform::Identity(), start, config);
+  const auto fastest_m_s = [&](const RobotCommand& command) {
+    double fastest = 0;
+    for (int i = 0; i < kArmJointCount; ++i) {
+      const double step = 1e-6;
+      JointVector moved = start;
+      moved[i] += step;
+      const auto tool = [&](const JointVector& at) {
+        return Eigen::Vector3d(
+            robot.PoseAt(at, RigidTransform::Identity()).world_from_tcp.translation());
+      };
+      const double way = (tool(moved) - tool(start)).norm() / step;
+      fastest = std::max(fastest, way * command.most_speed.value()[i]);
+    }
+    return fastest;
+  };
+  RigidTransform target = controller.CommandedHand();
+  target.translation().x() += 0.2;
+  controller.MoveHandTo(target, 0.4);
+  EXPECT_NEAR(fastest_m_s(controller.Step(start, 1.0 / 240)), 0.2 / 0.4 + 0.1, 1e-3);
+  for (int i = 0; i < 120; ++i) controller.Step(start, 1.0 / 240);  // something holds it up
+  EXPECT_NEAR(fastest_m_s(controller.Step(start, 1.0 / 240)), 0.1, 1e-3);
+  HandController free(robot, RigidTransform::Identity(), start);
+  EXPECT_FALSE(free.Step(start, 1.0 / 240).most_speed);
+}
+
 }  // namespace
 }  // namespace doorforge

@@ -197,6 +197,54 @@ TEST(SecondSimulator, FingersOpenAsFarAsTheyAreAsked) {
   }
 }
 
+// Over the gap that one finger closes or opens, in both simulators.
+TEST(SecondSimulator, FingersMoveAtTheirSpeed) {
+  const RobotModel robot = LoadMobileFranka();
+  const DoorAsset door = MakePrimitiveDoor({});
+  for (const Simulator simulator : kBoth) {
+    SceneConfig config;
+    config.physics.simulator = simulator;
+    const Scene scene = SampleScene(door, 1, 0, config);
+    DoorWorld world(scene, door, robot, robot.InitialPosition());
+    RobotCommand command{robot.InitialPosition().head<kArmJointCount>()};
+    for (const bool close : {true, false}) {
+      command.close_fingers = close;
+      double fastest = 0;
+      for (int i = 0; i < 240; ++i) {
+        world.Step(command);
+        fastest = std::max(fastest, std::abs(world.state().robot_velocity[robot.left_finger()]));
+      }
+      EXPECT_NEAR(fastest, 0.1, 0.005) << NameOf(simulator) << (close ? ", closing" : ", opening");
+    }
+  }
+}
+
+TEST(SecondSimulator, NoJointGoesFasterTowardsItsTargetThanIsAsked) {
+  const RobotModel robot = LoadMobileFranka();
+  const DoorAsset door = MakePrimitiveDoor({});
+  for (const Simulator simulator : kBoth) {
+    SceneConfig config;
+    config.physics.simulator = simulator;
+    const Scene scene = SampleScene(door, 1, 0, config);
+    const JointVector start = robot.InitialPosition();
+    const auto fastest = [&](const std::optional<ArmVector>& most) {
+      DoorWorld world(scene, door, robot, start);
+      RobotCommand command{start.head<kArmJointCount>()};
+      command.arm_position.array() -= 0.1;  // away from the door, and from the stops
+      command.most_speed = most;
+      double fastest = 0;
+      for (int i = 0; i < 60; ++i) {
+        world.Step(command);
+        fastest = std::max(
+            fastest, world.state().robot_velocity.head<kArmJointCount>().cwiseAbs().maxCoeff());
+      }
+      return fastest;
+    };
+    EXPECT_GT(fastest(std::nullopt), 1) << NameOf(simulator);
+    EXPECT_NEAR(fastest(ArmVector::Constant(kArmJointCount, 0.2)), 0.2, 0.01) << NameOf(simulator);
+  }
+}
+
 // Fingers in the air and on a bar: the force is what the drives give, friction the product.
 TEST(SecondSimulator, PadsPressWithTheirForce) {
   const RobotModel robot = LoadMobileFranka();

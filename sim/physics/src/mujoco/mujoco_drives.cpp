@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mujoco/mujoco_drives.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "robot/simulated_robot.h"
 
 namespace doorforge::internal {
@@ -33,11 +36,15 @@ void MujocoDrives::Command(const RobotCommand& command, const JointVector& posit
 
 double MujocoDrives::WantedSpeed(int joint, double position) const {
   const double step = scene_.physics.time_step_s;
-  if (joint < robot_.arm_count())
-    return kArmPositionGain * (command_.arm_position[joint] - position) / step;
+  if (joint < robot_.arm_count()) {
+    const double most = command_.most_speed ? (*command_.most_speed)[joint]
+                                            : std::numeric_limits<double>::infinity();
+    return std::clamp(kArmPositionGain * (command_.arm_position[joint] - position) / step, -most,
+                      most);
+  }
   if (command_.close_fingers) return -kFingerSpeed;
   const double open = command_.fingers_open_m.value_or(robot_.joint(robot_.left_finger()).upper);
-  return kFingerOpeningGain * (open - position) / step;
+  return std::clamp(kFingerOpeningGain * (open - position) / step, -kFingerSpeed, kFingerSpeed);
 }
 
 }  // namespace doorforge::internal

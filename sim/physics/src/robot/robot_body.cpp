@@ -94,9 +94,11 @@ void RobotBody::CommandArm(const RobotCommand& command) {
     for (int i = 0; i < robot_.arm_count(); ++i) body_.multibody().addJointTorque(i, torques[i]);
     return;
   }
-  for (int i = 0; i < robot_.arm_count(); ++i)
-    arm_motors_[static_cast<std::size_t>(i)]->setPositionTarget(command.arm_position[i],
-                                                                kArmPositionGain);
+  for (int i = 0; i < robot_.arm_count(); ++i) {
+    btMultiBodyJointMotor& motor = *arm_motors_[static_cast<std::size_t>(i)];
+    motor.setPositionTarget(command.arm_position[i], kArmPositionGain);
+    motor.setRhsClamp(command.most_speed ? (*command.most_speed)[i] : SIMD_INFINITY);
+  }
   if (!drive_limits_) return;
   const ArmVector limits = command.effort_share * drive_limits_->At(Positions());
   for (int i = 0; i < robot_.arm_count(); ++i)
@@ -116,6 +118,7 @@ void RobotBody::Command(const RobotCommand& command) {
           command.fingers_open_m.value_or(robot_.joint(robot_.left_finger()).upper),
           kFingerOpeningGain);
       motor->setVelocityTarget(0, 1);
+      motor->setRhsClamp(kFingerSpeed);
       motor->setMaxAppliedImpulse(kFingerOpenForce * time_step_s_);
     }
   }

@@ -11,7 +11,7 @@ namespace doorforge::internal {
 
 /// Drives as measured to work in docs/design/simulation.md; all simulators have them.
 inline constexpr double kArmPositionGain = 0.2;    ///< Of what is left, in a step.
-inline constexpr double kFingerSpeed = 0.1;        ///< Closing [m/s].
+inline constexpr double kFingerSpeed = 0.1;        ///< Closing and opening [m/s].
 inline constexpr double kFingerOpeningGain = 0.3;  ///< Of what is left, in a step.
 inline constexpr double kFingerOpenForce = 100;    ///< [N]
 

@@ -17,6 +17,15 @@ constexpr double kThere = 0.002;   // [m]
 // struck with 455 N at most, at this speed with 193.
 constexpr double kGentleSpeed = 0.07;  // [m/s]
 
+// A hand that something held up, and that comes free, would else make up for it at 1 m/s.
+constexpr double kGentleCatchUp = 0.1;  // [m/s]
+
+HandControllerConfig ControllerFor(const Scene& scene) {
+  HandControllerConfig config;
+  if (scene.physics.hand_force_n > 0) config.catch_up = kGentleCatchUp;
+  return config;
+}
+
 }  // namespace
 
 EpisodeWorld::EpisodeWorld(const Scene& scene, const DoorAsset& door, const RobotModel& robot,
@@ -31,7 +40,7 @@ EpisodeWorld::EpisodeWorld(const Scene& scene, const DoorAsset& door, const Robo
       observer_(observer),
       world_(scene, door, robot, start),
       facts_(FactsOf(door)),
-      memory_{HandController(robot, scene.world_from_robot_base, start),
+      memory_{HandController(robot, scene.world_from_robot_base, start, ControllerFor(scene)),
               ForceGovernor(scene.physics.hand_force_n)} {
   scene_.robot = {robot.name(), robot.sha256()};
 }
@@ -60,7 +69,7 @@ void EpisodeWorld::NoteContacts(bool closing) {
 }
 
 void EpisodeWorld::StepHand() {
-  if (memory_.grip.lost()) controller().FollowHand(world_.PoseOfRobot().world_from_hand);
+  if (memory_.grip.lost()) controller().StopAt(state().robot_position);
   Step(controller().Step(state().robot_position, scene_.physics.time_step_s));
 }
 

@@ -93,7 +93,7 @@ std::optional<Verdict> Close(EpisodeWorld& world, ContactLog& log, bool needs_bo
 void LetGo(EpisodeWorld& world) {
   RigidTransform hand = world.world().PoseOfRobot().world_from_hand;
   world.controller().close_fingers = false;
-  world.controller().FollowHand(hand);
+  world.controller().StopAt(world.state().robot_position);
   const int opening = world.StepsIn(world.limits().close_time_s);
   for (int i = 0; i < opening && !world.diverged(); ++i) world.StepHand();
   hand.translation() -= kBack * hand.linear().col(2);

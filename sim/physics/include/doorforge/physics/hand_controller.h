@@ -12,6 +12,9 @@ struct HandControllerConfig {
   double max_speed_m_s = 0.6;  ///< The commanded hand moves no faster.
   double max_turn_rad_s = 2.5;
   double max_joint_lead = 0.15;  ///< Command ahead of the measured joint [rad or m].
+  /// So much faster than the commanded hand does any joint alone move a hand that has fallen behind
+  /// [m/s]; without it, as fast as its drive can.
+  std::optional<double> catch_up = std::nullopt;
 };
 
 /// Follows hand poses: the commanded pose moves in a straight line, damped least squares turns it
@@ -32,6 +35,9 @@ class HandController {
 
   /// Puts the commanded pose there at once; for targets that move smoothly by themselves.
   void FollowHand(const RigidTransform& world_from_hand) { MoveHandTo(world_from_hand, 0, false); }
+
+  /// Stops where the joints are, and gives up all that was commanded ahead of them.
+  void StopAt(const JointVector& measured);
 
   /// Command for the next step, given the measured joints.
   RobotCommand Step(const JointVector& measured, double time_step_s);
@@ -54,6 +60,8 @@ class HandController {
   void MoveHandTo(const RigidTransform& world_from_hand, double duration_s, bool limited);
   void AdvancePose(double time_step_s);
   RobotCommand CommandOf(const JointVector& measured);
+  ArmVector MostSpeed(const JointVector& measured, double hand_m_s) const;
+  double CommandedSpeed(double time_step_s);
 
   const RobotModel* robot_;
   RigidTransform world_from_base_;
@@ -61,6 +69,7 @@ class HandController {
   InverseKinematicsGoal goal_;
   JointVector reference_;
   RigidTransform target_;
+  RigidTransform commanded_before_;  // world_from_tcp at the last step
   double remaining_s_ = 0;
 };
 

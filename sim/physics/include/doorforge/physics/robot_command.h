@@ -18,6 +18,9 @@ struct RobotCommand {
   /// Where the tool centre is to be; ArmController::kOperationalSpace alone looks at it. Without
   /// it, and with kJointMotors, the joints follow arm_position.
   std::optional<RigidTransform> world_from_tcp = std::nullopt;
+  /// No joint motor moves its joint faster towards arm_position [rad/s or m/s]; without it, as fast
+  /// as its effort lets it.
+  std::optional<ArmVector> most_speed = std::nullopt;
   /// The joint motors use this share of what PhysicsConfig::hand_force_n leaves to them; (0, 1].
   double effort_share = 1;
 };

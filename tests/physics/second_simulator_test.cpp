@@ -178,9 +178,7 @@ TEST(SecondSimulator, FingersOpenAsFarAsTheyAreAsked) {
   const RobotModel robot = LoadMobileFranka();
   const DoorAsset door = MakePrimitiveDoor({});
   for (const Simulator simulator : kBoth) {
-    SceneConfig config;
-    config.physics.simulator = simulator;
-    const Scene scene = SampleScene(door, 1, 0, config);
+    const Scene scene = SceneIn(simulator, door);
     DoorWorld world(scene, door, robot, robot.InitialPosition());
     RobotCommand command{robot.InitialPosition().head<kArmJointCount>()};
     for (const double asked_m : {0.012, 0.031}) {
@@ -197,14 +195,11 @@ TEST(SecondSimulator, FingersOpenAsFarAsTheyAreAsked) {
   }
 }
 
-// Over the gap that one finger closes or opens, in both simulators.
 TEST(SecondSimulator, FingersMoveAtTheirSpeed) {
   const RobotModel robot = LoadMobileFranka();
   const DoorAsset door = MakePrimitiveDoor({});
   for (const Simulator simulator : kBoth) {
-    SceneConfig config;
-    config.physics.simulator = simulator;
-    const Scene scene = SampleScene(door, 1, 0, config);
+    const Scene scene = SceneIn(simulator, door);
     DoorWorld world(scene, door, robot, robot.InitialPosition());
     RobotCommand command{robot.InitialPosition().head<kArmJointCount>()};
     for (const bool close : {true, false}) {
@@ -223,9 +218,7 @@ TEST(SecondSimulator, NoJointGoesFasterTowardsItsTargetThanIsAsked) {
   const RobotModel robot = LoadMobileFranka();
   const DoorAsset door = MakePrimitiveDoor({});
   for (const Simulator simulator : kBoth) {
-    SceneConfig config;
-    config.physics.simulator = simulator;
-    const Scene scene = SampleScene(door, 1, 0, config);
+    const Scene scene = SceneIn(simulator, door);
     const JointVector start = robot.InitialPosition();
     const auto fastest = [&](const std::optional<ArmVector>& most) {
       DoorWorld world(scene, door, robot, start);

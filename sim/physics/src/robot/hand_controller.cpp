@@ -74,7 +74,7 @@ void HandController::AdvancePose(double time_step_s) {
   goal_.world_from_tcp = Between(CommandedHand(), target_, part) * robot_->hand_from_tcp();
 }
 
-// Of the hand's turning what a point 0.2 m beside the tool centre moves counts as well.
+// A turn counts as well, as the way of a point 0.2 m beside the tool centre.
 double HandController::CommandedSpeed(double time_step_s) {
   const RigidTransform& now = goal_.world_from_tcp;
   const double way_m = (now.translation() - commanded_before_.translation()).norm();

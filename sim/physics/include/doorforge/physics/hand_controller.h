@@ -13,7 +13,8 @@ struct HandControllerConfig {
   double max_turn_rad_s = 2.5;
   double max_joint_lead = 0.15;  ///< Command ahead of the measured joint [rad or m].
   /// So much faster than the commanded hand does any joint alone move a hand that has fallen behind
-  /// [m/s]; without it, as fast as its drive can.
+  /// [m/s], by its distance from the tool centre or 0.2 m, whichever is more; without it, as fast
+  /// as its drive can.
   std::optional<double> catch_up = std::nullopt;
 };
 

@@ -48,6 +48,8 @@ option(DOORFORGE_HARDENED "check indices, buffers and the stack at run time" ON)
 if(DOORFORGE_HARDENED AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   list(APPEND DOORFORGE_COMPILE_OPTIONS -D_GLIBCXX_ASSERTIONS -fstack-protector-strong
        "$<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=3>")
+  # where they cost much and everything that is reached was checked before
+  set(DOORFORGE_UNCHECKED_OPTIONS -U_GLIBCXX_ASSERTIONS -fno-stack-protector)
 endif()
 
 # Rooms in whose own code nobody waits: they parse, describe, draw up and pass on, or run once a part. A release build

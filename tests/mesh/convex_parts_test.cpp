@@ -134,6 +134,26 @@ TEST(ConvexParts, OfALatticeLeaveItsPanesFree) {
   EXPECT_LE(fit.uncovered_m, 0.002);
 }
 
+// Twelve bars: of twelve parts the first cuts are taken back by a second search, of fourteen those
+// are made that only measuring tells of. Without either the parts still cover all.
+TEST(ConvexParts, OfASearchThatEndsEarlyCoverTheMeshAllTheSame) {
+  const ClosedMesh lattice = Closed(LatticeMesh());
+  for (const int max_parts : {12, 14}) {
+    SCOPED_TRACE(max_parts);
+    ConvexPartsConfig config{
+        .max_parts = max_parts, .max_concavity_m = 0.02, .max_protrusion_m = 0.01};
+    const auto parts = ConvexParts(lattice, config);
+    config.max_search = 1000;
+    EXPECT_EQ(ConvexParts(lattice, config).back().vertices, parts.back().vertices);
+    config.max_search = 1;
+    const auto early = ConvexParts(lattice, config);
+    EXPECT_LE(early.size(), static_cast<std::size_t>(max_parts));
+    const ConvexPartsFit fit = MeasureConvexParts(lattice, early);
+    EXPECT_GT(fit.protrusion_m, 1.5 * MeasureConvexParts(lattice, parts).protrusion_m);
+    EXPECT_LE(fit.uncovered_m, 0.005);
+  }
+}
+
 TEST(ConvexParts, OfAHollowBoxAreItsWalls) {
   const ClosedMesh hollow = Closed(Together(
       UnitBox(),

@@ -152,7 +152,7 @@ TEST(RepairMesh, MakesOneSolidOfASurfaceThatCrossesItself) {
 }
 
 // A strip bent to an eight, open above and below: no sharp edge to cut it at.
-TEST(RepairMesh, MakesWallsOfASheetThatCrossesItself) {
+TriangleMesh BentToAnEight() {
   TriangleMesh eight;
   constexpr int kSteps = 60;
   for (int i = 0; i < kSteps; ++i) {
@@ -163,7 +163,11 @@ TEST(RepairMesh, MakesWallsOfASheetThatCrossesItself) {
     eight.triangles.emplace_back(a, b, a + 1);
     eight.triangles.emplace_back(b, b + 1, a + 1);
   }
-  const RepairResult result = Repaired(eight);
+  return eight;
+}
+
+TEST(RepairMesh, MakesWallsOfASheetThatCrossesItself) {
+  const RepairResult result = Repaired(BentToAnEight());
   EXPECT_EQ(result.report.outcome, RepairOutcome::kRepaired) << result.report.reason;
   EXPECT_FALSE(result.report.self_intersects);
   const double half = result.report.before.bounds.diagonal().norm() / 1200;
@@ -390,8 +394,58 @@ TEST(RepairMesh, WrapsWhatMeetsInMorePairsOfTrianglesThanMayBeUnited) {
   config.max_pairs = 3;
   const RepairResult wrapped = Repaired(boxes, config);
   EXPECT_EQ(wrapped.report.outcome, RepairOutcome::kWrapped);
-  EXPECT_NE(wrapped.report.reason.find("more than max_pairs, which is 3"), std::string::npos)
+  EXPECT_NE(wrapped.report.reason.find("more than are left of max_pairs, which is 3"),
+            std::string::npos)
       << wrapped.report.reason;
+}
+
+// The least `max_pairs` with which the mesh is repaired without a wrap.
+int PairsNeeded(const TriangleMesh& mesh) {
+  int low = 0, high = 20'000;  // not enough, and enough
+  while (high - low > 1) {
+    const int middle = (low + high) / 2;
+    const bool suffices =
+        Repaired(mesh, {.wrap = WrapUse::kNever, .max_pairs = middle}).report.outcome ==
+        RepairOutcome::kRepaired;
+    (suffices ? high : low) = middle;
+  }
+  return high;
+}
+
+// One is a sheet that becomes a union of walls, the other two boxes, united later.
+TEST(RepairMesh, CountsThePairsOfAllItsUnionsTogether) {
+  TriangleMesh boxes =
+      Together(UnitBox(), Box(Eigen::Vector3d(0.2, 0.2, 0.5), Eigen::Vector3d(0.8, 0.8, 1.5)));
+  for (Eigen::Vector3d& vertex : boxes.vertices) vertex.x() += 2;
+  const int of_boxes = PairsNeeded(boxes);
+  const int of_both = PairsNeeded(Together(BentToAnEight(), boxes));
+  EXPECT_GT(of_boxes, 3);
+  // its walls are as thick as the whole is large
+  TriangleMesh sheet =
+      Together(BentToAnEight(), Box(Eigen::Vector3d(2, 0, 0), Eigen::Vector3d(3, 1, 1.5)));
+  EXPECT_EQ(of_both, PairsNeeded(sheet) + of_boxes);
+}
+
+// Two sheets of a square metre each, and a solid of as much surface.
+TEST(RepairMesh, WrapsSheetsMoreCoarselyWhereTheyWouldHaveManyTriangles) {
+  TriangleMesh sheets{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+  TriangleMesh other = sheets;
+  for (Eigen::Vector3d& vertex : other.vertices) vertex.z() += 0.1;
+  sheets = Together(sheets, other);
+  RepairConfig config = Coarse();
+  config.wrap = WrapUse::kAlways;
+  const double offset_m = config.offset_fraction * std::sqrt(2.01);
+  const auto thickness_m = [&](const TriangleMesh& mesh) {
+    return Repaired(mesh, config).report.after.bounds.sizes().z() - 0.1;
+  };
+  EXPECT_NEAR(thickness_m(sheets), 2 * offset_m, 0.2 * offset_m);
+  // five for each square of alpha, of which there are 398: 1.25 times as coarse
+  config.max_sheet_triangles = 1274;
+  EXPECT_NEAR(thickness_m(sheets), 2.5 * offset_m, 0.2 * offset_m);
+  config.max_sheet_triangles = 1;
+  EXPECT_NEAR(thickness_m(sheets), 2.8 * offset_m, 0.2 * offset_m);
+  EXPECT_NEAR(thickness_m(Box(Eigen::Vector3d::Zero(), Eigen::Vector3d(1, 1, 0.1))), 2 * offset_m,
+              0.2 * offset_m);
 }
 
 TEST(RepairMesh, SaysWhyItFailsWhereItMayNotWrap) {
@@ -514,6 +568,9 @@ TEST(RepairMesh, RefusesSettingsOutOfRange) {
   EXPECT_THROW(Repaired(UnitBox(), config), Error);
   config = {};
   config.max_pairs = -1;
+  EXPECT_THROW(Repaired(UnitBox(), config), Error);
+  config = {};
+  config.max_sheet_triangles = -1;
   EXPECT_THROW(Repaired(UnitBox(), config), Error);
 }
 

@@ -37,6 +37,9 @@ constexpr int kRounds = 4;               // of cutting and joining
 constexpr double kSurplus = 2;           // regions, against those that may stay, to join from
 constexpr double kMostSurplus = 4;       // the same for a second search
 constexpr double kWorthwhile = 0.97;     // less of the depth must be left for another round
+constexpr double kStepsOfPoint = 22;     // of a point from which a hull is made, with what follows
+constexpr double kStepsOfCover = 1e7;    // of looking for what the parts leave out
+constexpr double kAgain = 0.6;  // of what may be looked at: after more no second search begins
 
 // The part of the solid inside one box: the surface in it, clipped, and the box's corners that lie
 // in the solid. Their hull is the hull of the part.
@@ -117,7 +120,7 @@ class Decomposition {
   std::vector<TriangleMesh> Run() {
     CutAndJoin(config_.max_parts);
     if (WorstDepth() > allowed_m_) SpendBetter();
-    if (WorstDepth() > allowed_m_) SearchAgain();
+    if (WorstDepth() > allowed_m_ && MayLook(kAgain)) SearchAgain();
     std::vector<TriangleMesh> parts = Covered(kCoverShare);
     if (config_.max_protrusion_m > 0) parts = Measured(std::move(parts));
     for (TriangleMesh& part : parts) part = ConvexHull(part.vertices);
@@ -177,8 +180,17 @@ class Decomposition {
     return true;
   }
 
+  // Whether less than this share of what may be looked at was.
+  bool MayLook(double share) const {
+    constexpr double kMillion = 1e6;
+    const double steps = kStepsOfPoint * static_cast<double>(points_) + kStepsOfCover * covers_ +
+                         static_cast<double>(distances_.steps());
+    return config_.max_search == 0 || steps < share * kMillion * config_.max_search;
+  }
+
   // What the hulls of the search leave out does not change what a grid sees of them.
-  std::optional<TriangleMesh> SearchHull(std::span<const Eigen::Vector3d> points) const {
+  std::optional<TriangleMesh> SearchHull(std::span<const Eigen::Vector3d> points) {
+    points_ += points.size();
     return GrownHull(points, kSearchHull * allowed_m_);
   }
 
@@ -188,17 +200,26 @@ class Decomposition {
     return worst_m;
   }
 
-  std::vector<TriangleMesh> Covered(double share) const {
+  std::vector<TriangleMesh> Covered(double share) {
+    ++covers_;
     std::vector<TriangleMesh> parts;
     for (const Region& region : regions_) {
-      if (const std::optional<TriangleMesh> hull = HullOf(region.surface.points()))
-        parts.push_back(ReducedHull(*hull, config_.max_vertices));
+      if (const std::optional<TriangleMesh>& part = PartOf(region)) parts.push_back(*part);
     }
     return Covering(std::move(parts), *mesh_, solid_,
                     {.tolerance_m = share * config_.max_concavity_m,
                      .allowed_m = allowed_m_,
                      .max_parts = config_.max_parts,
                      .max_vertices = config_.max_vertices});
+  }
+
+  const std::optional<TriangleMesh>& PartOf(const Region& region) {
+    const auto [entry, is_new] = parts_.try_emplace(region.id);
+    if (is_new) {
+      entry->second = HullOf(region.surface.points());
+      if (entry->second) entry->second = ReducedHull(*entry->second, config_.max_vertices);
+    }
+    return entry->second;
   }
 
   // Joining frees parts for further cuts.
@@ -250,7 +271,7 @@ class Decomposition {
     std::vector<Region> best = regions_;
     Excess least = ExcessOf(regions_);
     bool any = false;
-    for (int since = 0; since < kExchanges; ++since) {
+    for (int since = 0; since < kExchanges && MayLook(1); ++since) {
       const std::optional<std::size_t> worst = WorstMeasured();
       if (!worst) break;
       if (!Trim(*worst)) {
@@ -618,7 +639,7 @@ class Decomposition {
     regions_.erase(regions_.begin() + static_cast<std::ptrdiff_t>(pair.second));
   }
 
-  std::optional<TriangleMesh> CommonHull(const Region& a, const Region& b) const {
+  std::optional<TriangleMesh> CommonHull(const Region& a, const Region& b) {
     std::vector<Eigen::Vector3d> points = a.hull.vertices;
     points.insert(points.end(), b.hull.vertices.begin(), b.hull.vertices.end());
     return SearchHull(points);
@@ -682,7 +703,10 @@ class Decomposition {
   std::vector<Region> regions_;
   std::vector<Region> whole_;  // the first of them
   int next_id_ = 0;
+  std::size_t points_ = 0;  // from which hulls were made
+  int covers_ = 0;          // how often what the parts leave out was looked for
   std::map<std::pair<int, int>, Between> between_;
+  std::map<int, std::optional<TriangleMesh>> parts_;             // by the region's id
   std::map<int, Concavity> measured_;                            // by the region's id
   std::map<std::pair<int, Depths>, std::vector<Region>> sides_;  // the same
   std::map<std::vector<int>, std::optional<Region>> trimmed_;    // by its id, then the others'
@@ -700,6 +724,8 @@ void CheckConfig(const ConvexPartsConfig& config) {
           "convex.max_vertices: allowed 4 and more");
   Require(config.max_grid_cells >= 1000, ErrorCode::kInvalidConfig,
           "convex.max_grid_cells: allowed 1000 and more");
+  Require(config.max_search >= 0, ErrorCode::kInvalidConfig,
+          "convex.max_search: allowed 0 (anything) and more");
 }
 
 }  // namespace

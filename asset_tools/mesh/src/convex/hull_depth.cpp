@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <numeric>
 #include <span>
@@ -252,6 +253,7 @@ class DeepestOnSurface {
   static constexpr double kWorthwhile = 0.03;  // of a depth: what must be left to look further
   static constexpr double kLargestStep = 64;   // steps: the first where there is a depth to stop at
   static constexpr double kFiner = 8;          // by which the next are smaller
+  static constexpr std::uint64_t kStepsOfPatch = 5;
 
   void Visit(const Patch& patch, double step_m) {
     if (patch.bound_m <= worthwhile_m_) return;
@@ -297,6 +299,7 @@ class DeepestOnSurface {
     constexpr double kRounding = 1e-7;  // cells: of corners and centres of patches
     const Eigen::Array3d a = patch.corners[0], b = patch.corners[1], c = patch.corners[2];
     const double margin_m = kRounding * solid_->grid().cell_m;
+    distances_->Took(kStepsOfPatch);
     return far_->AnyBetween(solid_->grid().CellAt(a.min(b).min(c) - margin_m),
                             solid_->grid().CellAt(a.max(b).max(c) + margin_m));
   }

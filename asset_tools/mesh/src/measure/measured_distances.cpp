@@ -12,6 +12,8 @@ namespace doorforge {
 namespace {
 
 constexpr double kFloatRounding = 1e-6;                // more than that of float
+constexpr std::uint64_t kStepsOfTriangle = 20;         // of a distance to one
+constexpr std::uint64_t kStepsOfSearch = 150;          // of one to the nearest
 constexpr double kHalfDiagonal = 0.8661 * (1 + 1e-4);  // cells; more than that of a cell
 
 // Each value becomes the largest of its own and of its neighbours' along an axis.
@@ -92,6 +94,7 @@ double MeasuredDistances::AtCell(int i, int j, int k) {
   const std::size_t index = solid_->grid().IndexOf(i, j, k);
   float& distance_m = distance_m_[index];
   if (distance_m < 0) {
+    steps_ += kStepsOfSearch;
     const double most_m = MostAtCell(solid_->DistanceAt(i, j, k));
     const TriangleTree::Near near = surface_->NearestTriangle(
         solid_->grid().CenterOf(i, j, k), std::min(most_m, MostBeside(i, j, k)));
@@ -109,6 +112,7 @@ void MeasuredDistances::BeReady() {
 
 bool MeasuredDistances::NoneBeyond(const std::array<Eigen::Vector3d, 3>& corners, double far_m) {
   BeReady();
+  steps_ += kStepsOfTriangle;
   const Eigen::Vector3i cell = solid_->grid().CellAt((corners[0] + corners[1] + corners[2]) / 3);
   AtCell(cell.x(), cell.y(), cell.z());
   const int nearest = nearest_[solid_->grid().IndexOf(cell.x(), cell.y(), cell.z())];
@@ -120,6 +124,7 @@ bool MeasuredDistances::NoneBeyond(const std::array<Eigen::Vector3d, 3>& corners
 
 double MeasuredDistances::At(const Eigen::Vector3d& point) {
   BeReady();
+  steps_ += kStepsOfTriangle;
   const Grid& grid = solid_->grid();
   Eigen::Vector3i low, high;
   Eigen::Vector3d share;

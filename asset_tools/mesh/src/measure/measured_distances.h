@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -31,6 +32,12 @@ class MeasuredDistances {
   /// largest at a corner. Asked is the one that is nearest to the middle.
   bool NoneBeyond(const std::array<Eigen::Vector3d, 3>& corners, double far_m);
 
+  /// What was asked so far took about so many steps of ten nanoseconds. The same questions take the
+  /// same.
+  std::uint64_t steps() const { return steps_; }
+  /// Counts what was looked at besides.
+  void Took(std::uint64_t steps) { steps_ += steps; }
+
   /// How much more than the grid's distance to a cell that of a point in it may be.
   double MostBeyondGrid() const;
   /// The cells in air that may hold a point for which At() is more than `above_m`. Made anew only
@@ -50,6 +57,7 @@ class MeasuredDistances {
   std::vector<int> nearest_;       // triangle of the surface where the distance was asked for
   std::optional<MarkedCells> far_;
   double far_above_m_ = 0;
+  std::uint64_t steps_ = 0;
 };
 
 }  // namespace doorforge

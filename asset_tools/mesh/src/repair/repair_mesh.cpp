@@ -52,6 +52,8 @@ void CheckConfig(const RepairConfig& config) {
   require(config.max_triangles == 0 || config.max_triangles >= 100,
           "repair.max_triangles: allowed 0 (any number) or 100 and more");
   require(config.max_pairs >= 0, "repair.max_pairs: allowed 0 and more");
+  require(config.max_sheet_triangles >= 0,
+          "repair.max_sheet_triangles: allowed 0 (any number) and more");
 }
 
 std::string Count(int count, const std::string& what) {
@@ -61,7 +63,8 @@ std::string Count(int count, const std::string& what) {
 // One repair from input to report; the members are what the steps pass on.
 class Repair {
  public:
-  Repair(const TriangleMesh& input, const RepairConfig& config) : input_(&input), config_(config) {
+  Repair(const TriangleMesh& input, const RepairConfig& config)
+      : input_(&input), config_(config), pairs_(static_cast<std::size_t>(config.max_pairs)) {
     const MeshTopology topology = MeasureTopology(input);
     diagonal_m_ = topology.bounds.isEmpty() ? 0 : topology.bounds.diagonal().norm();
   }
@@ -219,6 +222,7 @@ class Repair {
     for (const TriangleMesh& sheet : sheets) boxes.push_back(BoxAround(sheet));
     // as far as a vertex of a wall may stand out where its triangles fold sharply, and more
     const double wall_m = 4 * config_.offset_fraction * diagonal_m_;
+    std::vector<TriangleMesh*> tangled;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       const auto may_hide = [&](const Eigen::AlignedBox3d& box) {
         return &box != &boxes[i] &&
@@ -229,16 +233,15 @@ class Repair {
       if (!SelfIntersects(pieces[i])) continue;
       if (MeasureTopology(pieces[i]).volume_m3 < 0)
         pieces[i] = TurnedInsideOut(std::move(pieces[i]));
-      std::optional<TriangleMesh> untangled = WithoutOwnCrossings(pieces[i], Limits());
-      if (!untangled) {
-        report_.reason = "a piece of " +
-                         Count(static_cast<int>(pieces[i].triangles.size()), "triangle") +
-                         " crosses itself";
-        return false;
-      }
-      pieces[i] = *std::move(untangled);
-      ++untangled_;
+      tangled.push_back(&pieces[i]);
     }
+    Untangling untangling = WithoutOwnCrossings({tangled.begin(), tangled.end()}, Limits(), pairs_);
+    if (untangling.pieces.size() < tangled.size()) {
+      report_.reason = std::move(untangling.problem);
+      return false;
+    }
+    for (std::size_t i = 0; i < tangled.size(); ++i) *tangled[i] = std::move(untangling.pieces[i]);
+    untangled_ += static_cast<int>(tangled.size());
     return true;
   }
 
@@ -248,7 +251,7 @@ class Repair {
     const double half_m = config_.offset_fraction * diagonal_m_;
     int thickened = 0;
     const auto thicken = [&](TriangleMesh& piece) {
-      std::optional<TriangleMesh> wall = WallsOf(piece, half_m, MaxPairs());
+      std::optional<TriangleMesh> wall = WallsOf(piece, half_m, pairs_);
       if (!wall) {
         report_.reason = "an open piece of " +
                          Count(static_cast<int>(piece.triangles.size()), "triangle") +
@@ -353,14 +356,11 @@ class Repair {
   SeparationLimits Limits() const {
     return {.shift_m = kShiftFraction * diagonal_m_,
             .half_wall_m = config_.offset_fraction * diagonal_m_,
-            .fill_cavities = report_.sheets_thickened > 0,
-            .max_pairs = MaxPairs()};
+            .fill_cavities = report_.sheets_thickened > 0};
   }
 
-  std::size_t MaxPairs() const { return static_cast<std::size_t>(config_.max_pairs); }
-
   TriangleMesh WithoutCrossings(std::vector<TriangleMesh> pieces) {
-    Separation separation = Separated(std::move(pieces), Limits());
+    Separation separation = Separated(std::move(pieces), Limits(), pairs_);
     if (separation.solids.empty()) {
       report_.reason = separation.problem;
       return {};
@@ -375,9 +375,25 @@ class Repair {
     return Merged(separation.solids);
   }
 
-  TriangleMesh Wrapped() {
+  // By how much a wrap around sheets is made coarser, whose two sides are close to each other.
+  double CoarserForSheets() const {
+    constexpr double kTriangles = 5;  // for each square of alpha: found were 2 to 7
+    constexpr double kMost = 1.4;
+    if (config_.max_sheet_triangles == 0) return 1;
+    double sheets_m2 = 0;
+    for (const TriangleMesh& piece : PiecesOf(surface_)) {
+      const MeshTopology topology = MeasureTopology(piece);
+      if (topology.boundary_edges > 0) sheets_m2 += topology.area_m2;
+    }
     const double alpha_m = config_.alpha_fraction * diagonal_m_;
-    const double offset_m = config_.offset_fraction * diagonal_m_;
+    const double expected = kTriangles * sheets_m2 / (alpha_m * alpha_m);
+    return std::clamp(std::sqrt(expected / config_.max_sheet_triangles), 1.0, kMost);
+  }
+
+  TriangleMesh Wrapped() {
+    const double coarser = CoarserForSheets();
+    const double alpha_m = coarser * config_.alpha_fraction * diagonal_m_;
+    const double offset_m = coarser * config_.offset_fraction * diagonal_m_;
     TriangleMesh wrap = AlphaWrap(surface_, alpha_m, offset_m);
     Did("wrapped with alpha " + std::to_string(1000 * alpha_m) + " mm and offset " +
         std::to_string(1000 * offset_m) + " mm to " +
@@ -417,9 +433,9 @@ class Repair {
   // Collapses that are not tried against what lies near take a fifth of the time of those that are,
   // and the first of many seldom make triangles cross.
   static TriangleMesh HalfWay(const TriangleMesh& mesh, int target) {
-    constexpr int kMany = 4;  // times the target
-    if (static_cast<int>(mesh.triangles.size()) < kMany * target) return mesh;
-    TriangleMesh between = Reduced(mesh, kMany / 2 * target, 0);
+    constexpr double kMany = 2.5;  // times the target
+    if (static_cast<double>(mesh.triangles.size()) < kMany * target) return mesh;
+    TriangleMesh between = Reduced(mesh, 2 * target, 0);
     return IsSimple(between) ? between : mesh;
   }
 
@@ -445,6 +461,7 @@ class Repair {
   TriangleMesh soup_;     // the input, welded
   TriangleMesh surface_;  // the same, oriented and with small holes filled where that was tried
   double diagonal_m_ = 0;
+  PairBudget pairs_;
   int untangled_ = 0;  // pieces, before others are looked at
 };
 

@@ -25,7 +25,7 @@ namespace {
 
 // A union takes about a tenth of a millisecond for each pair of triangles that meet.
 constexpr std::size_t kFewPairs = 200;  // drawn again for slivers
-constexpr std::size_t kMany = 3;        // the part of `max_pairs` from which draws are few
+constexpr double kMany = 0.36;          // of those that are allowed: of more, draws are few
 
 struct Meetings {
   std::size_t pairs = 0;  // of triangles
@@ -126,6 +126,12 @@ bool AddWalls(const TriangleMesh& surface, double half_m, std::vector<TriangleMe
   return true;
 }
 
+// How many pairs of triangles meet where the walls of a piece's patches do; 0 where it has none.
+std::size_t PairsOfWalls(const TriangleMesh& piece, double half_m) {
+  std::vector<TriangleMesh> walls;
+  return AddWalls(piece, half_m, walls) ? MeetingsOf(walls).pairs : 0;
+}
+
 TriangleMesh WithoutCavities(const TriangleMesh& solid) {
   std::vector<TriangleMesh> shells = PiecesOf(solid);
   std::erase_if(shells, [](const TriangleMesh& shell) { return VolumeOf(shell) < 0; });
@@ -145,10 +151,11 @@ bool SurvivesFiles(const TriangleMesh& mesh) {
 // enclose is no cavity any more.
 std::optional<TriangleMesh> SimpleUnion(const std::vector<TriangleMesh>& solids,
                                         const SeparationLimits& limits, std::size_t pairs,
-                                        int attempt) {
+                                        std::size_t allowed, int attempt) {
   constexpr int kRepeats = 6;
-  // of many, the second draw is one that moves them farther, and none where they do not unite
-  const bool are_many = pairs > limits.max_pairs / kMany;
+  // of many, the second draw is one that moves them farther, and none where they do not unite; what
+  // crosses then is not mended, which takes as long as a wrap
+  const bool are_many = static_cast<double>(pairs) > kMany * static_cast<double>(allowed);
   const int step = are_many ? kRepeats - 2 : 1;
   std::optional<TriangleMesh> flattened, crossing;
   for (int repeat = 0; repeat < kRepeats; repeat += step) {
@@ -169,12 +176,13 @@ std::optional<TriangleMesh> SimpleUnion(const std::vector<TriangleMesh>& solids,
     if (flattened && pairs > kFewPairs) break;
     if (ClosedMesh::From(simple)) crossing = simple;
   }
-  return flattened || !crossing ? flattened : WithCrossingsMended(*crossing);
+  if (flattened || !crossing || are_many) return flattened;
+  return WithCrossingsMended(*crossing);
 }
 
 // Puts the union of each group in the place of its first member. False where there is none.
 bool Unite(std::vector<TriangleMesh>& pieces, const Meetings& meetings,
-           const SeparationLimits& limits, int attempt) {
+           const SeparationLimits& limits, std::size_t allowed, int attempt) {
   std::vector<char> gone(pieces.size(), 0);
   for (const std::vector<std::size_t>& group : meetings.groups) {
     std::vector<TriangleMesh> members;
@@ -182,7 +190,8 @@ bool Unite(std::vector<TriangleMesh>& pieces, const Meetings& meetings,
       members.push_back(std::move(pieces[i]));
       gone[i] = i != group.front();
     }
-    std::optional<TriangleMesh> whole = SimpleUnion(members, limits, meetings.pairs, attempt);
+    std::optional<TriangleMesh> whole =
+        SimpleUnion(members, limits, meetings.pairs, allowed, attempt);
     if (!whole) return false;
     pieces[group.front()] = limits.fill_cavities ? WithoutCavities(*whole) : *std::move(whole);
   }
@@ -193,28 +202,49 @@ bool Unite(std::vector<TriangleMesh>& pieces, const Meetings& meetings,
 
 }  // namespace
 
-std::optional<TriangleMesh> WallsOf(const TriangleMesh& surface, double half_m,
-                                    std::size_t max_pairs) {
+std::optional<TriangleMesh> WallsOf(const TriangleMesh& surface, double half_m, PairBudget& pairs) {
   if (MeasureTopology(surface).boundary_edges > 0) {
     if (std::optional<TriangleMesh> wall = SimpleWallOf(surface, half_m)) return wall;
   }
   std::vector<TriangleMesh> walls;
   if (!AddWalls(surface, half_m, walls) || walls.empty()) return std::nullopt;
-  const Separation separation = Separated(
-      std::move(walls), {.shift_m = 0.05 * half_m, .fill_cavities = true, .max_pairs = max_pairs});
+  const Separation separation =
+      Separated(std::move(walls), {.shift_m = 0.05 * half_m, .fill_cavities = true}, pairs);
   if (separation.solids.empty()) return std::nullopt;
   return Merged(separation.solids);
 }
 
-std::optional<TriangleMesh> WithoutOwnCrossings(const TriangleMesh& piece,
-                                                const SeparationLimits& limits) {
-  std::optional<TriangleMesh> moved = Untangled(piece, limits.shift_m);
-  if (!moved && limits.half_wall_m > 0)
-    moved = WallsOf(piece, limits.half_wall_m, limits.max_pairs);
-  return moved;
+Untangling WithoutOwnCrossings(const std::vector<const TriangleMesh*>& pieces,
+                               const SeparationLimits& limits, PairBudget& pairs) {
+  std::vector<std::optional<TriangleMesh>> moved;
+  std::size_t needed = 0;
+  for (const TriangleMesh* piece : pieces) {
+    moved.push_back(Untangled(*piece, limits.shift_m));
+    if (!moved.back() && limits.half_wall_m > 0 && pieces.size() > 1)
+      needed += PairsOfWalls(*piece, limits.half_wall_m);
+  }
+  Untangling untangling;
+  if (needed > pairs.left()) {
+    untangling.problem = "walls of pieces that cross themselves meet in " + std::to_string(needed) +
+                         " pairs of triangles, more than are left of " + "max_pairs, which is " +
+                         std::to_string(pairs.allowed());
+    return untangling;
+  }
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (!moved[i] && limits.half_wall_m > 0)
+      moved[i] = WallsOf(*pieces[i], limits.half_wall_m, pairs);
+    if (!moved[i]) {
+      untangling.problem =
+          "a piece of " + std::to_string(pieces[i]->triangles.size()) + " triangles crosses itself";
+      return untangling;
+    }
+    untangling.pieces.push_back(*std::move(moved[i]));
+  }
+  return untangling;
 }
 
-Separation Separated(std::vector<TriangleMesh> pieces, const SeparationLimits& limits) {
+Separation Separated(std::vector<TriangleMesh> pieces, const SeparationLimits& limits,
+                     PairBudget& pairs) {
   constexpr int kGrowthRounds = 4;  // growing pieces may make them meet others
   Separation separation;
   const std::size_t before = pieces.size();
@@ -227,23 +257,23 @@ Separation Separated(std::vector<TriangleMesh> pieces, const SeparationLimits& l
       separation.solids = std::move(pieces);
       return separation;
     }
-    if (meetings.pairs > limits.max_pairs) {
+    if (!pairs.Take(meetings.pairs)) {
       separation.problem = std::to_string(meetings.pairs) +
-                           " pairs of triangles meet, more than max_pairs, which is " +
-                           std::to_string(limits.max_pairs);
+                           " pairs of triangles meet, more than are left of max_pairs, which is " +
+                           std::to_string(pairs.allowed());
       return separation;
     }
-    for (const std::size_t i : meetings.with_themselves) {
-      std::optional<TriangleMesh> moved = WithoutOwnCrossings(pieces[i], limits);
-      if (!moved) {
-        separation.problem = "a piece of " + std::to_string(pieces[i].triangles.size()) +
-                             " triangles crosses itself";
-        return separation;
-      }
-      pieces[i] = *std::move(moved);
-      ++separation.untangled;
+    std::vector<const TriangleMesh*> tangled;
+    for (const std::size_t i : meetings.with_themselves) tangled.push_back(&pieces[i]);
+    Untangling untangling = WithoutOwnCrossings(tangled, limits, pairs);
+    if (untangling.pieces.size() < tangled.size()) {
+      separation.problem = std::move(untangling.problem);
+      return separation;
     }
-    if (!Unite(pieces, meetings, limits, round)) {
+    auto moved = untangling.pieces.begin();
+    for (const std::size_t i : meetings.with_themselves) pieces[i] = std::move(*moved++);
+    separation.untangled += static_cast<int>(tangled.size());
+    if (!Unite(pieces, meetings, limits, pairs.allowed(), round)) {
       separation.problem = std::to_string(before) + " pieces that meet have no simple union";
       return separation;
     }

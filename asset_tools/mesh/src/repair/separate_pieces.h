@@ -11,13 +11,33 @@
 
 namespace doorforge {
 
+/// How many pairs of triangles that meet may be united in the repair of one mesh, all its unions
+/// together: each takes about a tenth of a millisecond.
+class PairBudget {
+ public:
+  explicit PairBudget(std::size_t allowed) : allowed_(allowed), left_(allowed) {}
+
+  std::size_t allowed() const { return allowed_; }
+  std::size_t left() const { return left_; }
+
+  /// False, and nothing is taken, where no so many are left.
+  bool Take(std::size_t pairs) {
+    if (pairs > left_) return false;
+    left_ -= pairs;
+    return true;
+  }
+
+ private:
+  std::size_t allowed_;
+  std::size_t left_;
+};
+
 /// The solid that stands for an open sheet: walls of twice `half_m`, or thinner where the sheet
 /// folds tightly; free of crossings. A sheet that cannot be thickened as a whole is the union of
 /// the walls of its patches; voids that these close in are filled, as they are for any surface that
-/// crosses itself. Nothing where that takes too many walls, more than `max_pairs` of their
-/// triangles meet, or they have no simple union.
-std::optional<TriangleMesh> WallsOf(const TriangleMesh& surface, double half_m,
-                                    std::size_t max_pairs);
+/// crosses itself. Nothing where that takes too many walls, or more pairs than are left, or they
+/// have no simple union.
+std::optional<TriangleMesh> WallsOf(const TriangleMesh& surface, double half_m, PairBudget& pairs);
 
 struct Separation {
   std::vector<TriangleMesh> solids;  ///< None meets another or itself; empty if that failed.
@@ -30,17 +50,22 @@ struct SeparationLimits {
   double shift_m = 0;          ///< How far surfaces may move so that nothing touches.
   double half_wall_m = 0;      ///< Half the thickness of walls that stand for tangled pieces.
   bool fill_cavities = false;  ///< Whether voids that arise where pieces are united are filled.
-  std::size_t max_pairs = 0;   ///< Pairs of triangles that may meet; more are not united.
 };
 
 /// Solids without crossings from closed pieces, which face outwards or, as cavities, inwards:
 /// pieces that touch themselves are shrunk or grown a little, those that cross themselves become
 /// the union of walls along them, filled; pieces that meet are united.
-Separation Separated(std::vector<TriangleMesh> pieces, const SeparationLimits& limits);
+Separation Separated(std::vector<TriangleMesh> pieces, const SeparationLimits& limits,
+                     PairBudget& pairs);
 
-/// What Separated() puts in the place of a closed piece that crosses itself, or nothing where it
-/// fails for that.
-std::optional<TriangleMesh> WithoutOwnCrossings(const TriangleMesh& piece,
-                                                const SeparationLimits& limits);
+/// What Separated() puts in the places of closed pieces that cross themselves, in their order.
+/// Fewer where it fails for the next of them, of which it says why in `problem`: before any is
+/// united, where walls of them all would have more pairs than are left.
+struct Untangling {
+  std::vector<TriangleMesh> pieces;
+  std::string problem;
+};
+Untangling WithoutOwnCrossings(const std::vector<const TriangleMesh*>& pieces,
+                               const SeparationLimits& limits, PairBudget& pairs);
 
 }  // namespace doorforge

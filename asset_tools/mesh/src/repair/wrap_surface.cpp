@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include <CGAL/alpha_wrap_3.h>
@@ -23,7 +25,8 @@ namespace wraps = CGAL::Alpha_wraps_3::internal;
 Eigen::Vector3d VectorOf(const Point& point) { return {point.x(), point.y(), point.z()}; }
 
 // The triangles of a wrap's input, to be found by place. CGAL's own tree spends most of a wrap on
-// boxes around the same ball, at each of its nodes anew.
+// boxes around the same ball, at each of its nodes anew, and is exact where distances are rounded
+// anyway.
 class FoundTriangles {
  public:
   struct Triangle {
@@ -62,6 +65,13 @@ class FoundTriangles {
     return false;
   }
 
+  // The point of the triangles that is nearest to another.
+  Eigen::Vector3d NearestTo(const Eigen::Vector3d& point) const {
+    Nearest nearest;
+    Descend(0, point, nearest);
+    return nearest.point;
+  }
+
  private:
   static constexpr std::size_t kDeepest = 64;  // more than the levels of halves
 
@@ -70,6 +80,32 @@ class FoundTriangles {
     int first = 0;  // leaf: first triangle; inner: first child, the second follows it
     int count = 0;  // leaf: triangles; inner: 0
   };
+
+  struct Nearest {
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();
+    double squared_m2 = std::numeric_limits<double>::infinity();
+  };
+
+  // The nearer child first.
+  void Descend(int at, const Eigen::Vector3d& point, Nearest& nearest) const {
+    const Node& node = nodes_[static_cast<std::size_t>(at)];
+    for (int i = node.first; i < node.first + node.count; ++i) {
+      const auto& [a, b, c] = triangles_[static_cast<std::size_t>(i)].corners;
+      const Eigen::Vector3d candidate = NearestPoint(point, a, b, c);
+      const double squared_m2 = (candidate - point).squaredNorm();
+      if (squared_m2 < nearest.squared_m2) nearest = {candidate, squared_m2};
+    }
+    if (node.count > 0) return;
+    const auto away = [&](int child) {
+      return nodes_[static_cast<std::size_t>(child)].box.squaredExteriorDistance(point);
+    };
+    std::array<std::pair<double, int>, 2> children = {
+        {{away(node.first), node.first}, {away(node.first + 1), node.first + 1}}};
+    if (children[1].first < children[0].first) std::swap(children[0], children[1]);
+    for (const auto& [squared_m2, child] : children) {
+      if (squared_m2 < nearest.squared_m2) Descend(child, point, nearest);
+    }
+  }
 
   void Build(int node, int first, int count) {
     constexpr int kLeafTriangles = 2;
@@ -145,9 +181,19 @@ class TetrahedronPlanes {
   std::ptrdiff_t count_ = 0;
 };
 
-// What a wrap asks of its input, with the answers that CGAL's own function would be given; between
-// two questions a wrap that takes too long can be given up. CGAL 5.5 offers no other place for
-// that.
+// How far a point is from the triangles, as CGAL's search along a segment asks for it.
+struct DistanceTo {
+  double operator()(const Point& point) const {
+    const Eigen::Vector3d at = VectorOf(point);
+    return (found->NearestTo(at) - at).norm();
+  }
+
+  const FoundTriangles* found;
+};
+
+// What a wrap asks of its input, with the answers that CGAL's own function would be given but for
+// rounding of nearest points; between two questions a wrap that takes too long can be given up.
+// CGAL 5.5 offers no other place for that.
 class SoupWithinBudget : public wraps::Triangle_soup_oracle<Kernel> {
  public:
   using Base = wraps::Triangle_soup_oracle<Kernel>;
@@ -192,13 +238,18 @@ class SoupWithinBudget : public wraps::Triangle_soup_oracle<Kernel> {
   }
 
   Point_3 closest_point(const Point_3& point) const {
-    CheckWork(kSteps);
-    return Base::closest_point(point);
+    CheckWork(kSteps / 4);
+    const Eigen::Vector3d nearest = found_.NearestTo(VectorOf(point));
+    return {nearest.x(), nearest.y(), nearest.z()};
   }
+
   bool first_intersection(const Point_3& from, const Point_3& to, Point_3& at,
                           const Geom_traits::FT offset) const {
+    constexpr double kPrecision = 0.01;  // of the offset, as CGAL's own
     CheckWork(kSteps);
-    return Base::first_intersection(from, to, at, offset);
+    return wraps::Offset_intersection<Geom_traits, DistanceTo>(DistanceTo{&found_}, offset,
+                                                               kPrecision * offset, 1)
+        .first_intersection(from, to, at);
   }
 
  private:

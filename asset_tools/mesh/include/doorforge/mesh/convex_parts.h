@@ -16,6 +16,9 @@ struct ConvexPartsConfig {
   double max_protrusion_m = 0;     ///< It is measured like the other; 0: it was not.
   int max_vertices = 64;           ///< A part has at most so many, at least 4.
   int max_grid_cells = 4'000'000;  ///< Cells of the grid that the search works on.
+  /// What may be looked at, in millions of steps of some ten nanoseconds, before the parts that
+  /// were found have to do; 0: anything. It is counted, not timed.
+  int max_search = 0;
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -24,6 +27,7 @@ struct ConvexPartsConfig {
     visit("max_protrusion_m", self.max_protrusion_m);
     visit("max_vertices", self.max_vertices);
     visit("max_grid_cells", self.max_grid_cells);
+    visit("max_search", self.max_search);
   }
 };
 
@@ -34,7 +38,9 @@ struct ConvexPartsConfig {
 /// `max_parts` are reached; pieces whose common hull keeps that bound are joined again. So an
 /// opening or a finger gap wider than twice the concavity stays free. Then the surface of every
 /// hull is measured, and what protrudes by more than `max_protrusion_m` is cut further while parts
-/// are left. Each part is a closed convex mesh with at most `max_vertices` vertices, outward
+/// are left. A mesh on which `max_search` was used up keeps what was found by then: of shapes with
+/// more walls than parts a second search from the beginning, and cuts by what was measured, mostly
+/// gain little. Each part is a closed convex mesh with at most `max_vertices` vertices, outward
 /// orientation; a hull with more is reduced to those that leave the smallest rest outside.
 /// Overlapping pieces of the mesh count as their union. Deterministic. Measure the result with
 /// MeasureConvexParts().

@@ -39,10 +39,14 @@ struct RepairConfig {
   /// The output has at most so many, a wrap never more than three times the input's and 5,000. More
   /// are kept where fewer would cross. 0: any number.
   int max_triangles = 6000;
-  /// Pieces and walls of which more pairs of triangles meet are not united but wrapped. Uniting
-  /// them takes about 0.1 ms for each pair and draw, of which there are fewer above a third of it,
-  /// and keeps nearer to the surface.
+  /// A mesh in whose unions, all of them together, more pairs of triangles meet is wrapped. Uniting
+  /// them takes about 0.1 ms for each pair and draw, of which a union of more than 0.36 of these
+  /// has fewer, and keeps nearer to the surface.
   int max_pairs = 100'000;
+  /// Around open sheets a wrap has some four times as many triangles as around solids, before it is
+  /// thinned. Of more than these `alpha_fraction` and `offset_fraction` grow, to 1.4 times theirs
+  /// at most. 0: any number.
+  int max_sheet_triangles = 0;
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -54,6 +58,7 @@ struct RepairConfig {
     visit("max_cap_fraction", self.max_cap_fraction);
     visit("max_triangles", self.max_triangles);
     visit("max_pairs", self.max_pairs);
+    visit("max_sheet_triangles", self.max_sheet_triangles);
   }
 };
 

@@ -15,13 +15,15 @@
 namespace doorforge {
 
 struct MakePartConfig {
-  /// Hollow leaves become solid; where a wrap is quicker than a union, it is wrapped.
-  RepairConfig repair = {.max_cap_fraction = 1, .max_pairs = 15'000};
+  /// Hollow leaves become solid; what would take many unions is wrapped, and sheets more coarsely
+  /// where they would take long.
+  RepairConfig repair = {.max_cap_fraction = 1, .max_pairs = 14'000, .max_sheet_triangles = 40'000};
   /// A grid sees depths to within a third of the bound: this keeps nearly all within a centimetre.
+  /// Of those that more parts than these would have to stand for, the search ends early.
   ConvexPartsConfig frame_convex{
-      .max_parts = 32, .max_concavity_m = 0.009, .max_protrusion_m = 0.01};
+      .max_parts = 32, .max_concavity_m = 0.009, .max_protrusion_m = 0.01, .max_search = 80};
   ConvexPartsConfig leaf_convex{
-      .max_parts = 32, .max_concavity_m = 0.009, .max_protrusion_m = 0.01};
+      .max_parts = 32, .max_concavity_m = 0.009, .max_protrusion_m = 0.01, .max_search = 80};
   /// Finer: what the fingers grasp must not be thicker in collisions than in the picture.
   ConvexPartsConfig handle_convex{
       .max_parts = 32, .max_concavity_m = 0.002, .max_protrusion_m = 0.003};

@@ -19,7 +19,7 @@ struct MakePartConfig {
   /// where they would take long.
   RepairConfig repair = {.max_cap_fraction = 1, .max_pairs = 14'000, .max_sheet_triangles = 40'000};
   /// A grid sees depths to within a third of the bound: this keeps nearly all within a centimetre.
-  /// Of those that more parts than these would have to stand for, the search ends early.
+  /// Where more parts than these would have to stand for a mesh, the search ends early.
   ConvexPartsConfig frame_convex{
       .max_parts = 32, .max_concavity_m = 0.009, .max_protrusion_m = 0.01, .max_search = 80};
   ConvexPartsConfig leaf_convex{

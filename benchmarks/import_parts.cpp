@@ -397,7 +397,8 @@ class Run {
                  {"parts", parts.size()},
                  {"protrusion_m", fit.protrusion_m},
                  {"uncovered_m", fit.uncovered_m},
-                 {"steps", report.steps}};
+                 {"steps", report.steps},
+                 {"reason", report.reason}};
     if (!keep_.empty()) Keep(named, raw.name, *closed);
     for (const auto& peer : peers_) note[peer->name()] = peer->Add(*closed, raw.name);
     Note(note);

@@ -17,6 +17,8 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/mesh_transform.h"
 
+#include "repair/separate_pieces.h"
+#include "repair/solid_shells.h"
 #include "repair/surface_operations.h"
 #include "shapes.h"
 
@@ -258,12 +260,13 @@ TEST(RepairMesh, FillsAHoleWithTheSameTrianglesOnAnotherHeap) {
   const HoleLimits all = {.max_size_m = 100, .max_cap_distance_m = 100};
   for (const int sides : {12, 40}) {
     const TriangleMesh cone = TurnedCone(sides);
-    const ClosedSoup first = CloseSoup(cone, all);
+    const ClosedSoup first = CloseSoup(cone, all, cone);
     ASSERT_EQ(first.holes_filled, 1);
     ASSERT_EQ(static_cast<int>(first.mesh.triangles.size()), 2 * sides - 2);
     for (unsigned seed = 1; seed <= 20; ++seed) {
       const auto held = ScatteredBlocks(seed);
-      ASSERT_EQ(CloseSoup(cone, all).mesh.triangles, first.mesh.triangles) << sides << ' ' << seed;
+      ASSERT_EQ(CloseSoup(cone, all, cone).mesh.triangles, first.mesh.triangles)
+          << sides << ' ' << seed;
     }
   }
 }
@@ -299,6 +302,20 @@ TEST(RepairMesh, MakesAWallOfASheetWithTwoSides) {
   EXPECT_EQ(result.report.outcome, RepairOutcome::kRepaired) << result.report.reason;
   EXPECT_FALSE(result.report.self_intersects);
   const double half = std::sqrt(2.0) * 0.005;
+  EXPECT_NEAR(VolumeAfter(result), 2 * half, 0.2 * half);
+}
+
+// Beside a sheet with two sides a strip that is closed like it, hardly wider than what is welded.
+TEST(RepairMesh, DropsAClosedStripThatIsTooNarrowForAWall) {
+  TriangleMesh strip = FlatPillow();
+  for (Eigen::Vector3d& vertex : strip.vertices)
+    vertex = Eigen::Vector3d(vertex.x(), 4e-6 * vertex.y(), 0.025);
+  RepairConfig config = Coarse();
+  config.offset_fraction = 0.02;
+  const RepairResult result = Repaired(Together(FlatPillow(), strip), config);
+  EXPECT_EQ(result.report.outcome, RepairOutcome::kRepaired) << result.report.reason;
+  EXPECT_EQ(result.report.components_dropped, 1);
+  const double half = result.report.before.bounds.diagonal().norm() * 0.02;
   EXPECT_NEAR(VolumeAfter(result), 2 * half, 0.2 * half);
 }
 
@@ -399,6 +416,115 @@ TEST(RepairMesh, WrapsWhatMeetsInMorePairsOfTrianglesThanMayBeUnited) {
       << wrapped.report.reason;
 }
 
+TEST(PairBudget, KeepsAnEighthMoreForWhatIsSmall) {
+  PairBudget pairs(80);
+  EXPECT_TRUE(pairs.Take(75));
+  EXPECT_FALSE(pairs.Take(11));
+  EXPECT_EQ(pairs.left(), 5u);
+  EXPECT_TRUE(pairs.Take(6));
+  EXPECT_FALSE(pairs.Take(6));
+  EXPECT_TRUE(pairs.Take(5));
+  EXPECT_TRUE(pairs.Take(4));
+  EXPECT_FALSE(pairs.Take(1));
+}
+
+// A rack of 4 x 6 compartments, each of five boards of its own, flush with those beside them: more
+// pairs of triangles than are drawn often.
+TEST(RepairMesh, UnitesARackOfBoardsThatAreFlush) {
+  constexpr double kWide = 0.3, kHigh = 0.25, kDeep = 0.4, kBoard = 0.01;
+  TriangleMesh rack;
+  const auto board = [&](double x, double z, const Eigen::Vector3d& low,
+                         const Eigen::Vector3d& high) {
+    const Eigen::Vector3d corner(x, 0, z);
+    rack = Together(rack, Box(corner + low, corner + high));
+  };
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 6; ++row) {
+      const double x = column * kWide, z = row * kHigh;
+      board(x, z, {0, 0, 0}, {kWide, kDeep, kBoard});
+      board(x, z, {0, 0, kHigh - kBoard}, {kWide, kDeep, kHigh});
+      board(x, z, {0, 0, kBoard}, {kBoard, kDeep, kHigh - kBoard});
+      board(x, z, {kWide - kBoard, 0, kBoard}, {kWide, kDeep, kHigh - kBoard});
+      board(x, z, {kBoard, kDeep - kBoard, kBoard}, {kWide - kBoard, kDeep, kHigh - kBoard});
+    }
+  }
+  const RepairResult result = Repaired(rack, {.max_pairs = 14'000});
+  EXPECT_EQ(result.report.outcome, RepairOutcome::kRepaired) << result.report.reason;
+  EXPECT_FALSE(result.report.self_intersects);
+  const double inside = (kWide - 2 * kBoard) * (kDeep - kBoard) * (kHigh - 2 * kBoard);
+  const double volume = 24 * (kWide * kDeep * kHigh - inside);
+  EXPECT_NEAR(VolumeAfter(result), volume, 0.02 * volume);
+}
+
+// Two boxes that share a face, welded; `rest` besides.
+TriangleMesh WeldedBoxes(const TriangleMesh& rest = {}) {
+  TriangleMesh boxes = Together(UnitBox(), rest);
+  const int first = static_cast<int>(boxes.vertices.size());
+  const TriangleMesh other = Box({1, 0, 0}, {2, 1, 1});
+  boxes.vertices.insert(boxes.vertices.end(), other.vertices.begin(), other.vertices.end());
+  // its corners 0, 2, 4 and 6 are 1, 3, 5 and 7 of the unit box
+  for (const Eigen::Vector3i& t : other.triangles)
+    boxes.triangles.push_back(t.unaryExpr([&](int i) { return i % 2 == 0 ? i + 1 : first + i; }));
+  return boxes;
+}
+
+TEST(SolidShells, PartsBoxesThatShareAFace) {
+  const SolidShells apart = SolidShellsOf(WeldedBoxes(), 1e-6);
+  ASSERT_EQ(apart.shells.size(), 2u);
+  EXPECT_TRUE(apart.rest.triangles.empty());
+  EXPECT_EQ(apart.split_vertices, 4);
+  for (const TriangleMesh& shell : apart.shells) {
+    EXPECT_TRUE(ClosedMesh::From(shell));
+    EXPECT_DOUBLE_EQ(VolumeOf(shell), 1);
+  }
+}
+
+TEST(SolidShells, LeavesASheetThatIsWeldedToOne) {
+  // from an edge of the first box outwards
+  const TriangleMesh sheet{{{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}}, {{0, 1, 2}}};
+  TriangleMesh soup = WeldedBoxes(sheet);
+  for (Eigen::Vector3i& t : soup.triangles)
+    t = t.unaryExpr([](int i) { return i == 8 ? 0 : i == 9 ? 2 : i; }).eval();
+  const SolidShells apart = SolidShellsOf(soup, 1e-6);
+  EXPECT_EQ(apart.shells.size(), 2u);
+  ASSERT_EQ(apart.rest.triangles.size(), 1u);
+  EXPECT_EQ(apart.rest.triangles[0], Eigen::Vector3i(0, 2, 10));
+}
+
+// A solid to which only a sheet is welded: the sheet may stand for what the solid lacks elsewhere.
+TEST(SolidShells, LeavesASolidThatSharesItsEdgesWithNone) {
+  TriangleMesh soup = UnitBox();
+  soup.vertices.emplace_back(-1, 0, 0);
+  soup.triangles.emplace_back(0, 2, 8);
+  const SolidShells none = SolidShellsOf(soup, 1e-6);
+  EXPECT_TRUE(none.shells.empty());
+  EXPECT_EQ(none.rest.triangles, soup.triangles);
+}
+
+TEST(SolidShells, LeavesWhatSharesNoEdgeAsItIs) {
+  const TriangleMesh apart = Together(UnitBox(), Box({1, 0, 0}, {2, 1, 1}));
+  const SolidShells none = SolidShellsOf(apart, 1e-6);
+  EXPECT_TRUE(none.shells.empty());
+  EXPECT_EQ(none.rest.triangles, apart.triangles);
+}
+
+// Each of its triangles twice, once either way round: no matter between, and none but outside.
+TEST(SolidShells, TakesOfBoxesWithTwoSidesTheOuter) {
+  TriangleMesh boxes = WeldedBoxes();
+  for (const Eigen::Vector3i& t : WeldedBoxes().triangles)
+    boxes.triangles.emplace_back(t[0], t[2], t[1]);
+  const SolidShells apart = SolidShellsOf(boxes, 1e-6);
+  ASSERT_EQ(apart.shells.size(), 2u);
+  for (const TriangleMesh& shell : apart.shells) EXPECT_DOUBLE_EQ(VolumeOf(shell), 1);
+  EXPECT_TRUE(apart.rest.triangles.empty());
+}
+
+TEST(SolidShells, LeavesASheetWithTwoSidesAsItIs) {
+  TriangleMesh sheet{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+                     {{0, 1, 2}, {0, 2, 3}, {0, 2, 1}, {0, 3, 2}}};
+  EXPECT_TRUE(SolidShellsOf(sheet, 1e-6).shells.empty());
+}
+
 // The least `max_pairs` with which the mesh is repaired without a wrap.
 int PairsNeeded(const TriangleMesh& mesh) {
   int low = 0, high = 20'000;  // not enough, and enough
@@ -412,18 +538,22 @@ int PairsNeeded(const TriangleMesh& mesh) {
   return high;
 }
 
-// One is a sheet that becomes a union of walls, the other two boxes, united later.
+// One is a sheet that becomes a union of walls, the other a box with pegs, united later, of more
+// pairs than are kept for small unions.
 TEST(RepairMesh, CountsThePairsOfAllItsUnionsTogether) {
-  TriangleMesh boxes =
-      Together(UnitBox(), Box(Eigen::Vector3d(0.2, 0.2, 0.5), Eigen::Vector3d(0.8, 0.8, 1.5)));
-  for (Eigen::Vector3d& vertex : boxes.vertices) vertex.x() += 2;
-  const int of_boxes = PairsNeeded(boxes);
-  const int of_both = PairsNeeded(Together(BentToAnEight(), boxes));
-  EXPECT_GT(of_boxes, 3);
+  TriangleMesh pegs = UnitBox();
+  for (const double x : {0.1, 0.4, 0.7}) {
+    pegs = Together(pegs, Box(Eigen::Vector3d(x, 0.2, 0.5), Eigen::Vector3d(x + 0.2, 0.4, 1.5)));
+    pegs = Together(pegs, Box(Eigen::Vector3d(x, 0.6, 0.5), Eigen::Vector3d(x + 0.2, 0.8, 1.5)));
+  }
+  for (Eigen::Vector3d& vertex : pegs.vertices) vertex.x() += 2;
+  const int of_pegs = PairsNeeded(pegs);
+  const int of_both = PairsNeeded(Together(BentToAnEight(), pegs));
+  EXPECT_GT(of_pegs, of_both / 8);
   // its walls are as thick as the whole is large
   TriangleMesh sheet =
       Together(BentToAnEight(), Box(Eigen::Vector3d(2, 0, 0), Eigen::Vector3d(3, 1, 1.5)));
-  EXPECT_EQ(of_both, PairsNeeded(sheet) + of_boxes);
+  EXPECT_EQ(of_both, PairsNeeded(sheet) + of_pegs);
 }
 
 // Two sheets of a square metre each, and a solid of as much surface.

@@ -45,12 +45,12 @@ TEST(WorkBudget, EndsEveryStageThatMayTakeLong) {
   moved.translation() << 0.1, 0, 0;
   const std::array<std::pair<const char*, std::function<void()>>, 11> stages = {{
       {"repair", [&] { RepairMesh(open, {}); }},
-      {"close", [&] { CloseSoup(open, {.max_size_m = 10, .max_cap_distance_m = 10}); }},
+      {"close", [&] { CloseSoup(open, {.max_size_m = 10, .max_cap_distance_m = 10}, open); }},
       {"cross", [&] { SelfIntersects(torus); }},
       {"crossings", [&] { CrossingTriangles(torus); }},
       {"unite",
        [&] {
-         United({torus, Box({-2, -2, -0.1}, {2, 2, 0.1})}, 1e-4, 0);
+         United({torus, Box({-2, -2, -0.1}, {2, 2, 0.1})}, {.shift_m = 1e-4, .turns = true});
        }},
       {"wrap", [&] { AlphaWrap(torus, 0.1, 0.01); }},
       {"simplify", [&] { Simplified(torus, 100, 0); }},

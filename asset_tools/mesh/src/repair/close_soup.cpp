@@ -164,7 +164,8 @@ void FillHoles(SurfaceMesh& surface, const HoleLimits& limits, const TriangleTre
 
 }  // namespace
 
-ClosedSoup CloseSoup(const TriangleMesh& soup, const HoleLimits& holes) {
+ClosedSoup CloseSoup(const TriangleMesh& soup, const HoleLimits& holes,
+                     const TriangleMesh& around) {
   ClosedSoup closed;
   const TriangleMesh distinct = WithoutRepeats(soup, closed);
   std::vector<Point> points = PointsOf(distinct);
@@ -180,7 +181,7 @@ ClosedSoup CloseSoup(const TriangleMesh& soup, const HoleLimits& holes) {
   pmp::stitch_borders(surface);
   CheckWork();
   closed.split_vertices += static_cast<int>(pmp::duplicate_non_manifold_vertices(surface));
-  FillHoles(surface, holes, TriangleTree(soup), closed);
+  FillHoles(surface, holes, TriangleTree(around), closed);
   surface.collect_garbage();
   closed.mesh = TrianglesOf(surface);
   return closed;

@@ -18,6 +18,7 @@
 #include "measure/triangle_tree.h"
 #include "repair/collapse_edges.h"
 #include "repair/separate_pieces.h"
+#include "repair/solid_shells.h"
 #include "repair/surface_operations.h"
 
 namespace doorforge {
@@ -153,19 +154,29 @@ class Repair {
   }
 
   TriangleMesh Closed() {
-    ClosedSoup closed =
-        CloseSoup(soup_, {.max_size_m = config_.max_hole_fraction * diagonal_m_,
-                          .max_flat_size_m = kFlatHoleSize * diagonal_m_,
-                          .max_flat_area_share = config_.max_flat_hole_share,
-                          .flatness_m = kFlatHoleFraction * diagonal_m_,
-                          .max_cap_distance_m = config_.max_cap_fraction * diagonal_m_});
+    SolidShells solids = SolidShellsOf(soup_, kFlatFraction * diagonal_m_);
+    if (solids.shells.empty()) return Closed(soup_);
+    Did("took " + Count(static_cast<int>(solids.shells.size()), "solid") +
+        " apart at shared edges with " + Count(solids.split_vertices, "copied corner"));
+    if (!solids.rest.triangles.empty()) solids.shells.push_back(Closed(solids.rest));
+    return Merged(solids.shells);
+  }
+
+  TriangleMesh Closed(const TriangleMesh& soup) {
+    ClosedSoup closed = CloseSoup(soup,
+                                  {.max_size_m = config_.max_hole_fraction * diagonal_m_,
+                                   .max_flat_size_m = kFlatHoleSize * diagonal_m_,
+                                   .max_flat_area_share = config_.max_flat_hole_share,
+                                   .flatness_m = kFlatHoleFraction * diagonal_m_,
+                                   .max_cap_distance_m = config_.max_cap_fraction * diagonal_m_},
+                                  soup_);
     if (closed.degenerate_triangles > 0)
       Did("dropped " + Count(closed.degenerate_triangles, "degenerate triangle"));
     if (closed.duplicate_triangles > 0)
       Did("dropped " + Count(closed.duplicate_triangles, "duplicate triangle"));
     Did("oriented and stitched the surface");
     if (closed.split_vertices > 0)
-      Did("cut non-manifold places apart at " + Count(closed.split_vertices, "vertex copy"));
+      Did("cut non-manifold places apart with " + Count(closed.split_vertices, "copied corner"));
     if (closed.holes_filled > 0) Did("filled " + Count(closed.holes_filled, "hole"));
     if (closed.far_caps > 0)
       Did("left " + Count(closed.far_caps, "hole") + " open whose cap would lie more than " +
@@ -195,7 +206,9 @@ class Repair {
     for (const TriangleMesh& piece : flat) flat_area += MeasureTopology(piece).area_m2;
     if (pieces.empty() || flat_area > kFlatAreaShare * report_.before.area_m2) {
       for (TriangleMesh& piece : flat) {
-        if (MeasureTopology(piece).boundary_edges == 0) sheets.push_back(std::move(piece));
+        if (MeasureTopology(piece).boundary_edges == 0 &&
+            !IsNeedle(piece, config_.offset_fraction * diagonal_m_))
+          sheets.push_back(std::move(piece));
       }
       std::erase_if(flat, [](const TriangleMesh& piece) { return piece.triangles.empty(); });
     }
@@ -269,9 +282,11 @@ class Repair {
       if (!thicken(sheet)) return false;
       pieces.push_back(std::move(sheet));
     }
-    if (thickened > 0)
+    if (thickened > 0) {
       Did("made walls " + std::to_string(2000 * half_m) + " mm thick of " +
           Count(thickened, "open piece"));
+      report_.outcome = RepairOutcome::kRepaired;
+    }
     report_.sheets_thickened = thickened;
     return true;
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -27,13 +28,42 @@ namespace {
 constexpr std::size_t kFewPairs = 200;  // drawn again for slivers
 constexpr double kMany = 0.36;          // of those that are allowed: of more, draws are few
 
+constexpr std::size_t kTouching = 8;  // pairs that only touch take the time of one that cross
+
+// Of the walls that stand for one piece.
+SeparationLimits LimitsOfWalls(double half_m) {
+  constexpr double kShift = 0.05;  // of half a wall
+  return {.shift_m = kShift * half_m, .fill_cavities = true};
+}
+
+bool AreWalls(const SeparationLimits& limits) { return limits.half_wall_m == 0; }
+
 struct Meetings {
   std::size_t pairs = 0;  // of triangles
+  std::size_t cost = 0;   // of these, those that cross, and what others stand for
   std::set<std::size_t> with_themselves;
   std::vector<std::vector<std::size_t>> groups;  // of pieces that hang together; two at least
 };
 
-Meetings MeetingsOf(const std::vector<TriangleMesh>& pieces) {
+// Whether the triangle has corners on both sides of the other's plane, farther than `beyond_m`.
+bool Straddles(const TriangleMesh& mesh, int triangle, int other, double beyond_m) {
+  const auto corner = [&](int t, int k) -> const Eigen::Vector3d& {
+    return mesh.vertices[static_cast<std::size_t>(mesh.triangles[static_cast<std::size_t>(t)][k])];
+  };
+  const Eigen::Vector3d& at = corner(other, 0);
+  const Eigen::Vector3d normal = (corner(other, 1) - at).cross(corner(other, 2) - at).normalized();
+  double lowest = 0, highest = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double height = normal.dot(corner(triangle, k) - at);
+    lowest = std::min(lowest, height);
+    highest = std::max(highest, height);
+  }
+  return lowest < -beyond_m && highest > beyond_m;
+}
+
+// Boards that are drawn flush touch in many pairs, few of which their union has to cut; the walls
+// of one piece are cut wherever they meet, and of them all pairs count as crossing.
+Meetings MeetingsOf(const std::vector<TriangleMesh>& pieces, const SeparationLimits& limits) {
   std::vector<std::size_t> piece_of;
   for (std::size_t i = 0; i < pieces.size(); ++i)
     piece_of.insert(piece_of.end(), pieces[i].triangles.size(), i);
@@ -44,8 +74,13 @@ Meetings MeetingsOf(const std::vector<TriangleMesh>& pieces) {
     return i;
   };
   Meetings meetings;
-  for (const auto& [s, t] : CrossingTriangles(Merged(pieces))) {
+  const TriangleMesh merged = Merged(pieces);
+  std::size_t touching = 0;
+  for (const auto& [s, t] : CrossingTriangles(merged)) {
+    const bool crosses = AreWalls(limits) || (Straddles(merged, s, t, limits.shift_m) &&
+                                              Straddles(merged, t, s, limits.shift_m));
     ++meetings.pairs;
+    touching += !crosses;
     const std::size_t a = piece_of[static_cast<std::size_t>(s)];
     const std::size_t b = piece_of[static_cast<std::size_t>(t)];
     if (a == b) meetings.with_themselves.insert(a);
@@ -53,6 +88,7 @@ Meetings MeetingsOf(const std::vector<TriangleMesh>& pieces) {
     const std::size_t root_b = root_of(b);
     root[std::max(root_a, root_b)] = std::min(root_a, root_b);
   }
+  meetings.cost = meetings.pairs - touching + (touching + kTouching - 1) / kTouching;
   std::map<std::size_t, std::vector<std::size_t>> members;
   for (std::size_t i = 0; i < pieces.size(); ++i) members[root_of(i)].push_back(i);
   for (auto& [first, group] : members) {
@@ -100,14 +136,6 @@ std::optional<TriangleMesh> SimpleWallOf(const TriangleMesh& sheet, double half_
   return std::nullopt;
 }
 
-// Too narrow for a wall: its long sides lie in its neighbours, and a wall of it would be all
-// sliver.
-bool IsNeedle(const TriangleMesh& patch, double half_m) {
-  constexpr double kNarrow = 1e-3;  // of half the wall
-  const MeshTopology topology = MeasureTopology(patch);
-  return !(2 * topology.area_m2 > kNarrow * half_m * topology.bounds.diagonal().norm());
-}
-
 // Walls of the surface's patches, and of their patches where one makes no simple wall. False where
 // there would be too many.
 bool AddWalls(const TriangleMesh& surface, double half_m, std::vector<TriangleMesh>& walls) {
@@ -129,7 +157,7 @@ bool AddWalls(const TriangleMesh& surface, double half_m, std::vector<TriangleMe
 // How many pairs of triangles meet where the walls of a piece's patches do; 0 where it has none.
 std::size_t PairsOfWalls(const TriangleMesh& piece, double half_m) {
   std::vector<TriangleMesh> walls;
-  return AddWalls(piece, half_m, walls) ? MeetingsOf(walls).pairs : 0;
+  return AddWalls(piece, half_m, walls) ? MeetingsOf(walls, LimitsOfWalls(half_m)).cost : 0;
 }
 
 TriangleMesh WithoutCavities(const TriangleMesh& solid) {
@@ -144,6 +172,23 @@ bool SurvivesFiles(const TriangleMesh& mesh) {
   return ClosedMesh::From(rounded) && MeasureTopology(rounded).degenerate_triangles == 0;
 }
 
+// How the solids of one union are moved, one way after the other, until one leaves a simple
+// surface. Pieces, which are mostly boards, are first moved without turning them. Of many pairs the
+// second way is one that moves them farther.
+std::vector<Nudge> WaysToMove(const SeparationLimits& limits, bool are_many, int attempt) {
+  constexpr int kTurned = 6;
+  const auto seed = static_cast<std::uint64_t>(kTurned * attempt);
+  std::vector<Nudge> ways;
+  if (!AreWalls(limits)) ways.push_back({.shift_m = limits.shift_m, .turns = false, .seed = seed});
+  for (int i = 0; i < kTurned; ++i) {
+    if (are_many && i != kTurned - 2 && !(AreWalls(limits) && i == 0)) continue;
+    ways.push_back({.shift_m = (1 + 0.5 * i) * limits.shift_m,
+                    .turns = true,
+                    .seed = seed + static_cast<std::uint64_t>(i)});
+  }
+  return ways;
+}
+
 // Where faces nearly coincide, a union has slivers, which cross each other by rounding; most vanish
 // when what costs less than the shift is collapsed. Those that files would flatten are worth
 // another draw where that takes little. Where each draw leaves some that cross, those of the last
@@ -152,16 +197,13 @@ bool SurvivesFiles(const TriangleMesh& mesh) {
 std::optional<TriangleMesh> SimpleUnion(const std::vector<TriangleMesh>& solids,
                                         const SeparationLimits& limits, std::size_t pairs,
                                         std::size_t allowed, int attempt) {
-  constexpr int kRepeats = 6;
-  // of many, the second draw is one that moves them farther, and none where they do not unite; what
-  // crosses then is not mended, which takes as long as a wrap
   const bool are_many = static_cast<double>(pairs) > kMany * static_cast<double>(allowed);
-  const int step = are_many ? kRepeats - 2 : 1;
+  // a wrap is quicker where these do not unite at once, or cross then
+  const bool are_many_of_walls = are_many && AreWalls(limits);
   std::optional<TriangleMesh> flattened, crossing;
-  for (int repeat = 0; repeat < kRepeats; repeat += step) {
-    const std::optional<TriangleMesh> whole =
-        United(solids, (1 + 0.5 * repeat) * limits.shift_m, kRepeats * attempt + repeat);
-    if (!whole && are_many) break;
+  for (const Nudge& way : WaysToMove(limits, are_many, attempt)) {
+    const std::optional<TriangleMesh> whole = United(solids, way);
+    if (!whole && are_many_of_walls) break;
     if (!whole) continue;
     const TriangleMesh simple =
         Simplified(*whole, std::numeric_limits<int>::max() / 4, 0.5 * limits.shift_m);
@@ -176,7 +218,7 @@ std::optional<TriangleMesh> SimpleUnion(const std::vector<TriangleMesh>& solids,
     if (flattened && pairs > kFewPairs) break;
     if (ClosedMesh::From(simple)) crossing = simple;
   }
-  if (flattened || !crossing || are_many) return flattened;
+  if (flattened || !crossing || are_many_of_walls) return flattened;
   return WithCrossingsMended(*crossing);
 }
 
@@ -202,14 +244,19 @@ bool Unite(std::vector<TriangleMesh>& pieces, const Meetings& meetings,
 
 }  // namespace
 
+bool IsNeedle(const TriangleMesh& patch, double half_m) {
+  constexpr double kNarrow = 1e-3;  // of half the wall
+  const MeshTopology topology = MeasureTopology(patch);
+  return !(2 * topology.area_m2 > kNarrow * half_m * topology.bounds.diagonal().norm());
+}
+
 std::optional<TriangleMesh> WallsOf(const TriangleMesh& surface, double half_m, PairBudget& pairs) {
   if (MeasureTopology(surface).boundary_edges > 0) {
     if (std::optional<TriangleMesh> wall = SimpleWallOf(surface, half_m)) return wall;
   }
   std::vector<TriangleMesh> walls;
   if (!AddWalls(surface, half_m, walls) || walls.empty()) return std::nullopt;
-  const Separation separation =
-      Separated(std::move(walls), {.shift_m = 0.05 * half_m, .fill_cavities = true}, pairs);
+  const Separation separation = Separated(std::move(walls), LimitsOfWalls(half_m), pairs);
   if (separation.solids.empty()) return std::nullopt;
   return Merged(separation.solids);
 }
@@ -251,14 +298,14 @@ Separation Separated(std::vector<TriangleMesh> pieces, const SeparationLimits& l
   JoinCavities(pieces);
   const std::size_t solids = pieces.size();
   for (int round = 0; round < kGrowthRounds; ++round) {
-    const Meetings meetings = MeetingsOf(pieces);
+    const Meetings meetings = MeetingsOf(pieces, limits);
     if (meetings.groups.empty() && meetings.with_themselves.empty()) {
       separation.united = round > 0 ? static_cast<int>(solids - pieces.size()) : 0;
       separation.solids = std::move(pieces);
       return separation;
     }
-    if (!pairs.Take(meetings.pairs)) {
-      separation.problem = std::to_string(meetings.pairs) +
+    if (!pairs.Take(meetings.cost)) {
+      separation.problem = std::to_string(meetings.cost) +
                            " pairs of triangles meet, more than are left of max_pairs, which is " +
                            std::to_string(pairs.allowed());
       return separation;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -18,13 +19,13 @@
 namespace doorforge {
 
 /// A hole is filled if it is small, or flat, not large, and closed by little beside the area of its
-/// piece; and if its cap keeps near the soup.
+/// piece; and if its cap keeps near what is around.
 struct HoleLimits {
   double max_size_m = 0;           ///< Diagonal of the bounding box.
   double max_flat_size_m = 0;      ///< A flat hole may be so large.
   double max_flat_area_share = 0;  ///< It may take up this share of its piece's area.
   double flatness_m = 0;           ///< How far a flat hole's border may leave its plane.
-  double max_cap_distance_m = 0;   ///< How far a point of its cap may lie from the soup.
+  double max_cap_distance_m = 0;   ///< How far a point of its cap may lie from what is around.
 };
 
 struct ClosedSoup {
@@ -38,8 +39,9 @@ struct ClosedSoup {
 
 /// Makes an oriented surface of a triangle soup: duplicate and degenerate triangles dropped,
 /// neighbours turned to agree, non-manifold places cut apart, borders that fit stitched, holes
-/// filled with triangles between their own vertices.
-ClosedSoup CloseSoup(const TriangleMesh& soup, const HoleLimits& holes);
+/// filled with triangles between their own vertices. `around` is what caps must keep near to: the
+/// soup, or all that it is a part of.
+ClosedSoup CloseSoup(const TriangleMesh& soup, const HoleLimits& holes, const TriangleMesh& around);
 
 /// The pairs of triangles of the manifold mesh that cross or touch, other than in a shared vertex
 /// or edge; indices in increasing order.
@@ -54,12 +56,19 @@ bool SelfIntersects(const TriangleMesh& mesh);
 /// bounded.
 std::optional<TriangleMesh> WithCrossingsMended(const TriangleMesh& mesh);
 
-/// One surface around closed, outward oriented solids, none of which crosses itself. Each is grown
-/// by about `shift_m` first and moved by less, differently in each attempt, so that faces in one
-/// plane overlap; cavities that close between them stay, oriented inwards. Nothing where the solids
-/// do not unite to a manifold surface; the result may cross itself by rounding.
-std::optional<TriangleMesh> United(const std::vector<TriangleMesh>& solids, double shift_m,
-                                   int attempt);
+/// How solids are moved before they are united. Faces of boards that were drawn flush come to lie
+/// in parallel planes then; turned, they cross at small angles, which leaves more slivers, but
+/// parts slanted and curved faces too.
+struct Nudge {
+  double shift_m = 0;      ///< Each is grown by about this, and moved by less.
+  bool turns = false;      ///< And turned by as little.
+  std::uint64_t seed = 0;  ///< Of what differs from solid to solid.
+};
+
+/// One surface around closed, outward oriented solids, none of which crosses itself; cavities that
+/// close between them stay, oriented inwards. Nothing where the solids do not unite to a manifold
+/// surface; the result may cross itself by rounding.
+std::optional<TriangleMesh> United(const std::vector<TriangleMesh>& solids, const Nudge& nudge);
 
 /// Alpha wrap (Portaneri et al. 2022): closed, oriented, without self-intersections, `offset_m`
 /// outside of the triangles, entering openings wider than about `alpha_m`.

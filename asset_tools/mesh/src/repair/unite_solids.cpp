@@ -34,9 +34,11 @@ struct WithinBudget : pmp::Corefinement::Default_visitor<SurfaceMesh> {
   static constexpr unsigned kSteps = 100;
 };
 
-// Grown by about `shift_m` on every side and turned by as little. Boards that were drawn flush then
-// overlap in general position, which is what corefinement handles well: no faces in one plane.
-TriangleMesh Nudged(TriangleMesh solid, double shift_m, Rng& rng) {
+// Grown by about `shift_m` on every side and, where that is asked for, turned by as little. Boards
+// that were drawn flush then overlap in general position, which is what corefinement handles well:
+// no faces in one plane.
+TriangleMesh Nudged(TriangleMesh solid, const Nudge& nudge, Rng& rng) {
+  const double shift_m = nudge.shift_m;
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& vertex : solid.vertices) box.extend(vertex);
   const Eigen::Vector3d center = box.center();
@@ -48,6 +50,7 @@ TriangleMesh Nudged(TriangleMesh solid, double shift_m, Rng& rng) {
     turn[axis] = shift_m / longest * rng.Uniform(-0.3, 0.3);
     move[axis] = shift_m * rng.Uniform(-0.2, 0.2);
   }
+  if (!nudge.turns) turn.setZero();
   const Eigen::Matrix3d rotation = (Eigen::AngleAxisd(turn.x(), Eigen::Vector3d::UnitX()) *
                                     Eigen::AngleAxisd(turn.y(), Eigen::Vector3d::UnitY()) *
                                     Eigen::AngleAxisd(turn.z(), Eigen::Vector3d::UnitZ()))
@@ -59,12 +62,10 @@ TriangleMesh Nudged(TriangleMesh solid, double shift_m, Rng& rng) {
 
 }  // namespace
 
-std::optional<TriangleMesh> United(const std::vector<TriangleMesh>& solids, double shift_m,
-                                   int attempt) {
-  Rng rng(static_cast<std::uint64_t>(attempt), "mesh/united");
+std::optional<TriangleMesh> United(const std::vector<TriangleMesh>& solids, const Nudge& nudge) {
+  Rng rng(nudge.seed, "mesh/united");
   std::vector<SurfaceMesh> surfaces;
-  for (const TriangleMesh& solid : solids)
-    surfaces.push_back(SurfaceOf(Nudged(solid, shift_m, rng)));
+  for (const TriangleMesh& solid : solids) surfaces.push_back(SurfaceOf(Nudged(solid, nudge, rng)));
   try {
     // neighbours first, so that most unions are of small surfaces
     while (surfaces.size() > 1) {

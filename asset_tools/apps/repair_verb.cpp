@@ -54,8 +54,7 @@ RepairOptions OptionsOf(int argc, char** argv) {
                 "processor time that it may take before it is given up (300)");
   app.footer(
       "settings: alpha_fraction 0.01, offset_fraction 0.000833, max_hole_fraction 0.05,\n"
-      "max_flat_hole_share 0.15, max_cap_fraction 0.01, max_triangles 6000, max_pairs 100000,\n"
-      "max_sheet_triangles 0\n"
+      "max_flat_hole_share 0.15, max_cap_fraction 0.01, max_triangles 6000, max_pairs 100000\n"
       "exit code: 0 closed, 1 the mesh cannot be closed, 2 wrong use, 3 IN cannot be read\n"
       "example:\n  doorforge repair handle.stl handle.obj --set max_triangles=2000");
   ParseVerb(app, argc, argv);

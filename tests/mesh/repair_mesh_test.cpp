@@ -556,28 +556,6 @@ TEST(RepairMesh, CountsThePairsOfAllItsUnionsTogether) {
   EXPECT_EQ(of_both, PairsNeeded(sheet) + of_pegs);
 }
 
-// Two sheets of a square metre each, and a solid of as much surface.
-TEST(RepairMesh, WrapsSheetsMoreCoarselyWhereTheyWouldHaveManyTriangles) {
-  TriangleMesh sheets{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
-  TriangleMesh other = sheets;
-  for (Eigen::Vector3d& vertex : other.vertices) vertex.z() += 0.1;
-  sheets = Together(sheets, other);
-  RepairConfig config = Coarse();
-  config.wrap = WrapUse::kAlways;
-  const double offset_m = config.offset_fraction * std::sqrt(2.01);
-  const auto thickness_m = [&](const TriangleMesh& mesh) {
-    return Repaired(mesh, config).report.after.bounds.sizes().z() - 0.1;
-  };
-  EXPECT_NEAR(thickness_m(sheets), 2 * offset_m, 0.2 * offset_m);
-  // five for each square of alpha, of which there are 398: 1.25 times as coarse
-  config.max_sheet_triangles = 1274;
-  EXPECT_NEAR(thickness_m(sheets), 2.5 * offset_m, 0.2 * offset_m);
-  config.max_sheet_triangles = 1;
-  EXPECT_NEAR(thickness_m(sheets), 2.8 * offset_m, 0.2 * offset_m);
-  EXPECT_NEAR(thickness_m(Box(Eigen::Vector3d::Zero(), Eigen::Vector3d(1, 1, 0.1))), 2 * offset_m,
-              0.2 * offset_m);
-}
-
 TEST(RepairMesh, SaysWhyItFailsWhereItMayNotWrap) {
   RepairConfig config;
   config.wrap = WrapUse::kNever;
@@ -698,9 +676,6 @@ TEST(RepairMesh, RefusesSettingsOutOfRange) {
   EXPECT_THROW(Repaired(UnitBox(), config), Error);
   config = {};
   config.max_pairs = -1;
-  EXPECT_THROW(Repaired(UnitBox(), config), Error);
-  config = {};
-  config.max_sheet_triangles = -1;
   EXPECT_THROW(Repaired(UnitBox(), config), Error);
 }
 

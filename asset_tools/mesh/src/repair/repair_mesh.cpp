@@ -53,8 +53,6 @@ void CheckConfig(const RepairConfig& config) {
   require(config.max_triangles == 0 || config.max_triangles >= 100,
           "repair.max_triangles: allowed 0 (any number) or 100 and more");
   require(config.max_pairs >= 0, "repair.max_pairs: allowed 0 and more");
-  require(config.max_sheet_triangles >= 0,
-          "repair.max_sheet_triangles: allowed 0 (any number) and more");
 }
 
 std::string Count(int count, const std::string& what) {
@@ -390,25 +388,9 @@ class Repair {
     return Merged(separation.solids);
   }
 
-  // By how much a wrap around sheets is made coarser, whose two sides are close to each other.
-  double CoarserForSheets() const {
-    constexpr double kTriangles = 5;  // for each square of alpha: found were 2 to 7
-    constexpr double kMost = 1.4;
-    if (config_.max_sheet_triangles == 0) return 1;
-    double sheets_m2 = 0;
-    for (const TriangleMesh& piece : PiecesOf(surface_)) {
-      const MeshTopology topology = MeasureTopology(piece);
-      if (topology.boundary_edges > 0) sheets_m2 += topology.area_m2;
-    }
-    const double alpha_m = config_.alpha_fraction * diagonal_m_;
-    const double expected = kTriangles * sheets_m2 / (alpha_m * alpha_m);
-    return std::clamp(std::sqrt(expected / config_.max_sheet_triangles), 1.0, kMost);
-  }
-
   TriangleMesh Wrapped() {
-    const double coarser = CoarserForSheets();
-    const double alpha_m = coarser * config_.alpha_fraction * diagonal_m_;
-    const double offset_m = coarser * config_.offset_fraction * diagonal_m_;
+    const double alpha_m = config_.alpha_fraction * diagonal_m_;
+    const double offset_m = config_.offset_fraction * diagonal_m_;
     TriangleMesh wrap = AlphaWrap(surface_, alpha_m, offset_m);
     Did("wrapped with alpha " + std::to_string(1000 * alpha_m) + " mm and offset " +
         std::to_string(1000 * offset_m) + " mm to " +

@@ -44,10 +44,6 @@ struct RepairConfig {
   /// at the end. Uniting them takes about 0.1 ms for each pair and draw, of which a union of more
   /// than 0.36 of these has fewer, and keeps nearer to the surface.
   int max_pairs = 100'000;
-  /// Around open sheets a wrap has some four times as many triangles as around solids, before it is
-  /// thinned. Of more than these `alpha_fraction` and `offset_fraction` grow, to 1.4 times theirs
-  /// at most. 0: any number.
-  int max_sheet_triangles = 0;
 
   template <class Self, class Visitor>
   static void VisitFields(Self& self, Visitor&& visit) {
@@ -59,7 +55,6 @@ struct RepairConfig {
     visit("max_cap_fraction", self.max_cap_fraction);
     visit("max_triangles", self.max_triangles);
     visit("max_pairs", self.max_pairs);
-    visit("max_sheet_triangles", self.max_sheet_triangles);
   }
 };
 

@@ -15,9 +15,8 @@
 namespace doorforge {
 
 struct MakePartConfig {
-  /// Hollow leaves become solid; what would take many unions is wrapped, and sheets more coarsely
-  /// where they would take long.
-  RepairConfig repair = {.max_cap_fraction = 1, .max_pairs = 14'000, .max_sheet_triangles = 40'000};
+  /// Hollow leaves become solid; what would take many unions is wrapped.
+  RepairConfig repair = {.max_cap_fraction = 1, .max_pairs = 14'000};
   /// A grid sees depths to within a third of the bound: this keeps nearly all within a centimetre.
   /// Where more parts than these would have to stand for a mesh, the search ends early.
   ConvexPartsConfig frame_convex{

@@ -5,8 +5,8 @@
 // beside other programs that make convex parts.
 //
 //   import_parts [--every N] [--only TEXT] [--format F] [--details FILE] [--keep DIR]
-//                [--set read.key=value]... [--set make.key=value]... [--peer NAME=COMMAND]...
-//                FOLDER...
+//                [--samples N] [--set read.key=value]... [--set make.key=value]...
+//                [--peer NAME=COMMAND]... FOLDER...
 //
 // Takes every N-th part of the objects below the folders, each part once, in the order of the
 // objects. Times are CPU seconds of one thread, with those of the processes that read files. A
@@ -84,12 +84,13 @@ struct Options {
   std::vector<std::pair<std::string, std::string>> peers;  // name, command
   std::string only, format = "auto", details, keep;
   std::size_t every = 1;
+  int samples = 0;  // of deviations; 0: those of the repair's report
 };
 
 Options OptionsOf(int argc, char** argv) {
   const char* usage =
       "usage: import_parts [--every N] [--only TEXT] [--format F] [--details FILE] [--keep DIR] "
-      "[--set key=value]... [--peer NAME=COMMAND]... FOLDER...";
+      "[--samples N] [--set key=value]... [--peer NAME=COMMAND]... FOLDER...";
   Options options;
   const std::map<std::string, std::string*> texts = {{"--only", &options.only},
                                                      {"--format", &options.format},
@@ -106,6 +107,9 @@ Options OptionsOf(int argc, char** argv) {
     const std::size_t equals = value.find('=');
     if (argument == "--every") {
       options.every = std::max<std::size_t>(1, std::strtoul(value.c_str(), nullptr, 10));
+    } else if (argument == "--samples") {
+      options.samples = std::atoi(value.c_str());
+      Require(options.samples > 0, ErrorCode::kInvalidArgument, usage);
     } else if (argument == "--set") {
       options.settings.push_back(value);
     } else if (argument == "--peer" && equals != std::string::npos) {
@@ -296,7 +300,10 @@ struct StageSeconds {
 class Run {
  public:
   Run(const Options& options, const Settings& settings)
-      : settings_(settings), details_(options.details), keep_(options.keep) {
+      : settings_(settings),
+        details_(options.details),
+        keep_(options.keep),
+        samples_(options.samples) {
     if (!keep_.empty()) fs::create_directories(keep_);
     for (const auto& [name, command] : options.peers) {
       auto peer = std::make_unique<Peer>(name, command);
@@ -349,6 +356,8 @@ class Run {
       std::printf("  %-34s %d\n", outcome.c_str(), count);
     to_input_.Print("largest deviation to the input", 100, "% of the diagonal");
     from_visible_.Print("largest deviation from its outside", 100, "% of the diagonal");
+    to_input_mean_.Print("mean deviation to the input", 100, "% of the diagonal");
+    from_visible_mean_.Print("mean deviation from its outside", 100, "% of the diagonal");
     std::printf("a grasp that holds on %d of %d grips\n", held_, grips_);
     for (const auto& [kind, columns] : fits_) columns.Print(kind);
     for (const auto& peer : peers_) peer->Print();
@@ -371,8 +380,11 @@ class Run {
     ++closed_;
     cross_ += report.self_intersects;
     const double diagonal_m = BoundsOf(raw.mesh).diagonal().norm();
-    to_input_.Add(report.output_to_input.max_m / diagonal_m);
-    from_visible_.Add(report.visible_input_to_output.max_m / diagonal_m);
+    const auto [to_input, from_visible] = DeviationsOf(raw.mesh, repaired);
+    to_input_.Add(to_input.max_m / diagonal_m);
+    from_visible_.Add(from_visible.max_m / diagonal_m);
+    to_input_mean_.Add(to_input.mean_m / diagonal_m);
+    from_visible_mean_.Add(from_visible.mean_m / diagonal_m);
     const std::vector<TriangleMesh> parts = Timed(
         convex_s, [&] { return ConvexParts(*closed, ConvexConfigOf(raw.name, settings_.make)); });
     seconds.convex += convex_s;
@@ -390,8 +402,10 @@ class Run {
                  {"crosses", report.self_intersects},
                  {"triangles", raw.mesh.triangles.size()},
                  {"after", closed->mesh().triangles.size()},
-                 {"to_input", report.output_to_input.max_m / diagonal_m},
-                 {"from_visible", report.visible_input_to_output.max_m / diagonal_m},
+                 {"to_input", to_input.max_m / diagonal_m},
+                 {"from_visible", from_visible.max_m / diagonal_m},
+                 {"to_input_mean", to_input.mean_m / diagonal_m},
+                 {"from_visible_mean", from_visible.mean_m / diagonal_m},
                  {"repair_s", repair_s},
                  {"convex_s", convex_s},
                  {"parts", parts.size()},
@@ -403,6 +417,16 @@ class Run {
     for (const auto& peer : peers_) note[peer->name()] = peer->Add(*closed, raw.name);
     Note(note);
     return closed;
+  }
+
+  // To the input and from its outside, of the report or over as many points as were asked for.
+  std::pair<SurfaceDeviation, SurfaceDeviation> DeviationsOf(const TriangleMesh& input,
+                                                             const RepairResult& repaired) const {
+    const RepairReport& report = repaired.report;
+    if (samples_ == 0) return {report.output_to_input, report.visible_input_to_output};
+    const TriangleMesh& output = repaired.mesh->mesh();
+    return {DeviationOf(output, input, {.samples = samples_}),
+            DeviationOf(input, output, {.samples = samples_, .visible_only = true, .rays = 48})};
   }
 
   void Keep(const NamedPart& named, const std::string& piece, const ClosedMesh& closed) const {
@@ -433,8 +457,10 @@ class Run {
   Settings settings_;
   std::ofstream details_;
   fs::path keep_;
+  int samples_ = 0;
   int unread_ = 0, pieces_ = 0, closed_ = 0, cross_ = 0, grips_ = 0, held_ = 0;
-  Column total_, read_, repair_, convex_, measure_, grasp_, to_input_, from_visible_;
+  Column total_, read_, repair_, convex_, measure_, grasp_;
+  Column to_input_, from_visible_, to_input_mean_, from_visible_mean_;
   std::map<std::string, int> outcomes_;
   std::map<std::string, FitColumns> fits_;
   std::vector<std::unique_ptr<Peer>> peers_;

@@ -17,6 +17,7 @@
 #include "doorforge/core/error.h"
 #include "doorforge/core/mesh_transform.h"
 
+#include "repair/collapse_edges.h"
 #include "repair/separate_pieces.h"
 #include "repair/solid_shells.h"
 #include "repair/surface_operations.h"
@@ -621,21 +622,21 @@ TriangleMesh ThinTorus(double wall, int around, int across) {
   return wall_mesh;
 }
 
-TEST(SimplifiedWithoutCrossings, KeepsTheSidesOfAThinWallApart) {
+TEST(ReducedWithoutCrossings, KeepsTheSidesOfAThinWallApart) {
   const TriangleMesh wall = ThinTorus(2e-3, 80, 40);
   ASSERT_FALSE(SelfIntersects(wall));
   constexpr int kTarget = 6000;
-  ASSERT_TRUE(SelfIntersects(Simplified(wall, kTarget, 0)));  // else this shows nothing
-  const TriangleMesh simple = SimplifiedWithoutCrossings(wall, kTarget, 0);
+  ASSERT_TRUE(SelfIntersects(Reduced(wall, kTarget, 0)));  // else this shows nothing
+  const TriangleMesh simple = ReducedWithoutCrossings(wall, kTarget, 0);
   EXPECT_TRUE(ClosedMesh::From(simple).has_value());
   EXPECT_FALSE(SelfIntersects(simple));
   EXPECT_LE(simple.triangles.size(), static_cast<std::size_t>(kTarget));
-  EXPECT_EQ(simple.vertices, SimplifiedWithoutCrossings(wall, kTarget, 0).vertices);
+  EXPECT_EQ(simple.vertices, ReducedWithoutCrossings(wall, kTarget, 0).vertices);
 }
 
-TEST(SimplifiedWithoutCrossings, StopsWhereEveryCollapseWouldCross) {
+TEST(ReducedWithoutCrossings, StopsWhereEveryCollapseWouldCross) {
   const TriangleMesh wall = ThinTorus(1e-3, 60, 30);
-  const TriangleMesh simple = SimplifiedWithoutCrossings(wall, 16, 0);
+  const TriangleMesh simple = ReducedWithoutCrossings(wall, 16, 0);
   EXPECT_FALSE(SelfIntersects(simple));
   EXPECT_TRUE(ClosedMesh::From(simple).has_value());
 }

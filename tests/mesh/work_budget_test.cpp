@@ -17,6 +17,7 @@
 #include "doorforge/mesh/solid_overlap.h"
 #include "doorforge/mesh/surface_deviation.h"
 
+#include "repair/collapse_edges.h"
 #include "repair/surface_operations.h"
 #include "shapes.h"
 
@@ -53,8 +54,9 @@ TEST(WorkBudget, EndsEveryStageThatMayTakeLong) {
          United({torus, Box({-2, -2, -0.1}, {2, 2, 0.1})}, {.shift_m = 1e-4, .turns = true});
        }},
       {"wrap", [&] { AlphaWrap(torus, 0.1, 0.01); }},
-      {"simplify", [&] { Simplified(torus, 100, 0); }},
-      {"simplify without crossings", [&] { SimplifiedWithoutCrossings(torus, 100, 0); }},
+      {"simplify", [&] { Reduced(torus, 100, 0); }},
+      {"slivers", [&] { WithoutSlivers(torus, 0.1); }},
+      {"simplify without crossings", [&] { ReducedWithoutCrossings(torus, 100, 0); }},
       {"convex parts", [&] { ConvexParts(closed, {}); }},
       {"fit", [&] { MeasureConvexParts(closed, std::array{hull}); }},
       {"deviation", [&] { DeviationOf(torus, hull); }},

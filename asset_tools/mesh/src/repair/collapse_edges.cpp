@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <iterator>
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -13,6 +14,9 @@
 #include <Eigen/Geometry>
 
 #include "doorforge/mesh/work_budget.h"
+
+#include "repair/box_octree.h"
+#include "repair/triangle_crossing.h"
 
 namespace doorforge {
 namespace {
@@ -57,14 +61,19 @@ struct Collapse {
   }
 };
 
+enum class Crossings { kMayArise, kAreRefused };
+
 class CollapsingSurface {
  public:
-  explicit CollapsingSurface(const TriangleMesh& mesh)
+  CollapsingSurface(const TriangleMesh& mesh, Crossings crossings)
       : triangles_(mesh.triangles), alive_(mesh.triangles.size(), 1) {
     Eigen::AlignedBox3d box;
     for (const Vector3d& vertex : mesh.vertices) box.extend(vertex);
     if (!mesh.vertices.empty()) origin_ = box.center();
-    for (const Vector3d& vertex : mesh.vertices) vertices_.emplace_back().at = vertex - origin_;
+    for (const Vector3d& vertex : mesh.vertices) {
+      vertices_.emplace_back().at = vertex - origin_;
+      vertices_.back().in_mesh = vertex;
+    }
     count_ = static_cast<int>(triangles_.size());
     for (int t = 0; t < count_; ++t) {
       const Vector3d doubled = Doubled(Corners(t));
@@ -81,6 +90,9 @@ class CollapsingSurface {
       }
     }
     std::make_heap(heap_.begin(), heap_.end());
+    if (crossings == Crossings::kMayArise || mesh.vertices.empty()) return;
+    places_.emplace(box, triangles_.size());
+    for (int t = 0; t < count_; ++t) places_->Put(Index(t), BoxOf(InMesh(t)));
   }
 
   void Reduce(int max_triangles, double max_cost) {
@@ -95,7 +107,8 @@ class CollapsingSurface {
       CheckWork(50);
       const Vector3d to = PlaceOf(next.kept, next.gone);
       if (KeepsTopology(next.kept, next.gone) && TurnsNothing(next.kept, next.gone, to) &&
-          TurnsNothing(next.gone, next.kept, to)) {
+          TurnsNothing(next.gone, next.kept, to) &&
+          (!places_ || CrossesNothing(next.kept, next.gone, to))) {
         Carry(next.kept, next.gone, to);
       } else {
         VertexOf(next.kept).refused = VertexOf(next.gone).refused = true;
@@ -113,7 +126,7 @@ class CollapsingSurface {
         int& at = index[Index(corner)];
         if (at < 0) {
           at = static_cast<int>(mesh.vertices.size());
-          mesh.vertices.push_back(vertices_[Index(corner)].at + origin_);
+          mesh.vertices.push_back(VertexOf(corner).in_mesh);
         }
         corner = at;
       }
@@ -124,7 +137,8 @@ class CollapsingSurface {
 
  private:
   struct Vertex {
-    Vector3d at = Vector3d::Zero();
+    Vector3d at = Vector3d::Zero();       // from the origin
+    Vector3d in_mesh = Vector3d::Zero();  // as it comes out: to the bit the input's until it moves
     Quadric quadric;
     std::vector<int> around;  // triangles
     std::uint32_t stamp = 0;  // changes with place and quadric
@@ -210,7 +224,7 @@ class CollapsingSurface {
   bool TurnsNothing(int moved, int other, const Vector3d& to) const {
     for (const int t : VertexOf(moved).around) {
       const Eigen::Vector3i& triangle = triangles_[Index(t)];
-      if ((triangle.array() == other).any()) continue;
+      if (HasCorner(t, other)) continue;
       const Three before = Corners(t);
       Three after = before;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -218,12 +232,71 @@ class CollapsingSurface {
       }
       const Vector3d was = Doubled(before);
       const Vector3d is = Doubled(after);
-      // a line has no side
-      const bool has_side = was.norm() > kLeastArea * LongestSquared(before);
-      if (has_side && !(was.dot(is) > kLeastCosine * was.norm() * is.norm())) return false;
+      // a line has no side, and may stay one
+      if (!(was.norm() > kLeastArea * LongestSquared(before))) continue;
+      if (!(was.dot(is) > kLeastCosine * was.norm() * is.norm())) return false;
       if (!(is.norm() > kLeastArea * LongestSquared(after))) return false;
     }
     return true;
+  }
+
+  // A triangle as it is or will be, and the box around it.
+  struct Placed {
+    CornerTriangle triangle;
+    Eigen::AlignedBox3d box;
+  };
+
+  // Whether the triangles around both ends, which become one at `to`, are then apart from each
+  // other and from those that stay.
+  bool CrossesNothing(int kept, int gone, const Vector3d& to) {
+    moved_.clear();
+    Eigen::AlignedBox3d reach;
+    for (const int end : {kept, gone}) {
+      for (const int t : VertexOf(end).around) {
+        if (HasCorner(t, kept) && HasCorner(t, gone)) continue;
+        CornerTriangle triangle = InMesh(t);
+        for (std::size_t k = 0; k < 3; ++k) {
+          if (triangle.corners[k] != end) continue;
+          triangle.corners[k] = kept;
+          triangle.points[k] = to + origin_;
+        }
+        if (IsLine(triangle)) return false;
+        moved_.push_back({triangle, BoxOf(triangle)});
+        reach.extend(moved_.back().box);
+      }
+    }
+    CheckWork(static_cast<unsigned>(100 * moved_.size()));
+    for (std::size_t i = 0; i < moved_.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k) {
+        if (TrianglesCross(moved_[i].triangle, moved_[k].triangle)) return false;
+      }
+    }
+    still_.clear();
+    places_->Find(reach, still_);
+    return std::none_of(still_.begin(), still_.end(), [&](std::size_t number) {
+      const auto t = static_cast<int>(number);
+      if (HasCorner(t, kept) || HasCorner(t, gone)) return false;
+      const CornerTriangle triangle = InMesh(t);
+      const Eigen::AlignedBox3d box = BoxOf(triangle);
+      return std::any_of(moved_.begin(), moved_.end(), [&](const Placed& one) {
+        return one.box.intersects(box) && TrianglesCross(one.triangle, triangle);
+      });
+    });
+  }
+
+  bool HasCorner(int t, int v) const { return (triangles_[Index(t)].array() == v).any(); }
+
+  CornerTriangle InMesh(int t) const {
+    const Eigen::Vector3i& triangle = triangles_[Index(t)];
+    return {{triangle[0], triangle[1], triangle[2]},
+            {VertexOf(triangle[0]).in_mesh, VertexOf(triangle[1]).in_mesh,
+             VertexOf(triangle[2]).in_mesh}};
+  }
+
+  static Eigen::AlignedBox3d BoxOf(const CornerTriangle& triangle) {
+    Eigen::AlignedBox3d box;
+    for (const Vector3d& point : triangle.points) box.extend(point);
+    return box;
   }
 
   void Carry(int kept, int gone, const Vector3d& to) {
@@ -231,7 +304,7 @@ class CollapsingSurface {
     Vertex& goes = VertexOf(gone);
     for (const int t : goes.around) {
       Eigen::Vector3i& triangle = triangles_[Index(t)];
-      if ((triangle.array() == kept).any()) {
+      if (HasCorner(t, kept)) {
         Remove(t, gone);
         continue;
       }
@@ -242,6 +315,10 @@ class CollapsingSurface {
     ++goes.stamp;
     ++stays.stamp;
     stays.at = to;
+    stays.in_mesh = to + origin_;
+    if (places_) {
+      for (const int t : stays.around) places_->Put(Index(t), BoxOf(InMesh(t)));
+    }
     stays.quadric += goes.quadric;
     NeighboursOf(kept, near_);
     for (const int neighbour : near_) Push(CollapseOf(kept, neighbour));
@@ -258,6 +335,7 @@ class CollapsingSurface {
 
   void Remove(int t, int gone) {
     alive_[Index(t)] = 0;
+    if (places_) places_->Remove(Index(t));
     --count_;
     for (const int corner : triangles_[Index(t)]) {
       if (corner != gone) std::erase(VertexOf(corner).around, t);
@@ -270,15 +348,29 @@ class CollapsingSurface {
   std::vector<char> alive_;  // for each triangle
   int count_ = 0;            // of triangles alive
   std::vector<Collapse> heap_;
-  std::vector<int> near_, near_other_, common_;  // room for what is asked again and again
+  std::optional<BoxOctree> places_;  // of triangles alive, where crossings are refused
+  // room for what is asked again and again
+  std::vector<int> near_, near_other_, common_;
+  std::vector<Placed> moved_;
+  std::vector<std::size_t> still_;
 };
+
+TriangleMesh Collapsed(const TriangleMesh& mesh, int max_triangles, double free_error_m,
+                       Crossings crossings) {
+  CollapsingSurface surface(mesh, crossings);
+  surface.Reduce(max_triangles, free_error_m * free_error_m);
+  return surface.Mesh();
+}
 
 }  // namespace
 
 TriangleMesh Reduced(const TriangleMesh& mesh, int max_triangles, double free_error_m) {
-  CollapsingSurface surface(mesh);
-  surface.Reduce(max_triangles, free_error_m * free_error_m);
-  return surface.Mesh();
+  return Collapsed(mesh, max_triangles, free_error_m, Crossings::kMayArise);
+}
+
+TriangleMesh ReducedWithoutCrossings(const TriangleMesh& mesh, int max_triangles,
+                                     double free_error_m) {
+  return Collapsed(mesh, max_triangles, free_error_m, Crossings::kAreRefused);
 }
 
 }  // namespace doorforge

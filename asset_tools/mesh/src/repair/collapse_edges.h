@@ -13,4 +13,9 @@ namespace doorforge {
 /// Takes a few microseconds a triangle. Deterministic.
 TriangleMesh Reduced(const TriangleMesh& mesh, int max_triangles, double free_error_m);
 
+/// It reduces by collapses after which no triangles cross or touch, if none do before; slower, and
+/// it stops above `max_triangles` where every collapse would make some cross.
+TriangleMesh ReducedWithoutCrossings(const TriangleMesh& mesh, int max_triangles,
+                                     double free_error_m);
+
 }  // namespace doorforge

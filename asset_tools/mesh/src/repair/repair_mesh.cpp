@@ -414,10 +414,10 @@ class Repair {
         wrapped ? kFreeErrorShare * config_.offset_fraction * diagonal_m_ : 0;
     TriangleMesh simple = Reduced(mesh, target, free_error_m);
     if (!IsSimple(simple))
-      simple = SimplifiedWithoutCrossings(HalfWay(mesh, target), target, free_error_m);
+      simple = ReducedWithoutCrossings(HalfWay(mesh, target), target, free_error_m);
     // where so few would cross, collapses go on elsewhere at any cost
     if (static_cast<int>(simple.triangles.size()) > target && target < BudgetOfInput())
-      simple = SimplifiedWithoutCrossings(mesh, BudgetOfInput(), free_error_m);
+      simple = ReducedWithoutCrossings(mesh, BudgetOfInput(), free_error_m);
     Did("simplified " + std::to_string(count) + " triangles to " +
         std::to_string(simple.triangles.size()));
     return simple;

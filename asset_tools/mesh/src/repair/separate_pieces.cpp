@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -25,8 +24,8 @@ namespace doorforge {
 namespace {
 
 // A union takes about a tenth of a millisecond for each pair of triangles that meet.
-constexpr std::size_t kFewPairs = 200;  // drawn again for slivers
-constexpr double kMany = 0.36;          // of those that are allowed: of more, draws are few
+constexpr std::size_t kFewPairs = 200;   // drawn again for slivers
+constexpr std::size_t kFewestDraws = 2;  // of unions of any number of pairs
 
 constexpr std::size_t kTouching = 8;  // pairs that only touch take the time of one that cross
 
@@ -154,10 +153,19 @@ bool AddWalls(const TriangleMesh& surface, double half_m, std::vector<TriangleMe
   return true;
 }
 
-// How many pairs of triangles meet where the walls of a piece's patches do; 0 where it has none.
-std::size_t PairsOfWalls(const TriangleMesh& piece, double half_m) {
+// Walls of the surface's patches; none where there would be too many.
+std::vector<TriangleMesh> WallsOfPatches(const TriangleMesh& surface, double half_m) {
   std::vector<TriangleMesh> walls;
-  return AddWalls(piece, half_m, walls) ? MeetingsOf(walls, LimitsOfWalls(half_m)).cost : 0;
+  if (!AddWalls(surface, half_m, walls)) walls.clear();
+  return walls;
+}
+
+std::optional<TriangleMesh> UnionOfWalls(std::vector<TriangleMesh> walls, double half_m,
+                                         PairBudget& pairs) {
+  if (walls.empty()) return std::nullopt;
+  const Separation separation = Separated(std::move(walls), LimitsOfWalls(half_m), pairs);
+  if (separation.solids.empty()) return std::nullopt;
+  return Merged(separation.solids);
 }
 
 TriangleMesh WithoutCavities(const TriangleMesh& solid) {
@@ -173,19 +181,23 @@ bool SurvivesFiles(const TriangleMesh& mesh) {
 }
 
 // How the solids of one union are moved, one way after the other, until one leaves a simple
-// surface. Pieces, which are mostly boards, are first moved without turning them. Of many pairs the
-// second way is one that moves them farther.
-std::vector<Nudge> WaysToMove(const SeparationLimits& limits, bool are_many, int attempt) {
+// surface. Pieces, which are mostly boards, are first moved without turning them. All draws
+// together have no more pairs than are allowed, but two may have more; the last of few is one that
+// moves them farther.
+std::vector<Nudge> WaysToMove(const SeparationLimits& limits, std::size_t draws, int attempt) {
   constexpr int kTurned = 6;
   const auto seed = static_cast<std::uint64_t>(kTurned * attempt);
   std::vector<Nudge> ways;
   if (!AreWalls(limits)) ways.push_back({.shift_m = limits.shift_m, .turns = false, .seed = seed});
   for (int i = 0; i < kTurned; ++i) {
-    if (are_many && i != kTurned - 2 && !(AreWalls(limits) && i == 0)) continue;
     ways.push_back({.shift_m = (1 + 0.5 * i) * limits.shift_m,
                     .turns = true,
                     .seed = seed + static_cast<std::uint64_t>(i)});
   }
+  if (draws >= ways.size()) return ways;
+  const Nudge far = ways[ways.size() - 2];
+  ways.resize(std::max(draws, kFewestDraws));
+  ways.back() = far;
   return ways;
 }
 
@@ -197,16 +209,15 @@ std::vector<Nudge> WaysToMove(const SeparationLimits& limits, bool are_many, int
 std::optional<TriangleMesh> SimpleUnion(const std::vector<TriangleMesh>& solids,
                                         const SeparationLimits& limits, std::size_t pairs,
                                         std::size_t allowed, int attempt) {
-  const bool are_many = static_cast<double>(pairs) > kMany * static_cast<double>(allowed);
+  const std::vector<Nudge> ways = WaysToMove(limits, allowed / pairs, attempt);
   // a wrap is quicker where these do not unite at once, or cross then
-  const bool are_many_of_walls = are_many && AreWalls(limits);
+  const bool are_many_walls = AreWalls(limits) && ways.size() == kFewestDraws;
   std::optional<TriangleMesh> flattened, crossing;
-  for (const Nudge& way : WaysToMove(limits, are_many, attempt)) {
+  for (const Nudge& way : ways) {
     const std::optional<TriangleMesh> whole = United(solids, way);
-    if (!whole && are_many_of_walls) break;
+    if (!whole && are_many_walls) break;
     if (!whole) continue;
-    const TriangleMesh simple =
-        Simplified(*whole, std::numeric_limits<int>::max() / 4, 0.5 * limits.shift_m);
+    const TriangleMesh simple = WithoutSlivers(*whole, 0.5 * limits.shift_m);
     for (const TriangleMesh& mesh : {simple, *whole}) {
       if (!ClosedMesh::From(mesh)) continue;
       // of two that files would flatten the first is kept
@@ -218,7 +229,7 @@ std::optional<TriangleMesh> SimpleUnion(const std::vector<TriangleMesh>& solids,
     if (flattened && pairs > kFewPairs) break;
     if (ClosedMesh::From(simple)) crossing = simple;
   }
-  if (flattened || !crossing || are_many_of_walls) return flattened;
+  if (flattened || !crossing || are_many_walls) return flattened;
   return WithCrossingsMended(*crossing);
 }
 
@@ -254,21 +265,20 @@ std::optional<TriangleMesh> WallsOf(const TriangleMesh& surface, double half_m, 
   if (MeasureTopology(surface).boundary_edges > 0) {
     if (std::optional<TriangleMesh> wall = SimpleWallOf(surface, half_m)) return wall;
   }
-  std::vector<TriangleMesh> walls;
-  if (!AddWalls(surface, half_m, walls) || walls.empty()) return std::nullopt;
-  const Separation separation = Separated(std::move(walls), LimitsOfWalls(half_m), pairs);
-  if (separation.solids.empty()) return std::nullopt;
-  return Merged(separation.solids);
+  return UnionOfWalls(WallsOfPatches(surface, half_m), half_m, pairs);
 }
 
 Untangling WithoutOwnCrossings(const std::vector<const TriangleMesh*>& pieces,
                                const SeparationLimits& limits, PairBudget& pairs) {
+  const double half_m = limits.half_wall_m;
   std::vector<std::optional<TriangleMesh>> moved;
+  std::vector<std::vector<TriangleMesh>> walls(pieces.size());  // of those that are not moved
   std::size_t needed = 0;
-  for (const TriangleMesh* piece : pieces) {
-    moved.push_back(Untangled(*piece, limits.shift_m));
-    if (!moved.back() && limits.half_wall_m > 0 && pieces.size() > 1)
-      needed += PairsOfWalls(*piece, limits.half_wall_m);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    moved.push_back(Untangled(*pieces[i], limits.shift_m));
+    if (moved.back() || half_m == 0) continue;
+    walls[i] = WallsOfPatches(*pieces[i], half_m);
+    if (pieces.size() > 1) needed += MeetingsOf(walls[i], LimitsOfWalls(half_m)).cost;
   }
   Untangling untangling;
   if (needed > pairs.left()) {
@@ -278,8 +288,7 @@ Untangling WithoutOwnCrossings(const std::vector<const TriangleMesh*>& pieces,
     return untangling;
   }
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    if (!moved[i] && limits.half_wall_m > 0)
-      moved[i] = WallsOf(*pieces[i], limits.half_wall_m, pairs);
+    if (!moved[i]) moved[i] = UnionOfWalls(std::move(walls[i]), half_m, pairs);
     if (!moved[i]) {
       untangling.problem =
           "a piece of " + std::to_string(pieces[i]->triangles.size()) + " triangles crosses itself";

@@ -12,7 +12,7 @@
 
 #include "repair/exact_orientation.h"
 
-// Only for the four sources named in surface_operations.h.
+// Only for the sources named in surface_operations.h.
 
 namespace doorforge {
 

@@ -11,10 +11,10 @@
 
 #include "doorforge/core/triangle_mesh.h"
 
-// What CGAL does for this room. Its headers take gigabytes and minutes to compile, so only the
-// five sources behind this header include them: close_soup.cpp, mend_crossings.cpp,
-// reduce_surface.cpp, unite_solids.cpp, wrap_surface.cpp. Indices must be in range and vertices
-// finite. All deterministic.
+// What CGAL does for this room. Its headers take gigabytes and minutes to compile, so only six
+// sources include them: those behind this header, which are close_soup.cpp, mend_crossings.cpp,
+// remove_slivers.cpp, unite_solids.cpp and wrap_surface.cpp, and triangle_crossing.cpp. Indices
+// must be in range and vertices finite. All deterministic.
 
 namespace doorforge {
 
@@ -74,14 +74,9 @@ std::optional<TriangleMesh> United(const std::vector<TriangleMesh>& solids, cons
 /// outside of the triangles, entering openings wider than about `alpha_m`.
 TriangleMesh AlphaWrap(const TriangleMesh& soup, double alpha_m, double offset_m);
 
-/// Edge collapse by quadrics (Garland and Heckbert 1997) to at most `max_triangles`, or as near as
-/// the topology allows, and below that as long as it costs at most `free_error_m`. The mesh must be
-/// closed; the result is closed, but triangles may cross.
-TriangleMesh Simplified(const TriangleMesh& mesh, int max_triangles, double free_error_m);
-
-/// It reduces by collapses after which no triangles cross, if none do before; slower, and it stops
-/// above `max_triangles` where every collapse would make some cross.
-TriangleMesh SimplifiedWithoutCrossings(const TriangleMesh& mesh, int max_triangles,
-                                        double free_error_m);
+/// The closed mesh after all collapses of edges that cost at most `free_error_m` by quadrics
+/// (Garland and Heckbert 1997), among them those of slivers, which Reduced() refuses where others
+/// stay beside them. The result is closed, but triangles may cross.
+TriangleMesh WithoutSlivers(const TriangleMesh& mesh, double free_error_m);
 
 }  // namespace doorforge

@@ -41,8 +41,9 @@ struct RepairConfig {
   int max_triangles = 6000;
   /// A mesh in whose unions, all of them together, more pairs of triangles meet is wrapped; of
   /// pieces, eight pairs that only touch count as one, and an eighth more is kept for small unions
-  /// at the end. Uniting them takes about 0.1 ms for each pair and draw, of which a union of more
-  /// than 0.36 of these has fewer, and keeps nearer to the surface.
+  /// at the end. A union that crosses itself is drawn again, but for two draws no oftener than all
+  /// its draws together have so many pairs. Each pair and draw takes about 0.1 ms; more of them
+  /// keep nearer to the surface.
   int max_pairs = 100'000;
 
   template <class Self, class Visitor>

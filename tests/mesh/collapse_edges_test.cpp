@@ -2,14 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "repair/collapse_edges.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "doorforge/core/closed_mesh.h"
+#include "doorforge/mesh/surface_deviation.h"
 
 #include "measure/mesh_pieces.h"
+#include "repair/surface_operations.h"
 #include "shapes.h"
 
 namespace doorforge {
@@ -98,6 +103,38 @@ TEST(Reduced, KeepsAMeshThatIsSmallEnough) {
   EXPECT_NEAR(MeasureTopology(Reduced(torus, 96, 0)).volume_m3, MeasureTopology(torus).volume_m3,
               1e-12);
   EXPECT_TRUE(Reduced({}, 4, 0).triangles.empty());
+}
+
+TEST(Reduced, LeavesWhatDoesNotMoveToTheBit) {
+  TriangleMesh torus = Torus(1, 0.3, 8, 6);
+  for (Eigen::Vector3d& vertex : torus.vertices) vertex += Eigen::Vector3d(0.1, 2.7, 31.3);
+  const auto sorted = [](std::vector<Eigen::Vector3d> vertices) {
+    std::sort(vertices.begin(), vertices.end(), [](const auto& a, const auto& b) {
+      return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+    });
+    return vertices;
+  };
+  EXPECT_EQ(sorted(Reduced(torus, 96, 0).vertices), sorted(torus.vertices));
+}
+
+// Flush boards that are turned a little before they are united leave triangles that are nearly
+// lines. Where such a line kept collapses away, others farther off the surface were made.
+TEST(ReducedWithoutCrossings, IsNotHeldUpBySlivers) {
+  std::vector<TriangleMesh> boards;
+  for (int i = 0; i < 12; ++i) {
+    const double at = 0.1 * i;
+    boards.push_back(Box({at, 0, 0}, {at + 0.1, 0.5, 0.02}));
+    boards.push_back(Box({0, 0.04 * i, 0.02}, {1.2, 0.04 * i + 0.02, 0.04}));
+  }
+  const std::optional<TriangleMesh> whole =
+      United(boards, {.shift_m = 3e-5, .turns = true, .seed = 5});
+  ASSERT_TRUE(whole);
+  constexpr int kTarget = 1000;
+  ASSERT_GT(whole->triangles.size(), 6U * kTarget);
+  const TriangleMesh simple = ReducedWithoutCrossings(*whole, kTarget, 0);
+  EXPECT_LE(simple.triangles.size(), static_cast<std::size_t>(kTarget));
+  EXPECT_LT(DeviationOf(simple, *whole, {.samples = 20'000}).max_m, 1e-4);
+  EXPECT_LT(DeviationOf(*whole, simple, {.samples = 20'000}).max_m, 1e-4);
 }
 
 }  // namespace

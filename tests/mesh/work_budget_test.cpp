@@ -44,7 +44,7 @@ TEST(WorkBudget, EndsEveryStageThatMayTakeLong) {
   const TriangleMesh hull = ConvexHull(torus.vertices);
   RigidTransform moved = RigidTransform::Identity();
   moved.translation() << 0.1, 0, 0;
-  const std::array<std::pair<const char*, std::function<void()>>, 11> stages = {{
+  const std::array<std::pair<const char*, std::function<void()>>, 12> stages = {{
       {"repair", [&] { RepairMesh(open, {}); }},
       {"close", [&] { CloseSoup(open, {.max_size_m = 10, .max_cap_distance_m = 10}, open); }},
       {"cross", [&] { SelfIntersects(torus); }},

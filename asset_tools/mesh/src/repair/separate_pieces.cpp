@@ -211,7 +211,7 @@ std::optional<TriangleMesh> SimpleUnion(const std::vector<TriangleMesh>& solids,
                                         std::size_t allowed, int attempt) {
   const std::vector<Nudge> ways = WaysToMove(limits, allowed / pairs, attempt);
   // a wrap is quicker where these do not unite at once, or cross then
-  const bool are_many_walls = AreWalls(limits) && ways.size() == kFewestDraws;
+  const bool are_many_walls = AreWalls(limits) && kFewestDraws * pairs > allowed;
   std::optional<TriangleMesh> flattened, crossing;
   for (const Nudge& way : ways) {
     const std::optional<TriangleMesh> whole = United(solids, way);

@@ -398,6 +398,21 @@ TEST(WithCrossingsMended, IsTheSameOnAnotherHeap) {
   }
 }
 
+// With one vertex drawn through its tube.
+TriangleMesh PiercedTorus(int around, int across) {
+  TriangleMesh torus = Torus(1, 0.3, around, across);
+  const Eigen::Vector3d ring = Eigen::Vector3d::UnitX();
+  torus.vertices[0] = ring - 1.2 * (torus.vertices[0] - ring);
+  return torus;
+}
+
+TEST(WithCrossingsMended, LeavesManyTrianglesToWhatIsQuicker) {
+  EXPECT_TRUE(WithCrossingsMended(PiercedTorus(60, 30)));
+  const TriangleMesh fine = PiercedTorus(240, 120);
+  EXPECT_LE(CrossingTriangles(fine).size(), 50U);
+  EXPECT_FALSE(WithCrossingsMended(fine));
+}
+
 TEST(WithCrossingsMended, LeavesSolidsThatGoThroughEachOtherToUnions) {
   TriangleMesh other = Torus(1, 0.3, 60, 30);
   for (Eigen::Vector3d& vertex : other.vertices) vertex.x() += 1;

@@ -44,7 +44,10 @@ class WithinPatience {
 std::optional<TriangleMesh> WithCrossingsMended(const TriangleMesh& mesh) {
   constexpr unsigned kRounds = 3;  // what is not mended by then seldom is
   constexpr std::size_t kMostPairs = 50;
-  if (CrossingTriangles(mesh).size() > kMostPairs) return std::nullopt;
+  constexpr std::size_t kMostWork =
+      250'000;  // pairs times triangles: seconds, where a wrap is quicker
+  const std::size_t pairs = CrossingTriangles(mesh).size();
+  if (pairs > kMostPairs || pairs * mesh.triangles.size() > kMostWork) return std::nullopt;
   SurfaceMesh surface = SurfaceOf(mesh);
   try {
     CGAL::Polygon_mesh_processing::experimental::remove_self_intersections(

@@ -52,8 +52,8 @@ bool SelfIntersects(const TriangleMesh& mesh);
 
 /// The closed mesh with the few places where its triangles cross drawn anew, each by moving the
 /// vertices there or by cutting a patch out and filling the hole; the rest stays as it is. Nothing
-/// where many cross, or some do still. How far the patches lie from what they stand for is not
-/// bounded.
+/// where many cross, or of so many triangles that it takes seconds, or some do still. How far the
+/// patches lie from what they stand for is not bounded.
 std::optional<TriangleMesh> WithCrossingsMended(const TriangleMesh& mesh);
 
 /// How solids are moved before they are united. Faces of boards that were drawn flush come to lie

@@ -54,7 +54,7 @@ CornerTriangle AtCorners(const LatticeTriangle& triangle, std::array<int, 3> cor
 
 bool IsFlatLattice(const LatticeTriangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]).isZero(); }
 
-// Of triangles with small whole corners many touch in a point or along a line.
+// Many triangles with small whole corners touch in a point or along a line.
 TEST(TrianglesCross, AgreesWithWholeNumbers) {
   std::mt19937 random(7);
   std::uniform_int_distribution<long> number(-3, 3);

@@ -29,7 +29,7 @@ constexpr std::size_t kFewestDraws = 2;  // of unions of any number of pairs
 
 constexpr std::size_t kTouching = 8;  // pairs that only touch take the time of one that cross
 
-// Of the walls that stand for one piece.
+// They hold for the walls that stand for one piece.
 SeparationLimits LimitsOfWalls(double half_m) {
   constexpr double kShift = 0.05;  // of half a wall
   return {.shift_m = kShift * half_m, .fill_cavities = true};

@@ -182,8 +182,8 @@ bool SurvivesFiles(const TriangleMesh& mesh) {
 
 // How the solids of one union are moved, one way after the other, until one leaves a simple
 // surface. Pieces, which are mostly boards, are first moved without turning them. All draws
-// together have no more pairs than are allowed, but two may have more; the last of few is one that
-// moves them farther.
+// together have no more pairs than a union may have, but two may have more; the last of few is one
+// that moves them farther.
 std::vector<Nudge> WaysToMove(const SeparationLimits& limits, std::size_t draws, int attempt) {
   constexpr int kTurned = 6;
   const auto seed = static_cast<std::uint64_t>(kTurned * attempt);
@@ -201,6 +201,16 @@ std::vector<Nudge> WaysToMove(const SeparationLimits& limits, std::size_t draws,
   return ways;
 }
 
+// How many times solids may be united whose triangles meet in so many pairs. Those that meet none
+// are copied, reduced and looked through for crossings, which of many takes more time than the
+// pairs do.
+std::size_t DrawsOf(const std::vector<TriangleMesh>& solids, std::size_t pairs,
+                    std::size_t in_all_draws) {
+  std::size_t triangles = 0;
+  for (const TriangleMesh& solid : solids) triangles += solid.triangles.size();
+  return std::min(in_all_draws / pairs, 3 * in_all_draws / (pairs + triangles));
+}
+
 // Where faces nearly coincide, a union has slivers, which cross each other by rounding; most vanish
 // when what costs less than the shift is collapsed. Those that files would flatten are worth
 // another draw where that takes little. Where each draw leaves some that cross, those of the last
@@ -208,10 +218,10 @@ std::vector<Nudge> WaysToMove(const SeparationLimits& limits, std::size_t draws,
 // enclose is no cavity any more.
 std::optional<TriangleMesh> SimpleUnion(const std::vector<TriangleMesh>& solids,
                                         const SeparationLimits& limits, std::size_t pairs,
-                                        std::size_t allowed, int attempt) {
-  const std::vector<Nudge> ways = WaysToMove(limits, allowed / pairs, attempt);
+                                        std::size_t in_all_draws, int attempt) {
+  const std::vector<Nudge> ways = WaysToMove(limits, DrawsOf(solids, pairs, in_all_draws), attempt);
   // a wrap is quicker where these do not unite at once, or cross then
-  const bool are_many_walls = AreWalls(limits) && kFewestDraws * pairs > allowed;
+  const bool are_many_walls = AreWalls(limits) && kFewestDraws * pairs > in_all_draws;
   std::optional<TriangleMesh> flattened, crossing;
   for (const Nudge& way : ways) {
     const std::optional<TriangleMesh> whole = United(solids, way);
@@ -235,7 +245,7 @@ std::optional<TriangleMesh> SimpleUnion(const std::vector<TriangleMesh>& solids,
 
 // Puts the union of each group in the place of its first member. False where there is none.
 bool Unite(std::vector<TriangleMesh>& pieces, const Meetings& meetings,
-           const SeparationLimits& limits, std::size_t allowed, int attempt) {
+           const SeparationLimits& limits, std::size_t in_all_draws, int attempt) {
   std::vector<char> gone(pieces.size(), 0);
   for (const std::vector<std::size_t>& group : meetings.groups) {
     std::vector<TriangleMesh> members;
@@ -244,7 +254,7 @@ bool Unite(std::vector<TriangleMesh>& pieces, const Meetings& meetings,
       gone[i] = i != group.front();
     }
     std::optional<TriangleMesh> whole =
-        SimpleUnion(members, limits, meetings.pairs, allowed, attempt);
+        SimpleUnion(members, limits, meetings.pairs, in_all_draws, attempt);
     if (!whole) return false;
     pieces[group.front()] = limits.fill_cavities ? WithoutCavities(*whole) : *std::move(whole);
   }
@@ -329,7 +339,7 @@ Separation Separated(std::vector<TriangleMesh> pieces, const SeparationLimits& l
     auto moved = untangling.pieces.begin();
     for (const std::size_t i : meetings.with_themselves) pieces[i] = std::move(*moved++);
     separation.untangled += static_cast<int>(tangled.size());
-    if (!Unite(pieces, meetings, limits, pairs.allowed(), round)) {
+    if (!Unite(pieces, meetings, limits, pairs.in_all_draws(), round)) {
       separation.problem = std::to_string(before) + " pieces that meet have no simple union";
       return separation;
     }

@@ -23,6 +23,10 @@ class PairBudget {
   std::size_t allowed() const { return allowed_; }
   std::size_t left() const { return left_; }
 
+  /// How many pairs all draws of one union together may have: two thirds of those allowed, so that
+  /// more are kept for other unions than for one that fails again and again.
+  std::size_t in_all_draws() const { return allowed_ * 2 / 3; }
+
   /// False, and nothing is taken, where no so many are left.
   bool Take(std::size_t pairs) {
     std::size_t& source = pairs > left_ ? rest_ : left_;

@@ -16,7 +16,7 @@ namespace doorforge {
 
 struct MakePartConfig {
   /// Hollow leaves become solid; what would take many unions is wrapped.
-  RepairConfig repair = {.max_cap_fraction = 1, .max_pairs = 15'500};
+  RepairConfig repair = {.max_cap_fraction = 1, .max_pairs = 24'000};
   /// A grid sees depths to within a third of the bound: this keeps nearly all within a centimetre.
   /// Where more parts than these would have to stand for a mesh, the search ends early.
   ConvexPartsConfig frame_convex{

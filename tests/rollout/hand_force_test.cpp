@@ -132,6 +132,28 @@ TEST_F(HandForceTest, AHandThatHasLostTheHandleStandsStill) {
   EXPECT_LT(moved_at_the_end(kMost), 0.001);
 }
 
+// At 5 cm/s 2 cm take 0.4 s; back along the fingers they take as long as without a limit.
+TEST_F(HandForceTest, AnActionTakesAsLongAsItsWayButForTheWayBack) {
+  const DoorAsset door = MakePrimitiveDoor(RandomPrimitive(Mechanism::kLever, 23, 0));
+  Scene scene = SampleScene(door, 23, 0);
+  const double usual_s = scene.physics.steps_per_action * scene.physics.time_step_s;
+  const auto time_s = [&](double most_n, double forward_m, double up_m) {
+    scene.physics.hand_force_n = most_n;
+    EpisodeStepper stepper(door, robot_, {.first = Stage::kHandle});
+    stepper.Reset(scene);
+    const RigidTransform hand = stepper.now().observation.privileged.world_from_hand;
+    const double before_s = stepper.Summary().simulated_s;
+    stepper.Step(Moved(stepper, forward_m * hand.linear().col(2) + Eigen::Vector3d(0, 0, up_m)));
+    return stepper.Summary().simulated_s - before_s;
+  };
+  EXPECT_NEAR(time_s(0, 0.02, 0.02), usual_s, 1e-9);
+  EXPECT_NEAR(time_s(kMost, 0, 0), usual_s, 1e-9);
+  EXPECT_NEAR(time_s(kMost, -0.03, 0), usual_s, 1e-9);
+  EXPECT_NEAR(time_s(kMost, 0, 0.02), 0.4, 0.01);
+  EXPECT_NEAR(time_s(kMost, -0.03, 0.02), 0.4, 0.02);
+  EXPECT_NEAR(time_s(kMost, 0.8, 0), 8 * usual_s, 1e-9);
+}
+
 // The share of the drives that is left is part of what an episode comes back to.
 TEST_F(HandForceTest, ComesBackWhileItPresses) {
   const DoorAsset door = MakePrimitiveDoor(RandomPrimitive(Mechanism::kLever, 23, 0));

@@ -98,9 +98,11 @@ struct PhysicsConfig {
   /// the joints' efforts give. It limits the joint motors, beyond what moving the arm takes
   /// (DriveLimits in sim/physics), and in episodes they yield while the force that a wrist would
   /// feel is greater (ForceGovernor in sim/rollout). What an arm has in momentum as it strikes it
-  /// cannot take back, so it comes to a handle and leaves it at 7 cm/s at most, stands still once
-  /// it has lost one (GripWatch), and catches up slowly with what it was told while something held
-  /// it up (HandControllerConfig::catch_up).
+  /// cannot take back, so it comes to a handle and leaves it at 7 cm/s at most, an action takes as
+  /// long as its way needs at 5 cm/s (but for the part of it back along the fingers, and up to
+  /// eight times as long as others), the hand stands still once it has lost a handle (GripWatch),
+  /// and catches up slowly with what it was told while something held it up
+  /// (HandControllerConfig::catch_up).
   double hand_force_n = 0;
   Simulator simulator = Simulator::kBullet;  ///< Written into files only where it is another.
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "episode/episode_course.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "doorforge/rollout/reward.h"
@@ -10,6 +11,17 @@
 #include "text_format.h"
 
 namespace doorforge::internal {
+namespace {
+
+// A hand whose force is limited goes no faster, but for the way back along its fingers, where it
+// has been. Nothing yields within the step in which it meets the door, so only its speed bounds the
+// blow. Of 80 pushed doors of the validation side 57 were struck with less than 150 N as fast as
+// others and four with more than 300, at this speed 79 and none.
+constexpr double kGentleActionSpeed = 0.05;  // [m/s]
+constexpr double kMostActionTimes = 8;       // as long as others may such an action take
+
+}  // namespace
+
 void EpisodeCourse::End(std::optional<Verdict> failure) {
   state_.failure = std::move(failure);
   state_.over = true;
@@ -45,14 +57,30 @@ void EpisodeCourse::BeginStage(Stage stage) {
 
 // ---- handle and opening, action by action -------------------------------------------------------
 
+// [s]
+double EpisodeCourse::TimeOf(const Action& action) const {
+  const double usual = physics().steps_per_action * physics().time_step_s;
+  if (physics().hand_force_n <= 0) return usual;
+  const Eigen::Vector3d forward = world_.world().PoseOfRobot().world_from_hand.linear().col(2);
+  const Eigen::Vector3d& way = action.position_delta_m;
+  const Eigen::Vector3d back = std::min(0.0, way.dot(forward)) * forward;
+  const double slow = (way - back).norm() / kGentleActionSpeed;
+  return std::clamp(slow, usual, kMostActionTimes * usual);
+}
+
 double EpisodeCourse::Act(const Action& action) {
   RigidTransform target = RigidTransform::Identity();
   target.linear() = action.world_from_hand_rotation;
   target.translation() =
       world_.world().PoseOfRobot().world_from_hand.translation() + action.position_delta_m;
   const PrivilegedState before = world_.Privileged();
-  world_.controller().MoveHandTo(target, physics().steps_per_action * physics().time_step_s);
-  for (int i = 0; i < physics().steps_per_action && !world_.diverged(); ++i) {
+  const int usual = physics().steps_per_action;
+  const int most = world_.StepsIn(TimeOf(action));
+  world_.controller().MoveHandTo(target, most * physics().time_step_s);
+  const auto under_way = [&](int step) {
+    return step < usual || (step < most && !world_.controller().Arrived());
+  };
+  for (int i = 0; under_way(i) && !world_.diverged(); ++i) {
     world_.StepHand();
     state_.log.Note(world_);
   }

@@ -58,6 +58,7 @@ class EpisodeCourse {
   void Restore(const State& state) { state_ = state; }
 
  private:
+  double TimeOf(const Action& action) const;  ///< [s]
   const PhysicsConfig& physics() const { return world_.scene().physics; }
   void End(std::optional<Verdict> failure);
   void Fail(Verdict verdict);

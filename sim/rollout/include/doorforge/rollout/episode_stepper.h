@@ -95,8 +95,9 @@ class EpisodeStepper {
   ///     does; Error(kInvalidConfig) as CheckEpisodeLimits().
   Observation Reset(const Scene& scene, Observer* observer = nullptr);
 
-  /// Carries out an action for PhysicsConfig::steps_per_action steps, and whatever the options
-  /// leave to others after it. At the stage "grasp" the action is the contact point in the world
+  /// Carries out an action for PhysicsConfig::steps_per_action steps (longer where
+  /// PhysicsConfig::hand_force_n makes the hand slow), and whatever the options leave to others
+  /// after it. At the stage "grasp" the action is the contact point in the world
   /// and the hand's rotation.
   ///
   /// @return now(), until the next call.

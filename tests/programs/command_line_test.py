@@ -1,10 +1,13 @@
 # SPDX-FileCopyrightText: 2026 The doorforge authors
 # SPDX-License-Identifier: Apache-2.0
 """How the programs read their arguments: a setting takes one value, and a name that there is not is told the nearest."""
+import os
 import re
+import shutil
+import subprocess
 import unittest
 
-from programs import ProgramTest, run
+from programs import BINARY_DIR, ProgramTest, run
 
 # every verb with settings -> arguments after which a word is one too many, or fills the place that it stands for; and
 # what must not be said where that place is filled
@@ -97,6 +100,25 @@ class Suggestions(ProgramTest):
         self.assert_suggests("--verison", "--version")
         self.assert_suggests("--hlp", "--help")
         self.assert_suggests("catalgo", "catalog")
+
+
+class LargePages(ProgramTest):
+    def allocator_is_told(self, **environment: str) -> str:
+        """What of GLIBC_TUNABLES a verb's program sees, by one that prints it in the place of that of `import`."""
+        shutil.copy(BINARY_DIR / "bin/doorforge", self.folder)
+        program = self.folder / "doorforge-assets"
+        program.write_text('#!/bin/sh\nprintf %s "$GLIBC_TUNABLES"\n')
+        program.chmod(0o755)
+        without = {name: value for name, value in os.environ.items() if name != "GLIBC_TUNABLES"}
+        result = subprocess.run([self.folder / "doorforge", "import"], env={**without, **environment}, capture_output=True, text=True)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result.stdout
+
+    def test_the_programs_of_verbs_are_told_to_use_them(self):
+        self.assertEqual(self.allocator_is_told(), "glibc.malloc.hugetlb=1")
+
+    def test_what_the_caller_told_stands(self):
+        self.assertEqual(self.allocator_is_told(GLIBC_TUNABLES="glibc.malloc.check=0"), "glibc.malloc.check=0")
 
 
 if __name__ == "__main__":

@@ -24,7 +24,9 @@ struct FrontProgram {
 
 /// Runs `NAME VERB ...`: starts the program of the verb in the place of this process, or lists the
 /// verbs, prints the version, or the description that kDescribeCommand wants. A build that lacks a
-/// program does not list its verbs. Returns the exit code; errors are told as RunProgram() does.
+/// program does not list its verbs. The verb's program is told by GLIBC_TUNABLES to keep its memory
+/// in large pages, unless that variable is set. Returns the exit code; errors are told as
+/// RunProgram() does.
 int RunFrontProgram(const FrontProgram& front, int argc, char** argv);
 
 }  // namespace doorforge

@@ -160,12 +160,16 @@ std::vector<TriangleMesh> WallsOfPatches(const TriangleMesh& surface, double hal
   return walls;
 }
 
-std::optional<TriangleMesh> UnionOfWalls(std::vector<TriangleMesh> walls, double half_m,
-                                         PairBudget& pairs) {
-  if (walls.empty()) return std::nullopt;
-  const Separation separation = Separated(std::move(walls), LimitsOfWalls(half_m), pairs);
-  if (separation.solids.empty()) return std::nullopt;
-  return Merged(separation.solids);
+// Walls that stand for one surface, and where they meet.
+struct MeetingWalls {
+  std::vector<TriangleMesh> walls;
+  Meetings meetings;
+};
+
+MeetingWalls MeetingWallsOf(const TriangleMesh& surface, double half_m) {
+  MeetingWalls found = {.walls = WallsOfPatches(surface, half_m), .meetings = {}};
+  found.meetings = MeetingsOf(found.walls, LimitsOfWalls(half_m));
+  return found;
 }
 
 TriangleMesh WithoutCavities(const TriangleMesh& solid) {
@@ -263,63 +267,15 @@ bool Unite(std::vector<TriangleMesh>& pieces, const Meetings& meetings,
   return true;
 }
 
-}  // namespace
-
-bool IsNeedle(const TriangleMesh& patch, double half_m) {
-  constexpr double kNarrow = 1e-3;  // of half the wall
-  const MeshTopology topology = MeasureTopology(patch);
-  return !(2 * topology.area_m2 > kNarrow * half_m * topology.bounds.diagonal().norm());
-}
-
-std::optional<TriangleMesh> WallsOf(const TriangleMesh& surface, double half_m, PairBudget& pairs) {
-  if (MeasureTopology(surface).boundary_edges > 0) {
-    if (std::optional<TriangleMesh> wall = SimpleWallOf(surface, half_m)) return wall;
-  }
-  return UnionOfWalls(WallsOfPatches(surface, half_m), half_m, pairs);
-}
-
-Untangling WithoutOwnCrossings(const std::vector<const TriangleMesh*>& pieces,
-                               const SeparationLimits& limits, PairBudget& pairs) {
-  const double half_m = limits.half_wall_m;
-  std::vector<std::optional<TriangleMesh>> moved;
-  std::vector<std::vector<TriangleMesh>> walls(pieces.size());  // of those that are not moved
-  std::size_t needed = 0;
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    moved.push_back(Untangled(*pieces[i], limits.shift_m));
-    if (moved.back() || half_m == 0) continue;
-    walls[i] = WallsOfPatches(*pieces[i], half_m);
-    if (pieces.size() > 1) needed += MeetingsOf(walls[i], LimitsOfWalls(half_m)).cost;
-  }
-  Untangling untangling;
-  if (needed > pairs.left()) {
-    untangling.problem = "walls of pieces that cross themselves meet in " + std::to_string(needed) +
-                         " pairs of triangles, more than are left of " + "max_pairs, which is " +
-                         std::to_string(pairs.allowed());
-    return untangling;
-  }
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    if (!moved[i]) moved[i] = UnionOfWalls(std::move(walls[i]), half_m, pairs);
-    if (!moved[i]) {
-      untangling.problem =
-          "a piece of " + std::to_string(pieces[i]->triangles.size()) + " triangles crosses itself";
-      return untangling;
-    }
-    untangling.pieces.push_back(*std::move(moved[i]));
-  }
-  return untangling;
-}
-
-Separation Separated(std::vector<TriangleMesh> pieces, const SeparationLimits& limits,
-                     PairBudget& pairs) {
+// Unites solids, none of which is a cavity, as they meet.
+Separation SeparatedOf(std::vector<TriangleMesh> pieces, Meetings meetings,
+                       const SeparationLimits& limits, PairBudget& pairs) {
   constexpr int kGrowthRounds = 4;  // growing pieces may make them meet others
   Separation separation;
   const std::size_t before = pieces.size();
-  JoinCavities(pieces);
-  const std::size_t solids = pieces.size();
   for (int round = 0; round < kGrowthRounds; ++round) {
-    const Meetings meetings = MeetingsOf(pieces, limits);
     if (meetings.groups.empty() && meetings.with_themselves.empty()) {
-      separation.united = round > 0 ? static_cast<int>(solids - pieces.size()) : 0;
+      separation.united = static_cast<int>(before - pieces.size());
       separation.solids = std::move(pieces);
       return separation;
     }
@@ -343,9 +299,72 @@ Separation Separated(std::vector<TriangleMesh> pieces, const SeparationLimits& l
       separation.problem = std::to_string(before) + " pieces that meet have no simple union";
       return separation;
     }
+    // one is free of crossings already
+    meetings = pieces.size() > 1 ? MeetingsOf(pieces, limits) : Meetings();
   }
   separation.problem = "pieces still cross after they were united";
   return separation;
+}
+
+std::optional<TriangleMesh> UnionOf(MeetingWalls found, double half_m, PairBudget& pairs) {
+  if (found.walls.empty()) return std::nullopt;
+  const Separation separation =
+      SeparatedOf(std::move(found.walls), std::move(found.meetings), LimitsOfWalls(half_m), pairs);
+  if (separation.solids.empty()) return std::nullopt;
+  return Merged(separation.solids);
+}
+
+}  // namespace
+
+bool IsNeedle(const TriangleMesh& patch, double half_m) {
+  constexpr double kNarrow = 1e-3;  // of half the wall
+  const MeshTopology topology = MeasureTopology(patch);
+  return !(2 * topology.area_m2 > kNarrow * half_m * topology.bounds.diagonal().norm());
+}
+
+std::optional<TriangleMesh> WallsOf(const TriangleMesh& surface, double half_m, PairBudget& pairs) {
+  if (MeasureTopology(surface).boundary_edges > 0) {
+    if (std::optional<TriangleMesh> wall = SimpleWallOf(surface, half_m)) return wall;
+  }
+  return UnionOf(MeetingWallsOf(surface, half_m), half_m, pairs);
+}
+
+Untangling WithoutOwnCrossings(const std::vector<const TriangleMesh*>& pieces,
+                               const SeparationLimits& limits, PairBudget& pairs) {
+  const double half_m = limits.half_wall_m;
+  std::vector<std::optional<TriangleMesh>> moved;
+  std::vector<MeetingWalls> walls(pieces.size());  // of those that are not moved
+  std::size_t needed = 0;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    moved.push_back(Untangled(*pieces[i], limits.shift_m));
+    if (moved.back() || half_m == 0) continue;
+    walls[i] = MeetingWallsOf(*pieces[i], half_m);
+    if (pieces.size() > 1) needed += walls[i].meetings.cost;
+  }
+  Untangling untangling;
+  if (needed > pairs.left()) {
+    untangling.problem = "walls of pieces that cross themselves meet in " + std::to_string(needed) +
+                         " pairs of triangles, more than are left of " + "max_pairs, which is " +
+                         std::to_string(pairs.allowed());
+    return untangling;
+  }
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (!moved[i]) moved[i] = UnionOf(std::move(walls[i]), half_m, pairs);
+    if (!moved[i]) {
+      untangling.problem =
+          "a piece of " + std::to_string(pieces[i]->triangles.size()) + " triangles crosses itself";
+      return untangling;
+    }
+    untangling.pieces.push_back(*std::move(moved[i]));
+  }
+  return untangling;
+}
+
+Separation Separated(std::vector<TriangleMesh> pieces, const SeparationLimits& limits,
+                     PairBudget& pairs) {
+  JoinCavities(pieces);
+  Meetings meetings = MeetingsOf(pieces, limits);
+  return SeparatedOf(std::move(pieces), std::move(meetings), limits, pairs);
 }
 
 }  // namespace doorforge

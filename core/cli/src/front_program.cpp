@@ -66,9 +66,9 @@ const FrontVerb& FindVerb(const FrontProgram& front, const std::string& name) {
   RefuseVerb(name, names);
 }
 
-// Doors, clouds and meshes are many small blocks, and finding their pages is a tenth of the time
-// with pages of 4 KiB. glibc (2.35 and later) asks for large ones only if it is told so before the
-// program starts; what its caller told it stands.
+// Doors, clouds and meshes are many small blocks, and with pages of 4 KiB imports and collection
+// take about a tenth more time. glibc (2.35 and later) asks for large ones only if it is told so
+// before the program starts; what its caller told it stands.
 void AskForLargePages() { ::setenv("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1", 0); }
 
 int Run(const FrontProgram& front, int argc, char** argv) {

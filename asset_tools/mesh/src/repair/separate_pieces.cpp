@@ -212,7 +212,8 @@ std::size_t DrawsOf(const std::vector<TriangleMesh>& solids, std::size_t pairs,
                     std::size_t in_all_draws) {
   std::size_t triangles = 0;
   for (const TriangleMesh& solid : solids) triangles += solid.triangles.size();
-  return std::min(in_all_draws / pairs, 3 * in_all_draws / (pairs + triangles));
+  constexpr std::size_t kWithTriangles = 3;  // times as many, where triangles count too
+  return std::min(in_all_draws / pairs, kWithTriangles * in_all_draws / (pairs + triangles));
 }
 
 // Where faces nearly coincide, a union has slivers, which cross each other by rounding; most vanish

@@ -42,7 +42,7 @@ struct RepairConfig {
   /// A mesh in whose unions, all of them together, more pairs of triangles meet is wrapped; of
   /// pieces, eight pairs that only touch count as one, and an eighth more is kept for small unions
   /// at the end. A union that crosses itself is drawn again, but for two draws no oftener than all
-  /// its draws together have two thirds so many pairs, and twice so many pairs and triangles. Each
+  /// its draws together have two thirds as many pairs, and twice as many pairs and triangles. Each
   /// pair and draw takes about 0.1 ms; more of them keep nearer to the surface.
   int max_pairs = 100'000;
 
